@@ -5,9 +5,6 @@
 
 from __future__ import annotations
 
-from physsim_ros.model.requests import (
-    Restore,
-)
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 
@@ -31,26 +28,6 @@ def machine() -> World:
         )
         world.apply(request)
     return world
-
-
-def test_worlds_of_the_same_requests_go_on_to_the_bit() -> None:
-    one, other = machine(), machine()
-    one.step(480)
-    other.step(480)
-    assert one.digest() == other.digest()
-
-
-def test_worlds_of_the_same_state_go_on_to_the_bit() -> None:
-    world = machine()
-    world.step(200)
-    state = world.save()
-    one, other = World(), World()
-    one.apply(Restore(state=state))
-    other.apply(Restore(state=state))
-    one.step(300)
-    other.step(300)
-    assert one.save().joints == state.joints
-    assert one.digest() == other.digest()
 
 
 def test_a_world_goes_on_from_a_checkpoint_to_the_bit() -> None:

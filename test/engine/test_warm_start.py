@@ -13,7 +13,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import BOX, SHAPES, spawn, stack, twist
+from ..building import BOX, spawn, stack, twist
 
 FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
 
@@ -66,22 +66,6 @@ def test_renewing_changes_nothing_that_is_seen() -> None:
     assert after.scene is before.scene
     np.testing.assert_array_equal(after.poses, before.poses)
     np.testing.assert_array_equal(after.twists, before.twists)
-
-
-@pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES)
-def test_who_resumes_a_checkpoint_goes_on_like_who_made_it(shape: object) -> None:
-    world = World(settings=FLOOR)
-    for number in range(6):
-        spawn(world, f'a/{number}', shape, (0.3 * number, 1.0 + 1.5 * number, 0.4 * number))
-    spawn(world, 'b/0', BOX, (-3.0, 0.5, 0.0), anchored=True)
-    world.step(300)
-    key = world.renew()
-    elsewhere = World(settings=FLOOR)
-    elsewhere.resume(key)
-    for _ in range(5):
-        world.step(60)
-        elsewhere.step(60)
-        assert elsewhere.digest() == world.digest()
 
 
 def test_who_resumes_at_a_letting_go_goes_on_alike() -> None:

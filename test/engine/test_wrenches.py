@@ -3,13 +3,12 @@
 
 """Wrenches: accelerations, timeouts, and their beginning and end without a jump of velocity."""
 
-import numpy as np
 from physsim_ros.model.requests import (
     Command,
     Configure,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Disc, Shape
+from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -18,8 +17,6 @@ from ..building import (
     command,
     DISC,
     DT,
-    ELL,
-    G,
     pose,
     ROUNDING_OF_SUMS,
     spawn,
@@ -28,27 +25,6 @@ from ..building import (
 )
 
 REST = (0.0, 0.0, 0.0)
-
-
-@pytest.mark.parametrize('gravity', [(0.0, 0.0), (0.0, -G)], ids=['weightless', 'falling'])
-@pytest.mark.parametrize('shape', [DISC, ELL], ids=['centred', 'off-centre'])
-def test_a_force_gives_its_acceleration_exactly(
-    shape: Shape, gravity: tuple[float, float]
-) -> None:
-    world = World(settings=WorldSettings(gravity=gravity, command_timeout=0.0))
-    spawn(world, 'a/0', shape, (1.0, 2.0, 0.3), mass=4.0, velocity=(1.0, 1.0))
-    center = world.snapshot().centers[0]
-
-    command(world, 'a/0', wrench=(8.0, -2.0, 0.0))
-    world.step(240)
-
-    acceleration = np.add(gravity, (2.0, -0.5))
-    assert twist(world, 'a/0') == pytest.approx(
-        (*np.add(acceleration, 1.0), 0.0), abs=ROUNDING_OF_SUMS
-    )
-    assert world.snapshot().centers[0] == pytest.approx(
-        center + 1.0 + acceleration / 2, abs=ROUNDING_OF_SUMS
-    )
 
 
 def test_a_torque_gives_its_angular_acceleration_exactly(world: World) -> None:

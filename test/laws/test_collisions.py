@@ -437,23 +437,3 @@ def test_an_anchored_body_does_not_move_at_all(report, elasticity, hitter, side)
     moved = np.abs(end.poses[anchored] - start).max()
     report.check(24, 'anchored body hit at 20 m/s by 100 kg', moved, 0.0, 0.0, 'm, rad')
     assert not end.twists[anchored].any()
-
-
-@pytest.mark.parametrize('side', HEADINGS)
-@pytest.mark.parametrize('angle', [0, 30, 60])
-@pytest.mark.parametrize('start', np.linspace(1.0, 1.15, 4))
-@pytest.mark.parametrize('elasticity', [1.0, 0.0])
-def test_a_fast_disc_does_not_pass_a_thin_wall(report, elasticity, start, angle, side):
-    sim = simulation(elasticity=elasticity)
-    outwards, along = turned((1.0, 0.0), side), turned((0.0, 1.0), side)
-    spawn(sim, 'wall/0', Box(width=0.1, height=40.0), (0.0, 0.0, side), anchored=True)
-    velocity = 40.0 * (
-        math.sin(math.radians(angle)) * along - math.cos(math.radians(angle)) * outwards
-    )
-    disc = spawn(
-        sim, 'disc/0', Disc(radius=0.1), (*(start * outwards), 0.0), velocity=tuple(velocity)
-    )
-
-    deepest = max(0.15 - each.poses[disc, :2] @ outwards for each in steps(sim, 60))
-
-    report.check(25, 'thin wall, disc at 40 m/s, penetration', max(deepest, 0), 0.0, 0.01, 'm')

@@ -16,8 +16,6 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from ..client import Client, Event, KEPT
 
-UP = math.pi / 2
-
 
 class Hand:
     """Somebody who clicks, and lets the world go on by frames after each click."""
@@ -76,24 +74,14 @@ def markers_of(physsim: PhysSim, client: Client) -> dict[str, Marker]:
 # Each tool
 
 
-@pytest.mark.parametrize(
-    ('tool', 'points', 'kind', 'scale', 'pose'),
-    [
-        ('circle', [(1, 1), (1, 3)], Marker.CYLINDER, (4.0, 4.0), (1.0, 1.0, 0.0)),
-        ('circle_diameter', [(1, 1), (1, 3)], Marker.CYLINDER, (2.0, 2.0), (1.0, 2.0, 0.0)),
-        ('rectangle', [(0, 0), (0, 2), (-1, 9)], Marker.CUBE, (2.0, 1.0), (-0.5, 1.0, UP)),
-        ('polygon', [(0, 0), (3, 0), (0, 3), (0.1, 0)], Marker.LINE_STRIP, (0.02, 0.0), (1, 1, 0)),
-        ('wall', [(0, 0), (4, 0)], Marker.LINE_STRIP, (0.1, 0.0), (2.0, 0.0, 0.0)),
-    ],
-)  # fmt: skip
-def test_a_body_is_drawn(
-    hand: Hand, tool: str, points: Any, kind: int, scale: Any, pose: Any
-) -> None:
-    accepted(hand.draw(tool, *points), 'drawn/0')
-    assert hand.physsim.pose('drawn/0') == pytest.approx(pose, abs=1e-12)
-    marker = markers_of(hand.physsim, hand.client)['drawn/0']
-    assert marker.type == kind
-    assert (marker.scale.x, marker.scale.y) == pytest.approx(scale)
+def test_a_body_is_drawn(hand: Hand) -> None:
+    accepted(hand.draw('rectangle', (0, 0), (0, 2), (-1, 9)), 'drawn/0')
+    accepted(hand.draw('polygon', (0, 0), (3, 0), (0, 3), (0.1, 0)), 'drawn/1')
+    assert hand.physsim.pose('drawn/0') == pytest.approx((-0.5, 1.0, math.pi / 2), abs=1e-12)
+    markers = markers_of(hand.physsim, hand.client)
+    assert markers['drawn/0'].type == Marker.CUBE
+    assert (markers['drawn/0'].scale.x, markers['drawn/0'].scale.y) == pytest.approx((2.0, 1.0))
+    assert markers['drawn/1'].type == Marker.LINE_STRIP
 
 
 def test_bodies_are_anchored_released_and_deleted_by_a_click(hand: Hand) -> None:
@@ -134,32 +122,15 @@ def test_what_is_drawn_is_as_the_parameters_say(hand: Hand) -> None:
 @pytest.mark.parametrize(
     ('tool', 'points', 'code'),
     [
-        ('circle', [(5, 5), (5, 5.001)], 'bad_size'),
-        ('circle_diameter', [(5, 5), (5, 5)], 'bad_size'),
         ('rectangle', [(5, 5), (6, 5), (9, 5)], 'bad_size'),
-        ('polygon', [(5, 5), (6, 5), (5, 5)], 'bad_outline'),
         ('polygon', [(5, 5), (7, 7), (7, 5), (5, 7), (5, 5)], 'bad_outline'),
-        ('wall', [(5, 5), (5, 5)], 'bad_size'),
-        ('velocity', [(0, 0), (0, 0)], 'bad_size'),
-        ('velocity', [(3, 0)], 'anchored'),
-        ('velocity', [(9, 9)], 'nothing_there'),
-        ('delete', [(9, 9)], 'nothing_there'),
-        ('spring', [(8, 8), (9, 9)], 'nothing_there'),
-        ('rod', [(0, 0), (0.3, 0)], 'bad_property'),
         ('rope', [(3, 0), (9, 9)], 'anchored'),
-        ('pin', [(9, 9)], 'nothing_there'),
-        ('axle', [(3, 0)], 'anchored'),
-        ('gravity', [(0, 0)], 'bad_property'),
         ('circle', [(math.nan, 0)], 'malformed'),
-        ('anchor', [(0, math.inf)], 'malformed'),
-        ('wall', [(1e9, 0)], 'bad_property'),
     ],
 )
 def test_what_cannot_be_drawn_is_refused_with_a_code_and_changes_nothing(
     client: Client, tool: str, points: Any, code: str
 ) -> None:
-    client.physsim.node.set_parameters([Parameter('gravity', value=[0.0, 0.0])])
-    client.physsim.spawn(disc('a/0'))
     client.physsim.spawn(box('a/1', at=(3, 0), text='{anchored: true}'))
     before = client.physsim.digest()
     refused(Hand(client, 0).draw(tool, *points), code)
@@ -178,14 +149,8 @@ def test_an_unknown_frame_is_refused_and_the_gesture_goes_on(hand: Hand) -> None
     ('name', 'value'),
     [
         ('tool', 'crayon'),
-        ('snap', -0.1),
-        ('snap', math.nan),
         ('draw_color', 'red'),
-        ('draw_color', '#12345'),
-        ('draw_velocity', [1.0]),
-        ('draw_velocity', [1e5, 1e5]),
         ('draw_velocity', [math.nan, 0.0]),
-        ('sketch_confidence', 1.1),
     ],
 )
 def test_a_parameter_of_drawing_that_is_wrong_is_refused_and_the_gesture_goes_on(

@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 
 from geometry_msgs.msg import Point, Pose
-from physsim_ros.model.settings import MOST_HANDS
-from physsim_ros.testing import box, disc, PhysSim
+from physsim_ros.testing import disc, PhysSim
 import pytest
 from std_msgs.msg import Header
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
@@ -78,16 +77,6 @@ def test_a_hand_without_a_valid_mouse_point_is_at_its_pose(
     assert (event.hardware_id, event.code) == ('a/0', 'ok')
 
 
-def test_a_body_is_placed_while_the_world_is_paused(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(box('wall/0', text='{anchored: true}'))
-    client.call('~/pause')
-    client.ask(TOPIC, feedback(DOWN, 0.25, 0.0))
-    client.ask(TOPIC, feedback(MOVE, 4.25, 2.0))
-    client.ask(TOPIC, feedback(UP, 4.25, 2.0))
-
-    assert physsim.pose('wall/0') == pytest.approx((4.0, 2.0, 0.0))
-
-
 @pytest.mark.parametrize(
     ('message', 'code', 'field'),
     [
@@ -109,25 +98,6 @@ def test_what_no_hand_does_is_refused_and_changes_nothing(
 
     assert (event.level, event.name, event.code, event.field) == (2, TOPIC, code, field)
     assert physsim.digest() == before
-
-
-def test_a_flood_of_hands_leaves_as_many_as_there_may_be_and_the_world_goes_on(
-    physsim: PhysSim, client: Client
-) -> None:
-    count = 3 * MOST_HANDS
-    physsim.spawn(disc('a/0', text='{velocity: [0, 20]}'))
-    client.call('~/pause')
-    for number in range(count):
-        client.publish(TOPIC, feedback(DOWN, hand=str(number)))
-    physsim.settle()
-    physsim.node.apply_requests()
-    physsim.settle()
-    codes = [each.code for each in client.events if each.name == TOPIC]
-    client.call('~/play')
-    physsim.run(1.0)
-
-    assert codes == ['ok'] * MOST_HANDS + ['world_full'] * (count - MOST_HANDS)
-    assert physsim.pose('a/0') == pytest.approx((0.0, 0.0, 0.0), abs=0.05)
 
 
 def test_a_line_is_drawn_from_the_body_to_its_hand(physsim: PhysSim, client: Client) -> None:

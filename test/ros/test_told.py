@@ -120,20 +120,19 @@ TOPICS = {
     MultiDOFJointState: '~/command',
     Path: '~/stroke',
 }
-NOISE = [b'\0\1\0\0', b'\0\1\0\0' + b'\xff' * 16, b'\0\1\0\0' + bytes(range(256))]
+NOISE = b'\0\1\0\0' + b'\xff' * 16
 
 
 @pytest.mark.parametrize('kind', TOPICS)
-@pytest.mark.parametrize('noise', NOISE)
 def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
-    physsim: PhysSim, client: Client, kind: Any, noise: bytes
+    physsim: PhysSim, client: Client, kind: Any
 ) -> None:
     topic = TOPICS[kind]
     client.ask(topic, kind())
     told(client)
     before = physsim.digest()
     publisher = client._publishers[topic]  # noqa: SLF001 - what it sends is no message
-    publisher.publish(noise)
+    publisher.publish(NOISE)
     physsim.settle()
     (event,) = told(client)
     assert (event.level, event.name, event.code) == (2, topic, 'malformed')

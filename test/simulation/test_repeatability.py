@@ -7,12 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
 import math
-import os
-from pathlib import Path
-import subprocess
-import sys
 
-import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import (
@@ -87,48 +82,6 @@ def busy_world() -> World:
     # In another order than they were spawned.
     world.apply(Command(names=('mix/3', 'mix/1'), wrenches=((3.0, 1.0, 0.5), (-2.0, 0.0, 0.0))))
     return world
-
-
-def chronicle() -> list[str]:
-    """Return digests along the way of a busy world."""
-    world = busy_world()
-    digests = [world.digest()]
-    for number in range(6):
-        world.step(20)
-        spawn(world, f'rain/{number}', Disc(radius=0.2), (0.1 * number, 12.0, 0.0))
-        if number == 2:
-            world.apply(Anchor(point=(0.0, 0.5)))
-            world.apply(Configure(changes={'gravity': (1.0, -9.81), 'iterations': 15}))
-        if number == 4:
-            world.apply(Delete(name='mix/2'))
-        digests.append(world.digest())
-    return digests
-
-
-def test_the_same_requests_give_the_same_digests() -> None:
-    first = chronicle()
-
-    assert chronicle() == first
-    assert len(set(first)) == len(first)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize('seed', ['0', '1234'])
-def test_the_same_requests_give_the_same_digests_in_another_process(seed: str) -> None:
-    program = 'from test.simulation.test_repeatability import chronicle; print(*chronicle())'
-    root = str(Path(__file__).parents[2])
-
-    done = subprocess.run(
-        [sys.executable, '-c', program],
-        env={**os.environ, 'PYTHONHASHSEED': seed, 'PYTHONPATH': root},
-        cwd=root,
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-        timeout=60,
-    )
-
-    assert done.stdout.split() == chronicle()
 
 
 def test_many_steps_are_as_many_times_one() -> None:
@@ -303,20 +256,6 @@ def test_a_refusal_changes_nothing(
 # Saved states
 
 
-@pytest.mark.parametrize('steps', [0, 1, 100])
-def test_a_state_is_restored_into_the_same_digest(steps: int) -> None:
-    world = busy_world()
-    world.step(steps)
-    before = world.digest()
-
-    state = world.save()
-    assert world.digest() == before
-    world.apply(Restore(state=state))
-
-    assert world.digest() == before
-    assert world.save() == state
-
-
 def test_a_restored_world_is_built_once_and_is_its_first_checkpoint(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -336,23 +275,6 @@ def test_a_restored_world_is_built_once_and_is_its_first_checkpoint(
     simulation.advance_frame()
     simulation.seek(0)
     assert simulation.world.digest() == digest
-
-
-def test_two_worlds_restored_from_one_state_go_on_alike_at_any_step() -> None:
-    world = busy_world()
-    world.step(100)
-    state = world.save()
-    first, second = World(), World()
-    second.step(37)
-
-    first.apply(Restore(state=state))
-    second.apply(Restore(state=state))
-    for _ in range(5):
-        first.step(40)
-        second.step(40)
-        assert first.save() == second.save()
-    assert np.array_equal(first.snapshot().poses, second.snapshot().poses)
-    assert first.step_count == second.step_count - 37
 
 
 def test_a_restored_world_goes_on_alike_with_the_requests_that_follow() -> None:

@@ -11,14 +11,11 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Command,
     Configure,
     Delete,
     DeleteAll,
-    Join,
-    Restore,
     UnjoinAll,
 )
 from physsim_ros.simulation.past.frame_segment import CachedFrame
@@ -28,7 +25,6 @@ import pytest
 
 from .driven import Driven, FLOOR, FRAME, SECOND, told
 from ..building import BOX, DISC, spawning
-from ..slow import slow
 
 
 def test_a_refused_request_in_the_past_drops_nothing(driven: Driven) -> None:
@@ -217,28 +213,6 @@ def test_what_is_worked_out_from_the_past_is_not_kept(driven: Driven) -> None:
     assert sum('centers' in vars(shot.snapshot) for shot in shots) <= 1
 
 
-@pytest.mark.parametrize('back', [slow(-1.0), -8.0])
-def test_forces_of_joints_come_again(back: float) -> None:
-    driven = Driven()
-    for number in range(2):
-        driven.ask(spawning(f'a/{number}', BOX, (1.0 + number, 8.0, 0.0)))
-        b = f'a/{number - 1}' if number else 'world'
-        points = ((1.0 * number, 8.0), (1.0 + number, 8.0))
-        driven.ask(
-            Join(
-                name=f'rod/{number}', kind=JointKind.ROD, points=points[::-1], a=f'a/{number}', b=b
-            )
-        )
-    driven.record(7.0)
-    checkpoint = driven.simulation.past.timeline.history.keyframes[2].checkpoint.step
-    assert driven.shown[checkpoint].snapshot.forces.all()
-    driven.simulation.past.frame_cache.drop_from(0)
-    driven.simulation.seek(checkpoint * SECOND // 240)
-    driven.assert_same(driven.apply_requests())
-    for frame in driven.run(1.0, 1.0) + driven.run(back, 1.5):
-        driven.assert_same(frame)
-
-
 def test_other_bits_than_before_are_told(driven: Driven) -> None:
     history = driven.simulation.past.timeline.history
     wrong = history.keyframes[2]._replace(digest='not that')
@@ -262,21 +236,6 @@ def test_saving_in_the_past_drops_nothing(driven: Driven) -> None:
     np.testing.assert_array_equal(
         elsewhere.simulation.world.snapshot().poses, driven.shown[step].snapshot.poses
     )
-
-
-@pytest.mark.parametrize('frames', [1, 37, 200])
-def test_all_that_go_on_from_what_was_saved_go_on_alike(driven: Driven, frames: int) -> None:
-    for _ in range(frames):
-        driven.simulation.advance_frame()
-    elsewhere, restored = Driven(), Driven()
-    elsewhere.simulation.begin(driven.simulation.save())
-    restored.simulation.perform(Restore(state=driven.simulation.save()))
-    assert elsewhere.simulation.world.save() == driven.simulation.world.save()
-    for _ in range(200):
-        expected = elsewhere.simulation.advance_frame().snapshot
-        snapshot = restored.simulation.advance_frame().snapshot
-        np.testing.assert_array_equal(snapshot.poses, expected.poses)
-        np.testing.assert_array_equal(snapshot.twists, expected.twists)
 
 
 @pytest.mark.parametrize('speeds', [(1.0,), (0.3,), (4.0,), (0.3, 1.0)])

@@ -38,15 +38,6 @@ def test_slow_motion_goes_back_step_by_step(driven: Driven) -> None:
             driven.assert_same(frame)
 
 
-def test_the_past_is_the_same_where_it_has_to_be_made_again(
-    driven: Driven, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(driven.simulation.past.frame_cache, 'budget', 0)
-    driven.simulation.past.frame_cache.drop_from(0)
-    for frame in driven.run(-1.0, 4.5):
-        driven.assert_same(frame)
-
-
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     """Count the steps that all worlds make, from the last number on."""
@@ -128,24 +119,6 @@ def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
     assert len(told(again, 'history')) == 1
     assert not any(frame.moved for frame in again)
     assert driven.run(0.0, 0.5) == []
-
-
-@pytest.mark.parametrize('back', [0.5, 2.0, 4.9])
-def test_playing_on_from_the_past_gives_the_same_bits(driven: Driven, back: float) -> None:
-    head = driven.simulation.step
-    driven.run(-1.0, back)
-    frames = driven.run(1.0, back)
-    assert frames[-1].snapshot.step == pytest.approx(head, abs=2 * FRAME)
-    for frame in frames:
-        if frame.snapshot.step <= head:
-            driven.assert_same(frame)
-    assert told(frames, 'divergence') == []
-
-
-def test_fast_forward_over_the_past_gives_the_same_bits(driven: Driven) -> None:
-    driven.simulation.seek(0)
-    for frame in driven.run(8.0, 0.5):
-        driven.assert_same(frame)
 
 
 def test_a_request_in_the_past_drops_what_lay_ahead(driven: Driven) -> None:

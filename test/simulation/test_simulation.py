@@ -363,39 +363,6 @@ def test_time_after_a_reset_begins_without_a_jump() -> None:
     assert sim.playback.clock.late_frames == 0
 
 
-def test_the_world_after_a_reset_goes_the_same_way() -> None:
-    settings = WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0))
-    world = World(settings=settings)
-    for number in range(6):
-        spawn(world, f'a/{number}', BOX, (0.2 * number, 0.6 + 1.1 * number, 0.1))
-    sim = simulation()
-    sim.load(world.save())
-    sim.reset()
-    digests = []
-
-    for _ in range(2):
-        periods(sim, 61)
-        digests.append(sim.world.digest())
-        sim.reset()
-
-    assert digests[0] == digests[1]
-
-
-def test_what_is_loaded_goes_the_same_way_whenever_that_is() -> None:
-    world = World(settings=WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0)))
-    for number in range(8):
-        spawn(world, f'a/{number}', BOX, (0.3 * number - 1.0, 0.6 + 1.1 * number, 0.1 * number))
-    state = world.save()
-    sim = simulation()
-    ways = []
-    for before in (0, 7, 500):
-        for _ in range(before):
-            sim.advance_frame()
-        sim.load(state)
-        ways.append([sim.advance_frame().snapshot.poses.tolist() for _ in range(420)])
-    assert ways[0] == ways[1] == ways[2]
-
-
 def test_contacts_come_where_somebody_watches() -> None:
     sim = simulation(settings=WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0)))
     sim.requests.submit(spawning('a/0', BOX, (0.0, 0.5, 0.0)), topic='~/spawn')

@@ -36,19 +36,6 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
 
 
-def test_redo_in_the_past_returns_to_the_past_and_to_what_lay_ahead(driven: Driven) -> None:
-    end, last = driven.simulation.step, driven.simulation.world.digest()
-    driven.simulation.seek(4 * SECOND)
-    asked = driven.simulation.world.digest()
-    driven.simulation.undo()
-    with pytest.raises(OutOfHistory):
-        driven.simulation.seek(4 * SECOND)
-    driven.simulation.redo()
-    assert driven.simulation.world.digest() == asked
-    driven.simulation.seek(round(end / 240 * SECOND))
-    assert driven.simulation.world.digest() == last
-
-
 def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
     driven.simulation.reports_contacts = True
     before = driven.run(1.0, 1.0)[-1].contacts
@@ -61,21 +48,6 @@ def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
     assert again is not None
     assert again.pairs.tolist() == before.pairs.tolist()
     np.testing.assert_allclose(again.impulses, before.impulses, rtol=1e-9, atol=1e-12)
-
-
-def test_several_undos_are_redone_one_by_one(driven: Driven) -> None:
-    digests = [driven.simulation.world.digest()]
-    for _ in range(6):
-        driven.simulation.undo()
-        digests.append(driven.simulation.world.digest())
-    assert driven.names == ()
-    with pytest.raises(OutOfHistory, match='nothing to undo'):
-        driven.simulation.undo()
-    for digest in digests[-2::-1]:
-        driven.simulation.redo()
-        assert driven.simulation.world.digest() == digest
-    with pytest.raises(OutOfHistory, match='nothing to redo'):
-        driven.simulation.redo()
 
 
 def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
