@@ -10,7 +10,6 @@ file. Corners are samples; between them a pen of constant speed is sampled.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 import json
 import math
@@ -26,22 +25,15 @@ from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.texts import nearest_name
-from svgelements import Curve, Matrix, Shape, SVG
-from svgelements import Path as SvgPath
 
 # Metres for each user unit of SVG: a page of 1600 by 1000 is a world of 16 m by 10 m.
 SVG_SCALE = 0.01
-# Line segments that approximate a Bézier curve or an arc before it is sampled.
-_SEGMENTS = 64
 # Change of direction above which a point is a corner, not part of a curve [rad].
 _CORNER = 0.2
 # Least number of samples of a stroke: people draw small figures more slowly.
 _FEWEST = 30
 # Greatest duration of a stroke [s]: four months.
 _LONGEST = 1e7
-# Raised by svgelements 1.9 at malformed elements and attributes, instead of an error of its own.
-_SVG_ERRORS = (ArithmeticError, AttributeError, LookupError, TypeError)
-
 # Suffixes of drawings.
 _SUFFIXES = ('.svg', '.json')
 
@@ -106,7 +98,10 @@ def load_drawing(
             lines = _from_json(json.loads(path.read_text(encoding='utf-8')))
             unit = 1.0
         else:
-            lines = _from_svg(path)
+            # svgelements is a twentieth of the imports of a node, which draws no file.
+            from physsim_ros.files.svg_lines import svg_lines  # noqa: PLC0415
+
+            lines = svg_lines(path)
             unit = SVG_SCALE
     except (OSError, ValueError, ParseError) as error:
         raise BadDrawing(f'cannot read {path}: {error}') from error
@@ -142,47 +137,6 @@ def _from_json(content: Any) -> list[Floats]:
             raise BadDrawing(f'stroke {number} is a single point')
         lines.append(line)
     return lines
-
-
-def _from_svg(path: Path) -> list[Floats]:
-    """Return (n, 2) float64 of each subpath: x, y [user units of the page], y up."""
-    try:
-        page = SVG.parse(str(path))
-        if not isinstance(page, SVG):
-            raise BadDrawing(f'{path} is no SVG')
-        return _subpaths(page)
-    except _SVG_ERRORS as error:
-        raise BadDrawing(f'cannot read {path}: an element is not as it should be') from error
-
-
-def _subpaths(page: SVG) -> list[Floats]:
-    # svgelements scales user units to pixels where the page has a size; this is the inverse.
-    to_units = ~Matrix(page.viewbox_transform)
-    left, bottom = 0.0, 0.0
-    if page.viewbox is not None:
-        left, bottom = page.viewbox.x, page.viewbox.y + page.viewbox.height
-    elif 'height' in page.values['attributes']:
-        bottom = page.height
-    lines = []
-    for element in page.elements():
-        if isinstance(element, Shape):
-            whole = abs(SvgPath(element) * to_units)
-            for subpath in whole.as_subpaths():
-                points = np.array(list(_vertices(subpath)), dtype=np.float64).reshape(-1, 2)
-                lines.append(np.column_stack((points[:, 0] - left, bottom - points[:, 1])))
-    return lines
-
-
-def _vertices(subpath: Iterable[Any]) -> Iterable[tuple[float, float]]:
-    """Yield the ends of the segments of a subpath, and points along its curves."""
-    for segment in subpath:
-        if isinstance(segment, Curve):
-            for number in range(1, _SEGMENTS):
-                point = segment.point(number / _SEGMENTS)
-                yield point.x, point.y
-        # A close command without a line has no end.
-        if segment.end is not None:
-            yield segment.end.x, segment.end.y
 
 
 def _sampled(line: Floats, scale: float, pace: Pace) -> Floats:

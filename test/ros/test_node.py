@@ -6,6 +6,8 @@
 from __future__ import annotations
 
 import math
+import subprocess
+import sys
 from typing import Any
 
 from geometry_msgs.msg import PoseArray
@@ -98,6 +100,14 @@ def fallen(outside: Outside) -> list[Any]:
         seen = outside.run_program('fall')
         assert world.interrupt() == 0
         return list(seen['frames'])
+
+
+def test_a_plain_start_does_not_import_what_only_joints_drawings_and_viewers_need() -> None:
+    check = (
+        'import sys, physsim_ros.ros.node\n'
+        'sys.exit(bool({"rerun", "scipy", "svgelements"} & {*sys.modules}))'
+    )
+    assert subprocess.run([sys.executable, '-c', check], check=False).returncode == 0
 
 
 def frames_of(stamps: list[int]) -> list[int]:

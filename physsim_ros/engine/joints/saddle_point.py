@@ -34,7 +34,6 @@ import numpy as np
 from physsim_ros.engine.graph_search import components, Rows
 from physsim_ros.model.arrays import Flags, Floats, Ints
 import qdldl
-from scipy.sparse import csc_array
 
 # Factorisations of a problem with bounds, at most.
 ROUNDS = 30
@@ -119,6 +118,9 @@ class SaddlePoint:
         _, self._of_rows = np.split(values, [self._unknowns])
         size = self._unknowns + count
         first = np.arange(self._unknowns + 1)
+        # A fifth of the imports of a node; a world without joints needs none of it.
+        from scipy.sparse import csc_array  # noqa: PLC0415
+
         self._matrix = csc_array(
             (values, np.concatenate((first[:-1], indices)), np.concatenate((first, ends_of_rows))),
             shape=(size, size),
