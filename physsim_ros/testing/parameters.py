@@ -28,6 +28,7 @@ Tool = Literal[
     'spring',
     'rod',
     'rope',
+    'chain',
     'velocity',
     'gravity',
 ]

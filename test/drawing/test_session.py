@@ -209,6 +209,27 @@ def test_the_runner_up_takes_the_place_of_the_reading() -> None:
     assert len(desk.bodies) == 2
 
 
+def test_a_rope_is_a_chain_instead_which_is_undone_at_once() -> None:
+    desk = Desk()
+    desk.spawn(
+        spawning('a/0', Disc(radius=0.5)), spawning('a/1', Disc(radius=0.5), (4.0, 0.0, 0.0))
+    )
+    turn = np.linspace(math.pi, 2.0 * math.pi, 50)
+    slack = np.column_stack((2.0 + 2.0 * np.cos(turn), 1.5 * np.sin(turn)))
+    assert desk.draw(slack).meaning == 'rope'
+
+    chain = desk.instead('chain')
+
+    assert chain.meaning == 'chain'
+    links = desk.bodies[2:]
+    assert {shape for _, shape in links} == {'Box'}
+    assert [joint.kind for joint in desk.scene.joints] == [JointKind.AXLE] * (len(links) + 1)
+    # m: of 5.52 m as drawn, what lies outside of the discs.
+    assert 0.3 * len(links) == pytest.approx(4.7, abs=0.3)
+    desk.simulation.undo()
+    assert (len(desk.simulation.world), desk.simulation.world.scene.joints) == (2, ())
+
+
 def test_without_another_guess_nothing_is_read_instead() -> None:
     desk = Desk()
     with pytest.raises(NotRecognised):

@@ -17,7 +17,7 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests
+from physsim_ros.drawing import body_requests, chains
 from physsim_ros.drawing.clicks.click import (
     checked_distance,
     checked_length,
@@ -61,6 +61,7 @@ class Tool(StrEnum):
     SPRING = 'spring'
     ROD = 'rod'
     ROPE = 'rope'
+    CHAIN = 'chain'
     VELOCITY = 'velocity'
     GRAVITY = 'gravity'
 
@@ -200,6 +201,18 @@ def join(
     return _finished(Join(name=scene.next_joint(), kind=kind, points=(start, end), a=a, b=b))
 
 
+def chain(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Draw a chain of links from the body, or the background, under one click to another."""
+    if len(clicks) < 2:
+        where = clicks[0].body or 'the background'
+        return _next_click(f'the chain begins on {where}', 'its other end')
+    start, end = (click.current_point(scene) for click in clicks)
+    checked_distance(start, end, settings, 'the chain')
+    first, last = (click.body or WORLD for click in clicks)
+    requests = chains.chain(np.array((start, end)), (first, last), scene, settings)
+    return _finished(*requests)
+
+
 Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
 
 TOOLS: dict[Tool, Draw] = {
@@ -216,6 +229,7 @@ TOOLS: dict[Tool, Draw] = {
     Tool.SPRING: partial(join, JointKind.SPRING),
     Tool.ROD: partial(join, JointKind.ROD),
     Tool.ROPE: partial(join, JointKind.ROPE),
+    Tool.CHAIN: chain,
     Tool.VELOCITY: velocity,
     Tool.GRAVITY: gravity,
 }

@@ -31,7 +31,7 @@ DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
 # Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.
 # Every other meaning is a group of its own.
 CLOSED = frozenset({DISC, RECTANGLE, POLYGON, 'axle', 'pin'})
-OPEN = frozenset({'wall', 'rod', 'rope', 'spring', 'hatching'})
+OPEN = frozenset({'wall', 'rod', 'rope', 'chain', 'spring', 'hatching'})
 # Meanings that destroy what was drawn before, or change the whole world.
 DELETION, GRAVITY = 'deletion', 'gravity'
 

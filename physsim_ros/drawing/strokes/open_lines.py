@@ -66,7 +66,7 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
-    """Yield hatching, or a rod, spring or rope, and a wall."""
+    """Yield hatching, or a rod, spring or rope, with that a chain, and a wall."""
     points = hypothesis.points
     kind, share = _joint_along(points, context)
     body = hatching.hatched_body(context)
@@ -79,6 +79,10 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
         weight=hypothesis.weight * share,
         build=partial(request_builder.join, kind, context.drawn.points, context),
     )
+    if kind is JointKind.ROPE:
+        # No stroke tells a chain from a rope: it is offered, and never the first guess.
+        build = partial(request_builder.chain, context)
+        yield Interpretation(meaning='chain', weight=LEAST, build=build)
     yield Interpretation(
         meaning='wall',
         weight=hypothesis.weight * (1.0 - share),

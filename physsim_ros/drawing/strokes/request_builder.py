@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests
+from physsim_ros.drawing import body_requests, chains
 from physsim_ros.drawing.strokes import regularisation, snapping
 from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.meanings import Context, Outcome
@@ -121,6 +121,23 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
         subject=name,
         message=f'a {kind} from {first.body} to {last.body}',
         outline=np.array(line) if kind is JointKind.ROD else context.drawn.points,
+    )
+
+
+def chain(context: Context) -> Outcome:
+    """Return a chain between the bodies at the ends of the stroke, along it."""
+    path = context.drawn.points.copy()
+    ends = snapping.joint_ends(path, context)
+    if ends is None:
+        raise NothingThere('a chain joins two bodies; there are none at its ends', field='poses')
+    first, last = sorted(ends, key=lambda end: math.dist(end.point, path[0]))
+    path[0], path[-1] = first.point, last.point
+    requests = chains.chain(path, (first.body, last.body), context.scene, context.settings)
+    return Outcome(
+        requests=requests,
+        subject='',
+        message=f'a chain of {len(requests) // 2} links from {first.body} to {last.body}',
+        outline=path,
     )
 
 

@@ -40,7 +40,7 @@ export class Readings {
   }
 
   /** @param {Reading} reading */
-  #show({request, meaning, confidence, runner_up, runner_up_confidence, guesses, outline, built}) {
+  #show({request, meaning, confidence, guesses, outline, built}) {
     const stroke = this.strokes.get(request) ?? outline;
     if (!stroke.length) return;
     this.dismiss();
@@ -49,11 +49,14 @@ export class Readings {
       stroke.reduce((sum, [x]) => sum + x, 0) / stroke.length, Math.max(...stroke.map(([, y]) => y))]);
     if (built) {
       this.#forget(request);
-      const other = runner_up && runner_up_confidence > LIKELY ?
-        [this.#guessButton(`or ${meaningWord(runner_up)}`, request, '')] : [];
+      // A rope may be meant as a chain: no stroke tells them apart.
+      const other = guesses.slice(1).filter(([guess, sure], i) => i ? guess === 'chain' : sure > LIKELY)
+        .map(([guess]) => this.#guessButton(`or ${meaningWord(guess)}`, request, guess));
       // A note at the place would cover a running machine.
       const kind = this.app.world.paused ? '' : 'docked';
-      this.dismiss = this.app.notes.pin(() => at, [labelOf(meaning, confidence), ...other],
+      // Where somebody has chosen another guess, it is sure.
+      const label = guesses.some(([, sure]) => sure > confidence) ? meaningWord(meaning) : labelOf(meaning, confidence);
+      this.dismiss = this.app.notes.pin(() => at, [label, ...other],
         other.length ? {kind} : {kind, shown: GLANCED});
       return;
     }
@@ -71,11 +74,11 @@ export class Readings {
   /**
    * @param {string} label
    * @param {string} request of the stroke
-   * @param {string} meaning '' for the runner-up
+   * @param {string} meaning
    */
   #guessButton(label, request, meaning) {
     return textButton(label, () => {
-      this.app.connection.send('instead', meaning ? {meaning} : {});
+      this.app.connection.send('instead', {meaning});
       this.dismiss();
       this.#forget(request);
     });

@@ -28,6 +28,7 @@ export const TOOLS = [[
   ['spring', 'Spring', 'z', 'from body to body, or to the background'],
   ['rod', 'Rod', 'o', 'keeps the distance of two points'],
   ['rope', 'Rope', 'y', 'pulls, but does not push'],
+  ['chain', 'Chain', '8', 'links from end to end; a slack one is drawn by the pen, as a rope'],
 ], [
   ['velocity', 'Velocity', 'v', 'drag an arrow from a body: 1 m is 1 m/s'],
   ['gravity', 'Gravity', 'u', 'drag an arrow: down is there'],

@@ -8,9 +8,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 import math
 
+import numpy as np
 from physsim_ros.drawing.clicks.tools import Tool, TOOLS
 from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.files import with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import (
     Anchored,
@@ -343,6 +345,7 @@ def test_without_a_tool_a_click_is_ignored() -> None:
         (Tool.SPRING, [(9, 9), (8, 8)], NothingThere),
         (Tool.ROD, [(0, 0), (0.1, 0)], BadProperty),
         (Tool.ROPE, [(0.5, 0), (0.501, 0)], BadSize),
+        (Tool.CHAIN, [(0, 0), (0.4, 0)], BadSize),
         (Tool.VELOCITY, [(9, 9)], NothingThere),
         (Tool.VELOCITY, [(3, 0)], Anchored),
         (Tool.VELOCITY, [(0, 0), (0, 0)], BadSize),
@@ -425,6 +428,31 @@ def test_a_point_in_the_frame_of_a_body_is_fixed_to_the_world_at_the_click() -> 
 
     assert spawn.pose == pytest.approx((4.0, 3.0, 0.0), abs=1e-9)
     assert spawn.shape.radius == pytest.approx(1.0, abs=1e-9)
+
+
+def test_a_weight_hangs_on_a_chain_of_links_from_surface_to_nail() -> None:
+    world = World()
+    world.apply(disc('bob/0', 0.0, 0.0, mass=5.0))
+    requests = draw(Tool.CHAIN, (0.0, 0.0), (0.0, 3.5), world=world, wall_thickness=0.1)
+    links = [each for each in requests if isinstance(each, Spawn)]
+    axles = [each for each in requests if isinstance(each, Join)]
+    # Of 3 m, links of 0.3 m; the axles are at both ends, too.
+    assert (len(links), len(axles)) == (10, 11)
+    assert (axles[0].b, axles[-1].b) == ('bob/0', 'world')
+    for request in requests:
+        world.apply(request)
+    world.step(480)
+    # It hangs where it was, and turns about its end.
+    assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=0.05)
+    world.apply(Command(names=('bob/0',), twists=np.array(((2.0, 0.0, 0.0),))))
+    world.step(120)
+    assert math.dist(world.snapshot().poses[0, :2], (0.0, 3.5)) == pytest.approx(3.5, abs=0.05)
+    assert world.snapshot().poses[0, 0] > 0.3
+    robot = Properties.from_mapping(with_shipped_robot({'robot': 'omni'}, ['robot']))
+    place = (9.0, 0.0, 0.0)
+    world.apply(Spawn(name='omni/0', shape=Disc(radius=0.2), pose=place, properties=robot))
+    with pytest.raises(BadProperty, match='robot'):
+        draw(Tool.CHAIN, (9.0, 0.0), (9.0, 3.5), world=world)
 
 
 def test_another_tool_drops_what_is_half_drawn_and_the_same_one_keeps_it() -> None:

@@ -13,7 +13,7 @@ const DRAG = 6; // px: farther than that, letting go is a click too
 const CLOSE = 12; // px around the first corner of a polygon
 /** @type {Record<string, number>} */
 const CLICKS = {rectangle: 3, polygon: Infinity, anchor: 1, release: 1, pin: 1, axle: 1, delete: 1};
-const ARROWS = ['velocity', 'gravity'], JOINTS = ['spring', 'rod', 'rope'];
+const ARROWS = ['velocity', 'gravity'], JOINTS = ['spring', 'rod', 'rope', 'chain'];
 
 export class ClickTool {
   /**

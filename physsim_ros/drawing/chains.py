@@ -1,0 +1,104 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Chains: boxes along a curve, joined by axles to each other and to the bodies at its ends.
+
+Law: links have equal lengths along the curve. A chain begins and ends at the surfaces of the
+bodies that it joins, so that no link lies within them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import pairwise
+import math
+
+import numpy as np
+from physsim_ros.drawing import body_requests
+from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.polyline import path_length, point_of, spaced
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.errors import BadProperty, BadSize
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import split_name, WORLD
+from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.transform import Point
+
+# Length of a link by its thickness [1]: the proportions of an anchor chain.
+_SLENDER = 3.0
+# Greatest number of links, which become longer in a longer chain: a tenth of the bodies that a
+# small machine plays in real time.
+MOST_LINKS = 100
+# Colour of links where none is chosen, so that they look like one thing.
+_STEEL = (0.45, 0.49, 0.55, 1.0)
+# Points for each link by which the surfaces of bodies are found [1].
+_FINE = 16
+
+
+def chain(
+    path: Floats, ends: tuple[str, str], scene: SceneQuery, settings: DrawingSettings
+) -> tuple[Request, ...]:
+    """
+    Return the requests for the links of a chain and their axles.
+
+    :param path: (n, 2) float64: the curve, from its first end to its last [m]
+    :param ends: names of the bodies there, or 'world' for the background
+    :raises BadProperty: one of them is a robot, which has no joints
+    :raises BadSize: there is no room for a link between them
+    """
+    for name in ends:
+        if name != WORLD and scene.body(name).robot is not None:
+            raise BadProperty(f'{name} is a robot; it has no joints', field='point', body=name)
+    link = _SLENDER * settings.wall_thickness
+    fine = spaced(path, 2 + _FINE * _links(path_length(path), link))
+    between = fine[_free_range(fine, ends, scene)]
+    length = path_length(between)
+    if length < settings.wall_thickness:
+        raise BadSize('there is no room for a chain between these ends', field='point')
+    knots = spaced(between, 1 + _links(length, link))
+    first, first_joint = (
+        int(split_name(name)[1]) for name in (scene.next_body(), scene.next_joint())
+    )
+    names = [f'{DRAWN}/{first + number}' for number in range(len(knots) - 1)]
+    settings = replace(settings, draw_color=settings.draw_color or _STEEL)
+    requests: list[Request] = [
+        _link(name, start, end, settings)
+        for name, (start, end) in zip(names, pairwise(map(point_of, knots)), strict=True)
+    ]
+    # A knot joins the link after it to the one before it; the last one has none after it.
+    for number, knot in enumerate(knots):
+        a, b = [*names, names[-1]][number], [ends[0], *names[:-1], ends[1]][number]
+        requests.append(
+            Join(
+                name=f'{DRAWN}/{first_joint + number}',
+                kind=JointKind.AXLE,
+                points=(point_of(knot),),
+                a=a,
+                b=b,
+            )
+        )
+    return tuple(requests)
+
+
+def _links(length: float, link: float) -> int:
+    """Return the number of links of a curve of a length [m]."""
+    return min(MOST_LINKS, max(1, round(length / link)))
+
+
+def _free_range(points: Floats, ends: tuple[str, str], scene: SceneQuery) -> slice:
+    """Return the range of the points between the bodies at their ends."""
+    first, last = 0, len(points)
+    if ends[0] != WORLD:
+        first = int(np.cumprod(scene.covers(ends[0], points)).sum())
+    if ends[1] != WORLD:
+        last -= int(np.cumprod(scene.covers(ends[1], points)[::-1]).sum())
+    return slice(first, max(first, last))
+
+
+def _link(name: str, start: Point, end: Point, settings: DrawingSettings) -> Spawn:
+    (x, y), (dx, dy) = start, (end[0] - start[0], end[1] - start[1])
+    pose = x + dx / 2, y + dy / 2, math.atan2(dy, dx)
+    width, height = math.hypot(dx, dy), settings.wall_thickness
+    return body_requests.rectangle(name, pose, width, height, settings)
