@@ -196,67 +196,61 @@ def test_the_description_is_there_over_ros_too(client: Client) -> None:
 # Refusals
 
 
-@pytest.mark.parametrize('name', FIXED)
-def test_a_read_only_parameter_is_fixed(physsim: PhysSim, name: str) -> None:
-    value = CONTRACT[name][0]
-    other = 120.0 if isinstance(value, float) else 'other'
-    assert 'read-only' in refuse(physsim, name, other)
+def test_a_read_only_parameter_is_fixed(physsim: PhysSim) -> None:
+    for name in FIXED:
+        other = 120.0 if isinstance(CONTRACT[name][0], float) else 'other'
+        assert 'read-only' in refuse(physsim, name, other), name
 
 
-@pytest.mark.parametrize('name', RANGES)
-def test_the_ends_of_a_range_are_taken_and_what_lies_beyond_is_refused(
-    physsim: PhysSim, name: str
-) -> None:
-    spec = parameters.SPECS[name]
-    kind = type(CONTRACT[name][0])
-    assert spec.low is not None
-    assert spec.high is not None
-    for end in (kind(spec.low), kind(spec.high)):
-        take(physsim, name, end)
-        assert value_of(physsim, name) == end
-        assert type(value_of(physsim, name)) is kind
-    if kind is int:
-        beyond = [int(spec.low) - 1, int(spec.high) + 1, -(2**63), 2**63 - 1]
-    else:
-        beyond = [
-            math.nextafter(spec.low, -math.inf),
-            math.nextafter(spec.high, math.inf),
-            -1e300,
-            1e300,
-        ]
-    for value in beyond:
-        assert name in refuse(physsim, name, value)
+def test_the_ends_of_a_range_are_taken_and_what_lies_beyond_is_refused(physsim: PhysSim) -> None:
+    for name in RANGES:
+        spec, default = parameters.SPECS[name], CONTRACT[name][0]
+        kind = type(default)
+        assert spec.low is not None
+        assert spec.high is not None
+        for end in (kind(spec.low), kind(spec.high)):
+            take(physsim, name, end)
+            assert value_of(physsim, name) == end, name
+            assert type(value_of(physsim, name)) is kind, name
+        if kind is int:
+            beyond = [int(spec.low) - 1, int(spec.high) + 1, -(2**63), 2**63 - 1]
+        else:
+            least = math.nextafter(spec.low, -math.inf)
+            beyond = [least, math.nextafter(spec.high, math.inf), -1e300, 1e300]
+        for value in beyond:
+            assert name in refuse(physsim, name, value)
+        take(physsim, name, default)
 
 
-@pytest.mark.parametrize('name', [name for name in DOUBLES if name in LIVE])
-@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
-def test_a_number_that_is_not_finite_is_refused(physsim: PhysSim, name: str, value: float) -> None:
-    refuse(physsim, name, value)
+def test_a_number_that_is_not_finite_is_refused(physsim: PhysSim) -> None:
+    for name in DOUBLES:
+        for value in (math.nan, math.inf, -math.inf):
+            refuse(physsim, name, value)
 
 
-@pytest.mark.parametrize('name', LIVE)
-def test_a_value_of_another_type_is_refused(physsim: PhysSim, name: str) -> None:
-    default = CONTRACT[name][0]
-    for value in (True, 3, 3.5, 'three', ['three'], [True], [b'3']):
-        if type(value) is type(default) and not isinstance(value, list):
-            continue
-        if isinstance(default, float) and type(value) is int:
-            continue
-        refuse(physsim, name, value)
+def test_a_value_of_another_type_is_refused(physsim: PhysSim) -> None:
+    for name in LIVE:
+        default = CONTRACT[name][0]
+        for value in (True, 3, 3.5, 'three', ['three'], [True], [b'3']):
+            if type(value) is type(default) and not isinstance(value, list):
+                continue
+            if isinstance(default, float) and type(value) is int:
+                continue
+            refuse(physsim, name, value)
 
 
-@pytest.mark.parametrize('name', CONTRACT)
-def test_a_parameter_cannot_be_deleted(physsim: PhysSim, name: str) -> None:
-    before = value_of(physsim, name)
-    (result,) = physsim.node.set_parameters([Parameter(name, Parameter.Type.NOT_SET, None)])
-    assert not result.successful
-    assert result.reason
-    assert value_of(physsim, name) == before
+def test_a_parameter_cannot_be_deleted(physsim: PhysSim) -> None:
+    for name in CONTRACT:
+        before = value_of(physsim, name)
+        (result,) = physsim.node.set_parameters([Parameter(name, Parameter.Type.NOT_SET, None)])
+        assert not result.successful, name
+        assert result.reason
+        assert value_of(physsim, name) == before
 
 
-@pytest.mark.parametrize(
-    ('name', 'value'),
-    [
+def test_a_bad_value_is_refused_with_its_code(physsim: PhysSim) -> None:
+    take(physsim, 'bounds', [-5.0, -5.0, 5.0, 5.0])
+    for name, value in (
         ('gravity', []),
         ('gravity', [1.0]),
         ('gravity', [1.0, 2.0, 3.0]),
@@ -273,12 +267,9 @@ def test_a_parameter_cannot_be_deleted(physsim: PhysSim, name: str) -> None:
         ('bounds', [-1e9, 0.0, 1.0, 1.0]),
         ('viewer', 'window'),
         ('viewer', ''),
-    ],
-)
-def test_a_bad_value_is_refused_with_its_code(physsim: PhysSim, name: str, value: Any) -> None:
-    take(physsim, 'bounds', [-5.0, -5.0, 5.0, 5.0])
-    code = refuse(physsim, name, value).partition(':')[0]
-    assert code in ('malformed', 'bad_property')
+    ):
+        code = refuse(physsim, name, value).partition(':')[0]
+        assert code in ('malformed', 'bad_property'), (name, value)
 
 
 def test_many_are_taken_together_or_not_at_all(physsim: PhysSim, client: Client) -> None:
@@ -341,17 +332,18 @@ def test_a_page_that_cannot_be_served_is_refused_and_the_node_goes_on(
 # Conversions
 
 
-# 1 is beyond what `beautify` may be.
-@pytest.mark.parametrize('name', [name for name in DOUBLES if name in LIVE and name != 'beautify'])
-def test_a_whole_number_is_taken_for_a_double_over_ros(
-    physsim: PhysSim, client: Client, name: str
-) -> None:
+def test_a_whole_number_is_taken_for_a_double_over_ros(physsim: PhysSim, client: Client) -> None:
+    # 1 is beyond what `beautify` may be.
+    names = [name for name in DOUBLES if name in LIVE and name != 'beautify']
     value = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=1)
-    request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
+    request = SetParameters.Request(
+        parameters=[ParameterMessage(name=name, value=value) for name in names]
+    )
     response = client.request(SetParameters, '~/set_parameters', request)
-    assert response.results[0].successful, response.results[0].reason
-    assert value_of(physsim, name) == 1.0
-    assert isinstance(value_of(physsim, name), float)
+    for name, result in zip(names, response.results, strict=True):
+        assert result.successful, result.reason
+        assert value_of(physsim, name) == 1.0
+        assert isinstance(value_of(physsim, name), float)
 
 
 @pytest.mark.parametrize(
@@ -381,19 +373,20 @@ def test_lists_of_doubles_are_taken_and_checked_over_ros(
     assert value_of(physsim, name) == numbers
 
 
-@pytest.mark.parametrize('name', ['speed', 'gravity', 'use_sim_time', 'nobody'])
-@pytest.mark.parametrize('kind', [10, 255])
-def test_a_value_of_no_type_is_refused(
-    physsim: PhysSim, client: Client, name: str, kind: int
-) -> None:
+def test_a_value_of_no_type_is_refused(physsim: PhysSim, client: Client) -> None:
     values = {each: value_of(physsim, each) for each in CONTRACT}
-    message = ParameterMessage(name=name, value=ParameterValue(type=kind))
-    request = SetParameters.Request(parameters=[message])
-    (result,) = client.request(SetParameters, '~/set_parameters', request).results
-    assert not result.successful
-    together = SetParametersAtomically.Request(parameters=[message])
-    response = client.request(SetParametersAtomically, '~/set_parameters_atomically', together)
-    assert not response.result.successful
+    messages = [
+        ParameterMessage(name=name, value=ParameterValue(type=kind))
+        for name in ('speed', 'gravity', 'use_sim_time', 'nobody')
+        for kind in (10, 255)
+    ]
+    request = SetParameters.Request(parameters=messages)
+    results = client.request(SetParameters, '~/set_parameters', request).results
+    assert [result.successful for result in results] == [False] * len(messages)
+    for message in messages:
+        together = SetParametersAtomically.Request(parameters=[message])
+        response = client.request(SetParametersAtomically, '~/set_parameters_atomically', together)
+        assert not response.result.successful
     assert {each: value_of(physsim, each) for each in CONTRACT} == values
 
 
@@ -439,23 +432,13 @@ def test_whole_numbers_are_taken_for_doubles_at_the_start(context: Context) -> N
     ('values', 'error'),
     [
         ({'speed': 65.0}, BadProperty),
-        ({'speed': -65}, BadProperty),
         ({'speed': math.nan}, Malformed),
         ({'speed': 'fast'}, BadProperty),
-        ({'iterations': 0}, BadProperty),
         ({'iterations': 2.5}, BadProperty),
-        ({'physics_rate': 59.0}, BadProperty),
-        ({'physics_rate': 10001.0}, BadProperty),
         ({'publish_rate': 7.0}, BadProperty),
-        ({'publish_rate': 480.0}, BadProperty),
-        ({'publish_rate': 0.0}, BadProperty),
-        ({'physics_rate': 100.0}, BadProperty),
         ({'gravity': [0.0]}, Malformed),
-        ({'gravity': [0.0, math.nan]}, Malformed),
-        ({'bounds': [1.0, 0.0, 0.0, 1.0]}, BadProperty),
         ({'viewer': 'window'}, BadProperty),
         ({'publish_clock': 1}, BadProperty),
-        ({'frame_id': 3}, BadProperty),
         ({'world_file': 'nowhere'}, PhysSimError),
     ],
 )
