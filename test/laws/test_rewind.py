@@ -333,11 +333,10 @@ def test_any_step_is_reached_again_and_played_on_from(report, scene):
     report.check(26, f'{scene}: played on from there', played, 0, 0, 'bits')
 
 
-# A step that was not shown the first time is replayed, and equal whenever it is shown.
-@pytest.mark.parametrize('speed', [0.25, 1.0], ids=['kept', 'made again'])
-def test_each_step_is_shown_backward_as_it_was(report, scene, speed):
+def test_each_step_is_shown_backward_as_it_was(report, scene):
     player = Player(SCENES[scene])
-    player.record(speed, digests_at=(LENGTH,))
+    # Three of four steps are not shown the first time: they are replayed, and equal at the second.
+    player.record(1.0, digests_at=(LENGTH,))
 
     backward = forward = 0
     for _ in range(2):

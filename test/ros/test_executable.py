@@ -204,18 +204,10 @@ def test_a_thousand_bodies_without_a_viewer_fit_into_memory(outside: Outside) ->
     ('parameters', 'words'),
     [
         ({'speed': '99'}, ['speed', '64']),
-        ({'speed': '99.0'}, ['speed', '64']),
-        ({'speed': 'fast'}, ['speed', 'double']),
-        ({'speed': '.nan'}, ['speed', 'finite']),
-        ({'iterations': '0'}, ['iterations', '1000']),
         ({'viewer': 'spwan'}, ['viewer', 'connect', "nearest is 'spawn'"]),
         ({'publish_rate': '7'}, ['publish_rate', 'divide']),
-        ({'gravity': '[1.0]'}, ['gravity', 'two']),
         ({'gravity': '[0, -9.81]'}, ['gravity', 'same type']),
-        ({'bounds': '[1, 0, 0, 1]'}, ['bounds']),
-        ({'world_file': 'nowhere'}, ['nowhere']),
         ({'world_file': 'dominos'}, ['nearest is', 'dominoes', 'config/worlds']),
-        ({'world_file': '/etc'}, ['/etc']),
     ],
     ids=lambda value: '-'.join(value) if isinstance(value, dict) else '',
 )

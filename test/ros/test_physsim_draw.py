@@ -80,15 +80,11 @@ def test_strokes_build_a_car_while_time_stands_still_and_then_it_rolls(outside: 
 @pytest.mark.parametrize(
     ('words', 'told', 'code'),
     [
-        (['nothing'], 'no drawing', 1),
         (['see-saw'], "nearest is 'seesaw'", 1),
         (['--list'], 'pendulum', 0),
         (['car', '--world', '/nobody', '--patience', 0.5], 'no world at /nobody', 1),
-        (['car', '--world', 'a b'], '--world: Invalid topic name', 1),
         (['car', '--ros-args', '-p'], 'physsim_draw: Failed to parse ROS arguments', 1),
         (['car', '--speed', 0], 'no positive number', 2),
-        (['car', '--scale', 'large'], 'large', 2),
-        ([], 'usage', 2),
     ],
 )
 def test_what_cannot_be_drawn_is_told_at_once(

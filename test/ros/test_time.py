@@ -19,11 +19,9 @@ from .journey import (
     PERIOD,
     SECOND,
     seconds,
-    STEP,
     succeeded,
 )
 from ..client import set_parameter
-from ..outside import Outside
 
 # Back, and on again
 
@@ -172,72 +170,3 @@ def test_after_a_seek_other_nodes_have_the_time_and_the_parameters_of_then(
     physsim.run(1.0)
     assert seconds(robot.get_clock().now().nanoseconds) == pytest.approx(1.5)
     assert parameter(physsim, 'gravity') == [0.0, 0.0]
-
-
-# From a process that knows nothing of the package
-
-
-@pytest.mark.parametrize('seed', [1])
-def test_somebody_elsewhere_travels_through_time(outside: Outside, seed: int) -> None:
-    with outside.start_world(speed=0.0) as world:
-        world.wait_for('ready')
-        seen = outside.run_program('rewinder', seed)
-        assert world.interrupt() == 0
-        assert 'Traceback' not in ''.join(world.lines)
-
-    # As JSON has it, keys are words.
-    first = {int(stamp): bits for stamp, bits in seen['first'].items()}
-    assert len(first) > 200, 'the machine is too slow to see enough'
-    assert seen['most'] > 10
-    assert seen['answered'] == seen['asked'] > 70
-    assert seen['refused'] < seen['asked'] / 4
-
-    def different(frames: list[list[Any]]) -> list[int]:
-        return [stamp for stamp, bits in frames if first.get(stamp, bits) != bits]
-
-    def known(frames: list[list[Any]]) -> int:
-        return sum(stamp in first for stamp, _ in frames)
-
-    passes = seen['passes']
-    assert {what: different(frames) for what, frames in passes.items()} == {
-        what: [] for what in passes
-    }
-    assert {what for what, frames in passes.items() if not known(frames)} == set()
-    for what in ('rewind', 'speed -0.5', 'fast_rewind', 'speed -8', 'to the oldest'):
-        stamps = [stamp for stamp, _ in passes[what]]
-        assert stamps == sorted(set(stamps), reverse=True), what
-    assert all(seen['clocks'])
-    falls = sum(after < before for before, after in pairwise(seen['clocks']))
-    assert falls > 60
-    assert [success for success, _ in seen['twice']] == [True, True]
-    assert seen['step while rewinding'][0] is False
-
-    ((level, message),) = seen['stopped']
-    assert (level, seen['speed then']) == (0, 0.0)
-    assert 'oldest' in message
-    assert passes['to the oldest'][-1][0] == 0
-    assert seen['settings at the oldest']['gravity'] == seen['original']['gravity']
-    assert seen['settings'] != seen['original']
-
-    assert different(seen['all again']) == []
-    assert known(seen['all again']) > 100
-    assert seen['settings again'] == seen['settings']
-
-    for stamp, (code, message, _), (after, bits) in seen['seeks']:
-        assert code == 'ok', message
-        assert 0 < after - stamp < PERIOD + STEP
-        assert first.get(after, bits) == bits
-    for code, message, field in seen['seeks to nowhere']:
-        assert (code, field) == ('out_of_history', 'clock'), message
-    assert different([seen['a step after them']]) == []
-
-    assert 'branch' in seen['branch']
-    assert seen['seek to what is dropped'][0] == 'out_of_history'
-    middle = seen['middle']
-    assert seen['other'][0] == pytest.approx(middle + PERIOD, abs=2)
-    assert seen['undo'][0], seen['undo']
-    assert 'other/0' in seen['undo'][1]
-    # The steps ahead of it are gone, but not the moment itself.
-    assert seen['after undo'] == [middle, first.get(middle, seen['after undo'][1])]
-    assert seen['redo'][0], seen['redo']
-    assert seen['after redo'] == seen['other']

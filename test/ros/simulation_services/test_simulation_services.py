@@ -121,9 +121,17 @@ def test_an_entry_of_a_world_file_is_spawned_relative_to_a_body(caller: Caller) 
     assert [(each.x, each.y) for each in bounds.points] == [(0.25, 0.25), (-0.25, -0.25)]
 
 
-@pytest.mark.parametrize(
-    ('fields', 'result'),
-    [
+def test_what_cannot_be_spawned_is_told_and_changes_nothing(caller: Caller) -> None:
+    caller.physsim.spawn(disc('a/0', at=(9.0, 0.0)))
+    caller('SpawnEntity', name='robot/0', uri='omni', entity_namespace='taken')
+    before = caller.physsim.digest()
+    short = {
+        'x': 'initial_pose__pose__position__x',
+        'w': 'initial_pose__pose__orientation__w',
+        'roll': 'initial_pose__pose__orientation__x',
+        'frame': 'initial_pose__header__frame_id',
+    }
+    for fields, result in (
         ({'name': 'a/0', 'uri': 'disc'}, NAME_NOT_UNIQUE),
         ({'name': '', 'uri': 'disc'}, NAME_INVALID),
         ({'name': 'no number', 'uri': 'disc'}, NAME_INVALID),
@@ -145,25 +153,13 @@ def test_an_entry_of_a_world_file_is_spawned_relative_to_a_body(caller: Caller) 
         ({'name': 'b/0', 'uri': 'disc', 'w': math.inf}, INVALID_POSE),
         ({'name': 'b/0', 'uri': 'disc', 'roll': 1.0}, INVALID_POSE),
         ({'name': 'b/0', 'uri': 'disc', 'frame': 'nowhere'}, INVALID_POSE),
-    ],
-)
-def test_what_cannot_be_spawned_is_told_and_changes_nothing(
-    caller: Caller, fields: dict[str, Any], result: int
-) -> None:
-    caller.physsim.spawn(disc('a/0', at=(9.0, 0.0)))
-    caller('SpawnEntity', name='robot/0', uri='omni', entity_namespace='taken')
-    before = caller.physsim.digest()
-    short = {
-        'x': 'initial_pose__pose__position__x',
-        'w': 'initial_pose__pose__orientation__w',
-        'roll': 'initial_pose__pose__orientation__x',
-        'frame': 'initial_pose__header__frame_id',
-    }
-    refused = caller('SpawnEntity', **{short.get(key, key): each for key, each in fields.items()})
-    assert refused.result.result == result
-    assert refused.result.error_message
-    assert refused.entity_name == ''
-    assert caller.physsim.digest() == before
+    ):
+        values = {short.get(key, key): each for key, each in fields.items()}
+        refused = caller('SpawnEntity', **values)
+        assert refused.result.result == result, fields
+        assert refused.result.error_message
+        assert refused.entity_name == ''
+        assert caller.physsim.digest() == before
 
 
 def test_names_are_changed_where_that_is_allowed(caller: Caller) -> None:
@@ -192,25 +188,20 @@ def test_a_state_that_is_set_is_the_one_that_is_told(caller: Caller) -> None:
     assert state.header.stamp.sec == 1
 
 
-@pytest.mark.parametrize(
-    ('fields', 'result'),
-    [
+def test_a_state_that_cannot_be_is_refused(caller: Caller) -> None:
+    caller.physsim.spawn(disc('a/0'))
+    before = caller.physsim.digest()
+    for fields, result in (
         ({'entity': 'b/0'}, NOT_FOUND),
         ({'state__pose__position__x': math.nan}, OPERATION_FAILED),
         ({'state__twist__linear__x': math.inf}, OPERATION_FAILED),
         ({'state__twist__linear__x': 1e30}, OPERATION_FAILED),
         ({'state__header__frame_id': 'a/0'}, UNSUPPORTED),
-    ],
-)
-def test_a_state_that_cannot_be_is_refused(
-    caller: Caller, fields: dict[str, Any], result: int
-) -> None:
-    caller.physsim.spawn(disc('a/0'))
-    before = caller.physsim.digest()
-    refused = caller('SetEntityState', **{'entity': 'a/0', **fields})
-    assert refused.result.result == result
-    assert refused.result.error_message
-    assert caller.physsim.digest() == before
+    ):
+        refused = caller('SetEntityState', **{'entity': 'a/0', **fields})
+        assert refused.result.result == result, fields
+        assert refused.result.error_message
+        assert caller.physsim.digest() == before
 
 
 def test_entities_are_filtered(caller: Caller) -> None:
