@@ -19,10 +19,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 import math
-from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.engine.robots.odometry import chord_by_arc, noise_of_step, reckoned, slipped
+from physsim_ros.engine.robots.odometry import chord_by_arc, noise_of_step, reckoned, slips
 from physsim_ros.engine.robots.robot_columns import robot_columns
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Floats
@@ -30,18 +29,6 @@ from physsim_ros.model.robot_states import NO_ROBOTS, RobotStates
 from physsim_ros.model.robots.drives.drive import within
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import Point, Pose, rotated, Twist
-
-
-class WheelMotion(NamedTuple):
-    """
-    The velocity that the wheels of r robots give to their centres of mass, relative to the floor.
-
-    :ivar mean: (r, 3) float64: over the step, world axes [m/s, rad/s]
-    :ivar end: (r, 3) float64: at its end, world axes [m/s, rad/s]
-    """
-
-    mean: Floats
-    end: Floats
 
 
 class Drives:
@@ -95,8 +82,14 @@ class Drives:
         states.aim[number], states.until[number] = aim, until
         return changed
 
-    def begin_step(self, context: StepContext) -> WheelMotion:
-        """Accelerate the wheels, and return what they do in this step."""
+    def begin_step(self, context: StepContext) -> Floats:
+        """
+        Accelerate the wheels.
+
+        :return: (2, r, 3) float64: the velocity that they give to the centre of mass of each of r
+            robots, relative to the floor: the mean over this step, and that at its end; world axes
+            [m/s, rad/s]
+        """
         columns, states = robot_columns(context.table.scene), self.states(context.table.scene)
         ended = states.until <= context.step
         if np.count_nonzero(ended):
@@ -112,9 +105,11 @@ class Drives:
             context.poses[columns.rows, 2].tolist(),
             strict=True,
         ):
-            most = robot.drive.acceleration * context.dt
-            after = before if before == aim else _accelerated(before, aim, rims, most, curvature)
-            mean = _middle(before, after)
+            mean = after = before
+            if before != aim:
+                most = robot.drive.acceleration * context.dt
+                after = _accelerated(before, aim, rims, most, curvature)
+                mean = _middle(before, after)
             turn = mean[2] * context.dt
             vx, vy, spin = _at_center(mean, center, yaw + turn / 2)
             # The chord of the arc that they roll along.
@@ -124,7 +119,7 @@ class Drives:
             wheels.append(after)
             self._mean.append(mean)
         states.wheels[:] = wheels
-        return WheelMotion(np.array(means), np.array(ends))
+        return np.array((means, ends))
 
     def end_step(self, context: StepContext) -> None:
         """Add the step to the way of the wheels, and to the odometry."""
@@ -141,14 +136,15 @@ class Drives:
             turns.tolist(),
             strict=True,
         ):
-            way, slip = (mean[0] * context.dt, mean[1] * context.dt), robot.odometry.slip
-            travel.append((x + way[0], y + way[1], around + mean[2] * context.dt))
-            paths.append((length + abs(complex(*way)), turned + abs(turn)))
-            told = way, turn
-            if any(slip):
+            ahead, aside = mean[0] * context.dt, mean[1] * context.dt
+            way = abs(complex(ahead, aside))
+            travel.append((x + ahead, y + aside, around + mean[2] * context.dt))
+            paths.append((length + way, turned + abs(turn)))
+            if any(robot.odometry.slip):
                 noise = noise_of_step(context.settings.seed, name, context.step)
-                told = slipped(way, turn, slip, noise)
-            poses.append(reckoned(pose, *told))
+                share, drift = slips(way, turn, robot.odometry.slip, noise)
+                ahead, aside, turn = ahead * share, aside * share, turn + drift
+            poses.append(reckoned(pose, (ahead, aside), turn))
         states.travel[:], states.path[:], states.odometry[:] = travel, paths, poses
 
     def turning(self, scene: Scene) -> Sequence[int]:

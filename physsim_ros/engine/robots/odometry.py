@@ -37,20 +37,17 @@ def reckoned(pose: Pose, way: Point, turn: float) -> Pose:
     return x + ahead, y + aside, yaw + turn
 
 
-def slipped(way: Point, turn: float, slip: Point, noise: Point) -> tuple[Point, float]:
+def slips(length: float, turn: float, slip: Point, noise: Point) -> Point:
     """
-    Return way and turn of a step with errors.
+    Return the errors of a step: the told way by the true one, and the error of the turn [rad].
 
-    :param way: of the wheels in this step, as seen from the robot [m]
+    :param length: of the way of the wheels in this step [m]
     :param turn: of the body in this step [rad]
     :param slip: drift of the odometry (`model.robots.Odometry`)
     :param noise: two normal numbers of mean 0 and variance 1
     """
-    length = abs(complex(*way))
-    if length > 0.0:
-        scale = 1.0 + noise[0] * slip[0] / math.sqrt(length)
-        way = way[0] * scale, way[1] * scale
-    return way, turn + noise[1] * slip[1] * math.sqrt(length + abs(turn))
+    share = 1.0 + noise[0] * slip[0] / math.sqrt(length) if length > 0.0 else 1.0
+    return share, noise[1] * slip[1] * math.sqrt(length + abs(turn))
 
 
 def noise_of_step(seed: int, name: str, step: int) -> Point:

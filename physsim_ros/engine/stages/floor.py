@@ -59,8 +59,8 @@ class FloorColumns(NamedTuple):
     Columns that follow from the scene alone, for the k bodies that the floor acts on.
 
     :ivar rows: (k,) intp: of the body table
-    :ivar robots: (k,) bool: which of them are robots
-    :ivar driven: (r,) bool: which of the robots are among them
+    :ivar robots: places of robots among them
+    :ivar driven: numbers of these robots among all of the scene
     :ivar most: (k,) float64: greatest change of velocity by friction in a step [m/s]
     :ivar lever: (k,) float64: mean distance of the points that bear it [m]
     :ivar gyration: (k,) float64: moment of inertia by mass [m²]
@@ -68,8 +68,8 @@ class FloorColumns(NamedTuple):
     """
 
     rows: Rows
-    robots: Flags
-    driven: Flags
+    robots: Rows
+    driven: Rows
     most: Floats
     lever: Floats
     gyration: Floats
@@ -78,22 +78,24 @@ class FloorColumns(NamedTuple):
 
 @lru_cache(maxsize=2)
 def _floor_columns(scene: Scene, dt: float) -> FloorColumns:
-    found, driven = [], []
-    friction = scene.floor_friction
+    found, robots, driven = [], [], []
+    friction, number = scene.floor_friction, 0
     for row, body in enumerate(scene.bodies):
         robot, form, acts = body.robot, body.shape.form, bool(friction[row] > 0.0)
-        if robot is not None:
-            driven.append(acts)
+        if acts and robot is not None:
+            robots.append(len(found))
+            driven.append(number)
+        number += robot is not None
         if acts:
             lever = lever_of(form) if robot is None else robot.drive.lever
             mass = body.total_mass
             response = (1.0 / mass, 1.0 / mass, 1.0 / (mass * form.gyration))
-            found.append((row, robot is not None, lever, form.gyration, response))
-    rows, robots, levers, gyrations, responses = zip(*found, strict=True) if found else ((),) * 5
+            found.append((row, lever, form.gyration, response))
+    rows, levers, gyrations, responses = zip(*found, strict=True) if found else ((),) * 4
     return FloorColumns(
         rows=np.array(rows, np.intp),
-        robots=np.array(robots, np.bool_),
-        driven=np.array(driven, np.bool_),
+        robots=np.array(robots, np.intp),
+        driven=np.array(driven, np.intp),
         most=friction[friction > 0.0] * (STANDARD_GRAVITY * dt),
         lever=np.array(levers, np.float64),
         gyration=np.array(gyrations, np.float64),
@@ -148,12 +150,13 @@ class Floor:
         """Bring bodies to the velocity of the floor under them, before the engine's step."""
         table, dt = context.table, context.dt
         columns = _floor_columns(table.scene, dt)
-        if not len(columns.rows) and not len(columns.driven):
+        if not len(columns.rows) and not len(table.scene.robot_rows):
             self._table, self._pushes = None, NO_PUSHES
             return
         mean, end = self._floor_under(context, columns)
         rows, most = columns.rows, columns.most
-        twists, places = context.twists[rows], table.places[rows]
+        # Of a few rows, `take` is four times as fast as indices.
+        twists, places = context.twists.take(rows, axis=0), table.places.take(rows)
         forces = read_numbers(places, BODY_FORCES)
         true = twists
         if np.count_nonzero(table.leads):
@@ -178,46 +181,47 @@ class Floor:
         added = ((true - moved) * kept + changes) / columns.response
         self._without = after + changes
         # A body at rest is not written, and so is not woken up.
-        changed = ((moved != twists) | (added != 0.0)).any(axis=1)
+        changed = np.logical_or.reduce((moved != twists) | (added != 0.0), axis=1)
         if table.sleepers:
             changed &= ~table.asleep[rows]
-        if np.count_nonzero(changed):
-            write_numbers(places[changed], BODY_TWIST, moved[changed])
-            write_numbers(places[changed], BODY_FORCES, (forces + added)[changed])
-            context.twists[rows[changed]] = moved[changed]
+        at = changed.nonzero()[0]
+        if len(at):
+            places, moved = places.take(at), moved.take(at, axis=0)
+            write_numbers(places, BODY_TWIST, moved)
+            write_numbers(places, BODY_FORCES, (forces + added).take(at, axis=0))
+            context.twists[rows.take(at)] = moved
 
     def end_step(self, context: StepContext) -> None:
         """Find what contacts and joints have changed, after the engine's step."""
         table = context.table
         columns = _floor_columns(table.scene, context.dt)
-        if not len(columns.rows) and not len(columns.driven):
+        if not len(columns.rows) and not len(table.scene.robot_rows):
             return
-        pushes = _NEWEST * (table.state[columns.rows, 3:] - self._without)
+        pushes = _NEWEST * (table.state.take(columns.rows, axis=0)[:, 3:] - self._without)
         pushes += (1.0 - _NEWEST) * self._pushes
         if table.sleepers:
             pushes[table.asleep[columns.rows]] = 0.0
-        pushes[np.abs(pushes).max(axis=1, initial=0.0) < _LEAST] = 0.0
+        pushes[np.maximum.reduce(np.abs(pushes), axis=1) < _LEAST] = 0.0
         self._pushes = pushes
-        if len(columns.driven):
+        if len(table.scene.robot_rows):
             self.drives.end_step(context)
         self._keep_awake(context)
 
     def _floor_under(self, context: StepContext, columns: FloorColumns) -> tuple[Floats, Floats]:
         """Return (k, 3) each: mean velocity of the floor in this step, and that at its end."""
+        under = np.zeros((2, len(columns.rows), 3))
+        if len(context.table.scene.robot_rows):
+            wheels = self.drives.begin_step(context)
+            under[:, columns.robots] = wheels.take(columns.driven, axis=1)
         velocities = floor_velocities(context)
-        still = np.zeros((len(columns.rows), 3))
-        mean = still if velocities is None else velocities[columns.rows]
-        end = mean.copy()
-        if len(columns.driven):
-            motion = self.drives.begin_step(context)
-            mean[columns.robots] += motion.mean[columns.driven]
-            end[columns.robots] += motion.end[columns.driven]
-        return mean, end
+        if velocities is not None:
+            under += velocities[columns.rows]
+        return under[0], under[1]
 
     def _keep_awake(self, context: StepContext) -> None:
         """Keep bodies awake that move as slowly as what falls asleep: robots, bodies on belts."""
         table = context.table
-        slow = table.sizes[:, 3:].max(axis=1) < IDLE_SPEED
+        slow = np.maximum.reduce(table.sizes[:, 3:], axis=1) < IDLE_SPEED
         slow &= table.columns.dynamic[:-1]
         if not np.count_nonzero(slow):
             return
