@@ -70,19 +70,19 @@ class Fan:
             so on; counts of these
         """
         lows, highs = (self._since_first(_diamond_angles(*each)) for each in (begin, end))
-        firsts = np.searchsorted(self._angles, lows, 'left')
-        counts = np.searchsorted(self._angles, highs, 'right') - firsts
+        firsts = self._angles.searchsorted(lows, 'left')
+        counts = self._angles.searchsorted(highs, 'right') - firsts
         # An interval passes the first ray; one that rounding has turned round is empty.
         counts += len(self._angles) * (lows - highs > _HALF_TURN)
         np.maximum(counts, 0, out=counts)
-        ends = np.cumsum(counts)
+        ends = counts.cumsum()
         total = int(ends[-1]) if len(ends) else 0
-        parted = np.searchsorted(ends, np.arange(0, total, _MOST_PAIRS), 'right').tolist()
+        parted = ends.searchsorted(np.arange(0, total, _MOST_PAIRS), 'right').tolist()
         for low, high in itertools.pairwise((*parted, len(ends))):
             part = slice(low, high)
             before = ends[part] - counts[part]
             places = np.arange(before[0], ends[high - 1])
-            places += np.repeat(firsts[part] - before, counts[part])
+            places += (firsts[part] - before).repeat(counts[part])
             yield part, places, counts[part]
 
     def meet(self, places: Ints, distances: Floats) -> None:

@@ -59,7 +59,7 @@ class Surroundings:
     def _edges(self) -> tuple[Floats, Floats, Floats, Floats]:
         """(e,) float64 each: x, y of the beginning of each edge and of its normal, world."""
         ax, ay, nx, ny = self.outlines.edges.T
-        x, y, cos, sin = (each[self.outlines.edge_rows] for each in self._turns)
+        x, y, cos, sin = (each.take(self.outlines.edge_rows) for each in self._turns)
         return (
             x + (cos * ax - sin * ay),
             y + (sin * ax + cos * ay),
@@ -71,7 +71,7 @@ class Surroundings:
     def _discs(self) -> tuple[Floats, Floats, Floats]:
         """(d,) float64 each: x, y, radius of each disc, world."""
         cx, cy, radius = self.outlines.discs.T
-        x, y, cos, sin = (each[self.outlines.disc_rows] for each in self._turns)
+        x, y, cos, sin = (each.take(self.outlines.disc_rows) for each in self._turns)
         return x + (cos * cx - sin * cy), y + (sin * cx + cos * cy), radius.copy()
 
     def nearest(self, rays: Rays, reach: float, row: int) -> Floats:
@@ -111,14 +111,15 @@ class Surroundings:
         first = outlines.first_edges
         if len(first) and (near[first] & ~np.logical_or.reduceat(front, first)).any():
             return False
-        at = np.flatnonzero(front & near & (height <= reach))
-        then = outlines.following[at]
-        nx, ny, height = nx[at], ny[at], -height[at]
+        at = (front & near & (height <= reach)).nonzero()[0]
+        then = outlines.following.take(at)
+        nx, ny, height = nx.take(at), ny.take(at), -height.take(at)
         # As seen from outside, an edge runs clockwise.
-        for part, rays, counts in fan.pairs((ax[then], ay[then]), (ax[at], ay[at])):
-            across = fan.x[rays] * np.repeat(nx[part], counts)
-            across += fan.y[rays] * np.repeat(ny[part], counts)
-            fan.meet(rays, np.repeat(height[part], counts) / across)
+        ends = (ax.take(then), ay.take(then)), (ax.take(at), ay.take(at))
+        for part, rays, counts in fan.pairs(*ends):
+            across = fan.x[rays] * nx[part].repeat(counts)
+            across += fan.y[rays] * ny[part].repeat(counts)
+            fan.meet(rays, height[part].repeat(counts) / across)
         return True
 
     def _meet_discs(self, fan: Fan, origin: Point, reach: float, near: Flags) -> bool:
@@ -129,15 +130,15 @@ class Surroundings:
         near = near[self.outlines.disc_rows]
         if (near & (away2 <= (radius + GRAZE) ** 2)).any():
             return False
-        at = np.flatnonzero(near & (away2 <= (radius + reach) ** 2))
-        cx, cy, radius = cx[at], cy[at], radius[at]
-        tangent = np.sqrt(away2[at] - radius * radius)
+        at = (near & (away2 <= (radius + reach) ** 2)).nonzero()[0]
+        cx, cy, radius = cx.take(at), cy.take(at), radius.take(at)
+        tangent = np.sqrt(away2.take(at) - radius * radius)
         right = cx * tangent + cy * radius, cy * tangent - cx * radius
         left = cx * tangent - cy * radius, cy * tangent + cx * radius
         for part, rays, counts in fan.pairs(right, left):
             x, y = fan.x[rays], fan.y[rays]
-            px, py = np.repeat(cx[part], counts), np.repeat(cy[part], counts)
+            px, py = cx[part].repeat(counts), cy[part].repeat(counts)
             aside, ahead = x * py - y * px, x * px + y * py
-            half2 = np.repeat(radius[part] * radius[part], counts) - aside * aside
+            half2 = (radius[part] * radius[part]).repeat(counts) - aside * aside
             fan.meet(rays, ahead - np.sqrt(np.maximum(half2, 0.0)))
         return True
