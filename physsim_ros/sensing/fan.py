@@ -52,24 +52,26 @@ class Fan:
     """
 
     def __init__(self, rays: Rays) -> None:
-        self.x, self.y = np.tile(rays.x, 2), np.tile(rays.y, 2)
+        # `np.tile` takes four times as long.
+        self.x, self.y = (np.concatenate((each, each)) for each in rays[1:])
         angles = _diamond_angles(rays.x, rays.y)
         self._first = angles[0]
         self._angles = self._since_first(angles)
         self._distances = np.full(2 * len(angles), np.inf)
 
-    def pairs(
-        self, begin: tuple[Floats, Floats], end: tuple[Floats, Floats]
-    ) -> Iterator[tuple[slice, Ints, Ints]]:
+    def pairs(self, x: Floats, y: Floats) -> Iterator[tuple[slice, Ints, Ints]]:
         """
         Yield the rays in each of m intervals of less than half a turn, ends included.
 
-        :param begin: (m,) float64 each: x, y of vectors at which the intervals begin
-        :param end: the same, at which they end, counter-clockwise
+        :param x: (2, m) float64: of vectors at which the intervals begin, and at which they end,
+            counter-clockwise
+        :param y: (2, m) float64: of the same
         :return: some of the intervals; places of the rays in the first one, in the second one and
             so on; counts of these
         """
-        lows, highs = (self._since_first(_diamond_angles(*each)) for each in (begin, end))
+        if not x.size:
+            return
+        lows, highs = self._since_first(_diamond_angles(x, y))
         firsts = self._angles.searchsorted(lows, 'left')
         counts = self._angles.searchsorted(highs, 'right') - firsts
         # An interval passes the first ray; one that rounding has turned round is empty.

@@ -112,11 +112,10 @@ class Surroundings:
         if len(first) and (near[first] & ~np.logical_or.reduceat(front, first)).any():
             return False
         at = (front & near & (height <= reach)).nonzero()[0]
-        then = outlines.following.take(at)
         nx, ny, height = nx.take(at), ny.take(at), -height.take(at)
         # As seen from outside, an edge runs clockwise.
-        ends = (ax.take(then), ay.take(then)), (ax.take(at), ay.take(at))
-        for part, rays, counts in fan.pairs(*ends):
+        ends = np.array((outlines.following.take(at), at))
+        for part, rays, counts in fan.pairs(ax.take(ends), ay.take(ends)):
             across = fan.x[rays] * nx[part].repeat(counts)
             across += fan.y[rays] * ny[part].repeat(counts)
             fan.meet(rays, height[part].repeat(counts) / across)
@@ -133,9 +132,10 @@ class Surroundings:
         at = (near & (away2 <= (radius + reach) ** 2)).nonzero()[0]
         cx, cy, radius = cx.take(at), cy.take(at), radius.take(at)
         tangent = np.sqrt(away2.take(at) - radius * radius)
-        right = cx * tangent + cy * radius, cy * tangent - cx * radius
-        left = cx * tangent - cy * radius, cy * tangent + cx * radius
-        for part, rays, counts in fan.pairs(right, left):
+        # From the right tangent to the left one.
+        ends_x = np.array((cx * tangent + cy * radius, cx * tangent - cy * radius))
+        ends_y = np.array((cy * tangent - cx * radius, cy * tangent + cx * radius))
+        for part, rays, counts in fan.pairs(ends_x, ends_y):
             x, y = fan.x[rays], fan.y[rays]
             px, py = cx[part].repeat(counts), cy[part].repeat(counts)
             aside, ahead = x * py - y * px, x * px + y * py

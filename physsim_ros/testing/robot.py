@@ -114,10 +114,10 @@ class Robot:
         return topics.commands.is_heard and topics.has_subscribers
 
     def _view(self) -> View:
-        frame = self._node.frame
-        if frame is None or self.name not in self._node.fleet.robots:
+        fleet = self._node.fleet
+        if fleet.view is None or self.name not in fleet.robots:
             raise UnknownName(f'there is no robot {self.name!r}')
-        return View(frame, self._node.fleet.before)
+        return fleet.view
 
     @property
     def _row(self) -> int:

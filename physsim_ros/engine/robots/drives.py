@@ -140,11 +140,12 @@ class Drives:
             way = abs(complex(ahead, aside))
             travel.append((x + ahead, y + aside, around + mean[2] * context.dt))
             paths.append((length + way, turned + abs(turn)))
+            told = ahead, aside, turn
             if any(robot.odometry.slip):
                 noise = noise_of_step(context.settings.seed, name, context.step)
                 share, drift = slips(way, turn, robot.odometry.slip, noise)
-                ahead, aside, turn = ahead * share, aside * share, turn + drift
-            poses.append(reckoned(pose, (ahead, aside), turn))
+                told = ahead * share, aside * share, turn + drift
+            poses.append(reckoned(pose, told))
         states.travel[:], states.path[:], states.odometry[:] = travel, paths, poses
 
     def turning(self, scene: Scene) -> Sequence[int]:

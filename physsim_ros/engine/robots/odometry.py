@@ -23,17 +23,18 @@ from physsim_ros.model.transform import Point, Pose, rotated
 _BLOCK = 64
 
 
-def reckoned(pose: Pose, way: Point, turn: float) -> Pose:
+def reckoned(pose: Pose, move: Pose) -> Pose:
     """
     Return a reckoned pose after a step.
 
     :param pose: before it [m, rad]
-    :param way: of the wheels in this step, as seen from the robot [m]
-    :param turn: of the body in this step [rad]
+    :param move: way of the wheels in this step, as seen from the robot [m], and turn of the body
+        [rad]
     """
     x, y, yaw = pose
+    ahead, aside, turn = move
     chord = chord_by_arc(turn)
-    ahead, aside = rotated((way[0] * chord, way[1] * chord), yaw + turn / 2)
+    ahead, aside = rotated((ahead * chord, aside * chord), yaw + turn / 2)
     return x + ahead, y + aside, yaw + turn
 
 

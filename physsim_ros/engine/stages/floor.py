@@ -35,7 +35,7 @@ from physsim_ros.engine.settings import IDLE_SPEED
 from physsim_ros.engine.stages.conveyors import floor_velocities
 from physsim_ros.engine.stages.limit_surface import friction_of
 from physsim_ros.engine.step_context import StepContext
-from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import NO_PUSHES
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import STANDARD_GRAVITY

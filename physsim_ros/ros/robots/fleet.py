@@ -19,7 +19,7 @@ from typing import Any
 from physsim_ros.model.errors import InPast, Refusal
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.messages import View
 from physsim_ros.ros.robots.robot_topics import RobotTopics
@@ -39,7 +39,7 @@ class Fleet:
     :param requests: the queue that commands are submitted to
 
     :ivar robots: topics of each, by the name of its body, in the order of the scene
-    :ivar before: snapshot of another time than the last frame's, shown before it; None is none
+    :ivar view: the last frame, as the sensors of all robots see it; None before the first
     """
 
     def __init__(self, node: Node, values: Mapping[str, Any], requests: RequestQueue) -> None:
@@ -48,8 +48,7 @@ class Fleet:
         self._values = values
         self._requests = requests
         self._scene: Scene | None = None
-        self.before: Snapshot | None = None
-        self._shown: Snapshot | None = None
+        self.view: View | None = None
         self._look_due = 0.0
         # Commands that were refused since the past is shown, by body.
         self._refused: dict[str, int] = {}
@@ -135,10 +134,12 @@ class Fleet:
 
     def publish(self, frame: Frame) -> None:
         """Publish what is due at a frame, after topics have come and gone with its scene."""
-        snapshot, before = frame.snapshot, self._shown
-        if before is None or before.stamp != snapshot.stamp:
-            self.before = before
-        self._shown = snapshot
+        snapshot, last = frame.snapshot, self.view
+        stands = last is not None and last.snapshot.stamp == snapshot.stamp
+        before = None
+        if last is not None:
+            before = last.before if stands else last.snapshot
+        self.view = view = View(frame, before)
         frozen = frame.past and self._values['robots_in_past'] == 'freeze'
         if frozen or (before is not None and snapshot.stamp < before.stamp):
             # The scan that was to be answered is of a time that is not shown.
@@ -147,12 +148,10 @@ class Fleet:
         if snapshot.scene is not self._scene:
             self._scene = snapshot.scene
             self._update(snapshot.scene)
-        if not self.robots or (before is not None and before.stamp == snapshot.stamp):
-            return
-        if frozen:
+        if stands or frozen or not self.robots:
             return
         self._deadline = None
-        view, rows = View(frame, before), snapshot.scene.robot_rows
+        rows = snapshot.scene.robot_rows
         for number, (row, robot) in enumerate(
             zip(rows.tolist(), self.robots.values(), strict=True)
         ):

@@ -59,7 +59,7 @@ class View:
     A frame as the sensors of all robots see it; what they share is made when it is first needed.
 
     :param frame: that is shown
-    :param before: snapshot of the frame before; None is none
+    :param before: the last snapshot of another time, which was shown before it; None is none
     """
 
     def __init__(self, frame: Frame, before: Snapshot | None) -> None:
@@ -67,7 +67,11 @@ class View:
         self.contacts = NO_CONTACTS if frame.contacts is None else frame.contacts
         self.before = before
         self.seed = frame.snapshot.scene.settings.seed
-        self.stamp = time_of(frame.snapshot.stamp)
+
+    @cached_property
+    def stamp(self) -> Time:
+        """Simulation time of the frame."""
+        return time_of(self.snapshot.stamp)
 
     @cached_property
     def surroundings(self) -> Surroundings:
