@@ -18,9 +18,10 @@ from pathlib import Path
 import signal
 import sys
 from tempfile import TemporaryDirectory
-from test.outside import Outside, own_domain, Program
+from test.outside import Outside, Program
 import time
 
+from physsim_ros.testing.domain import own_domain
 import psutil
 import rclpy
 

@@ -17,7 +17,7 @@ import random
 import re
 import statistics
 import tempfile
-from test.outside import Outside, own_domain
+from test.outside import Outside
 from test.sketchpad.chromium import circle, launched_chromium, Sheet
 
 from physsim_ros.files import save_world
@@ -26,6 +26,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
+from physsim_ros.testing.domain import own_domain
 from playwright.sync_api import sync_playwright
 
 # Bodies, and pixels of the screen to one of the page.

@@ -19,9 +19,9 @@ import struct
 import subprocess
 import sys
 import tempfile
-from test.outside import own_domain
 import time
 
+from physsim_ros.testing.domain import own_domain
 import psutil
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest
 from tornado.websocket import websocket_connect, WebSocketClientConnection

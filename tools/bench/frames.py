@@ -17,7 +17,6 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from test.outside import own_domain
 import time
 from typing import NamedTuple
 
@@ -25,6 +24,7 @@ from geometry_msgs.msg import Pose, PoseArray
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.programs.physsim import reduce_latency
 from physsim_ros.simulation.world import World
+from physsim_ros.testing.domain import own_domain
 import rclpy
 from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter

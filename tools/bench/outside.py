@@ -15,12 +15,12 @@ from pathlib import Path
 import subprocess
 import sys
 import tempfile
-from test.outside import own_domain
 import time
 
 from physsim_ros.files import save_world
 from physsim_ros.model.requests import Restore
 from physsim_ros.simulation.world import World
+from physsim_ros.testing.domain import own_domain
 import psutil
 import rclpy
 from rclpy.executors import SingleThreadedExecutor

@@ -16,11 +16,11 @@ import math
 import statistics
 import subprocess
 import sys
-from test.outside import own_domain
 import time
 
 import numpy as np
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.testing.domain import own_domain
 import rclpy
 from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter

@@ -15,10 +15,10 @@ from functools import partial
 import statistics
 import subprocess
 import sys
-from test.outside import own_domain
 import time
 
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.testing.domain import own_domain
 from physsim_ros.view import Viewer
 from physsim_ros.view.sinks.page_endpoint import PageEndpoint, Send
 import rclpy

@@ -27,19 +27,12 @@ def measure(count: int, seconds: int) -> None:
     history = simulation.past.timeline.history
     frames, stalls = [], []
     for _ in range(60 * seconds):
-        before = history.checkpoints[-1]
+        before = history.keyframes[-1]
         took = timed(simulation.advance_frame)
-        (frames if history.checkpoints[-1] is before else stalls).append(took)
+        (frames if history.keyframes[-1] is before else stalls).append(took)
     head, oldest = history.head, history.oldest
     usual = statistics.median(frames)
-    keys = [mark.key for mark in history.checkpoints]
-    arrays = [
-        array
-        for key in keys
-        for array in (key.state, key.free, key.memory.pairs, key.memory.hashes)
-    ]
-    bytes_kept = sum(array.nbytes for array in arrays)
-    bytes_kept += sum(key.memory.impulses.nbytes + key.memory.ids.nbytes for key in keys)
+    bytes_kept = sum(each.size for each in history.keyframes)
     rng = random.Random(count)
     print(
         f'{count:6} {usual:10.2f} {statistics.median(stalls) - usual:12.1f}'

@@ -20,7 +20,6 @@ import subprocess
 import sys
 import tempfile
 from test.building import spawn
-from test.outside import own_domain
 import time
 
 from physsim_ros.files import save_world, shipped_robot
@@ -30,6 +29,7 @@ from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import World
 from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing.domain import own_domain
 import pytest
 
 from .outside import cpu_seconds, Remote

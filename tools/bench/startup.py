@@ -13,10 +13,10 @@ import signal
 import statistics
 import subprocess
 import sys
-from test.outside import own_domain
 import time
 
 from geometry_msgs.msg import PoseArray
+from physsim_ros.testing.domain import own_domain
 import rclpy
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node

@@ -15,9 +15,10 @@ import itertools
 import math
 from pathlib import Path
 import tempfile
-from test.outside import Outside, own_domain
+from test.outside import Outside
 from test.sketchpad.chromium import launched_chromium, Sheet, started_world
 
+from physsim_ros.testing.domain import own_domain
 from PIL import Image
 from playwright.sync_api import sync_playwright
 

@@ -40,6 +40,7 @@ from physsim_ros.model.checkpoint import NO_PUSHES
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import STANDARD_GRAVITY
 from physsim_ros.model.shapes import lever_of
+from physsim_ros.model.transform import Twist
 
 # The share of the push of the last step that the next one expects where the floor stands still.
 # With all of it, bodies would stay pressed against each other by friction alone, for ever; so they
@@ -78,7 +79,8 @@ class FloorColumns(NamedTuple):
 
 @lru_cache(maxsize=2)
 def _floor_columns(scene: Scene, dt: float) -> FloorColumns:
-    found, robots, driven = [], [], []
+    found: list[tuple[int, float, float, Twist]] = []
+    robots, driven = [], []
     friction, number = scene.floor_friction, 0
     for row, body in enumerate(scene.bodies):
         robot, form, acts = body.robot, body.shape.form, bool(friction[row] > 0.0)

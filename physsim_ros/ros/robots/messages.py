@@ -70,7 +70,7 @@ class View:
 
     @cached_property
     def stamp(self) -> Time:
-        """Simulation time of the frame."""
+        """Time of the frame, in the simulation."""
         return time_of(self.snapshot.stamp)
 
     @cached_property
