@@ -13,6 +13,8 @@ import re
 import sys
 from typing import Any
 
+import numpy as np
+
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
@@ -33,6 +35,10 @@ html_search_scorer = str(ROOT / 'docs' / 'search_scorer.js')
 default_role = 'literal'
 # Headings that links name by their text, as in the repository.
 myst_heading_anchors = 3
+
+# Sphinx prints every member that it finds; those of `engine.memory` are arrays of all memory, whose
+# first words no process may read.
+np.set_printoptions(override_repr=lambda array: f'<array of {array.shape}>')
 
 # A page for each module, from its docstrings.
 apidoc_modules = [
