@@ -19,6 +19,7 @@ Without it: nothing stops, nothing drives (`test/laws/test_floor.py`).
 from __future__ import annotations
 
 from functools import lru_cache
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -32,15 +33,14 @@ from physsim_ros.engine.memory import (
 )
 from physsim_ros.engine.robots.drives import Drives
 from physsim_ros.engine.settings import IDLE_SPEED
-from physsim_ros.engine.stages.conveyors import floor_velocities
 from physsim_ros.engine.stages.limit_surface import friction_of
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import NO_PUSHES
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import STANDARD_GRAVITY
-from physsim_ros.model.shapes import lever_of
-from physsim_ros.model.transform import Twist
+from physsim_ros.model.shapes import contains, lever_of
+from physsim_ros.model.transform import rotated_each, Twist
 
 # The share of the push of the last step that the next one expects where the floor stands still.
 # With all of it, bodies would stay pressed against each other by friction alone, for ever; so they
@@ -215,7 +215,7 @@ class Floor:
         if len(context.table.scene.robot_rows):
             wheels = self.drives.begin_step(context)
             under[:, columns.robots] = wheels.take(columns.driven, axis=1)
-        velocities = floor_velocities(context)
+        velocities = _conveyor_velocities(context)
         if velocities is not None:
             under += velocities[columns.rows]
         return under[0], under[1]
@@ -228,7 +228,7 @@ class Floor:
         if not np.count_nonzero(slow):
             return
         rows = [row for row in self.drives.turning(table.scene) if slow[row]]
-        velocities = floor_velocities(context)
+        velocities = _conveyor_velocities(context)
         if velocities is not None:
             rows += np.flatnonzero(velocities.any(axis=1) & slow & ~table.asleep).tolist()
         for row in rows:
@@ -241,3 +241,40 @@ def _bounded(pushes: Floats, columns: FloorColumns) -> Floats:
     size = np.hypot(np.hypot(pushes[:, 0], pushes[:, 1]), around) / (_MOST_EXPECTED * columns.most)
     result: Floats = pushes / np.maximum(size, 1.0)[:, None]
     return result
+
+
+@lru_cache(maxsize=2)
+def _conveyors_of(scene: Scene) -> tuple[int, ...]:
+    """Return the rows of the conveyors of a scene."""
+    return tuple(row for row, body in enumerate(scene.bodies) if any(body.surface_velocity))
+
+
+def _conveyor_velocities(context: StepContext) -> Floats | None:
+    """
+    Return the velocity of the conveyors under each body.
+
+    A body is on a conveyor where its centre of mass is inside of it; of several, the one that was
+    spawned last counts.
+
+    :return: (n, 3) float64: at the centre of mass, world axes [m/s], turn [rad/s]; None where the
+        floor stands still
+    """
+    table, rows = context.table, _conveyors_of(context.table.scene)
+    if not rows:
+        return None
+    velocities = np.zeros((len(table.bodies), 3))
+    centers = context.poses[:, :2]
+    for row in rows:
+        body, yaw = table.scene.bodies[row], context.poses[row, 2]
+        # The engine's origin of a body is its centre of mass; of an anchored one, its own.
+        around = centers - context.poses[row, :2]
+        local = rotated_each(around, -yaw) + table.columns.offsets[row]
+        on = contains(body.shape.form.pieces, *local.T)
+        on[row] = False
+        vx, vy, spin = context.twists[row].tolist()
+        sx, sy = body.surface_velocity
+        cos, sin = math.cos(yaw), math.sin(yaw)
+        velocities[on, 0] = vx + cos * sx - sin * sy - spin * around[on, 1]
+        velocities[on, 1] = vy + sin * sx + cos * sy + spin * around[on, 0]
+        velocities[on, 2] = spin
+    return velocities
