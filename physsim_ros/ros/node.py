@@ -233,7 +233,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     def _set_frozen(self, frozen: bool) -> str:  # noqa: FBT001 - the value of a parameter
         """Set whether pages of pupils change nothing; return a message about it."""
         parameters.set_value(self, 'sketchpad_frozen', frozen)
-        return 'the pages are frozen' if frozen else 'the pages are free again'
+        return 'the pages are frozen' if frozen else 'the pages are no longer frozen'
 
     def _set_locked(self, names: tuple[str, ...]) -> str:
         """Set the bodies that pages of pupils do not change; return a message about it."""

@@ -48,7 +48,7 @@ def call(sheet: Sheet, name: str) -> None:
     """Choose a name in the dialog of people."""
     sheet.press('People')
     sheet.page.get_by_role('textbox', name='Your name').fill(name)
-    sheet.press('That is my name')
+    sheet.press('Use this name')
 
 
 def test_a_teacher_freezes_a_pupil_and_sees_who_did_what(pages: tuple[Sheet, Sheet]) -> None:

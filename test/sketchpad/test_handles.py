@@ -100,7 +100,7 @@ def test_the_square_handle_scales_a_body(sheet: Sheet) -> None:
 
 
 def test_a_body_is_where_numbers_say(sheet: Sheet) -> None:
-    sheet.page.get_by_text('Type numbers').click()
+    sheet.page.get_by_text('Enter numbers').click()
     for label, text in (('x [m]', '2'), ('y [m]', '3.5'), ('Angle [°]', '30')):
         number(sheet, label, text)
     sheet.wait('Math.abs(physsim.bodies["box/0"][2] - Math.PI / 6) < 1e-6')

@@ -46,7 +46,7 @@ def open_lesson(sheet: Sheet, name: str) -> None:
 
 def check(sheet: Sheet, figure: str, says: str) -> None:
     """Check a figure, and wait for what is said."""
-    sheet.page.get_by_role('textbox', name='Your figure').fill(figure)
+    sheet.page.get_by_role('textbox', name='Your answer').fill(figure)
     sheet.press('Check')
     sheet.page.locator('#lesson p[aria-live]').get_by_text(says).wait_for()
 

@@ -130,7 +130,7 @@ def test_the_course_that_was_left_stays_as_a_second_line(sheet: Sheet) -> None:
     slider = sheet.page.get_by_role('slider', name='Time', exact=True)
     slider.fill('0.5')
     sheet.wait('Math.abs(physsim.time - 0.5) < 0.02')
-    sheet.page.get_by_text('Type numbers').click()
+    sheet.page.get_by_text('Enter numbers').click()
     field = sheet.page.get_by_label('vy [m/s]')
     field.fill('5')
     field.press('Enter')

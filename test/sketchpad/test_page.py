@@ -348,7 +348,7 @@ def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, addre
     sheet.drag(*circle(1.0, 5.0, 0.8))
     sheet.wait_for_new(before)
     hint = sheet.page.locator('#hint')
-    hint.get_by_text('Time stands still').wait_for()
+    hint.get_by_text('Time is paused').wait_for()
     # By whomever it is played.
     other = Sheet(chromium, address)
     other.press('Play')

@@ -59,7 +59,7 @@ export class BodyPanel {
       inRow(
         textButton('Copy', () => this.copy()),
         textButton('Delete body', () => this.app.selection.deleteBodies(), 'danger')),
-      createElement('p', {hidden: body.anchored, textContent: 'Drag the ring of its arrow, the round handle to turn it, the square one to scale it.'}),
+      createElement('p', {hidden: body.anchored, textContent: 'Drag the tip of the arrow to set the velocity, the round handle to turn, the square one to scale.'}),
       ...app.trail.switches(name),
       this.plots.element,
     ], isDrawn(name) ? name : '');

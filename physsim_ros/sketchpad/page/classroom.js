@@ -87,7 +87,7 @@ export class Classroom {
       localStorage.setItem(NAME, input.value.trim());
       connection.send('person', {name: input.value.trim()});
       app.gallery.dialog.close();
-    }}, input, createElement('button', {textContent: 'That is my name'}));
+    }}, input, createElement('button', {textContent: 'Use this name'}));
     const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role}) =>
       createElement('li', {}, dot(name), `${name}${page === this.page ? ' (you)' : ''}${role === 'teach' ? ', teacher' : ''}`,
         ...teacher ? [textButton(`Delete what ${name} drew`, () => connection.send('clear_of', {person: name}), 'danger')] : [])));

@@ -58,7 +58,7 @@ export class Gallery {
     this.show(WORLDS, inRow(textButton('Empty world', () => this.#upload(EMPTY)),
       createElement('label', {className: 'file'}, 'Open a file', file)),
     ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own)] : [],
-    ...this.app.lessons.section(), createElement('h3', {textContent: 'To explore, the simplest first'}), cards(shipped));
+    ...this.app.lessons.section(), createElement('h3', {textContent: 'To explore, simplest first'}), cards(shipped));
   }
 
   /** @param {typeof this.worlds[0]} world */
@@ -178,7 +178,7 @@ export class Gallery {
         const text = await fetch('/unsaved').then((response) => response.ok ? response.text() : null, () => null);
         if (text !== null && await this.#upload(text)) this.app.connection.send('forget');
       }),
-      textButton('Forget it', () => {
+      textButton('Discard it', () => {
         remove();
         this.app.connection.send('forget');
       })], {kind: 'docked', shown: 0});
@@ -212,7 +212,7 @@ export class Gallery {
     }
     const {ok, message} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
       .then((response) => response.json().catch(() => ({ok: false, message: 'The server refused this file'})),
-        () => ({ok: false, message: 'Not done: the server is gone'}));
+        () => ({ok: false, message: 'Not done: the server is not reachable'}));
     this.app.notes.showMessage(this.app.words.tell({message}), {ok});
     if (ok) {
       this.name = '';
@@ -251,7 +251,7 @@ export class Gallery {
     const packed = /^#world=(.+)/.exec(location.hash)?.[1];
     if (!packed || this.app.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
-    this.show('This link holds a world', inRow(textButton('Open it', () => this.#openLink(packed))));
+    this.show('This link contains a world', inRow(textButton('Open it', () => this.#openLink(packed))));
   }
 
   /** @param {string} packed */

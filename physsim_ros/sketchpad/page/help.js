@@ -9,16 +9,16 @@ import {TOOLS} from './toolbar.js';
 /** @import {App} from './types.js' */
 
 const TOUCHED = matchMedia('(pointer: coarse)');
-const GESTURES = [['Draw', 'A finger and the pen; with a stylus, the stylus draws and a finger moves the view'],
+const GESTURES = [['Draw', 'The pen, with a finger; if you use a stylus, it draws, and a finger moves the view'],
   ['Grab and throw', 'The hand, on a body; let go while it moves'],
-  ['Place and turn', 'While paused: the hand on a body, and a second finger that turns about it'],
-  ['Drive a robot', 'Tap it, and drag the knob of its panel'], ['Change a body', 'Tap it, by pen, hand or lasso'], ['Move the view', 'Two fingers; or the hand, beside the bodies'],
-  ['Zoom', 'Two fingers, apart or together'], ['Go back in time', 'Drag the time line'],
-  ['Say what a button does', 'Keep a finger on it']];
+  ['Place and turn', 'While paused: the hand on a body; a second finger turns it'],
+  ['Drive a robot', 'Tap it, and drag the knob of its panel'], ['Change a body', 'Tap it with pen, hand or lasso'], ['Move the view', 'Two fingers; or the hand, away from bodies'],
+  ['Zoom', 'Pinch with two fingers'], ['Go back in time', 'Drag the time line'],
+  ['See what a button does', 'Hold a finger on it']];
 const MOVING = [['Space', 'Play or pause; held, dragging moves the view'],
-  ['Arrow keys', 'Move the cursor on the canvas, with Shift finely; Enter presses and lifts the tool'],
-  ['R, Shift+R', 'Turn the body in the hand, while paused'], ['N, Shift+N', 'Choose the next body, the last'],
-  ['W A S D', 'Drive the robot that is chosen; Q and E push it aside where its drive can'], ['Shift, held', 'What is drawn or dragged by the mouse snaps to the grid; handles turn by 15° and scale by quarters'], ['Delete', 'Delete what is chosen'], ['Esc', 'Drop what is unfinished'], ['+ and −, F', 'Zoom; frame the world'],
+  ['Arrow keys', 'Move the cursor, with Shift in small steps; Enter presses and lifts the tool'],
+  ['R, Shift+R', 'Turn the body in the hand, while paused'], ['N, Shift+N', 'Select the next or the previous body'],
+  ['W A S D', 'Drive the selected robot; Q and E move it sideways, if its drive can'], ['Shift, held', 'Drawing and dragging with the mouse snaps to the grid; handles turn by 15° and scale by quarters'], ['Delete', 'Delete the selection'], ['Esc', 'Cancel'], ['+ and −, F', 'Zoom; frame the world'],
   ['Enter', 'Close a polygon'], ['?', 'This list']];
 
 /** @param {App} app */

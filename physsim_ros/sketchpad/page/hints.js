@@ -11,11 +11,11 @@ import {elementOf} from './dom.js';
 /** Id, text, the button that is pointed at, and when it is true. @type {[string, string, string, ((world: WorldState) => boolean)?][]} */
 const STEPS = [
   ['draw', 'Draw a circle, a box, a line: it comes to life.', ''],
-  ['play', 'Time stands still: press play.', 'Play', ({paused}) => paused],
-  ['throw', 'A small circle over two bodies is an axle. Or take the hand, and throw one.', 'Hand'],
+  ['play', 'Time is paused: press Play.', 'Play', ({paused}) => paused],
+  ['throw', 'A small circle over two bodies is an axle. Or take the hand and throw one.', 'Hand'],
   ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind'],
-  ['change', 'This is the past. Draw or move something here, and it goes otherwise.', '', ({timeline: {newest, now}}) => now < newest],
-  ['ghost', 'Dashed: how it went before. The ring on the time line goes back there.', 'Play', ({timeline}) => Boolean(timeline.courses?.length)],
+  ['change', 'This is the past. Draw or move something here, and the future changes.', '', ({timeline: {newest, now}}) => now < newest],
+  ['ghost', 'Dashed: what happened before. The ring on the time line returns there.', 'Play', ({timeline}) => Boolean(timeline.courses?.length)],
 ];
 const KEY = 'physsim-hints';
 const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step

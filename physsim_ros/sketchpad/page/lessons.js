@@ -88,7 +88,7 @@ export class Lessons {
    */
   #work({title, hint, measure, unit, figure, within, answer}) {
     const result = createElement('p', {'aria-live': 'polite'}), shown = unit === '1' ? '' : unit;
-    const input = createElement('input', {inputMode: 'decimal', required: true, autocomplete: 'off', 'aria-label': `Your figure ${shown}`});
+    const input = createElement('input', {inputMode: 'decimal', required: true, autocomplete: 'off', 'aria-label': `Your answer ${shown}`});
     const solution = folded('Answer', answer);
     solution.hidden = true;
     const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {

@@ -33,7 +33,7 @@ export class Numbers {
     this.values = ENERGIES.map(() => createElement('span'));
     this.inputs = new Map(TYPED.map(([key]) => [key, createElement('input', {type: 'number', step: 'any',
       onchange: () => this.#type(key)})]));
-    const typed = createElement('details', {}, createElement('summary', {textContent: 'Type numbers'}),
+    const typed = createElement('details', {}, createElement('summary', {textContent: 'Enter numbers'}),
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
     this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line, typed,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));

@@ -55,7 +55,7 @@ export class PlotWindow {
       return input;
     };
     this.element.replaceChildren(createElement('header', {},
-      inRow(select('y', 'Upwards'), createElement('span', {textContent: 'against'}), select('x', 'To the right'),
+      inRow(select('y', 'Upwards'), createElement('span', {textContent: 'over'}), select('x', 'To the right'),
         this.#adder(), textButton('Copy table', () => this.#copyTable())),
       iconButton('Close the plot', 'close', () => this.close())), this.legend, this.canvas, this.reading);
     this.element.hidden = false;

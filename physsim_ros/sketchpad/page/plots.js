@@ -21,7 +21,7 @@ export class Plots {
     this.name = '';
     this.canvases = SHOWN.map((key) => createElement('canvas', {role: 'img', 'aria-label': QUANTITIES[key].label}));
     this.element = createElement('section', {className: 'plots', 'aria-label': 'Plots'}, ...this.canvases,
-      createElement('p', {textContent: 'Broad: free flight, by its formula. Dashed: the course that was left.'}),
+      createElement('p', {textContent: 'Broad: free flight by its formula. Dashed: the earlier course.'}),
       inRow(textButton('Large plot', () => app.plotWindow.open([this.name])),
         textButton('Table (CSV)', () => app.plotWindow.saveTable([this.name]))));
     app.connection.on('frame', () => this.#drawSoon());

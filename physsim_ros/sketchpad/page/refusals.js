@@ -22,7 +22,7 @@ export class Refusals {
     const {connection} = app;
     connection.on('sent', (message) => this.#note(message));
     connection.on('unsent', (message) => {
-      if (!QUIET.includes(message.type)) this.#show('Not done: the server is gone', placeOf(message));
+      if (!QUIET.includes(message.type)) this.#show('Not done: the server is not reachable', placeOf(message));
     });
     connection.on('answer', ({request, ok, code, message, subject, values}) => {
       const place = this.places.get(request) ?? {point: null, names: []};

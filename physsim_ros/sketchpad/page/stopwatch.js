@@ -36,7 +36,7 @@ export class Stopwatch {
     const {app} = this;
     app.selection.select([]);
     app.panel.show('Measure', [
-      createElement('p', {textContent: 'Ruler and protractor are among the tools. A gate is a body that lets others through: tap one to make it so.'}),
+      createElement('p', {textContent: 'Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.'}),
       createElement('h3', {textContent: 'Stopwatch'}),
       this.#chooser('start', 'Starts when touched', 'at 0 s'),
       this.#chooser('stop', 'Stops when touched', 'never'),

@@ -14,7 +14,7 @@ export const TIME = [
 /** @type {[string, string, string][]} */
 export const EDIT = [['Undo', 'undo', 'Ctrl+Z'], ['Redo', 'redo', 'Ctrl+Y'], ['Reset', 'reset', '0']];
 /** Additions to names of buttons. */
-const MORE = new Map([['step', ': one frame on'], ['reset', ': back to the beginning']]);
+const MORE = new Map([['step', ': one frame forward'], ['reset', ': back to the beginning']]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
 const WATCHED = 1500; // ms over which the pace is measured
 const SLOW = 0.9; // share of the speed asked for below which the pace is told

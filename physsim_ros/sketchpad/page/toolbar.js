@@ -11,31 +11,31 @@ import {Protractor, Ruler} from './tools/measuring.js';
 
 /** Groups of tools: id, name, key, hint. @type {[string, string, string, string][][]} */
 export const TOOLS = [[
-  ['pen', 'Pen', 'p', 'draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x anchors'],
+  ['pen', 'Pen', 'p', 'draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x an anchor'],
   ['hand', 'Hand', 'h', 'drag and throw bodies; tap one to change it'],
-  ['lasso', 'Lasso', 's', 'choose several bodies; drag them, or delete them'],
+  ['lasso', 'Lasso', 's', 'select several bodies, to drag or delete them'],
 ], [
   ['circle', 'Circle', 'c', 'from the centre to the rim'],
   ['circle_diameter', 'Circle by diameter', 'd', 'from edge to edge'],
-  ['rectangle', 'Rectangle', 'b', 'drag one side, then click the side across'],
-  ['polygon', 'Polygon', 'g', 'corner after corner; the first one again closes it'],
+  ['rectangle', 'Rectangle', 'b', 'drag one side, then click the opposite one'],
+  ['polygon', 'Polygon', 'g', 'click each corner; click the first one again to close it'],
   ['wall', 'Wall', 'w', 'a fixed line'],
 ], [
   ['anchor', 'Anchor', 'a', 'fix a body to the background'],
-  ['release', 'Release', 'e', 'free a body of anchor, pins and axles'],
+  ['release', 'Release', 'e', 'remove anchor, pins and axles of a body'],
   ['pin', 'Pin', 'i', 'weld two bodies'],
   ['axle', 'Axle', 'x', 'let two bodies turn about a point'],
   ['spring', 'Spring', 'z', 'from body to body, or to the background'],
-  ['rod', 'Rod', 'o', 'keeps the distance of two points'],
+  ['rod', 'Rod', 'o', 'keeps two points at a distance'],
   ['rope', 'Rope', 'y', 'pulls, but does not push'],
-  ['chain', 'Chain', '8', 'links from end to end; a slack one is drawn by the pen, as a rope'],
+  ['chain', 'Chain', '8', 'links from end to end; for a slack one, draw it with the pen as a rope'],
 ], [
   ['velocity', 'Velocity', 'v', 'drag an arrow from a body: 1 m is 1 m/s'],
-  ['gravity', 'Gravity', 'u', 'drag an arrow: down is there'],
-  ['delete', 'Delete', 't', 'take a body away'],
+  ['gravity', 'Gravity', 'u', 'drag an arrow: that way is down'],
+  ['delete', 'Delete', 't', 'remove a body'],
 ], [
-  ['ruler', 'Ruler', 'm', 'drag from point to point; a tap takes it away'],
-  ['protractor', 'Protractor', 'q', 'drag from the corner along one side, then click the other one; a tap takes it away'],
+  ['ruler', 'Ruler', 'm', 'drag from point to point; tap it to remove it'],
+  ['protractor', 'Protractor', 'q', 'drag from the corner along one side, then click the other one; tap it to remove it'],
 ]];
 
 /** @type {Record<string, new (app: App) => Tool>} */

@@ -8,14 +8,14 @@
 
 /** Verbs before the name of a body, and what is said after what it is. */
 const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', 'moved'], ['deleted', 'deleted'],
-  ['anchored', 'anchored'], ['released', 'free again']]);
+  ['anchored', 'anchored'], ['released', 'released']]);
 /** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
 const SENTENCES = [
   [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'], [/^loaded 0 bodies$/, 'An empty world'],
   [/^deleted the world (.+)/, 'World $1 deleted'], [/^put back the world (.+)/, 'World $1 is back'], [/^renamed .* to (.+)/, 'Renamed to $1'], [/^set gravity$/, 'Gravity set'], [/^set damping$/, 'Air drag set'],
   [/^on course \d+, at .*/, 'Back on the other course'],
-  [/^course \d+ begins at .*/, 'From here on it goes otherwise'], [/^speed (.+)/, 'Speed $1×'], [/^.*; next: /, 'Next: '],
-  [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Done again'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
+  [/^course \d+ begins at .*/, 'A new course begins here'], [/^speed (.+)/, 'Speed $1×'], [/^.*; next: /, 'Next: '],
+  [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Redone'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
   [/ at \([^)]*\)$/, ' here'],
 ];
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
