@@ -13,8 +13,6 @@ import re
 import sys
 from typing import Any
 
-import numpy as np
-
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
@@ -36,10 +34,6 @@ default_role = 'literal'
 # Headings that links name by their text, as in the repository.
 myst_heading_anchors = 3
 
-# Sphinx prints every member that it finds; those of `engine.memory` are arrays of all memory, whose
-# first words no process may read.
-np.set_printoptions(override_repr=lambda array: f'<array of {array.shape}>')
-
 # A page for each module, from its docstrings.
 apidoc_modules = [
     {
@@ -50,9 +44,13 @@ apidoc_modules = [
     }
 ]
 autodoc_member_order = 'bysource'
-# A type that a folder exports has two pages, of the folder and of its file: links may lead to
+# A name that a front exports is on two pages, of the front and of its file: links may lead to
 # either.
 suppress_warnings = ['ref.python']
+# Packages of ROS that are not there without it, or are no wheels.
+autodoc_mock_imports = ['simulation_interfaces', 'tf2_msgs']
+# Fronts for users, whose pages have what the files below them define.
+FRONTS = ('api/physsim_ros', 'api/physsim_ros.testing')
 autodoc_typehints = 'description'
 autodoc_typehints_description_target = 'documented'
 
@@ -73,6 +71,21 @@ def begin_with_readme(_app: object, name: str, source: list[str]) -> None:
         source[0] = f'{readme}\n{source[0]}'
 
 
+def skip_exported(
+    app: Any,
+    what: str,
+    _name: str,
+    value: object,
+    skip: bool,  # noqa: FBT001 - Sphinx's own
+    _options: object,
+) -> bool:
+    """Leave out what a folder exports, which is on the page of the file that defines it."""
+    page, module = app.env.docname, str(getattr(value, '__module__', ''))
+    exported = module.startswith('physsim_ros') and page != f'api/{module}'
+    return skip or (what == 'module' and exported and page not in FRONTS)
+
+
 def setup(app: Any) -> None:
-    """Connect what Sphinx calls for each page."""
+    """Connect what Sphinx calls for each page and each member."""
     app.connect('source-read', begin_with_readme)
+    app.connect('autodoc-skip-member', skip_exported)

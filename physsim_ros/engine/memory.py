@@ -103,7 +103,7 @@ def impulse_places(constraint: pymunk.Constraint) -> range:
 
 
 def pointer_to(kind: str, place: int) -> Any:
-    """Return the pointer to a struct, of a kind as 'cpArbiter *'."""
+    """Return the pointer to a struct, of a kind as `cpArbiter *`."""
     return ffi.cast(kind, (place + 1) * _WORD)
 
 

@@ -6,7 +6,7 @@ Frames as bytes: poses as columns of float32, and the other parts that a page sh
 
 Law: a frame is encoded once for all pages that show the same parts.
 
-Little endian, each column on a multiple of four bytes:
+Little endian, each column on a multiple of four bytes::
 
     u8 version, u8 flags, u16 0, u32 epoch, f64 time [s], f32 speed, u32 n
     f32 x[n] [m], y[n] [m], yaw[n] [rad]                                   of each body's origin
