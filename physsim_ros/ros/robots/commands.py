@@ -39,9 +39,10 @@ class Commands:
     :param node: that subscribes
     :param topic: `cmd_vel` below its namespace
     :param body: its name
-    :param refuse: reports that publishers of both types are there; takes the refusal and the topic
+    :param refuse: reports what publishers cannot be heard; takes the refusal and the topic
 
     :ivar topic: that commands come by
+    :ivar refused: code with which the last command was refused; '' if it was not
     :ivar awaited: stamp of the scan that no command has answered yet [ns]; None is none
     """
 
@@ -49,11 +50,13 @@ class Commands:
         self, node: Node, topic: str, body: str, refuse: Callable[[Refusal, str], None]
     ) -> None:
         self.topic = topic
+        self.refused = ''
         self.awaited: int | None = None
         self._node = node
         self._body = body
         self._refuse = refuse
-        self._mixed = False
+        # Why some publishers are not heard; '' where all are.
+        self._deaf = ''
         # Whether the last command had a stamp of 0, which is none.
         self._unstamped = False
         # Type and bytes of the last command.
@@ -90,21 +93,35 @@ class Commands:
             qualities = {info.qos_profile.reliability for info in infos}
             best_effort = ReliabilityPolicy.BEST_EFFORT
             heard = kind, best_effort if best_effort in qualities else ReliabilityPolicy.RELIABLE
+        deaf = ''
+        if heard is not None and len(types) > 1:
+            kind = heard[0].__name__
+            deaf = f'publishers of Twist and of TwistStamped are there; {kind} is heard'
         changed = heard != self._heard
         if changed:
+            of_other_type = heard and self._heard and heard[0] is not self._heard[0]
             self.close()
-            self._heard, self._unstamped = heard, False
-            if heard is not None:
-                qos = QoSProfile(depth=_DEPTH, reliability=heard[1])
-                self._subscription = self._node.create_subscription(
-                    heard[0], self.topic, partial(self._receive, heard[0]), qos, raw=True
-                )
-        if heard is not None and len(types) > 1 and not self._mixed:
-            kind = heard[0].__name__
-            message = f'publishers of Twist and of TwistStamped are there; {kind} is heard'
-            self._refuse(BadProperty(message, field='cmd_vel'), self.topic)
-        self._mixed = len(types) > 1
+            # A process has one type for a topic: the executor drops the subscription only after
+            # this, so that one of the other type is for the next look.
+            if heard is not None and not of_other_type and not self._subscribe(*heard):
+                deaf = f'{self.topic} is a topic of another type in this process'
+        if deaf and deaf != self._deaf:
+            self._refuse(BadProperty(deaf, field='cmd_vel'), self.topic)
+        self._deaf = deaf
         return changed
+
+    def _subscribe(self, kind: type, reliability: ReliabilityPolicy) -> bool:
+        """Subscribe to messages of a type; return whether the middleware has let it."""
+        qos = QoSProfile(depth=_DEPTH, reliability=reliability)
+        receive = partial(self._receive, kind)
+        try:
+            self._subscription = self._node.create_subscription(
+                kind, self.topic, receive, qos, raw=True
+            )
+        except rclpy_implementation.RCLError:
+            return False
+        self._heard = kind, reliability
+        return True
 
     def take(self) -> DriveRobot | None:
         """
@@ -127,6 +144,7 @@ class Commands:
 
     def close(self) -> None:
         """Unsubscribe."""
+        self._heard, self._unstamped = None, False
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None

@@ -28,6 +28,9 @@ from rclpy.node import Node
 
 # Least time from one look at the types of publishers on the graph to the next [s].
 _LOOK_PERIOD = 0.25
+_IN_PAST = (
+    'the past is shown, which repeats the commands of its day; commands count again where it ends'
+)
 
 
 class Fleet:
@@ -50,8 +53,6 @@ class Fleet:
         self._scene: Scene | None = None
         self.view: View | None = None
         self._look_due = 0.0
-        # Commands that were refused since the past is shown, by body.
-        self._refused: dict[str, int] = {}
         # Steady time until which a command is waited for [s]; None is none.
         self._deadline: float | None = None
 
@@ -65,34 +66,29 @@ class Fleet:
         """
         Submit the last command of each robot since the last call.
 
+        Of commands in a row that are refused for one reason the first is answered.
+
         :param in_past: whether the past is shown
         """
         if not self.robots:
             return
         self._look_at_graph()
-        if not in_past:
-            self._refused.clear()
         for body, robot in self.robots.items():
-            topic = robot.commands.topic
+            commands, topic = robot.commands, robot.commands.topic
             try:
-                request = robot.commands.take()
-                if request is not None and in_past:
-                    self._refuse_in_past(body, topic)
-                elif request is not None:
-                    # Undone together with what was asked before it: nobody undoes a tick.
-                    self._requests.submit(request, topic=topic, joined=True)
+                request = commands.take()
+                if request is None:
+                    continue
+                if in_past:
+                    raise InPast(_IN_PAST)
             except Refusal as refusal:
-                self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
-
-    def _refuse_in_past(self, body: str, topic: str) -> None:
-        """Count a command, and refuse the first one."""
-        self._refused[body] = self._refused.get(body, 0) + 1
-        if self._refused[body] == 1:
-            message = (
-                'the past is shown, which repeats the commands of its day; commands count again '
-                'where it ends'
-            )
-            self._requests.refuse(InPast(message), topic=topic, subject=body, joined=True)
+                if commands.refused != refusal.code:
+                    commands.refused = refusal.code
+                    self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
+            else:
+                commands.refused = ''
+                # Undone together with what was asked before it: nobody undoes a tick.
+                self._requests.submit(request, topic=topic, joined=True)
 
     def match_publishers(self) -> bool:
         """Subscribe to commands as they are published now; return whether anything is new."""

@@ -5,15 +5,18 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
+from functools import partial
 import math
-from types import SimpleNamespace
 from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from physsim_ros.testing import box, delete, PhysSim, Refused, UnknownName
+from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
+import rclpy
+from rclpy.context import Context
 from sensor_msgs.msg import Image, Imu, JointState, LaserScan, Range
 from std_msgs.msg import Bool
 
@@ -168,23 +171,28 @@ def test_commands_in_the_past_are_refused_once_and_nothing_branches(
 
 
 @pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
-def test_a_command_that_is_not_finite_is_refused(
+def test_commands_that_are_not_finite_are_refused_once(
     flat: PhysSim, client: Client, value: float
 ) -> None:
     robot = flat.robot('turtlebot3_burger')
     driver = Driver(flat.context, looks=False)
     flat.add(driver)
     client.events.clear()
-    driver.send(value)
-    flat.step()
+    for _ in range(5):
+        driver.send(value)
+        flat.step()
     (event,) = [event for event in client.events if event.code != 'ok']
     assert (event.code, event.name, event.hardware_id) == (
         'malformed',
         '/robot_0/cmd_vel',
         'robot/0',
     )
-    flat.run(0.5)
     assert robot.truth().twist.twist.linear.x == 0.0
+    # One that is carried out, and it is told again.
+    for speed in (0.0, value):
+        driver.send(speed)
+        flat.step()
+    assert [event.code for event in client.events if event.code != 'ok'] == ['malformed'] * 2
 
 
 def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:
@@ -201,27 +209,35 @@ def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:
     assert flat.node.simulation.requests.gesture == before
 
 
-def test_publishers_of_both_types_are_told_and_one_is_heard(
-    flat: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch
+def test_publishers_of_both_types_are_told_and_one_is_heard_then_the_other(
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    robot = flat.robot('turtlebot3_burger')
-    driver = Driver(flat.context, looks=False)
-    flat.add(driver)
-    # One process has one type for a topic: as if another one had the other.
-    known = flat.node.get_publishers_info_by_topic
+    # One participant has one type for a topic.
+    others = Context(), Context()
+    with (
+        shared_context(monkeypatch) as context,
+        PhysSim(context, gravity=[0.0, 0.0]) as sim,
+        ExitStack() as closing,
+    ):
+        for other in others:
+            rclpy.init(context=other, domain_id=context.get_domain_id(), args=[])
+            closing.callback(other.try_shutdown)
+        robot, client = sim.robot('turtlebot3_burger'), Client(sim)
+        plain = Driver(others[0], looks=False)
+        stamped = Driver(others[1], kind=TwistStamped, looks=False)
 
-    def both(topic: str) -> list[Any]:
-        other = SimpleNamespace(
-            topic_type='geometry_msgs/msg/TwistStamped', qos_profile=known(topic)[0].qos_profile
-        )
-        return [other, *known(topic)]
+        def drives(driver: Driver, speed: float) -> bool:
+            driver.send(speed)
+            sim.step()
+            return bool(robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6))
 
-    monkeypatch.setattr(flat.node, 'get_publishers_info_by_topic', both)
-    driver.send(0.2)
-    flat.run(0.4)
-    assert robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6)
-    told = [event for event in client.events if event.field == 'cmd_vel']
-    assert [event.code for event in told] == ['bad_property']
+        known = partial(sim.node.get_publishers_info_by_topic, '/robot_0/cmd_vel')
+        client.spin_until(lambda: len(known()) == 2)
+        client.spin_until(lambda: drives(plain, 0.2))
+        told = [event for event in client.events if event.field == 'cmd_vel']
+        assert [event.code for event in told] == ['bad_property']
+        plain.destroy_publisher(plain.publisher)
+        client.spin_until(lambda: drives(stamped, -0.1))
 
 
 def test_topics_go_with_the_robot_and_come_back_with_undo(flat: PhysSim, client: Client) -> None:
