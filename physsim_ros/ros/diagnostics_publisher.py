@@ -13,10 +13,9 @@ from __future__ import annotations
 from diagnostic_msgs.msg import DiagnosticArray
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.frame_outputs import FrameOutputs
-from physsim_ros.ros.namesakes import count_nodes, REMEDY
+from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents, SAME_NAME_REMEDY
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.simulation.simulation import Simulation
-from rclpy.node import Node
 
 # From one message to the next [ns].
 _PERIOD = 1_000_000_000
@@ -34,7 +33,7 @@ class DiagnosticsPublisher:
 
     def __init__(
         self,
-        node: Node,
+        node: NodeWithoutQosEvents,
         simulation: Simulation,
         outputs: FrameOutputs,
         subscriptions: RequestSubscriptions,
@@ -83,8 +82,10 @@ class DiagnosticsPublisher:
 
     def _new_namesakes(self) -> list[Answer]:
         """Return an event if there are more nodes of this name than at the last count."""
-        before, self._namesakes = self._namesakes, count_nodes(self._name, seen_by=self._node)
+        before, self._namesakes = self._namesakes, self._node.count_nodes(self._name)
         if self._namesakes <= max(before, 1):
             return []
         message = f'{self._namesakes} nodes are named {self._name}, and all do what one is asked'
-        return [Answer(topic='same_name', message=f'{message}: {REMEDY}', code='same_name')]
+        return [
+            Answer(topic='same_name', message=f'{message}: {SAME_NAME_REMEDY}', code='same_name')
+        ]

@@ -22,8 +22,7 @@ from nav_msgs.msg import Path
 import numpy as np
 from physsim_ros.drawing import DRAWING_RANGES
 from physsim_ros.model.arrays import Floats
-from physsim_ros.ros.namesakes import count_nodes, REMEDY
-from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents
+from physsim_ros.ros.qos_safe_node import LOSSLESS, NodeWithoutQosEvents, SAME_NAME_REMEDY
 from rclpy.experimental import EventsExecutor
 from rclpy.task import Future
 from rclpy.time import Time
@@ -103,9 +102,9 @@ class StrokePublisher(NodeWithoutQosEvents):
         """
         if not at_once:
             self._spin_for(float(stroke[-1, 2]))
-        worlds = count_nodes(self._world, seen_by=self)
+        worlds = self.count_nodes(self._world)
         if worlds > 1:
-            raise SeveralWorlds(f'{worlds} worlds are named {self._world}: {REMEDY}')
+            raise SeveralWorlds(f'{worlds} worlds are named {self._world}: {SAME_NAME_REMEDY}')
         self._answers.clear()
         self._strokes.publish(self._message(stroke, frame_id))
         self._spin_until(lambda: self._answers, 'the world does not answer')
