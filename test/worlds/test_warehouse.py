@@ -4,8 +4,11 @@
 """The warehouse: parcels go round the corner and come to rest, and the guard goes round."""
 
 import numpy as np
+import pytest
 
 from .film import simulation
+
+pytestmark = pytest.mark.slow
 
 
 def test_parcels_come_round_the_corner_and_queue_at_the_table():
