@@ -10,7 +10,16 @@ a user's pan and zoom persist.
 
 from __future__ import annotations
 
-from physsim_ros.view import arrows, event_log, name_labels, plots, styles, time_tracks, traces
+from physsim_ros.view import (
+    arrows,
+    event_log,
+    name_labels,
+    plots,
+    robot_ways,
+    styles,
+    time_tracks,
+    traces,
+)
 from physsim_ros.view.frame_batch import RECORDED
 from physsim_ros.view.recording_list import RECORDING_LIST
 import rerun as rr
@@ -19,8 +28,8 @@ import rerun_bindings as bindings
 
 # Size of the view of the world [pixels]: of the shape that it has in a window of 16 : 9.
 WIDTH, HEIGHT = 1600, 640
-# Time span of the traces of bodies [s].
-_TRACED = 5.0
+# Time span of the traces of bodies, and of the ways of robots, which have ten rows a second [s].
+_TRACED, _DRIVEN = 5.0, 30.0
 
 
 def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
@@ -37,13 +46,9 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
         background=styles.PAPER,
         visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
         overrides={
-            traces.PATH: [
-                rrb.VisibleTimeRanges(
-                    timeline=RECORDED,
-                    start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_TRACED),
-                    end=rrb.TimeRangeBoundary.cursor_relative(),
-                )
-            ],
+            traces.PATH: [_last(_TRACED)],
+            robot_ways.TRUTH: [_last(_DRIVEN)],
+            robot_ways.ODOMETRY: [_last(_DRIVEN)],
             # Shown by a click on the eye in the panel of the blueprint.
             name_labels.PATH: [rrb.EntityBehavior(visible=False)],
             arrows.VELOCITIES: [rrb.EntityBehavior(visible=False)],
@@ -65,6 +70,15 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
         rrb.BlueprintPanel(state='collapsed'),
         rrb.SelectionPanel(state='collapsed'),
         rrb.TimePanel(state='collapsed', timeline=RECORDED, play_state='following'),
+    )
+
+
+def _last(seconds: float) -> rrb.VisibleTimeRanges:
+    """Return the time range of the last seconds."""
+    return rrb.VisibleTimeRanges(
+        timeline=RECORDED,
+        start=rrb.TimeRangeBoundary.cursor_relative(seconds=-seconds),
+        end=rrb.TimeRangeBoundary.cursor_relative(),
     )
 
 

@@ -32,6 +32,7 @@ from physsim_ros.view.meshes.mesh_track import MeshTrack
 from physsim_ros.view.name_labels import NameLabels
 from physsim_ros.view.plots import Plots
 from physsim_ros.view.preview_lines import PreviewLines
+from physsim_ros.view.robot_ways import RobotWays
 from physsim_ros.view.scan_points import ScanPoints
 from physsim_ros.view.status import Status
 from physsim_ros.view.time_tracks import TimeTracks
@@ -77,6 +78,7 @@ class FrameRecorder:
         self._velocities = VelocityArrows(recording)
         self._traces = Traces(recording)
         self._scans = ScanPoints(recording)
+        self._ways = RobotWays(recording)
         self._hands = HandLines(recording)
         self._previews = PreviewLines(recording)
         self._time_tracks = TimeTracks(recording)
@@ -145,6 +147,7 @@ class FrameRecorder:
         self._velocities.send(batch, height=_ARROWS * unit)
         self._traces.send(batch, context.traced, _JOINTS * unit)
         self._scans.send(batch, _ARROWS * unit)
+        self._ways.send(batch, _JOINTS * unit)
         self._hands.send(batch, _PREVIEW * unit)
         self._previews.send(batch, unit=unit, height=_PREVIEW * unit, repeat=REPEAT)
         self._plots.send(batch)
