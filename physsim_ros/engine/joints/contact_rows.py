@@ -65,6 +65,17 @@ class ContactRows(NamedTuple):
         memory.write_numbers(self.points, memory.CONTACT_IMPULSES, impulses.T)
 
 
+NO_CONTACT_ROWS = ContactRows(
+    points=np.empty(0, np.int64),
+    ends=np.empty((0, 2), np.intp),
+    normals=np.empty((0, 2, 3)),
+    tangents=np.empty((0, 2, 3)),
+    friction=np.empty(0),
+    slide=np.empty(0),
+    distance=np.empty(0),
+)
+
+
 def read_contacts(table: BodyTable, jointed: Rows) -> ContactRows:
     """
     Return the contacts of some bodies, in an order that depends on bodies and places alone.
@@ -72,6 +83,8 @@ def read_contacts(table: BodyTable, jointed: Rows) -> ContactRows:
     :param jointed: (k,) intp: rows of the bodies in the table
     """
     arbiters = _arbiters_of(table.places[jointed])
+    if not len(arbiters):
+        return NO_CONTACT_ROWS
     counts = memory.point_counts(arbiters)
     words = memory.read_words(np.repeat(arbiters, counts), memory.ARBITER_WORDS)
     number = ranges(np.zeros_like(counts), counts)

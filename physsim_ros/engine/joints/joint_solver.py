@@ -418,7 +418,10 @@ def _bodies_of(table: BodyTable, jointed: Rows, touching: Rows) -> Bodies:
     :param jointed: rows of the jointed bodies and the background
     :param touching: rows of bodies
     """
-    rows = np.concatenate((jointed, np.setdiff1d(touching, jointed)))
+    others = np.zeros(len(table.places), np.bool_)
+    others[touching] = True
+    others[jointed] = False
+    rows = np.concatenate((jointed, np.flatnonzero(others)))
     places, state = table.places[rows], table.state_with_background[rows]
     inverse = memory.read_numbers(places, _INVERSES)
     inverse[~table.columns.dynamic[rows]] = 0.0

@@ -49,7 +49,7 @@ class JointTable:
     """
 
     def __init__(self, joints: Sequence[EngineJoint], background: pymunk.Body, dt: float) -> None:
-        self._dt = dt
+        self._dt, self._count = dt, len(joints)
         placed = [(number, each) for number, each in enumerate(joints) if each.constraints]
         self.breakable = [
             (each, most * dt)
@@ -114,7 +114,9 @@ class JointTable:
 
     def holding(self, yielded: Flags) -> Flags:
         """Return (r,) bool: rows of joints of which no row has yielded, (r,) bool."""
-        return ~np.isin(self._owners, self._owners[yielded])
+        holding = np.ones(self._count, np.bool_)
+        holding[self._owners[yielded]] = False
+        return holding[self._owners]
 
     def impulses(self, rows: JointRows) -> Floats:
         """Return (r,) float64: λ of the last step [N s, N m s]."""
