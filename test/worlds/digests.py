@@ -23,7 +23,7 @@ WORLDS = sorted(path.stem for path in shipped_worlds().glob('*.yaml'))
 DRAWINGS = sorted(path.stem for path in shipped('drawings').glob('*.svg'))
 SCENES = [f'worlds/{name}' for name in WORLDS] + [f'drawings/{name}' for name in DRAWINGS]
 # Simulation time at which digests are taken [s]; the rewind goes from the last to the first.
-TIMES = (4, 10)
+TIMES = (2, 6)
 
 
 def scene(name):

@@ -22,17 +22,6 @@ CRITICAL = {5: 20.515, 6: 22.458, 7: 24.322, 8: 26.124}
 FEWEST = 5
 
 
-@pytest.fixture(scope='module')
-def bins():
-    """Return the bin that each ball came to lie in, (n,)."""
-    film = Film(simulation('galton'), 50.0)
-    balls = [name for name in film.names if name.startswith('ball')]
-    ends = np.array([film.pose(name)[-1] for name in balls])
-    speeds = np.array([np.abs(film.twist(name)[-1]).max() for name in balls])
-    assert speeds.max() < 0.05, 'a ball is still under way'
-    return np.round(ends[:, 0] / SPACING + ROWS / 2).astype(int)
-
-
 def classes(counts, expected):
     """Return counts and expectations, the tails taken together until enough are expected."""
     left = int(np.argmax(np.cumsum(expected) >= FEWEST)) + 1
@@ -43,21 +32,20 @@ def classes(counts, expected):
     ]
 
 
-def test_no_ball_goes_where_it_cannot(bins):
+def test_balls_fall_as_coins_do():
+    film = Film(simulation('galton'), 50.0)
+    balls = [name for name in film.names if name.startswith('ball')]
+    ends = np.array([film.pose(name)[-1] for name in balls])
+    speeds = np.array([np.abs(film.twist(name)[-1]).max() for name in balls])
+    assert speeds.max() < 0.05, 'a ball is still under way'
+
+    bins = np.round(ends[:, 0] / SPACING + ROWS / 2).astype(int)
     assert bins.min() >= 0
     assert bins.max() <= ROWS
-
-
-def test_the_bins_fit_a_binomial(bins):
     chances = np.array([comb(ROWS, right) for right in range(ROWS + 1)]) / 2**ROWS
     counts = np.bincount(bins, minlength=ROWS + 1)
-
     counted, expected = classes(counts, chances * len(bins))
-
     chi_square = ((counted - expected) ** 2 / expected).sum()
     assert chi_square < CRITICAL[len(counted) - 1]
-
-
-def test_left_and_right_are_even(bins):
     # One in a thousand fair boards exceeds 3.3 standard deviations of the mean.
     assert abs(bins.mean() - ROWS / 2) < 3.3 * sqrt(ROWS / 4 / len(bins))
