@@ -23,7 +23,14 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import contains, Piece
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import Point, Pose, rotated, rotated_each, Twist
+from physsim_ros.model.transform import (
+    local_to_world,
+    Point,
+    Pose,
+    rotated_each,
+    Twist,
+    world_to_local,
+)
 
 # The namespace of drawn bodies and joints.
 DRAWN = 'drawn'
@@ -110,14 +117,11 @@ class SceneQuery:
 
     def local(self, name: str, point: Point) -> Point:
         """Return a point of the world in the frame of a body [m]."""
-        x, y, yaw = self.pose(name)
-        return rotated((point[0] - x, point[1] - y), -yaw)
+        return world_to_local(point, self.pose(name))
 
     def in_world(self, name: str, point: Point) -> Point:
         """Return a point of the frame of a body in the world [m]."""
-        x, y, yaw = self.pose(name)
-        dx, dy = rotated(point, yaw)
-        return x + dx, y + dy
+        return local_to_world(point, self.pose(name))
 
     def resolve_point(self, point: Point, frame: str) -> Point:
         """
@@ -172,8 +176,7 @@ class SceneQuery:
         return self.snapshot.scene.bodies[row].shape.form.pieces
 
     def _covers(self, row: int, point: Point, slack: float) -> bool:
-        x, y, yaw = self.snapshot.poses[row].tolist()
-        local = rotated((point[0] - x, point[1] - y), -yaw)
+        local = world_to_local(point, self.snapshot.poses[row].tolist())
         return contains(self._pieces(row), *local, slack)
 
 

@@ -18,7 +18,7 @@ from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import contains
-from physsim_ros.model.transform import Point, rotated
+from physsim_ros.model.transform import Point, world_to_local
 
 # Kinds of joints whose end on the background is a point that a body can cover.
 _KINDS = {JointKind.AXLE, JointKind.PIN, JointKind.ROD, JointKind.ROPE, JointKind.SPRING}
@@ -37,9 +37,7 @@ def _joins_of(body: Spawn, scene: SceneQuery) -> Iterator[Join]:
         if joint.b != WORLD or split_name(joint.name)[0] != DRAWN or joint.kind not in _KINDS:
             continue
         end = joint.seat.bx, joint.seat.by
-        x, y, yaw = body.pose
-        local = rotated((end[0] - x, end[1] - y), -yaw)
-        if contains(body.shape.form.pieces, *local):
+        if contains(body.shape.form.pieces, *world_to_local(end, body.pose)):
             yield Join(
                 name=joint.name,
                 kind=joint.kind,

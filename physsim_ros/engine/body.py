@@ -22,7 +22,17 @@ from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece
-from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, rotated, Twist, Wrench
+from physsim_ros.model.transform import (
+    local_to_world,
+    NO_WRENCH,
+    Point,
+    Pose,
+    REST,
+    rotated,
+    Twist,
+    world_to_local,
+    Wrench,
+)
 import pymunk
 from pymunk._chipmunk_cffi import lib
 
@@ -80,16 +90,13 @@ class RigidBody:
 
     @pose.setter
     def pose(self, pose: Pose) -> None:
-        x, y, yaw = pose
-        offset_x, offset_y = rotated(self.offset, yaw)
-        self.pm_body.angle = yaw
-        self.pm_body.position = x + offset_x, y + offset_y
+        self.pm_body.angle = pose[2]
+        self.pm_body.position = local_to_world(self.offset, pose)
         self._reindex()
 
     def covers(self, point: Point) -> bool:
         """Return whether a point of the world lies in the body where it is now, edge included."""
-        form, (x, y, yaw) = self.body.shape.form, self.pose
-        local = rotated((point[0] - x, point[1] - y), -yaw)
+        form, local = self.body.shape.form, world_to_local(point, self.pose)
         if math.dist(local, form.centroid) > form.outer + SEAM:
             return False
         return contains(form.pieces, *local, SEAM)
@@ -172,11 +179,11 @@ def lead_of(body: Body, wrench: Wrench, gravity: Point, dt: float) -> Twist:
 
 def engine_motion(state: BodyState, settings: WorldSettings, dt: float) -> Motion:
     """Return the engine's numbers of a body by its pose and twist; it is in free flight."""
-    body, (x, y, yaw) = state.body, state.pose
-    offset_x, offset_y = rotated(offset_of(body), yaw)
+    body, pose = state.body, state.pose
     ahead = lead_of(body, state.wrench, settings.gravity, dt)
     vx, vy, spin = map(operator.add, state.twist, ahead)
-    return Motion(x + offset_x, y + offset_y, yaw, vx, vy, spin, free=True)
+    x, y = local_to_world(offset_of(body), pose)
+    return Motion(x, y, pose[2], vx, vy, spin, free=True)
 
 
 def build(body: Body, serial: int) -> RigidBody:

@@ -44,7 +44,7 @@ from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.requests import Command, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
-from physsim_ros.model.transform import NO_WRENCH, Pose, REST, rotated, Twist
+from physsim_ros.model.transform import local_to_world, NO_WRENCH, Pose, REST, Twist
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
 from physsim_ros.simulation.world.body_requests import check_command
@@ -270,5 +270,4 @@ def _engine_pose(state: BodyState, pose: Pose) -> Pose:
 
     :param pose: of the body's own origin in the world [m, rad]
     """
-    x, y = rotated(offset_of(state.body), pose[2])
-    return pose[0] + x, pose[1] + y, pose[2]
+    return *local_to_world(offset_of(state.body), pose), pose[2]

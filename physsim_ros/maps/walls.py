@@ -11,7 +11,7 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Box
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import local_to_world
 
 # Slate, on white and on black.
 _COLOR: Color = (0x5A / 255, 0x64 / 255, 0x70 / 255, 1.0)
@@ -26,16 +26,15 @@ def walls_of(grid: OccupancyGrid, namespace: str, most: int) -> tuple[Spawn, ...
     :param most: greatest number of boxes
     :raises WorldFull: there are more
     """
-    x, y, yaw = grid.origin
     walls = []
     rectangles = rectangles_of(grid.occupied, most) * grid.resolution
     for number, (bottom, left, top, right) in enumerate(rectangles.tolist()):
-        ahead, aside = rotated(((left + right) / 2, (bottom + top) / 2), yaw)
+        middle = (left + right) / 2, (bottom + top) / 2
         walls.append(
             Spawn(
                 name=f'{namespace}/{number}',
                 shape=Box(width=right - left, height=top - bottom),
-                pose=(x + ahead, y + aside, yaw),
+                pose=(*local_to_world(middle, grid.origin), grid.origin[2]),
                 color=_COLOR,
                 properties=Properties(anchored=True),
             )

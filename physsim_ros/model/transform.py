@@ -32,6 +32,17 @@ def rotated(vector: Point, yaw: float) -> Point:
     return cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1]
 
 
+def local_to_world(point: Point, pose: Pose) -> Point:
+    """Return a point of the frame of a pose as a point of the world [m]."""
+    x, y = rotated(point, pose[2])
+    return pose[0] + x, pose[1] + y
+
+
+def world_to_local(point: Point, pose: Pose) -> Point:
+    """Return a point of the world as a point of the frame of a pose [m]."""
+    return rotated((point[0] - pose[0], point[1] - pose[1]), -pose[2])
+
+
 def rotated_each(vectors: Floats, yaw: Floats | float) -> Floats:
     """
     Return vectors, each rotated counter-clockwise by its own yaw.

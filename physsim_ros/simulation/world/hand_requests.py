@@ -20,7 +20,7 @@ from physsim_ros.model.requests import (
     PlaceHand,
 )
 from physsim_ros.model.snapshot import Grip
-from physsim_ros.model.transform import rotated
+from physsim_ros.model.transform import rotated, world_to_local
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import Done, points_in_world, pose_in_world
 
@@ -44,8 +44,7 @@ def grab(live: LiveSpace, request: Grab) -> Done:
         raise NothingThere(message, field='mouse_point', body=under[0] if under else '')
     live.capacity.check_hand(request.hand)
     name = names[0]
-    x, y, yaw = space.bodies.by_name[name].pose
-    anchor = rotated((point[0] - x, point[1] - y), -yaw)
+    anchor = world_to_local(point, space.bodies.by_name[name].pose)
     space.set_grip(Grip(request.hand, name, anchor, point))
     return Done(name, f'grabbed {name}')
 

@@ -21,7 +21,14 @@ from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, Join, Pin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import ORIGIN, Point, Pose, rotated
+from physsim_ros.model.transform import (
+    local_to_world,
+    ORIGIN,
+    Point,
+    Pose,
+    rotated,
+    world_to_local,
+)
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import body_of_name, Done, points_in_world
 
@@ -119,14 +126,14 @@ def drawn_points(joint: Joint, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
     :param poses: of the bodies, by name
     """
     seat = joint.seat
-    x, y = _to_world(poses[joint.a], (seat.ax, seat.ay))
+    x, y = local_to_world((seat.ax, seat.ay), poses[joint.a])
     if joint.kind.points == 1:
         return ((x, y),)
     pose_b = ORIGIN if joint.b == WORLD else poses[joint.b]
     if joint.kind is JointKind.SLIDER:
         ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
         return (x, y), (x + ux, y + uy)
-    return (x, y), _to_world(pose_b, (seat.bx, seat.by))
+    return (x, y), local_to_world((seat.bx, seat.by), pose_b)
 
 
 def _members(
@@ -186,7 +193,8 @@ def _seat(
         ux, uy = rotated(((x2 - x1) / length, (y2 - y1) / length), -pose_b[2])
         at_b = points[0]
     length = math.dist(points[0], at_b)
-    return Seat(*_to_body(pose_a, points[0]), *_to_body(pose_b, at_b), ux, uy, phase, length)
+    on_a, on_b = world_to_local(points[0], pose_a), world_to_local(at_b, pose_b)
+    return Seat(*on_a, *on_b, ux, uy, phase, length)
 
 
 def _phase(space: Space, a: str, b: str, properties: JointProperties) -> float:
@@ -226,14 +234,3 @@ def _drawn(space: Space, joint: Joint) -> tuple[Point, ...]:
 
 def _pose(space: Space, name: str) -> Pose:
     return ORIGIN if name == WORLD else space.bodies.by_name[name].pose
-
-
-def _to_world(pose: Pose, point: Point) -> Point:
-    """Return a point of a body's frame as a point of the world."""
-    x, y = rotated(point, pose[2])
-    return pose[0] + x, pose[1] + y
-
-
-def _to_body(pose: Pose, point: Point) -> Point:
-    """Return a point of the world as a point of a body's frame."""
-    return rotated((point[0] - pose[0], point[1] - pose[1]), -pose[2])

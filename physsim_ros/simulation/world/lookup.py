@@ -13,7 +13,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import UnknownBody, UnknownFrame
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.model.transform import Point, Pose, rotated
+from physsim_ros.model.transform import local_to_world, Point, Pose
 
 
 class Done(NamedTuple):
@@ -60,9 +60,8 @@ def pose_in_world(space: Space, pose: Pose, frame: str) -> Pose:
             f'{nearest_name(frame, space.bodies.by_name)}',
             field='header.frame_id',
         )
-    x, y, yaw = space.bodies.by_name[frame].pose
-    turned_x, turned_y = rotated((pose[0], pose[1]), yaw)
-    result = (x + turned_x, y + turned_y, yaw + pose[2])
+    origin = space.bodies.by_name[frame].pose
+    result = (*local_to_world(pose[:2], origin), origin[2] + pose[2])
     check_pose(result, 'pose')
     return result
 
