@@ -12,10 +12,8 @@ each checkpoint that is taken.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import replace
-import gc
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
@@ -25,26 +23,10 @@ from physsim_ros.engine.space import Space
 from physsim_ros.engine.stages.half_step import observe_bodies
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
+from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.robot_states import RobotStates, SPAWNED
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.transform import NO_WRENCH
-
-
-@contextmanager
-def suspended_collection() -> Iterator[None]:
-    """
-    Suspend the garbage collector; also a decorator.
-
-    It visits all objects whenever their number has grown by a quarter. Without this function that
-    is more than half of the time in which 20,000 bodies are loaded.
-    """
-    was_enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_enabled:
-            gc.enable()
 
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:

@@ -15,7 +15,6 @@ from collections.abc import Callable
 from pathlib import Path
 import re
 
-from physsim_ros.engine.checkpoint import suspended_collection
 from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.files.map_file import with_map_walls
 from physsim_ros.files.regular_file import read_file, write_file
@@ -32,6 +31,7 @@ from physsim_ros.model.errors import (
     UnknownProperty,
     WorldFull,
 )
+from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
 
