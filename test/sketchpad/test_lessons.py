@@ -18,6 +18,7 @@ OWN = """
 format: 1
 lesson: {number: 99, title: Mine, question: How much?, hint: Look., measure: It, unit: '1',
   figure: 3, within: 0.5, answer: Three.}
+bounds: []
 bodies:
   - {name: mine/0, circle: {radius: 0.5}, at: [0, 0.5]}
 """
@@ -53,6 +54,7 @@ def check(sheet: Sheet, figure: str, says: str) -> None:
 
 def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> None:
     sheet.press('Play')
+    sheet.wait('physsim.time > 0.7')
     open_lesson(sheet, '1. Free fall')
     card = sheet.page.locator('#lesson')
     card.get_by_text('Which one lands first').wait_for()
@@ -68,6 +70,15 @@ def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> No
     sheet.press('Worlds')
     solved = sheet.page.locator('.lessons').get_by_role('button', name='1. Free fall')
     assert solved.get_by_role('img', name='solved').count() == 1
+    sheet.press('Close')
+    # The plots of a body have its fall, though the world was older when the lesson was opened.
+    sheet.press('Play')
+    sheet.wait('physsim.time > 0.6')
+    sheet.press('Pause')
+    sheet.wait('physsim.speed === 0')
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(*sheet.pose('heavy/0')[:2]))
+    sheet.wait('physsim.records["heavy/0"] && physsim.records["heavy/0"][0] > 20')
 
 
 def test_the_next_lesson_comes_after_it_and_another_world_has_none(sheet: Sheet) -> None:
@@ -103,6 +114,13 @@ def test_a_teacher_s_lesson_is_listed_and_a_bad_one_says_where_it_is_wrong(sheet
     open_lesson(sheet, '99. Mine')
     sheet.wait('"mine/0" in physsim.bodies')
     check(sheet, '3.4', 'Right!')
+    # The view stays, however far what has no floor falls.
+    before = sheet.place(0.0, 0.0)
+    sheet.press('Play')
+    sheet.wait('physsim.bodies["mine/0"][1] < -20')
+    sheet.press('Material')
+    sheet.press('Close')
+    assert sheet.place(0.0, 0.0) == before
     open_lesson(sheet, 'bad')
     status = sheet.page.get_by_role('status')
     status.get_by_text('bad.yaml, line 4, figure: bad_property').wait_for()

@@ -59,6 +59,7 @@ export class App {
     this.color = null;
     this.framed = false;
     this.bounds = ''; // of the world that was framed; a world with other bounds is framed again
+    this.extent = [0, 0, 0, 0]; // that was framed [m]
 
     this.connection = new Connection();
     this.world = new WorldState(this.connection);
@@ -137,7 +138,7 @@ export class App {
     const bar = elementOf('bar', HTMLElement), top = elementOf('top', HTMLElement);
     const sizes = new ResizeObserver(() => {
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
-      if (this.camera.fitted) this.frame();
+      this.refit();
     });
     sizes.observe(bar, {box: 'border-box'});
     // What is said there makes it higher and lower: the world stays where it is.
@@ -154,8 +155,17 @@ export class App {
     this.connection.send('show', {velocities: velocities || forces || name !== '' || this.records.records || this.tool.measures === true, contacts: forces || this.sound.on, forces: true, laser: robot ? name : ''});
   }
 
-  /** Frame the world. */
+  /** Frame the world as it is now. */
   frame() {
+    this.extent = this.world.extent();
+    this.framed = this.camera.fitted = true;
+    this.bounds = String(this.world.scene.bounds);
+    this.refit();
+  }
+
+  /** Fit what was framed into the room between the bars, unless somebody has moved the view since. */
+  refit() {
+    if (!this.camera.fitted) return;
     const {view, camera} = this, wide = !camera.narrow;
     const box = (/** @type {string} */ id) => elementOf(id, HTMLElement).getBoundingClientRect();
     view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: camera.height - box('bar').top} :
@@ -164,10 +174,8 @@ export class App {
         top: Math.max(box('top').bottom, wide ? 0 : box('lesson').bottom), right: 0,
         bottom: camera.height - box(wide ? 'bar' : 'tools').top};
     const {left, top, right, bottom} = view.insets, gap = camera.height < LOW ? LOW_GAP : GAP;
-    camera.fit(this.world.extent(),
-      {left: left + gap + LABEL, top: top + gap, right: right + gap, bottom: bottom + gap});
-    this.framed = true;
-    this.bounds = String(this.world.scene.bounds);
+    camera.fit(this.extent, {left: left + gap + LABEL, top: top + gap, right: right + gap, bottom: bottom + gap});
+    this.panel.uncover();
     view.dirty = true;
   }
 

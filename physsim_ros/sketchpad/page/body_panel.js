@@ -7,7 +7,7 @@ import {Plots} from './plots.js';
 import {gravityButtons, materialButtons} from './presets.js';
 import {isDrawn} from './words.js';
 
-/** @import {App} from './types.js' */
+/** @import {App, Point} from './types.js' */
 
 /** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
 const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
@@ -26,6 +26,8 @@ export class BodyPanel {
     this.name = '';
     this.shown = ''; // part of the scene that the panel shows, as text
     this.subject = ''; // that is shown
+    /** @type {() => ?Point} */
+    this.place = () => null; // of the subject in the world [m]
     this.turn = 0; // of gravity from down, counter-clockwise [rad]
     app.connection.on('scene', () => this.#follow());
   }
@@ -33,8 +35,8 @@ export class BodyPanel {
   close() {
     this.element.hidden = true;
     this.app.card?.update();
-    if (this.app.camera.fitted) this.app.frame();
     this.name = '';
+    this.app.refit();
     this.plots.watch('');
   }
 
@@ -62,21 +64,19 @@ export class BodyPanel {
       createElement('p', {hidden: body.anchored, textContent: 'Drag the tip of the arrow to set the velocity, the round handle to turn, the square one to scale.'}),
       ...app.trail.switches(name),
       this.plots.element,
-    ], isDrawn(name) ? name : '');
+    ], isDrawn(name) ? name : '', () => {
+      const row = app.world.row(name);
+      return row < 0 ? null : app.world.place(row, app.world.scene.bodies[row].centroid);
+    });
     this.shown = JSON.stringify(body);
     this.plots.watch(name);
-    this.#uncover(this.app.world.row(name));
   }
 
-  /**
-   * Move the view where the panel covers the selected body.
-   * @param {number} row -1 where no frame has come since the scene
-   */
-  #uncover(row) {
-    if (row < 0) return;
-    const {camera, world} = this.app, {fitted} = camera;
-    const {left, top, bottom} = this.element.getBoundingClientRect();
-    const [x, y] = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
+  /** Move the view where the panel covers its subject. */
+  uncover() {
+    const {app: {camera}, element} = this, {fitted} = camera, place = element.hidden ? null : this.place();
+    if (!place) return;
+    const {left, top, bottom} = element.getBoundingClientRect(), [x, y] = camera.toPage(...place);
     if (camera.narrow) camera.pan(0, Math.min(top - COVERED - y, 0));
     else if (y < bottom) camera.pan(Math.min(left - COVERED - x, 0), 0);
     camera.fitted = fitted;
@@ -157,18 +157,23 @@ export class BodyPanel {
    * @param {string} title
    * @param {Node[]} content
    * @param {string} name of the body, where that is not the title
+   * @param {() => ?Point} place of the subject in the world [m]
    */
-  show(title, content, name = '') {
+  show(title, content, name = '', place = () => null) {
     this.shown = '';
     this.element.replaceChildren(createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})),
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
     this.element.hidden = false;
+    // On a narrow page, there is no room for both and the world.
+    if (this.app.camera.narrow) this.app.lessons.card.open = false;
     // The panel of the same body stays where it was scrolled to.
     const subject = title + name;
     if (subject !== this.subject) this.element.scrollTop = 0;
     this.subject = subject;
     this.app.card?.update();
+    this.place = place;
+    this.uncover();
   }
 
   /** Follow a scene in which the body was changed or deleted, by whomever. */

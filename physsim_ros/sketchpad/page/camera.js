@@ -84,7 +84,6 @@ export class Camera {
     const height = this.height - insets.top - insets.bottom;
     this.scale = Math.max(Math.min(width / Math.max(xmax - xmin, LEAST_SPAN),
       height / Math.max(ymax - ymin, LEAST_SPAN)), LEAST_SCALE);
-    this.fitted = true;
     this.x = (xmin + xmax) / 2 + (insets.right - insets.left) / 2 / this.scale;
     this.y = (ymin + ymax) / 2 + (insets.top - insets.bottom) / 2 / this.scale;
   }

@@ -31,7 +31,7 @@ export class Lessons {
       if (first) this.#offerLink();
     });
     addEventListener('hashchange', () => this.#offerLink());
-    this.card.addEventListener('toggle', () => app.camera.fitted && app.frame());
+    this.card.addEventListener('toggle', () => app.refit());
   }
 
   /** @returns {Node[]} the list, with a heading; nothing where there are no lessons */
@@ -79,7 +79,7 @@ export class Lessons {
       card.replaceChildren(createElement('summary', {}, createElement('h2', {}, `${lesson.number}. ${lesson.title}`)),
         createElement('p', {textContent: lesson.question}), ...app.viewOnly ? [] : this.#work(lesson));
     }
-    if (app.camera.fitted) app.frame();
+    app.refit();
   }
 
   /**
