@@ -61,7 +61,7 @@ export class JointPanel {
       }),
       this.force,
       inRow(textButton('Delete joint', () => this.delete(), 'danger')),
-    ], isDrawn(name) ? '' : name);
+    ], isDrawn(name) ? '' : name, () => this.app.world.place(joint.a, joint.points[0]));
   }
 
   delete() {

@@ -19,7 +19,7 @@ const STROKES = [
   ['small square: weld', 'M27 16h8v8h-8z', 'M8 14h30v12H8zM22 8h30v24H22z'],
   ['zigzag: spring', 'M9 20h5l4-7 5 14 5-14 5 14 5-14 5 14 3-7h5', 'M4 12h10v16H4zM46 12h10v16H46z'],
   ['straight: rod', 'M9 20h42', 'M4 12h10v16H4zM46 12h10v16H46z'],
-  ['slack curve: rope, chain', 'M9 12Q30 50 51 12', 'M4 6h10v12H4zM46 6h10v12H46z'],
+  ['slack: rope, chain', 'M9 12Q30 50 51 12', 'M4 6h10v12H4zM46 6h10v12H46z'],
   ['arrow: gravity', 'M30 5V34l-7-8 7 8 7-8'],
   ['arrow from a body: velocity', 'M16 20h36l-8-7 8 7-8 7', 'M6 10h20v20H6z'],
   ['hatching: heavier', 'M22 26 34 14M26 28 38 16', 'M14 9h32v22H14z'],
