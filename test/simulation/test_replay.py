@@ -178,18 +178,8 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
     assert driven.simulation.past.timeline.serial == 1001
 
 
-def test_shots_take_no_more_memory_than_they_may(monkeypatch: pytest.MonkeyPatch) -> None:
-    driven = Driven()
-    for number in range(50):
-        driven.ask(spawning(f'a/{number}', BOX, (0.1 * number, 1.0 + number, 0.0)))
-    monkeypatch.setattr(driven.simulation.past.frame_cache, 'budget', 2_000_000)
-    driven.record(20.0)
-    assert driven.simulation.past.frame_cache.size <= 2_000_000
-
-
-@pytest.mark.parametrize('bodies', [1, 8])
-def test_few_bodies_take_no_more_memory_than_their_poses_would(bodies: int) -> None:
-    driven = Driven(history=120.0)
+def test_few_bodies_take_no_more_memory_than_their_poses_would() -> None:
+    driven, bodies = Driven(history=120.0), 8
     for number in range(bodies):
         driven.ask(spawning(f'a/{number}', BOX, (1.5 * number - 6.0, 1.0, 0.0)))
     driven.record(20.0)
