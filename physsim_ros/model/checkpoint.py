@@ -86,10 +86,6 @@ class WorldState:
 NO_PUSHES: Floats = np.empty((0, 3))
 
 
-def _no_pushes() -> Floats:
-    return NO_PUSHES
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class ImpulseCache:
     """
@@ -113,7 +109,7 @@ class ImpulseCache:
     hashes: NDArray[np.uint64]
     impulses: Floats
     joints: Floats
-    pushes: Floats = field(default_factory=_no_pushes)
+    pushes: Floats = field(default_factory=lambda: NO_PUSHES)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
