@@ -195,7 +195,7 @@ def _check_layout() -> None:
     """
     Compare numbers of a small space with those that Pymunk returns.
 
-    :raises ImportError: this version of Pymunk has its structs otherwise
+    :raises ImportError: this version of Pymunk has different structs
     """
     pm_space = pymunk.Space()
     body = pymunk.Body(2.0, 4.0)
@@ -229,7 +229,7 @@ def _check_layout() -> None:
         numbers[[BODY_INVERSE_MASS, BODY_INVERSE_MOMENT]] - (0.5, 0.25),
     )
     if any(np.abs([*each]).max(initial=0.0) > 1e-12 for each in found):
-        raise ImportError(f'Pymunk {pymunk.version} has its structs otherwise')
+        raise ImportError(f'Pymunk {pymunk.version} has different structs')
 
 
 _check_layout()

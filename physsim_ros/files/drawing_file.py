@@ -91,7 +91,7 @@ def load_drawing(
     :param scale: metres for each unit of the file; None is 0.01 for SVG and 1 for JSON
     :param pace: of the pen, for strokes without times
     :return: (n, 3) float64 each: x, y [m] and time from the first sample [s]
-    :raises BadDrawing: it cannot be read, or holds no stroke
+    :raises BadDrawing: it cannot be read, or contains no stroke
     """
     try:
         if path.suffix == '.json':
@@ -113,7 +113,7 @@ def load_drawing(
         sampled = [_sampled(line, factor, pace or Pace()) for line in lines if len(line)]
     strokes = [stroke for stroke in sampled if len(stroke)]
     if not strokes:
-        raise BadDrawing(f'{path} holds no stroke')
+        raise BadDrawing(f'{path} contains no stroke')
     if not all((np.abs(stroke[:, 2]) <= _LONGEST).all() for stroke in strokes):
         raise BadDrawing(f'a stroke takes longer than {_LONGEST:g} s')
     return strokes
@@ -124,13 +124,13 @@ def _from_json(content: Any) -> list[Floats]:
     if isinstance(content, dict):
         content = content.get('strokes')
     if not isinstance(content, list):
-        raise BadDrawing('the file must hold a list of strokes')
+        raise BadDrawing('the file must contain a list of strokes')
     lines = []
     for number, entry in enumerate(content):
         try:
             line = np.array(entry, dtype=np.float64)
         except (OverflowError, TypeError, ValueError) as error:
-            raise BadDrawing(f'stroke {number} is no list of points') from error
+            raise BadDrawing(f'stroke {number} is not a list of points') from error
         if line.ndim != 2 or line.shape[1] not in (2, 3) or not np.isfinite(line).all():
             raise BadDrawing(f'stroke {number} must be a list of [x, y] or of [x, y, t]')
         if (line[:, :2] == line[0, :2]).all():

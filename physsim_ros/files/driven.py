@@ -42,7 +42,7 @@ def driven_from(entry: object, body: Body, physics_rate: float) -> Driven:
     """
     values = known_mapping(entry, 'driven', [*_POSES, 'path', 'seconds'])
     if body.robot is None:
-        raise BadProperty(f'{body.name} is no robot; nothing has driven it', field='driven')
+        raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
     seconds = values.get('seconds')
     steps = None
     if seconds is not None:

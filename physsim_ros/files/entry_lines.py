@@ -73,9 +73,9 @@ def _from_json(text: str) -> dict[str, Any] | None:
 def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     mapping = dict(pairs)
     if len(mapping) < len(pairs):
-        raise ValueError('a key comes twice')
+        raise ValueError('a key appears twice')
     return mapping
 
 
 def _refuse(name: str) -> None:
-    raise ValueError(f'{name} is no JSON')
+    raise ValueError(f'{name} is not JSON')

@@ -107,7 +107,7 @@ def unpack(text: object, name: str, dtype: DTypeLike, width: int = 1) -> NDArray
     """
     kind = np.dtype(dtype)
     if not isinstance(text, str):
-        raise BadProperty(f'{name} is not what was saved: it is no text', field=name)
+        raise BadProperty(f'{name} is not what was saved: it is not text', field=name)
     try:
         packed = base64.b64decode(text.encode('ascii'), validate=True)
         inflater = zlib.decompressobj()

@@ -58,7 +58,7 @@ def joints_from(
             if not isinstance(name, str):
                 raise BadProperty('a joint needs a name', field='name')
             if name in joints:
-                raise BadProperty('the name comes twice', field='name')
+                raise BadProperty('the name appears twice', field='name')
             terms = {key: entry[key] for key in entry if key not in OWN_JOINT_KEYS}
             points = point_list(entry.get('points'), 'points')
             joints[name] = None

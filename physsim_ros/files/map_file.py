@@ -106,10 +106,10 @@ def _file_in(folder: Path, name: object, field: str, *, root: Path | None = None
     try:
         path = (folder / name).resolve()
     except (OSError, RuntimeError, ValueError) as error:
-        raise BadProperty(f'{field} {shown(name)} is no path', field=field) from error
+        raise BadProperty(f'{field} {shown(name)} is not a path', field=field) from error
     if not path.is_relative_to(root or folder):
         raise BadProperty(
-            f'{field} {shown(name)} does not lie beside the world file or below it', field=field
+            f'{field} {shown(name)} is neither beside the world file nor below it', field=field
         )
     return path
 
@@ -156,7 +156,8 @@ def _occupied(path: Path, *, negate: bool, threshold: float) -> Flags:
 def _check_pixels(path: Path, width: int, height: int) -> None:
     if width * height > MOST_CELLS:
         raise BadProperty(
-            f'{path.name} has {width} by {height} pixels; there may be {MOST_CELLS}', field='image'
+            f'{path.name} has {width} by {height} pixels; at most {MOST_CELLS} are allowed',
+            field='image',
         )
 
 

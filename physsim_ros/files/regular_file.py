@@ -23,7 +23,7 @@ def read_file(path: Path, most: int) -> str:
 
     :param path: of the file
     :param most: greatest size [bytes]
-    :raises OSError: it cannot be read, is no regular file, or is larger
+    :raises OSError: it cannot be read, is not a regular file, or is larger
     :raises UnicodeDecodeError: it is no text
     """
     return read_bytes(path, most).decode()
@@ -35,7 +35,7 @@ def read_bytes(path: Path, most: int) -> bytes:
 
     :param path: of the file
     :param most: greatest size [bytes]
-    :raises OSError: it cannot be read, is no regular file, or is larger
+    :raises OSError: it cannot be read, is not a regular file, or is larger
     """
     # Looked at before it is opened too: opening a device may do something.
     _check_kind(path.stat())
@@ -83,4 +83,4 @@ def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:
 
 def _check_kind(status: os.stat_result) -> None:
     if not stat.S_ISREG(status.st_mode):
-        raise OSError(errno.EINVAL, 'it is no regular file')
+        raise OSError(errno.EINVAL, 'it is not a regular file')

@@ -33,7 +33,7 @@ def svg_lines(path: Path) -> list[Floats]:
     try:
         page = SVG.parse(str(path))
         if not isinstance(page, SVG):
-            raise ValueError('it is no SVG')  # noqa: TRY004 - a fault of the file
+            raise ValueError('it is not an SVG file')  # noqa: TRY004 - a fault of the file
         return _subpaths(page)
     except _SVG_ERRORS as error:
         raise ValueError('an element is malformed') from error

@@ -93,7 +93,7 @@ def find_world(name: str, *, world_dir: Path | None = None, confined: bool = Fal
             # The name is too long, or a directory of the path may not be searched.
             raise _unreadable(name, error) from error
         if other:
-            raise BadWorldFile(f'{name} is no regular file', field='world_file')
+            raise BadWorldFile(f'{name} is not a regular file', field='world_file')
         if found:
             if confined:
                 _check_place(path.resolve(), name, (world_dir, *ours))
@@ -203,7 +203,7 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
         _check_place(path, name, (world_dir,))
         if path.exists() and not _is_world_file(path):
             raise BadWorldFile(
-                f'{name} is there and is no world file; it is not written over',
+                f'{name} exists and is not a world file; it is not overwritten',
                 field='world_file',
             )
         text = text_of(state, physics_rate)
@@ -214,7 +214,7 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
         raise BadWorldFile(f'cannot write {name}: {reason}', field='world_file') from error
     except (RuntimeError, ValueError) as error:
         # A loop of symbolic links, or a NUL character.
-        raise BadWorldFile(f'{name!r} is no path: {error}', field='world_file') from error
+        raise BadWorldFile(f'{name!r} is not a path: {error}', field='world_file') from error
     return path
 
 
@@ -256,7 +256,8 @@ def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
         raise BadWorldFile('the name of a world file is not printable', field='world_file')
     if path.suffix != _SUFFIX:
         raise BadWorldFile(
-            f'{name!r} is no name of a world: without directory, or a path that ends in {_SUFFIX}',
+            f'{name!r} is not the name of a world: give a plain name, or a path that ends in '
+            f'{_SUFFIX}',
             field='world_file',
         )
 

@@ -73,11 +73,13 @@ def state_from(
     for key in content:
         if key in PARAMETERS:
             raise UnknownProperty(
-                f'{key} is a parameter of the node, which no world file holds', field=key
+                f'{key} is a parameter of the node; a world file cannot set it', field=key
             )
         check_key(key, WORLD_KEYS)
     if 'map' in content:
-        raise BadProperty('a map lies beside a world file, and here is none', field='map')
+        raise BadProperty(
+            'a map is read from beside a world file, and this world has none', field='map'
+        )
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
     changes = {key: content[key] for key in SETTINGS if key in content}
@@ -112,7 +114,7 @@ def _body_states(
         with naming(entry, 'body', count):
             state, is_unmoved = _body_state(entry, settings, physics_rate)
             if state.body.name in bodies:
-                raise BadProperty('the name comes twice', field='name')
+                raise BadProperty('the name appears twice', field='name')
             bodies[state.body.name] = state
             if is_unmoved:
                 unmoved.add(state.body.name)

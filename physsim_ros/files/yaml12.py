@@ -87,7 +87,7 @@ class Loader(Composer, yaml.CSafeLoader):
         for key in (key for key, _ in entries if isinstance(key, yaml.ScalarNode)):
             if key.value in keys:
                 raise yaml.constructor.ConstructorError(
-                    None, None, f'{key.value} comes twice', key.start_mark
+                    None, None, f'{key.value} appears twice', key.start_mark
                 )
             keys.add(key.value)
         return super().construct_mapping(node, deep)

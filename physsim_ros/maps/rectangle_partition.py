@@ -86,7 +86,7 @@ def rectangles_of(occupied: Flags, most: int) -> Ints:
 
 def _check_count(count: int, most: int) -> None:
     if count > most:
-        raise WorldFull(f'the map has {count} rectangles or more; there may be {most}')
+        raise WorldFull(f'the map has {count} rectangles or more; at most {most} are allowed')
 
 
 def _chords(edges: Flags, reflex: Flags) -> _Chords:

@@ -189,7 +189,7 @@ class JointProperties(Checked):
         Checked.__post_init__(self)
         if self.lower is not None and self.upper is not None and self.lower > self.upper:
             raise BadProperty(
-                f'lower is {self.lower:g} and upper {self.upper:g}; lower is the lesser one',
+                f'lower is {self.lower:g} and upper {self.upper:g}; lower must not be greater',
                 field='lower',
             )
 

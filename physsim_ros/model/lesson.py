@@ -26,7 +26,7 @@ def _text(longest: int) -> Any:
 
     def check(value: object, name: str) -> str:
         if not isinstance(value, str):
-            raise BadProperty(f'{name} must be a text, not {shown(value)}', field=name)
+            raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
         # Folded lines of YAML end with a line break.
         text = value.strip()
         if not 0 < len(text) <= longest:

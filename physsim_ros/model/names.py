@@ -39,7 +39,7 @@ def check_name(name: str) -> None:
     if len(name) > LONGEST_NAME:
         raise Malformed(f'a name has at most {LONGEST_NAME} characters', field='name')
     if not is_printable(name):
-        raise Malformed(f'{name!r} holds a character that cannot be printed', field='name')
+        raise Malformed(f'{name!r} contains a character that cannot be printed', field='name')
     if REPLACEMENT in name:
         raise Malformed(f'{name!r} is not UTF-8', field='name')
     if not -(2**31) <= id_ < 2**31:
@@ -74,7 +74,7 @@ def check_hand_name(name: str) -> None:
             f'the name of a hand has 1 to {LONGEST_NAME} characters', field='client_id'
         )
     if not is_printable(name):
-        raise Malformed(f'{name!r} holds a character that cannot be printed', field='client_id')
+        raise Malformed(f'{name!r} contains a character that cannot be printed', field='client_id')
 
 
 def shown_name(name: str) -> str:

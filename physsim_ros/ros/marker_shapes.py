@@ -55,7 +55,7 @@ def shape_from(marker: Marker) -> Shape:
     :raises Refusal: scale or points are those of no shape that can be simulated
     """
     if marker.type not in _DECODERS:
-        raise UnknownShape(f'a marker of type {marker.type} is no body', field='type')
+        raise UnknownShape(f'a marker of type {marker.type} does not become a body', field='type')
     try:
         return _DECODERS[marker.type](marker)
     except Refusal as refusal:

@@ -144,7 +144,7 @@ def _checked(request: str, type_: object, fields: dict[str, Any]) -> Message:
 
 def _request_from(value: object) -> str:
     if not isinstance(value, str) or len(value) > LONGEST_ID:
-        raise Malformed(f'id must be a text of at most {LONGEST_ID} characters', field='id')
+        raise Malformed(f'id must be text of at most {LONGEST_ID} characters', field='id')
     return value
 
 
@@ -163,7 +163,7 @@ def _mapping_from(text: str) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise Malformed('the message is not JSON', field='message') from error
     if not isinstance(value, dict):
-        raise Malformed('the message is no JSON object', field='message')
+        raise Malformed('the message is not a JSON object', field='message')
     _check_depth(value)
     return value
 

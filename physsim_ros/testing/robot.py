@@ -150,7 +150,7 @@ def robot_marker(
     changes = {'from': robot} if isinstance(robot, str) else dict(robot)
     if changes.get('from') is None:
         raise BadProperty(
-            'name a shipped robot as from; one of a shape of its own is spawned: '
+            'name a shipped robot as from; a robot with a shape of its own is spawned by '
             "box('own/0', robot={...})",
             field='from',
         )

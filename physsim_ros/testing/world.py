@@ -126,7 +126,7 @@ class PhysSim(ObservedWorld):
         # The traceback of a failed test ends at its own line.
         __tracebackhide__ = True
         if seconds is None and until is None:
-            raise ValueError('run for how long? Name seconds, or what to run until')
+            raise ValueError('run for how long? Pass seconds, or a predicate as until')
         seconds = timeout if seconds is None else seconds
         frames = self._frames(seconds)
         if seconds and not frames:

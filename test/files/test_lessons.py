@@ -56,7 +56,7 @@ def test_shipped_lessons_are_found_by_their_names(folder: Path) -> None:
         ({'figure': 'two'}, 'w.yaml, line 9, figure: bad_property', "a number, not 'two'"),
         ({'figure': '.nan'}, 'w.yaml, line 9, figure: malformed', 'finite'),
         ({'within': '-1'}, 'w.yaml, line 10, within: bad_property', 'between 0 and'),
-        ({'title': '7'}, 'w.yaml, line 4, title: bad_property', 'must be a text, not 7'),
+        ({'title': '7'}, 'w.yaml, line 4, title: bad_property', 'must be text, not 7'),
         ({'title': '"  "'}, 'w.yaml, line 4, title: bad_property', '1 to 80 characters'),
         ({'hint': 'x' * 2001}, 'w.yaml, line 6, hint: bad_property', '1 to 2000 characters'),
         ({'number': '0'}, 'w.yaml, line 3, number: bad_property', 'whole number'),

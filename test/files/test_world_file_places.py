@@ -206,7 +206,7 @@ def test_what_is_no_world_file_is_not_written_over(text: str, folder: Path) -> N
     with pytest.raises(BadWorldFile) as refused:
         save(World(), folder, 'compose')
 
-    assert 'no world file' in str(refused.value)
+    assert 'not a world file' in str(refused.value)
     assert path.read_text() == text
 
 

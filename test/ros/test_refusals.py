@@ -179,7 +179,7 @@ def test_a_spawn_past_the_most_bodies_is_refused(physsim: PhysSim, client: Clien
     before = physsim.digest()
     (event,) = client.ask('~/spawn', box('a/2', at=(6.0, 0.0)))
     assert event == Event(2, '~/spawn', 'a/2', event.message, 'world_full', '')
-    assert event.message == 'the world would hold 3 bodies; max_bodies is 2'
+    assert event.message == 'the world would have 3 bodies; max_bodies is 2'
     assert physsim.digest() == before
     # A change in place is no spawn, and a deletion makes room.
     physsim.spawn(disc('a/1', at=(3.0, 0.0)))

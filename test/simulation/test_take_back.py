@@ -40,7 +40,7 @@ def test_what_is_taken_back_has_never_been_and_what_others_did_stays() -> None:
 
     assert simulation.step == without.step
     assert simulation.world.digest() == without.world.digest()
-    with pytest.raises(OutOfHistory, match='nothing of Anna'):
+    with pytest.raises(OutOfHistory, match='nothing by Anna'):
         simulation.take_back('Anna')
 
 

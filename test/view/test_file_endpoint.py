@@ -47,7 +47,7 @@ def test_a_file_that_is_no_regular_one_is_refused_and_blocks_nothing(viewers, tm
     os.mkfifo(path)
     viewer = viewers(record_file=path)
 
-    assert 'no regular file' in Events(viewer).wait_for('record_failed').message
+    assert 'not a regular file' in Events(viewer).wait_for('record_failed').message
     until(lambda: not viewer.is_open)
 
 

@@ -56,7 +56,7 @@ class Click:
             x, y = self.point
             raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
         if self.body not in scene.names:
-            raise UnknownBody(f'{self.body} is not there any more', field='point')
+            raise UnknownBody(f'{self.body} no longer exists', field='point')
         return self.body
 
     def current_point(self, scene: SceneQuery) -> Point:

@@ -40,12 +40,12 @@ def check_namespace(value: object, name: str) -> str:
     :raises BadProperty: ROS does not allow it
     """
     if not isinstance(value, str):
-        raise BadProperty(f'{name} must be a text, not {shown(value)}', field=name)
+        raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
     namespace = value.removeprefix('/')
     if len(namespace) > _LONGEST or not _NAMESPACE.fullmatch(namespace):
         raise BadProperty(
-            f'{name} {shown(value)} is none of ROS: letters, digits and _, parted by /, no part '
-            f'begins with a digit, at most {_LONGEST} characters',
+            f'{name} {shown(value)} is not a ROS name: letters, digits and _, separated by /; no '
+            f'part begins with a digit, at most {_LONGEST} characters',
             field=name,
         )
     return namespace

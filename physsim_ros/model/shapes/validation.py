@@ -62,9 +62,9 @@ def checked_points(points: Sequence[Point], name: str) -> Floats:
     except (TypeError, ValueError, OverflowError) as error:
         raise Malformed(f'{name} must be pairs of numbers', field=name) from error
     if not np.isfinite(array).all():
-        raise Malformed(f'{name} holds a coordinate that is not finite', field=name)
+        raise Malformed(f'{name} has a coordinate that is not finite', field=name)
     if len(array) > MOST_POINTS:
-        raise BadOutline(f'{name} holds more than {MOST_POINTS} points', field=name)
+        raise BadOutline(f'{name} has more than {MOST_POINTS} points', field=name)
     if len(array) and np.abs(array).max() > LARGEST:
         raise BadSize(f'{name} reaches further than {LARGEST:g} m', field=name)
     # Without negative zeros: equal shapes share one form, and have the same bits.

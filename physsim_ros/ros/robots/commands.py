@@ -137,7 +137,7 @@ class Commands:
         try:
             message: Any = deserialize_message(data, kind)
         except rclpy_implementation.RMWError as error:
-            raise Malformed(f'the message is no {kind.__name__}') from error
+            raise Malformed(f'the message is not a {kind.__name__}') from error
         twist = message.twist if kind is TwistStamped else message
         velocity = twist.linear.x, twist.linear.y, twist.angular.z
         return DriveRobot(name=self._body, velocity=velocity)

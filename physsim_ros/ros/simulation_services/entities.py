@@ -220,7 +220,7 @@ def _name(request: Any, entry: Mapping[str, Any], taken: tuple[str, ...]) -> str
     name = request.name or entry.get('name', '')
     try:
         if not isinstance(name, str):
-            raise Malformed('a name is a text', field='name')
+            raise Malformed('a name must be text', field='name')
         check_body_name(name)
     except Refusal as refusal:
         if not request.allow_renaming:

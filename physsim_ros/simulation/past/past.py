@@ -269,7 +269,7 @@ class Past:
             raise InPast('the past is shown; go to its end first', field='history')
         first = history.last_gesture_of(author)
         if first is None:
-            raise OutOfHistory(f'there is nothing of {author} to undo', field='history')
+            raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
         if timeline.moment[0] - first.step > self.steps_in(LONGEST_AGAIN):
             raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
         before = self._lines.hold(self._line())

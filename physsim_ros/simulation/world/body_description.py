@@ -86,7 +86,7 @@ def _check_role(body: Body) -> None:
     """
     if any(body.surface_velocity) and not body.sensor:
         raise BadProperty(
-            f'{body.name} is no sensor; only the surface of a sensor moves, as that of a conveyor',
+            f'{body.name} is not a sensor; only a sensor can be a conveyor',
             field='surface_velocity',
         )
     if body.robot is None:

@@ -142,7 +142,7 @@ class Capacity:
         """
         grips = self._space.pipeline.mouse_joints
         if self.checking and grips.grip_of(hand) is None and len(grips.grips()) >= MOST_HANDS:
-            raise WorldFull(f'{MOST_HANDS} hands drag a body; there may be no more')
+            raise WorldFull(f'{MOST_HANDS} hands drag a body; no more are allowed')
 
     def check_state(self, state: WorldState) -> None:
         """
@@ -189,7 +189,7 @@ def check_count(count: int, settings: WorldSettings) -> None:
     """
     if count > settings.max_bodies:
         raise WorldFull(
-            f'the world would hold {count} bodies; max_bodies is {settings.max_bodies}'
+            f'the world would have {count} bodies; max_bodies is {settings.max_bodies}'
         )
 
 
@@ -232,12 +232,12 @@ def _inside(body: Body) -> int:
 
 def _check_shapes(count: int, most: int) -> None:
     if count > most:
-        raise WorldFull(f'the world would hold {count} convex pieces; max_shapes is {most}')
+        raise WorldFull(f'the world would have {count} convex pieces; max_shapes is {most}')
 
 
 def _check_joints(count: int, most: int) -> None:
     if count > most:
-        raise WorldFull(f'the world would hold {count} joints; max_joints is {most}')
+        raise WorldFull(f'the world would have {count} joints; max_joints is {most}')
 
 
 def _check_on_body(count: int, body: str) -> None:

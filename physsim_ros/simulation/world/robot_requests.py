@@ -27,7 +27,7 @@ def drive(live: LiveSpace, request: DriveRobot) -> Done:
     rigid = body_of_name(live.space, name)
     robot = rigid.body.robot
     if robot is None:
-        raise BadProperty(f'{name} is no robot', field='name')
+        raise BadProperty(f'{name} is not a robot', field='name')
     until = live.step_after(robot.drive.timeout)
     live.space.drive(rigid, request.velocity, NEVER if until is None else until)
     return Done(name, f'drives {name}')

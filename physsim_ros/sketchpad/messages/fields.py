@@ -26,7 +26,7 @@ LONGEST_PERSON = 24
 def text(value: object, name: str) -> str:
     """Return a text of at most the length of a name."""
     if not isinstance(value, str):
-        raise BadProperty(f'{name} must be a text, not {shown(value)}', field=name)
+        raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
     if len(value) > LONGEST_NAME:
         raise BadProperty(f'{name} has more than {LONGEST_NAME} characters', field=name)
     return value

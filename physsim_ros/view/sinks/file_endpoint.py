@@ -69,10 +69,10 @@ def _create_regular_file(path: Path) -> tuple[int, int]:
     """
     Create a file, or open it, to see that it can be written; return device and inode.
 
-    :raises OSError: it cannot be written, is no regular file, or holds something else
+    :raises OSError: it cannot be written, is not a regular file, or holds something else
     """
     if path.exists() and not path.is_file():
-        raise OSError(errno.EINVAL, 'it is no regular file')
+        raise OSError(errno.EINVAL, 'it is not a regular file')
     with path.open('a+b') as file:
         found = os.fstat(file.fileno())
         file.seek(0)

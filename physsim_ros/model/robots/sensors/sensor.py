@@ -35,10 +35,10 @@ _ANGLE = Within(-_FARTHEST_ROUND, _FARTHEST_ROUND, 'rad')
 
 def _topic(value: object, name: str) -> str:
     if not isinstance(value, str):
-        raise BadProperty(f'{name} must be a text, not {shown(value)}', field=name)
+        raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
     if len(value) > _LONGEST or not _TOPIC.fullmatch(value):
         raise BadProperty(
-            f'{name} {shown(value)} is no topic of ROS: letters, digits and _, not a digit first, '
+            f'{name} {shown(value)} is not a ROS topic: letters, digits and _, not a digit first, '
             f'at most {_LONGEST} characters',
             field=name,
         )
