@@ -29,7 +29,7 @@ from rclpy.node import Node
 # Least time from one look at the types of publishers on the graph to the next [s].
 _LOOK_PERIOD = 0.25
 _IN_PAST = (
-    'the past is shown, which repeats the commands of its day; commands count again where it ends'
+    'the past is shown, with the commands of that time; new commands count again at its end'
 )
 
 
