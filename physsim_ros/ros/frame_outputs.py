@@ -62,6 +62,8 @@ class FrameOutputs:
         self._node = node
         self._values = values
         self._session = session
+        # Whether the last frame is one of the past.
+        self._in_past = False
         self.update_clock()
         # Steady time from which on a refusal is logged again [s].
         self._warning_due = 0.0
@@ -84,6 +86,8 @@ class FrameOutputs:
         """
         for answer in frame.answers:
             self._log_answer(answer)
+        self._in_past = frame.past
+        self.update_clock()
         self.topics.publish_frame(frame)
         self.topics.timeline.publish(status, moving=frame.moved)
         self._show(frame)
@@ -108,8 +112,9 @@ class FrameOutputs:
             self._log_answer(answer)
 
     def update_clock(self) -> None:
-        """Publish simulation time on `clock`, or not, as parameter `publish_clock` says."""
-        self.topics.clock.open = self._values['publish_clock']
+        """Publish simulation time on `clock` as `publish_clock` and `robots_in_past` say."""
+        frozen = self._in_past and self._values['robots_in_past'] == 'freeze'
+        self.topics.clock.open = self._values['publish_clock'] and not frozen
 
     def open_viewer(self) -> None:
         """Open the viewer of parameter `viewer`, in place of the one before."""

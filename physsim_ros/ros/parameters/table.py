@@ -150,8 +150,8 @@ _OF_NODE = {
     ),
     'robots_in_past': Spec(
         default='follow',
-        meaning='topics of robots while the past is shown: follow (they show it), freeze (nothing '
-        'is sent)',
+        meaning='topics of robots and the clock while the past is shown: follow (they show it), '
+        'freeze (nothing is sent)',
         choices=('follow', 'freeze'),
     ),
     'lockstep': Spec(

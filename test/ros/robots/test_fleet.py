@@ -17,6 +17,7 @@ from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, U
 import pytest
 import rclpy
 from rclpy.context import Context
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, Imu, JointState, LaserScan, Range
 from std_msgs.msg import Bool
 
@@ -282,6 +283,7 @@ def test_frozen_robots_say_nothing_of_the_past(flat: PhysSim, client: Client) ->
     set_parameter(flat, 'robots_in_past', 'freeze')
     flat.robot('turtlebot3_burger')
     messages = heard(flat, client, Odometry, '/robot_0/ground_truth')
+    clocks = heard(flat, client, Clock, '/clock')
     flat.run(2.0)
     flat.rewind(1.0)
     messages.clear()
@@ -289,6 +291,10 @@ def test_frozen_robots_say_nothing_of_the_past(flat: PhysSim, client: Client) ->
     assert not messages
     flat.run(1.0)
     assert messages
+    # Time does not go back for the nodes of robots.
+    stamps = [1e9 * clock.clock.sec + clock.clock.nanosec for clock in clocks]
+    assert stamps == sorted(stamps)
+    assert stamps[-1] == 2.5e9
 
 
 def test_a_topic_that_another_type_has_is_refused_and_the_others_are_there(
