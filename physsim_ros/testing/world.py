@@ -236,6 +236,7 @@ class PhysSim(ObservedWorld):
         :param name: of its body; '' is robot/0, robot/1 and so on
         :param namespace: of its topics; None is its name with _ for /
         :raises Refused: with the code
+        :raises ValueError: the name has no number after a slash
         """
         names = self.names
         name = name or next(f'robot/{n}' for n in count() if f'robot/{n}' not in names)
