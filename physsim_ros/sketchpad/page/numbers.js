@@ -10,6 +10,7 @@ const DEGREE = Math.PI / 180; // rad
 /** What can be typed; of an anchored body the first ones. @type {[string, string][]} */
 const TYPED = [['mass', 'Mass [kg]'], ['x', 'x [m]'], ['y', 'y [m]'], ['angle', 'Angle [°]'],
   ['vx', 'vx [m/s]'], ['vy', 'vy [m/s]'], ['spin', 'Spin [rad/s]']];
+const NOTHING = 1e-7; // m, °, m/s, rad/s: that is shown as 0
 const AT_REST = 4; // number of those that an anchored body has
 /**
  * The mass of a body [kg], and the place, angle and velocity of its centre of mass [m, °, m/s, rad/s].
@@ -62,7 +63,9 @@ export class Numbers {
     /** @type {Record<string, number>} */
     const values = motionOf(this.app.world, row);
     TYPED.forEach(([key], i) => {
-      const input = this.inputs.get(key), text = String(Number(values[key].toPrecision(5)));
+      // Of what rests, a frame has the rounding errors of the engine.
+      const value = Math.abs(values[key]) < NOTHING && key !== 'mass' ? 0 : values[key];
+      const input = this.inputs.get(key), text = String(Number(value.toPrecision(5)));
       if (!input || input === document.activeElement) return;
       input.disabled = anchored && i >= AT_REST;
       if (input.value !== text) input.value = text;

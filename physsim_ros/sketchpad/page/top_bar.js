@@ -39,7 +39,7 @@ export class TopBar {
     const button = iconButton(name, id, () => {
       const shown = app.arrows[part] = !app.arrows[part];
       button.setAttribute('aria-pressed', String(shown));
-      if (shown) app.notes.showMessage(title);
+      if (shown) app.notes.showMessage(title.split(';')[0]);
       app.askForParts();
     }, title);
     button.setAttribute('aria-pressed', 'false');
