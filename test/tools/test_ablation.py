@@ -30,6 +30,8 @@ def test_every_stage_can_be_switched_off(stage):
         ('free flight (1)', 'half-step velocity'),
         ('removed floor', 'support graph'),
         ('stack of ten (18)', 'resting damping'),
+        ('slide on a floor (37)', 'floor'),
+        ('robot on an arc (38)', 'floor'),
         ('thin wall (25)', 'continuous collision'),
         ('bounce (7)', 'contact projection'),
         ('disc on a corner (6)', 'contact at impact'),

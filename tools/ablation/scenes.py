@@ -33,7 +33,7 @@ import time
 from typing import Any, NamedTuple
 
 import numpy as np
-from physsim_ros.model.requests import Delete
+from physsim_ros.model.requests import Delete, DriveRobot
 from physsim_ros.model.shapes import Box, Disc, Shape
 import pymunk
 
@@ -249,6 +249,34 @@ def _plough() -> float:
     return abs(float(last.centers[row, 0] - first.centers[row, 0]) / integral - 1.0)
 
 
+def _slide() -> float:
+    """Slide a box on a floor until it stands; return the error of its way, v² / (2 μ g)."""
+    sim = simulation(gravity=NOWHERE, floor_friction=0.5)
+    spawn(sim, 'box/0', Box(width=0.4, height=0.2), velocity=(2.0, 0.0))
+    *_, last = steps(sim, 240)
+    return abs(float(last.poses[0, 0]) - 2.0**2 / (2 * 0.5 * G))
+
+
+def _robot() -> float:
+    """Drive a robot on circles; return its greatest distance from the arc that it is told."""
+    sim = simulation(gravity=NOWHERE, floor_friction=0.5)
+    drive = {'kind': 'differential', 'acceleration': 100.0, 'timeout': 0.0}
+    spawn(sim, 'robot/0', Disc(radius=0.1), mass=1.0, robot={'drive': drive})
+    sim.perform(DriveRobot(name='robot/0', velocity=(0.2, 0.0, 1.0)))
+    # At first its wheels slip.
+    *_, start = steps(sim, 60)
+    x, y, yaw = start.poses[0]
+    center = x - 0.2 * math.sin(yaw), y + 0.2 * math.cos(yaw)
+    return max(
+        math.dist(
+            now.poses[0, :2],
+            (center[0] + 0.2 * math.sin(yaw + angle), center[1] - 0.2 * math.cos(yaw + angle)),
+        )
+        for now in steps(sim, 1200)
+        if (angle := (now.step - start.step) * DT)
+    )
+
+
 def _bridge() -> float:
     """Let the truck drive over the bridge for 4 s; return by how far a plank is displaced."""
     seen = film.Film(film.simulation('bridge'), 4.0)
@@ -321,6 +349,8 @@ SCENES = (
     Scene('chain of 50 (20)', 'length', 0.05, _chain),
     Scene('gear train', 'rad', 1e-6, _gear_train),
     Scene('plough (28)', 'way', 0.02, _plough),
+    Scene('slide on a floor (37)', 'm', 0.5 * G * DT**2, _slide),
+    Scene('robot on an arc (38)', 'm', 1e-6, _robot),
     Scene('bridge', 'm', 2e-3, _bridge),
     Scene('checkpoint (26)', 'm/s', 5e-3, _checkpoint),
     Scene('at rest', 'bare steps', 1.0, _at_rest),

@@ -22,6 +22,7 @@ from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.stages import first_touch, half_step
 from physsim_ros.engine.stages.block_solver import BlockSolver
+from physsim_ros.engine.stages.floor import Floor
 from physsim_ros.engine.stages.half_step import HalfStep
 from physsim_ros.engine.stages.impact_propagation import ImpactPropagation
 from physsim_ros.engine.stages.resting_damping import RestingDamping
@@ -92,6 +93,11 @@ STAGES = (
         'resting damping',
         (((RestingDamping, 'damp_resting'), _nothing),),
         ((RestingDamping, 'damp_resting'),),
+    ),
+    Stage(
+        'floor',
+        (((Floor, 'pull_bodies'), _nothing), ((Floor, 'end_step'), _nothing)),
+        ((Floor, 'pull_bodies'), (Floor, 'end_step')),
     ),
     Stage(
         'continuous collision',
