@@ -28,9 +28,7 @@ from rclpy.node import Node
 
 # Least time from one look at the types of publishers on the graph to the next [s].
 _LOOK_PERIOD = 0.25
-_IN_PAST = (
-    'the past is shown, with the commands of that time; new commands count again at its end'
-)
+_IN_PAST = 'the past is shown, with the commands of that time; new commands count again at its end'
 
 
 class Fleet:
