@@ -1,9 +1,10 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// How the search of the site ranks: titles and texts of pages before names of the code. Sphinx's own figures are in
-// searchtools.js; what differs is objNameMatch (11 there) and objPartialMatch (6).
+// How the search of the site ranks: all pages before those of modules, which are made from docstrings. Sphinx's own
+// figures are in searchtools.js; what differs is objNameMatch (11 there), objPartialMatch (6) and score.
 var Scorer = {
+  score: ([page, , , , score]) => (page.startsWith('api/') ? score - 100 : score),
   objNameMatch: 4,
   objPartialMatch: 1,
   objPrio: {0: 1, 1: 0, 2: -5},
