@@ -84,6 +84,7 @@ class Commands:
         :return: whether that is another subscription than before
         """
         infos = self._node.get_publishers_info_by_topic(self.topic)
+        strange = sorted({info.topic_type for info in infos} - _TYPES.keys())
         infos = [info for info in infos if info.topic_type in _TYPES]
         types = [kind for name, kind in _TYPES.items() if name in {i.topic_type for i in infos}]
         heard = None
@@ -94,6 +95,8 @@ class Commands:
             best_effort = ReliabilityPolicy.BEST_EFFORT
             heard = kind, best_effort if best_effort in qualities else ReliabilityPolicy.RELIABLE
         deaf = ''
+        if strange:
+            deaf = f'{" and ".join(strange)} is published; Twist or TwistStamped is heard'
         if heard is not None and len(types) > 1:
             kind = heard[0].__name__
             deaf = f'publishers of Twist and of TwistStamped are there; {kind} is heard'

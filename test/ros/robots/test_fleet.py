@@ -241,6 +241,17 @@ def test_publishers_of_both_types_are_told_and_one_is_heard_then_the_other(
         client.spin_until(lambda: drives(stamped, -0.1))
 
 
+def test_a_publisher_of_another_type_than_commands_is_told_once(
+    flat: PhysSim, client: Client
+) -> None:
+    flat.robot('turtlebot3_burger')
+    client.node.create_publisher(Bool, '/robot_0/cmd_vel', 10)
+    flat.run(0.5)
+    (event,) = [event for event in client.events if event.code != 'ok']
+    assert (event.code, event.field) == ('bad_property', 'cmd_vel')
+    assert 'std_msgs/msg/Bool' in event.message
+
+
 def test_topics_go_with_the_robot_and_come_back_with_undo(flat: PhysSim, client: Client) -> None:
     robot = flat.robot('turtlebot3_burger')
     node = client.node
