@@ -19,6 +19,7 @@ import time
 
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.meanings import DELETION, GRAVITY
 from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
@@ -44,7 +45,9 @@ class Tally:
         # Whether a stroke kept 85 % of its size, by its name.
         self.whole: list[bool] = []
         self.milliseconds: list[float] = []
-        self.reliability = Reliability()
+        self.reliability = {name: Reliability() for name in ('in the open', 'with bodies')}
+        # Readings that destroyed something or turned gravity, and were not meant to.
+        self.harm = 0
 
     def add(self, scene: Scene) -> None:
         """Read the stroke of a scene."""
@@ -57,7 +60,9 @@ class Tally:
             what = _REFUSED
         self.milliseconds.append((time.process_time_ns() - begun) / 1e6)
         if what != _REFUSED and scene.meaning is not None:
-            self.reliability.add(confidence, right=what == scene.meaning)
+            where = 'with bodies' if scene.view.names else 'in the open'
+            self.reliability[where].add(confidence, right=what == scene.meaning)
+        self.harm += what in {DELETION, GRAVITY} and what != scene.meaning
         if scene.fault in _ALL_DRAWN:
             drawn = float(np.hypot(*np.ptp(scene.samples[:, :2], axis=0)))
             self.whole.append(resample_stroke(scene.samples).size > 0.85 * drawn)
@@ -94,7 +99,9 @@ class Tally:
         print(f'{"no more than 15 % cut off":<34}{statistics.fmean(self.whole):7.1%}')
         for name, hits in self.corners.items():
             print(f'{f"corners exact, {name}":<34}{statistics.fmean(hits):7.1%} of {len(hits)}')
-        self.reliability.show()
+        print(f'{"deletions and gravity by error":<34}{self.harm:7}')
+        for where, reliability in self.reliability.items():
+            reliability.show(where)
         worst = statistics.quantiles(self.milliseconds, n=100)[-1]
         middle = statistics.median(self.milliseconds)
         print(f'{"CPU time of a stroke":<34}{middle:7.2f} ms median, {worst:.2f} ms 99th of 100')

@@ -52,10 +52,18 @@ def disc(rng: Random) -> Figure:
 
 
 def rectangle(rng: Random) -> Figure:
-    """Return a rectangle, its corners not quite where they should be."""
+    """
+    Return a rectangle, its corners not quite where they should be.
+
+    Sides lean by up to 8 degrees: it is a parallelogram and a trapezoid.
+    """
     width = 1.0
     height = math.exp(rng.uniform(math.log(0.045), 0.0))
     way = np.array([(0, 0), (width, 0), (width, height), (0, height)], dtype=np.float64)
+    lean, taper = np.tan(np.clip(rng.normal(0.0, 0.05, 2), -0.14, 0.14)).tolist()
+    taper = min(max(taper, -0.25 * height), 0.25 * height)
+    way[2:, 0] += lean * height
+    way[2:, 1] += np.array((taper, -taper)) / 2
     way += rng.uniform(-0.03, 0.03, way.shape) * min(width, 2.0 * height)
     turn = rng.choice([rng.normal(0.0, 0.04), rng.uniform(0.0, 7.0)])
     if rng.random() < 0.5:
@@ -152,6 +160,9 @@ def cross(rng: Random) -> Figure:
     high = rng.uniform(0.7, 1.35)
     way = np.array([(-0.5, high / 2), (0.5, -high / 2), (0.5, high / 2), (-0.5, -high / 2)])
     way += rng.uniform(-0.09, 0.09, way.shape)
+    if rng.random() < 0.3:
+        # Arms of unequal lengths.
+        way *= rng.uniform(0.6, 1.4, (4, 1))
     if rng.random() < 0.4:
         way = _rounded(way, rng.uniform(0.03, 0.09))
     way = way * (rng.choice([-1.0, 1.0]), rng.choice([-1.0, 1.0]))
@@ -171,7 +182,7 @@ def arrow(rng: Random) -> Figure:
     other = tip + np.array((-along, -side * across)) * rng.uniform(0.7, 1.3, 2)
     again = tip + rng.normal(0.0, 0.03, 2)
     neck = tip - (along, 0.0)
-    bow = rng.normal(0.0, 0.05) if rng.random() < 0.5 else 0.0
+    bow = rng.normal(0.0, 0.07) if rng.random() < 0.5 else 0.0
     share = np.linspace(0.0, 1.0, 12, endpoint=False)
     shaft = tail + share[:, None] * (tip - tail)
     shaft[:, 1] += 4.0 * bow * share * (1.0 - share)

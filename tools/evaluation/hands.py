@@ -6,6 +6,10 @@ Hands: they draw a figure with tremor, haste, hooks and all that pens and screen
 
 Every figure is drawn by a hand of its own. Its habits are drawn from wide ranges, each
 effect often absent, so that there are tidy hands, hasty ones, old ones and mice among them.
+
+Times are those of gestures by pen and finger, 0.4 to 1.7 s each (Leiva, Martín-Albo and Vatavu,
+"GATO: predicting human performance with multistroke and multitouch gesture input", 2018), and of
+the events of screens, 8 to 30 ms apart. Of 100 people 99 leave a gap of less than 11.5 %.
 """
 
 from __future__ import annotations
@@ -27,6 +31,7 @@ class Hand:
     :param size: of the figure [m]
     :param place: where it is drawn [m]
     :param rate: samples a second [Hz]
+    :param uneven: how far the times between two samples are from even, 0 .. 1
     :param duration: of the stroke [s]
     :param drift: slow wandering
     :param tremor: of 6 to 12 Hz
@@ -37,6 +42,7 @@ class Hand:
     :param hook_up: flick when it is lifted
     :param closing: how much of a closed way is missing (< 0) or drawn twice (> 0)
     :param slip: how far the end misses the beginning
+    :param spiral: how much the radius of a curve shrinks (> 0) or grows from end to end
     :param slowing: of the pen at corners, 0 .. 1
     :param unsteady: of the pen's speed
     :param pixel: to which samples are rounded; 0 is none
@@ -48,6 +54,7 @@ class Hand:
     size: float
     place: tuple[float, float]
     rate: float
+    uneven: float
     duration: float
     drift: float
     tremor: float
@@ -58,6 +65,7 @@ class Hand:
     hook_up: float
     closing: float
     slip: float
+    spiral: float
     slowing: float
     unsteady: float
     pixel: float
@@ -68,23 +76,28 @@ class Hand:
 
 def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
     """Return somebody of a half of the people: no hand of one half has the habits of the other."""
-    corners = max(len(figure.way) if not figure.smooth else 4, 3)
+    corners = max(_turning(figure.way) / (math.pi / 2) if figure.smooth else len(figure.way), 3)
     # Whoever draws something thin takes more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
+    # Seconds a corner. A pen in a hurry cuts corners.
+    pace = math.exp(_habit(rng, math.log(0.1), math.log(0.7), half))
+    hurry = rng.uniform(0.0, 0.04) if pace < 0.2 else 0.0
     somebody = Hand(
         size=math.exp(rng.uniform(math.log(0.4), math.log(6.0))),
         place=(rng.uniform(-20.0, 20.0), rng.uniform(-20.0, 20.0)),
-        rate=math.exp(_habit(rng, math.log(20.0), math.log(200.0), half)),
-        duration=corners * math.exp(_habit(rng, math.log(0.25), math.log(0.9), half)),
+        rate=math.exp(_habit(rng, math.log(33.0), math.log(125.0), half)),
+        uneven=rng.uniform(0.0, 0.6),
+        duration=corners * pace,
         drift=care * _often(rng, 0.8, 0.012),
         tremor=care * _often(rng, 0.6, 0.004),
         noise=_often(rng, 0.5, 0.0025),
-        rounding=care * _often(rng, 0.7, 0.025),
+        rounding=care * (hurry + _often(rng, 0.7, 0.025)),
         bow=care * _often(rng, 0.7, 0.03),
         hook_down=care * _often(rng, 0.2, 0.05),
         hook_up=care * _often(rng, 0.25, 0.05),
-        closing=float(rng.choice([0.0, rng.uniform(-0.08, 0.0), rng.uniform(0.0, 0.12)])),
+        closing=_closing(rng, figure),
         slip=care * _often(rng, 0.8, 0.04),
+        spiral=rng.normal(0.0, 0.06) if figure.smooth else 0.0,
         slowing=_habit(rng, 0.0, 0.85, half),
         unsteady=_habit(rng, 0.0, 0.4, half),
         pixel=float(rng.choice([0.0, rng.uniform(0.0025, 0.012)])),
@@ -135,6 +148,19 @@ def _habit(rng: Random, low: float, high: float, half: str) -> float:
     return float(low + (high - low) * (band + rng.random()) / 8)
 
 
+def _turning(way: Floats) -> float:
+    """Return the sum of the turns of a way [rad]."""
+    steps = np.diff(way, axis=0)
+    return float(np.abs(np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))).sum())
+
+
+def _closing(rng: Random, figure: Figure) -> float:
+    """Return the share of a closed way that is missing (< 0), or drawn twice (> 0)."""
+    gap, overlap = abs(rng.normal(0.0, 0.05)), abs(rng.normal(0.0, 0.1))
+    missing, twice = (0.15, 0.25) if figure.smooth else (0.1, 0.12)
+    return float(rng.choice([0.0, -min(gap, missing), min(overlap, twice)]))
+
+
 def _often(rng: Random, chance: float, spread: float) -> float:
     """Return 0, or with some chance a length whose typical size is the spread."""
     return float(abs(rng.normal(0.0, spread))) if rng.random() < chance else 0.0
@@ -166,7 +192,8 @@ def _way(figure: Figure, somebody: Hand, rng: Random) -> Floats:
     # The end misses the beginning more and more over the last third.
     angle = rng.uniform(0, 7)
     share = np.clip(np.linspace(-2.0, 1.0, len(way)), 0.0, 1.0)[:, None]
-    return way + somebody.slip * share * (math.cos(angle), math.sin(angle))
+    way = way + somebody.slip * share * (math.cos(angle), math.sin(angle))
+    return np.asarray(way * np.linspace(1.0, 1.0 - somebody.spiral, len(way))[:, None])
 
 
 def _dense(way: Floats, count: int = 600) -> Floats:
@@ -235,7 +262,8 @@ def _paced(way: Floats, somebody: Hand, rng: Random) -> tuple[Floats, Floats]:
     spent = np.concatenate(([0.0], np.cumsum(np.hypot(*step.T) / np.maximum(slow, 0.05))))
     spent *= somebody.duration / spent[-1]
     times = np.arange(0.0, somebody.duration, 1.0 / somebody.rate)
-    times = np.append(times, somebody.duration)
+    times[1:] += rng.uniform(-0.5, 0.5, len(times) - 1) * somebody.uneven / somebody.rate
+    times = np.append(np.minimum(times, somebody.duration), somebody.duration)
     here = np.column_stack([np.interp(times, spent, way[:, axis]) for axis in (0, 1)])
     return here, times
 

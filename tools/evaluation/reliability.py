@@ -30,10 +30,10 @@ class Reliability:
         self._confidences.append(confidence)
         self._right.append(right)
 
-    def show(self) -> None:
+    def show(self, where: str) -> None:
         """Print a row for each class of confidence, and the area under the curve."""
         confidences, right = np.array(self._confidences), np.array(self._right)
-        print(f'\n{"readings said to be sure by":<34}{"mean":>8}{"right":>8}')
+        print(f'\n{f"{where}, said to be sure by":<34}{"mean":>8}{"right":>8}')
         for low, high in itertools.pairwise(_BOUNDS):
             rows = (confidences > low) & (confidences <= high)
             if rows.any():
