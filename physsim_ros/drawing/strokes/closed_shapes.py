@@ -33,8 +33,8 @@ from physsim_ros.drawing.strokes.plane import angles, principal_axis
 from physsim_ros.drawing.strokes.polyline import point_of, size_of, widened
 from physsim_ros.drawing.strokes.signs import axle, weld
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.shapes import crosses_itself, is_convex, signed_area
-from physsim_ros.model.transform import cross, norms, Point, rotated_each
+from physsim_ros.model.shapes import crosses_itself, signed_area
+from physsim_ros.model.transform import norms, Point
 
 # The name of a form whose meaning is a polygon.
 OVAL = 'oval'
@@ -43,16 +43,17 @@ OVAL = 'oval'
 _GAP = 0.147
 # The greatest distance of an outline from a rectangle (rms), in shares of its size: that of an
 # octagon is 0.024 and more; and that in shares of the error of an ellipse, 0.5 for an oval.
-_SQUARE, _SQUARER = 0.022, 0.22
+_SQUARE, _SQUARER = 0.0222, 0.27
 # The least aspect of a circle as people draw it, and the number of sides of an oval, which rolls.
-_CIRCULAR, _OVAL_SIDES = 0.68, 48
-# Evidence for a circle: a constant, the factors of the logarithm of its error and of the number of
-# corners of a convex outline, and the number of corners that speaks neither for nor against it.
-_EVIDENCE, _ERROR, _CORNER, _FEW = 1.1, 1.18, 0.5, 5.0
+_CIRCULAR, _OVAL_SIDES = 0.63, 48
+# Evidence for an ellipse, in log odds: a constant, and the factors of the logarithms of the
+# residuals of straight sides and of the ellipse, of the bulge of the sides, and of the log of
+# the aspect below that of `_PLANK`: what is thinner is more often a plank than an oval.
+_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -4.8, 1.0, 2.6, 3.4, 4.5, 0.35
+# The least residual that is told from 0, in shares of the size.
+_EXACT = 0.001
 # The least aspect of the corners of a polygon that may be a small circle.
 _LEAST_ROUND = 0.4
-# The least number of equal corners that are the samples of a circle.
-MANY = 9
 # Factor on the weight of an outline that is neither round nor made of straight sides.
 BLOB = 0.8
 
@@ -78,34 +79,37 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
 
 def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     """Yield the shapes that an outline may have, with relative weights."""
-    center, radius, error, aspect = roundness(outline)
+    ellipse = fitting.ellipse(outline)
+    error, aspect = ellipse.error, ellipse.aspect
     wide, narrowed = widened(outline)
     at = corner_detection.corners(wide, closed=True, gap=gap)
     found = narrowed(corner_detection.vertices(wide, at, closed=True))
     size = size_of(wide)
     residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0
-    # Logistic regression on hand-drawn circles and polygons: sides fit a circle badly, and
-    # a circle has many corners.
-    evidence = _EVIDENCE + math.log(max(residual, 1e-6)) - _ERROR * math.log(max(error, 1e-6))
-    convex = len(at) > 3 and is_convex(_counterclockwise(found))
-    circle = rises(evidence + (_CORNER * (len(at) - _FEW) if convex else 0.0), 0.0, 0.31)
-    if len(at) >= MANY and convex:
-        # Many equal corners are the samples of a circle that was drawn quickly.
-        circle = max(circle, falls(error, 0.04, 0.004))
-    edgeless = circle
-    sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
-    circle *= _winds_once(outline - center) * falls(error, 0.085, 0.015)
-    circular = rises(aspect, _CIRCULAR, 0.02)
-    rim = center + np.array((radius, 0.0))
-    yield Hypothesis(primitive=DISC, weight=circle * circular, points=np.array((center, rim)))
-    # A thinner outline is a line, drawn to and fro.
-    broad = rises(aspect, 0.02, 0.003)
-    ellipse = fitting.ellipse(outline, _OVAL_SIDES)
-    yield Hypothesis(primitive=OVAL, weight=broad * circle * (1.0 - circular), points=ellipse)
     # Independent of the corners: a rectangle may have a bent side or a round corner.
     corners, off = fitting.rectangle_of(wide)
     off /= size
-    square = falls(off, _SQUARE, 0.0015) * falls(off / max(error, 1e-6), _SQUARER, 0.015)
+    # Logistic regression on hand-drawn ellipses and outlines with straight sides.
+    evidence = (
+        _EVIDENCE
+        + _SIDES * math.log(max(min(residual, off), _EXACT))
+        - _ELLIPSE * math.log(max(error, _EXACT))
+        + _BULGE * _bulge(wide, at)
+        + _THIN * math.log(min(max(aspect, _EXACT) / _PLANK, 1.0))
+    )
+    edgeless = rises(evidence, 0.0, 1.0)
+    circle = edgeless * _winds_once(outline - ellipse.center) * falls(error, 0.085, 0.01)
+    sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
+    circular = rises(aspect, _CIRCULAR, 0.02)
+    rim = ellipse.center + np.array((ellipse.radius, 0.0))
+    disc = np.array((ellipse.center, rim))
+    yield Hypothesis(primitive=DISC, weight=circle * circular, points=disc)
+    # A thinner outline is a line, drawn to and fro.
+    _, longer, shorter = principal_axis(outline - outline.mean(axis=0))
+    broad = rises(math.sqrt(shorter / longer), 0.02, 0.003)
+    oval = ellipse.corners(_OVAL_SIDES)
+    yield Hypothesis(primitive=OVAL, weight=broad * circle * (1.0 - circular), points=oval)
+    square = falls(off, _SQUARE, 0.003) * falls(off / max(error, 1e-6), _SQUARER, 0.03)
     if len(at) == 4 and squareness(found) > square:
         corners, square = found, squareness(found)
     else:
@@ -193,28 +197,14 @@ def polygon_interpretations(hypothesis: Hypothesis, context: Context) -> Iterato
     )
 
 
-def roundness(outline: Floats) -> tuple[Floats, float, float, float]:
-    """
-    Return how round a closed polyline is.
-
-    :return: its centre [m]; its mean radius [m]; the standard deviation of the radius, in shares
-        of it, once the ellipse of the same moments is stretched to a circle; the lesser axis of
-        that ellipse by the greater
-    """
-    following = np.roll(outline, -1, axis=0)
-    base = outline.mean(axis=0)
-    weight = cross(outline - base, following - base)
-    area = float(weight.sum()) / 2
-    center = base
-    if abs(area) > 1e-6 * float((np.ptp(outline, axis=0) ** 2).sum()):
-        center = base + ((outline + following - 2 * base) * weight[:, None]).sum(axis=0) / 6 / area
-    away = outline - center
-    angle, along, across = principal_axis(away)
-    aspect = math.sqrt(max(across / along, 1e-18))
-    x, y = rotated_each(away, -angle).T
-    radii = np.hypot(x, y / aspect)
-    radius = math.sqrt(abs(area) / math.pi)
-    return center, radius, float(radii.std() / radii.mean()), aspect
+def _bulge(outline: Floats, at: list[int]) -> float:
+    """Return how much the sides of a closed polyline are arcs: 1 those of a circle, 0 straight."""
+    if len(at) < 3:
+        return 1.0
+    beyond = 1.0 - abs(signed_area(outline[at])) / max(abs(signed_area(outline)), 1e-300)
+    turn = 2.0 * math.pi / len(at)
+    # Of a circle, over equal sides.
+    return min(max(beyond / (1.0 - math.sin(turn) / turn), 0.0), 2.0)
 
 
 def squareness(found: Floats) -> float:
@@ -226,14 +216,10 @@ def squareness(found: Floats) -> float:
     slants = np.abs(np.abs(angles(np.roll(sides, 1, axis=0), sides)) - math.pi / 2)
     # The direction of a short side is less exact than its ends.
     slant = float(slants.mean()) * min(1.0, float(lengths.min() / lengths.max()) / 0.3)
-    return falls(off, 0.115, 0.006) * falls(slant, 0.3, 0.012)
+    return falls(off, 0.115, 0.012) * falls(slant, 0.3, 0.024)
 
 
 def _winds_once(away: Floats) -> float:
     """Return how well the winding number of a closed polyline fits ±1, 0 .. 1."""
     turn = float(angles(away, np.roll(away, -1, axis=0)).sum()) / (2 * math.pi)
     return falls(abs(abs(turn) - 1.0), 0.4, 0.05)
-
-
-def _counterclockwise(found: Floats) -> Floats:
-    return found if signed_area(found) > 0 else found[::-1]

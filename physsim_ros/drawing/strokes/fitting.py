@@ -2,19 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Least-squares fits to points: a straight line, a rectangle, a curve of few points.
+Least-squares fits to points: a straight line, a rectangle, an ellipse, a curve of few points.
 
 Law: a fit is always returned; the caller decides by its residual whether it is good.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 import itertools
 import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.plane import (
-    least_squares,
     principal_axis,
     quarter_heading,
     unit_vector,
@@ -30,6 +30,40 @@ CURVED, FINE = 0.013, 0.006
 _ROUNDS = 3
 # Smoothing before a curve is simplified: standard deviation of the Gaussian [points].
 SMOOTHING = 1.2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Ellipse:
+    """
+    An ellipse, fitted to an outline.
+
+    :param center: (2,) float64 [m]
+    :param angle: of its longer axis [rad]
+    :param half: its half axes, the longer first [m]
+    :param error: standard deviation of the radius of the outline, in shares of it, once the
+        ellipse is stretched to a circle
+    """
+
+    center: Floats
+    angle: float
+    half: tuple[float, float]
+    error: float
+
+    @property
+    def aspect(self) -> float:
+        """Return the shorter axis by the longer."""
+        return self.half[1] / self.half[0]
+
+    @property
+    def radius(self) -> float:
+        """Return the radius of the circle of the same area [m]."""
+        return math.sqrt(self.half[0] * self.half[1])
+
+    def corners(self, count: int) -> Floats:
+        """Return so many points on it, (count, 2) float64 [m]."""
+        circle = np.array([unit_vector(2.0 * math.pi * at / count) for at in range(count)])
+        points: Floats = self.center + rotated_each(circle * self.half, self.angle)
+        return points
 
 
 def line(points: Floats) -> tuple[Floats, Floats, float]:
@@ -78,23 +112,31 @@ def rectangle_of(outline: Floats) -> tuple[Floats, float]:
     return rotated_each(corners, angle), math.sqrt(float((off**2).mean()))
 
 
-def ellipse(outline: Floats, sides: int) -> Floats:
-    """Return corners of the ellipse of least squares, its axes those of inertia of an outline."""
-    following = np.roll(outline, -1, axis=0)
-    weights = norms(following - outline)[:, None]
-    middles = (outline + following) / 2
-    center = (weights * middles).sum(axis=0) / weights.sum()
-    away = outline - center
-    angle, *_ = principal_axis(away)
-    local = rotated_each(away, -angle)
-    angles = np.arange(sides) * 2.0 * math.pi / sides
-    # The half axes by which the outline is a unit circle (least squares), at most its reach.
-    inverse = np.array(least_squares(local**2, np.ones(len(local))))
-    reach = np.abs(local).max(axis=0)
-    half = reach / np.sqrt(np.maximum(inverse * reach**2, 1.0))
-    circle = np.column_stack((np.cos(angles), np.sin(angles)))
-    corners: Floats = center + rotated_each(circle * half, angle)
-    return corners
+def ellipse(outline: Floats) -> Ellipse:
+    """Return the ellipse of the same centroid and second moments of area as an outline."""
+    base = outline.mean(axis=0)
+    x, y = (outline - base).T
+    u, v = np.roll(x, -1), np.roll(y, -1)
+    # Moments about the mean, by Green's theorem: sums over the triangles of the sides.
+    weight = x * v - y * u
+    double = float(weight.sum())
+    if abs(double) < 1e-6 * float((x * x + y * y).mean()):
+        double = math.inf
+    cx, cy = (float((weight * (a + b)).sum()) / 3 / double for a, b in ((x, u), (y, v)))
+    xx = float((weight * (x * x + x * u + u * u)).sum()) / 6 / double - cx * cx
+    yy = float((weight * (y * y + y * v + v * v)).sum()) / 6 / double - cy * cy
+    xy = float((weight * (2 * (x * y + u * v) + x * v + u * y)).sum()) / 12 / double - cx * cy
+    angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
+    middle, apart = (xx + yy) / 2, math.hypot((xx - yy) / 2, xy)
+    # The half axes are twice the radii of gyration; those of an eight have no square root.
+    longer, shorter = (
+        2.0 * math.sqrt(max(each, 1e-18)) for each in (middle + apart, middle - apart)
+    )
+    center = base + np.array((cx, cy))
+    along, across = rotated_each(outline - center, -angle).T
+    radii = np.hypot(along / longer, across / shorter)
+    error = float(radii.std() / radii.mean())
+    return Ellipse(center=center, angle=angle, half=(longer, shorter), error=error)
 
 
 def simplified(points: Floats, bends: Floats) -> Floats | None:

@@ -138,7 +138,8 @@ def guess_meanings(
     guesses: list[Guess] = []
     for meaning, weight in weights.items():
         others = _group_of(meaning)
-        group = sum(weights.get(each, 0.0) for each in others)
+        # In the order of the interpretations: that of a set differs from process to process.
+        group = sum(share for each, share in weights.items() if each in others)
         sure = calibration.group_confidence(group, total)
         within = calibration.share_confidence(weight / group) if len(others) > 1 else 1.0
         guesses.append(

@@ -22,10 +22,12 @@ RULED: dict[str, tuple[str, Floats]] = {
     'circle': ('disc', CIRCLE),
     'flat circle': ('disc', CIRCLE * (1.0, 0.75)),
     'circle of 12 samples': ('disc', CIRCLE[::7]),
+    'circle of 9 uneven samples': ('disc', CIRCLE[[0, 9, 20, 29, 40, 48, 59, 68, 78]]),
     'circle with a gap': ('disc', CIRCLE[:74]),
     'circle, drawn on': ('disc', np.vstack((CIRCLE, CIRCLE[1:9]))),
     'circle, twice round': ('disc', np.vstack((CIRCLE, 1.04 * CIRCLE[1:70]))),
     'oval': ('oval', CIRCLE * (1.0, 0.5)),
+    'thin oval': ('oval', CIRCLE * (1.0, 0.3)),
     'square, twice round': ('rectangle', np.array([(0, 0), (0, 1), (1, 1), (1, 0)] * 2)),
     'square, ends crossing': (
         'rectangle',
