@@ -164,7 +164,7 @@ def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
     tip = sheet.page.get_by_role('tooltip')
     button = sheet.page.get_by_role('button', name='Rectangle', exact=True)
     button.hover()
-    tip.get_by_text('then click the side across').wait_for()
+    tip.get_by_text('then click the opposite one').wait_for()
     button.focus()
     sheet.page.keyboard.press('Tab')
     tip.get_by_text('Polygon (G)').wait_for()
@@ -200,7 +200,7 @@ def test_hints_lead_from_a_first_body_to_a_changed_past(chromium: Any, address: 
     sheet.press('Pause')
     sheet.press('Delete')
     sheet.page.mouse.click(*sheet.place(*sheet.pose('box/0')[:2]))
-    hint.get_by_text('went before').wait_for()
+    hint.get_by_text('what happened before').wait_for()
     # A step that was done is not taught again.
     sheet.page.reload()
     sheet.wait('Object.keys(physsim.bodies).length > 0')
