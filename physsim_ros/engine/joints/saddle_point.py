@@ -173,9 +173,9 @@ class SaddlePoint:
         pushes = np.zeros(self._unknowns) if momenta is None else momenta[self._moved].ravel()
         # For `solve` to be called is for `factor` to have been.
         found = self._factors.solve(np.concatenate((pushes, wanted)))  # type: ignore[union-attr]
-        changes = np.zeros_like(self.inverse)
-        changes[self._moved] = found[: self._unknowns].reshape(-1, 3)
-        return -found[self._unknowns :], changes
+        changes, count = np.zeros_like(self.inverse), self._unknowns
+        changes[self._moved] = found[:count].reshape(-1, 3)
+        return -found[count:], changes
 
     def solve(
         self, problem: Problem, sides: Ints, regularisation: Floats, rounds: int = ROUNDS

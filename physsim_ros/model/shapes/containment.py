@@ -19,8 +19,12 @@ from physsim_ros.model.transform import Point
 
 @overload
 def contains(pieces: Iterable[Piece], x: float, y: float, slack: float = 0.0) -> bool: ...
+
+
 @overload
 def contains(pieces: Iterable[Piece], x: Floats, y: Floats, slack: float = 0.0) -> Flags: ...
+
+
 def contains(
     pieces: Iterable[Piece], x: float | Floats, y: float | Floats, slack: float = 0.0
 ) -> bool | Flags:
