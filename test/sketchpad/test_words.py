@@ -12,11 +12,15 @@ import pytest
 
 from .chromium import circle, Sheet
 
-# Bodies from another socket of this page: name, x [m].
+# Bodies from another socket of this page, which is closed, so that nobody else draws: name, x [m].
 SPAWN = """bodies => new Promise((resolve) => {
     const socket = new WebSocket(`ws://${location.host}/ws`);
-    socket.onopen = () => resolve(bodies.forEach(([name, x]) => socket.send(JSON.stringify(
-        {type: 'spawn', id: '', body: {name, box: {width: 1, height: 1}, at: [x, 6]}}))));
+    socket.onopen = () => {
+        for (const [name, x] of bodies) socket.send(JSON.stringify(
+            {type: 'spawn', id: '', body: {name, box: {width: 1, height: 1}, at: [x, 6]}}));
+        socket.close();
+    };
+    socket.onclose = () => resolve();
 })"""
 
 
