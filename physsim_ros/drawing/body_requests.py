@@ -101,6 +101,7 @@ def copy(name: str, body: Body, pose: Pose) -> Spawn:
             kinematic=body.kinematic,
             group=body.group,
             sensor=body.sensor,
+            label=body.label,
         ),
     )
 

@@ -237,4 +237,4 @@ def _set_neighbors(segments: list[pymunk.Segment]) -> None:
 
 def same_in_engine(a: Body, b: Body) -> bool:
     """Return whether two bodies have the same objects in the engine."""
-    return a == replace(b, color=a.color, expires=a.expires, robot=a.robot)
+    return a == replace(b, color=a.color, expires=a.expires, robot=a.robot, label=a.label)

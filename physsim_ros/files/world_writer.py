@@ -99,6 +99,8 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         entry['robot'] = body.robot.entry()
     if body.group:
         entry['group'] = body.group
+    if body.label:
+        entry['label'] = body.label
     if body.expires is not None:
         entry['lifetime'] = body.expires / physics_rate
     return entry | _motion_entry(state, physics_rate)

@@ -25,6 +25,10 @@ from physsim_ros.model.checks import (
 )
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots import Robot, robot_from
+from physsim_ros.model.texts import is_printable
+
+# Greatest length of a label [characters]: some lines beside a body.
+LONGEST_LABEL = 200
 
 
 def _group(value: object, name: str) -> int:
@@ -33,6 +37,16 @@ def _group(value: object, name: str) -> int:
     # Chipmunk's cpGroup is an unsigned 64-bit word; negative numbers wrap to distinct words.
     if not -(2**31) <= value < 2**31:
         raise BadProperty(f'{name} must fit into 32 bits', field=name)
+    return value
+
+
+def _label(value: object, name: str) -> str:
+    if not isinstance(value, str):
+        raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
+    if len(value) > LONGEST_LABEL:
+        raise BadProperty(f'{name} has more than {LONGEST_LABEL} characters', field=name)
+    if not is_printable(value.replace('\n', '')):
+        raise BadProperty(f'{name} has an unprintable character', field=name)
     return value
 
 
@@ -54,6 +68,7 @@ class Properties(Checked):
     :param surface_velocity: of the surface of a conveyor, which is a sensor, in the body's axes
         [m/s]
     :param robot: what makes it a robot, or a mapping of that
+    :param label: text that is shown at its centre of mass, in lines; '' is none
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is of the wrong kind or out of range
     """
@@ -71,6 +86,7 @@ class Properties(Checked):
         'sensor': flag,
         'surface_velocity': velocity,
         'robot': robot_from,
+        'label': _label,
     }
 
     mass: float | None = None
@@ -85,6 +101,7 @@ class Properties(Checked):
     sensor: bool | None = None
     surface_velocity: tuple[float, float] | None = None
     robot: Robot | None = None
+    label: str | None = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)

@@ -22,6 +22,7 @@ _WORDS: dict[str, tuple[str, ...]] = {
     'sensor': ('trigger', 'ghost', 'detector', 'is_trigger'),
     'surface_velocity': ('conveyor', 'belt', 'belt_speed'),
     'robot': ('vehicle', 'drive'),
+    'label': ('text', 'caption', 'note', 'title'),
     'lower': ('min', 'minimum', 'from'),
     'upper': ('max', 'maximum', 'to'),
     'rate': ('speed', 'angular_velocity', 'omega', 'rpm', 'motor_speed', 'target'),

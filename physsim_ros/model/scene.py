@@ -44,6 +44,7 @@ class Body:
     :param surface_velocity: of the surface of a conveyor, which is a sensor, in the body's axes
         [m/s]
     :param robot: what makes it a robot; None is no robot
+    :param label: text that is shown at its centre of mass, in lines; '' is none
     """
 
     name: str
@@ -58,9 +59,10 @@ class Body:
     group: int
     sensor: bool
     expires: int | None
-    # Not part of the text, so that digests of worlds without a floor are those of ever.
+    # Not part of the text, so that digests of worlds without floor and labels are those of ever.
     surface_velocity: tuple[float, float] = field(default=(0.0, 0.0), repr=False)
     robot: Robot | None = field(default=None, repr=False)
+    label: str = field(default='', repr=False)
 
     @property
     def total_mass(self) -> float:
@@ -177,7 +179,9 @@ class Scene:
             if body.robot is not None or any(body.surface_velocity)
         ]
         floor = (self.settings.floor_friction, self.settings.seed, robots)
-        return (parts + repr(floor) if any(floor) else parts).encode()
+        labels = [(body.name, body.label) for body in self.bodies if body.label]
+        parts += ''.join(repr(each) for each in (floor, labels) if any(each))
+        return parts.encode()
 
     @cached_property
     def names(self) -> tuple[str, ...]:

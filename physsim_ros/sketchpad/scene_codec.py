@@ -104,6 +104,7 @@ def body_entry(body: Body) -> dict[str, Any]:
         'friction': body.friction,
         'elasticity': body.elasticity,
         'group': body.group,
+        'label': body.label,
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
     }
 

@@ -12,8 +12,8 @@ from __future__ import annotations
 
 from physsim_ros.view import (
     arrows,
+    body_texts,
     event_log,
-    name_labels,
     plots,
     robot_ways,
     styles,
@@ -50,7 +50,7 @@ def blueprint(*, paced: bool, traced: bool) -> rrb.Blueprint:
             robot_ways.TRUTH: [_last(_DRIVEN)],
             robot_ways.ODOMETRY: [_last(_DRIVEN)],
             # Shown by a click on the eye in the panel of the blueprint.
-            name_labels.PATH: [rrb.EntityBehavior(visible=False)],
+            body_texts.NAMES_PATH: [rrb.EntityBehavior(visible=False)],
             arrows.VELOCITIES: [rrb.EntityBehavior(visible=False)],
         },
     )

@@ -20,6 +20,7 @@ from physsim_ros.model.snapshot import Frame
 from physsim_ros.view import grid
 from physsim_ros.view.arrows import ContactArrows, force_scale, VelocityArrows
 from physsim_ros.view.blueprint import blueprint, send_blueprint
+from physsim_ros.view.body_texts import BodyTexts, LABELS_PATH, NAMES_PATH
 from physsim_ros.view.camera import Camera, pinhole
 from physsim_ros.view.event_log import send_events
 from physsim_ros.view.frame_batch import FrameBatch, RecordedClock, Times
@@ -29,7 +30,6 @@ from physsim_ros.view.joints import JointTrack
 from physsim_ros.view.legend import Legend
 from physsim_ros.view.meshes.body_geometry import BodyGeometry, DEPTH
 from physsim_ros.view.meshes.mesh_track import MeshTrack
-from physsim_ros.view.name_labels import NameLabels
 from physsim_ros.view.plots import Plots
 from physsim_ros.view.preview_lines import PreviewLines
 from physsim_ros.view.robot_ways import RobotWays
@@ -46,7 +46,7 @@ WALL_HALF = 0.1
 WALL = (89, 94, 102)
 WALLS = 'world/walls'
 # Heights above the plane, over all bodies [units].
-_JOINTS, _ARROWS, _PREVIEW, _NAMES = (DEPTH + each for each in (0.01, 0.02, 0.03, 0.04))
+_JOINTS, _ARROWS, _PREVIEW, _TEXTS = (DEPTH + each for each in (0.01, 0.02, 0.03, 0.04))
 
 
 class FrameRecorder:
@@ -72,7 +72,10 @@ class FrameRecorder:
         recording.log(WALLS, rr.Mesh3D.from_fields(albedo_factor=WALL), static=True)
         grid.send_style(recording)
         self._bodies = MeshTrack(recording)
-        self._names = NameLabels(recording)
+        self._texts = (
+            BodyTexts(recording, NAMES_PATH, lambda scene: scene.names),
+            BodyTexts(recording, LABELS_PATH, lambda scene: [each.label for each in scene.bodies]),
+        )
         self._joints = JointTrack(recording)
         self._contacts = ContactArrows(recording)
         self._velocities = VelocityArrows(recording)
@@ -141,7 +144,8 @@ class FrameRecorder:
         self._bodies.send_poses(bodies.groups, batch.poses, batch.times, moved)
         if due:
             self._send_geometry(batch, bodies, everything=repeat)
-        self._names.send_places(batch, moved, _NAMES * unit)
+        for texts in self._texts:
+            texts.send_places(batch, moved, _TEXTS * unit)
         self._joints.send(batch, moved)
         self._contacts.send(batch, height=_ARROWS * unit)
         self._velocities.send(batch, height=_ARROWS * unit)
@@ -173,7 +177,8 @@ class FrameRecorder:
         """Send the components that change only with the scene."""
         times = batch.times_at([0])
         self._bodies.send_meshes(bodies.groups, times, everything=everything)
-        self._names.send_names(batch)
+        for texts in self._texts:
+            texts.send_texts(batch)
         self._joints.send_symbols(times, everything=everything)
         self._send_walls(batch.scene.settings.bounds, bodies.unit, times)
         self._recording.send_columns('world/camera', times, self._camera.transform())

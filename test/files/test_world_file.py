@@ -74,7 +74,8 @@ def test_every_colour_round_trips(color: tuple[float, ...], folder: Path) -> Non
 @pytest.mark.parametrize(
     'said',
     [{'mass': 1 / 3}, {'density': 1e-3}, {'friction': 0.1 + 0.2}, {'elasticity': 2 / 3},
-     {'group': -(2**31)}, {'group': 7}, {'velocity': (1e-7, 1e5)}, {'spin': -1e5},
+     {'group': -(2**31)}, {'group': 7}, {'label': 'm₁: "#{x}"\n\ufeff 2'},
+     {'velocity': (1e-7, 1e5)}, {'spin': -1e5},
      {'lifetime': 1 / 240}, {'lifetime': 1e7 + 1 / 240}, {'lifetime': 1e9}],
 )  # fmt: skip
 def test_every_property_round_trips(said: dict[str, Any], folder: Path) -> None:

@@ -17,7 +17,7 @@ from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownPro
 import pytest
 
 KEYS = ('mass', 'density', 'friction', 'elasticity', 'velocity', 'spin', 'anchored', 'kinematic',
-        'group', 'sensor')  # fmt: skip
+        'group', 'sensor', 'label')  # fmt: skip
 NUMBERS = ('mass', 'density', 'friction', 'elasticity', 'spin')
 FLAGS = ('anchored', 'kinematic', 'sensor')
 RANGES = {
@@ -134,6 +134,21 @@ def test_a_group_that_is_none_is_bad(value: object) -> None:
     assert refusal.field == 'group'
 
 
+@pytest.mark.parametrize('value', ['', 'm₁', 'two\nlines', 'x' * 200, '{[#: ', '\ufeff'])
+def test_a_label_is_text_in_lines(value: str) -> None:
+    assert Properties(label=value).label == value
+
+
+@pytest.mark.parametrize(
+    'value', [1, True, ['m'], 'x' * 201, 'a\tb', '\r', '\x00', '\ud800', '\u202e']
+)
+def test_a_label_that_is_none_is_bad(value: object) -> None:
+    refusal = refusal_of(label=value)
+
+    assert isinstance(refusal, BadProperty)
+    assert refusal.field == 'label'
+
+
 def test_a_body_has_a_mass_or_a_density_and_not_both() -> None:
     assert isinstance(refusal_of(mass=1.0, density=1.0), BadProperty)
 
@@ -152,6 +167,7 @@ def test_all_keys_of_the_contract_are_known_and_no_others() -> None:
     values: dict[str, Any] = {
         'mass': 1, 'friction': 1, 'elasticity': 1, 'velocity': [1, 1], 'spin': 1,
         'anchored': False, 'kinematic': True, 'group': 1, 'sensor': True,
+        'label': 'm1',
     }  # fmt: skip
 
     assert set(Properties.from_mapping(values).explicit()) == set(KEYS) - {'density'}
@@ -172,7 +188,7 @@ def test_a_key_without_a_value_is_bad(key: str) -> None:
     ('key', 'near'),
     [('elastic', 'elasticity'), ('frictoin', 'friction'), ('Mass', 'mass'), ('denisty', 'density'),
      ('anchor', 'anchored'), ('velocty', 'velocity'), ('spinn', 'spin'), ('groups', 'group'),
-     ('kinematics', 'kinematic'), ('censor', 'sensor'), ('MASS', 'mass')],
+     ('kinematics', 'kinematic'), ('censor', 'sensor'), ('labels', 'label'), ('MASS', 'mass')],
 )  # fmt: skip
 def test_an_unknown_key_is_refused_and_the_nearest_named(key: str, near: str) -> None:
     with pytest.raises(UnknownProperty) as refused:

@@ -23,7 +23,7 @@ PROPERTIES = {each.name for kind in (Properties, JointProperties) for each in fi
      ('weight', 'mass'), ('speed', 'velocity'), ('angular velocity', 'spin'),
      ('fixed', 'anchored'), ('static', 'anchored'), ('rough', 'friction'),
      ('is-trigger', 'sensor'),
-     ('layer', 'group')],
+     ('layer', 'group'), ('caption', 'label')],
 )  # fmt: skip
 def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, name: str) -> None:
     with pytest.raises(UnknownProperty) as refused:

@@ -346,6 +346,11 @@ def test_the_marker_of_a_chain_whose_ends_meet_is_no_polygon():
 
 
 numbers = st.floats(1e-9, 1e12)
+labels = st.text(
+    st.characters(exclude_categories=('Cc', 'Cs', 'Cf', 'Zl', 'Zp'))
+    | st.sampled_from('\n[{\ufeff'),
+    max_size=200,
+)
 
 
 bodies = st.builds(
@@ -357,6 +362,7 @@ bodies = st.builds(
     elasticity=st.floats(0, 1),
     group=st.integers(-(2**31), 2**31 - 1),
     sensor=st.booleans(),
+    label=labels,
 )
 
 
@@ -367,6 +373,7 @@ def test_the_text_of_a_marker_gives_back_the_properties_of_its_body(body, role):
     expected |= {'density': body.density} if body.mass is None else {'mass': body.mass}
     expected |= {'group': body.group} if body.group else {}
     expected |= {'sensor': True} if body.sensor else {}
+    expected |= {'label': body.label} if body.label else {}
     if role:
         body = replace(body, **{role: True})
         expected[role] = True

@@ -33,7 +33,7 @@ def test_no_text_says_nothing() -> None:
 def test_text_names_every_property() -> None:
     text = (
         '{mass: 2, friction: 0.25, elasticity: 1, velocity: [3, -4.5], spin: -2, '
-        'anchored: false, kinematic: true, group: -3, sensor: true}'
+        'anchored: false, kinematic: true, group: -3, sensor: true, label: "m1\\n2 kg"}'
     )
     assert properties_of(text) == Properties(
         mass=2.0,
@@ -45,6 +45,7 @@ def test_text_names_every_property() -> None:
         kinematic=True,
         group=-3,
         sensor=True,
+        label='m1\n2 kg',
     )
     assert properties_of('density: 7').density == 7.0
     assert properties_of('anchored: true\nfriction: 0').anchored is True
@@ -102,6 +103,8 @@ def test_a_number_that_is_not_finite_is_refused(number: str) -> None:
         ('{anchored: "true"}', 'anchored'),
         ('{kinematic: no}', 'kinematic'),
         ('{sensor: 0.0}', 'sensor'),
+        ('{label: 1}', 'label'),
+        ('{label: "\\t"}', 'label'),
         ('{group: 1.0}', 'group'),
         ('{group: true}', 'group'),
         ('{group: 4294967296}', 'group'),

@@ -169,7 +169,7 @@ def spawn_of(rng: random.Random) -> Spawn:
         case 2:
             said |= {'friction': 0.1, 'elasticity': 0.9}
         case 3:
-            said |= {'sensor': True, 'group': rng.randint(0, 1)}
+            said |= {'sensor': True, 'group': rng.randint(0, 1), 'label': 'gate'}
         case 4 if not anchored:
             said |= {'kinematic': True}
         case 5 if not anchored:

@@ -43,7 +43,8 @@ from ..building import (
 
 
 def test_a_change_keeps_what_is_not_said(world: World) -> None:
-    said = {'mass': 4.0, 'friction': 0.25, 'elasticity': 0.75, 'group': 5, 'sensor': True}
+    said = {'mass': 4.0, 'friction': 0.25, 'elasticity': 0.75, 'group': 5, 'sensor': True,
+            'label': 'm1'}  # fmt: skip
     spawn(world, 'a/0', DISC, color=RED, lifetime=9.0, **said)
     before = body(world, 'a/0')
 
@@ -55,7 +56,7 @@ def test_a_change_keeps_what_is_not_said(world: World) -> None:
     assert pose(world, 'a/0') == pytest.approx((1.0, 2.0, 0.3), abs=ROUNDING)
     assert (after.color, after.expires) == (before.color, before.expires)
     assert (after.mass, after.friction, after.elasticity) == (4.0, 0.25, 0.75)
-    assert (after.group, after.sensor) == (5, True)
+    assert (after.group, after.sensor, after.label) == (5, True, 'm1')
 
 
 @pytest.mark.parametrize('shape', [DISC, BOX, ELL], ids=['same shape', 'box', 'ell'])
@@ -101,18 +102,19 @@ def test_a_change_keeps_the_place_in_the_order_and_on_top(world: World) -> None:
     assert len(world) == 3
 
 
-def test_a_recoloured_body_that_rests_does_not_stir() -> None:
+def test_a_recoloured_and_labelled_body_that_rests_does_not_stir() -> None:
     settings = WorldSettings(bounds=(-9.0, 0.0, 9.0, 99.0))
     world, other = World(settings=settings), World(settings=settings)
     for each in (world, other):
         stack(each, 5)
         each.step(240)
 
-    spawn(world, 'stack/2', BOX, tuple(pose(world, 'stack/2').tolist()), color=RED)
+    spawn(world, 'stack/2', BOX, tuple(pose(world, 'stack/2').tolist()), color=RED, label='m')
     for each in (world, other):
         each.step(240)
 
-    assert body(world, 'stack/2').color == RED
+    assert (body(world, 'stack/2').color, body(world, 'stack/2').label) == (RED, 'm')
+    assert world.digest() != other.digest()
     assert np.array_equal(world.snapshot().poses, other.snapshot().poses)
 
 

@@ -136,6 +136,7 @@ def spawns(draw: st.DrawFn, words: Words) -> Ask:
                 'elasticity': words.shares,
                 'group': st.integers(-2, 2),
                 'sensor': st.booleans(),
+                'label': st.sampled_from(['', 'm1']),
                 **({'density': words.lengths, 'anchored': junk} if words is JUNK else {}),
             },
         )

@@ -37,15 +37,23 @@ def test_bodies_that_look_alike_are_one_entity_and_each_has_its_own_size_and_nam
     assert [*recording.last('world/bodies/ball/0', 'name')] == ['ball/0', 'ball/1', 'ball/2']
 
 
-def test_every_body_has_its_name_at_its_centre(recording):
-    both = scene(body('box/0'), body('box/1'))
+def test_every_body_has_its_name_and_label_at_its_centre(recording):
+    both = scene(body('box/0'), body('box/1', label='m1'))
 
     recording.draw(*(frame(both, [(0, 0, 0), (step, 2, 0)], step=4 * step) for step in range(7)))
+    recording.draw(frame(scene(body('box/0')), [(0, 0, 0)], step=28))
 
-    assert [*recording.last('world/names', 'Points3D:labels')] == ['box/0', 'box/1']
+    names = recording.rows('world/names', 'Points3D:labels')
+    assert [*names[0].value] == ['box/0', 'box/1']
     rows = recording.rows('world/names', 'Points3D:positions')
-    assert [row.frame for row in rows] == [0, 6]
-    assert rows[-1].value[:, :2].tolist() == [[0, 0], [6, 2]]
+    assert [row.frame for row in rows] == [0, 6, 7]
+    assert rows[1].value[:, :2].tolist() == [[0, 0], [6, 2]]
+    # And its label, as long as it has one.
+    labels = recording.rows('world/labels', 'Points3D:labels')
+    assert [[*row.value] for row in labels] == [['m1'], []]
+    places = recording.rows('world/labels', 'Points3D:positions')
+    assert [row.value[0, :2].tolist() for row in places[:-1]] == [[0, 2], [6, 2]]
+    assert not len(places[-1].value)
 
 
 def test_a_disc_is_round(recording):

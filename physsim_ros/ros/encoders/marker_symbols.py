@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 import json
+import re
 
 from physsim_ros.model.colors import Color
 from physsim_ros.model.names import (
@@ -36,6 +37,8 @@ _RAISED = 2 * THIN
 _HAND_WIDTH = 0.02
 _HAND = (0.9, 0.2, 0.5, 1.0)
 _DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
+# Opening brackets, and characters that are printable in JSON but not in YAML.
+_ESCAPED = re.compile('[{\\[\ufeff\ufffe\uffff]')
 # The least luminance on which a dark line has more contrast than a light one.
 _BRIGHT = 0.35
 
@@ -115,9 +118,10 @@ def _terms(joint: Joint) -> str:
     return f'{{{", ".join(terms)}}}'
 
 
-def _quoted(name: str) -> str:
-    """Return a name as a YAML string."""
-    return json.dumps(name, ensure_ascii=False)
+def _quoted(text: str) -> str:
+    """Return a text as a YAML string without brackets, whose number in a text is limited."""
+    quoted = json.dumps(text, ensure_ascii=False)
+    return _ESCAPED.sub(lambda found: f'\\u{ord(found[0]):04x}', quoted)
 
 
 def _material(body: Body) -> str:
@@ -128,6 +132,8 @@ def _material(body: Body) -> str:
     parts += [f'{key}: true' for key in ('anchored', 'kinematic', 'sensor') if getattr(body, key)]
     if body.group:
         parts.append(f'group: {body.group}')
+    if body.label:
+        parts.append(f'label: {_quoted(body.label)}')
     return f'{{{", ".join(parts)}}}'
 
 

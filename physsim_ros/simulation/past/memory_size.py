@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import lru_cache
+import sys
 from typing import Any
 
 from numpy.typing import NDArray
@@ -75,10 +76,10 @@ def request_size(request: Request) -> int:
     match request:
         case Command():
             return _REQUEST + request.nbytes
-        case Spawn(shape=shape):
-            return _REQUEST + _BODY + _shape_size(shape)
-        case ChangeBody():
-            return _REQUEST + _BODY
+        case Spawn(shape=shape, properties=properties):
+            return _REQUEST + _BODY + _shape_size(shape) + sys.getsizeof(properties.label)
+        case ChangeBody(properties=properties):
+            return _REQUEST + _BODY + sys.getsizeof(properties.label)
         case MoveBodies(names=names) | DeleteBodies(names=names):
             return _REQUEST + names_size(names)
         case Restore(state=state):
@@ -94,7 +95,8 @@ def names_size(names: tuple[str, ...]) -> int:
 def state_size(state: WorldState) -> int:
     """Return the memory of a saved state."""
     shapes = sum(_shape_size(each.body.shape) for each in state.bodies)
-    size = shapes + (_BODY + _REQUEST) * len(state.bodies) + _BODY * len(state.joints)
+    labels = sum(sys.getsizeof(each.body.label) for each in state.bodies)
+    size = shapes + labels + (_BODY + _REQUEST) * len(state.bodies) + _BODY * len(state.joints)
     memory = state.memory
     if memory is not None:
         size += _nbytes((memory.pairs, memory.hashes, memory.impulses, memory.joints, memory.ids))

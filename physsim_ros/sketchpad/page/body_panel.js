@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of the selected bodies: properties of a body, its plots. */
 
-import {createElement, elementOf, iconButton, inRow, textButton} from './dom.js';
+import {createElement, elementOf, iconButton, inRow, textButton, textField} from './dom.js';
 import {Numbers} from './numbers.js';
 import {Plots} from './plots.js';
 import {gravityButtons, materialButtons} from './presets.js';
@@ -51,11 +51,13 @@ export class BodyPanel {
       onchange: () => change({anchored: anchored.checked})});
     const gate = createElement('input', {type: 'checkbox', checked: body.sensor,
       onchange: () => change({sensor: gate.checked})});
+    const label = textField({value: body.label, rows: body.label.split('\n').length, onchange: () => change({label: label.value})});
     this.show(this.app.words.title(name), [
       this.numbers.element,
       ...body.robot ? this.app.driving.show(body.robot) : [],
       materialButtons(change),
       ...fields(body, change),
+      createElement('label', {}, 'Label', label),
       // A robot is neither.
       ...body.robot ? [] : [createElement('label', {}, 'Anchored', anchored), createElement('label', {}, 'Gate: lets bodies through', gate)],
       inRow(

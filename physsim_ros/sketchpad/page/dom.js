@@ -47,6 +47,20 @@ export function textButton(label, onclick, className = '') {
   return createElement('button', {type: 'button', textContent: label, onclick, className});
 }
 
+/**
+ * A text of several lines, as bodies have it: Enter ends it, Shift and Enter break a line.
+ * @param {Record<string, any>} properties
+ */
+export function textField(properties) {
+  const field = createElement('textarea', {rows: 1, maxLength: 200, ...properties});
+  field.onkeydown = (event) => {
+    if (event.key !== 'Enter' || event.shiftKey || event.isComposing) return;
+    event.preventDefault();
+    field.blur();
+  };
+  return field;
+}
+
 /** @param {Node[]} children beside each other */
 export function inRow(...children) {
   return createElement('div', {className: 'row'}, ...children);

@@ -8,7 +8,7 @@ import {TOOLS} from './toolbar.js';
 
 const TURN = Math.PI / 12; // rad a press of R
 const ZOOM = 1.25;
-const TEXTS = 'input:not([type=range], [type=checkbox], [type=color], [type=file])'; // receive all keys
+const TEXTS = 'textarea, input:not([type=range], [type=checkbox], [type=color], [type=file])'; // receive all keys
 const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
 /** @type {Record<string, [number, number]>} */

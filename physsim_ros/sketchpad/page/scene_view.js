@@ -4,6 +4,7 @@
 import {BodyView} from './body_view.js';
 import {drawGrid} from './grid_view.js';
 import {JointView} from './joint_view.js';
+import {drawLabels} from './label_view.js';
 import {drawScan} from './scan_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
@@ -70,6 +71,7 @@ export class SceneView {
     if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     this.#toPixels();
     if (world.count) new JointView(ctx, world, camera, palette).draw();
+    drawLabels(this);
     this.#drawHands();
     for (const overlay of this.overlays) overlay(this);
   }

@@ -37,6 +37,7 @@ export interface Body {
   anchored: boolean;
   kinematic: boolean;
   sensor: boolean;
+  label: string;
   mass: number;
   moment: number;
   density: number;
