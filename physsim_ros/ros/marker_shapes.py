@@ -35,6 +35,9 @@ Geometry = tuple[int, Size, tuple[Point, ...]]
 
 # Thickness of flat bodies and width of outlines [m]: visible from any side, yet thin.
 THIN = 0.02
+# Of a sans-serif typeface [em]: height of a capital, mean width of a character, height of a line;
+# and what a box has more than its text.
+_CAPITAL, _CHARACTER, _LINE, _MARGIN = 0.72, 0.55, 1.25, 1.2
 # Fields of markers by the fields of shapes, for refusals.
 _FIELDS = {
     'radius': 'scale.x',
@@ -107,6 +110,17 @@ def _boxes(marker: Marker) -> Compound:
     return Compound(element=_box(marker), centers=points_from(marker.points))
 
 
+def _note(marker: Marker) -> Box:
+    # As the message defines it, scale.z is the height of an upper-case A.
+    em, lines = marker.scale.z / _CAPITAL, marker.text.split('\n')
+    width = _CHARACTER * max(map(len, lines)) + _MARGIN
+    try:
+        return Box(width=width * em, height=(_LINE * len(lines) + _MARGIN) * em)
+    except Refusal as refusal:
+        refusal.field = 'scale.z'
+        raise
+
+
 def _discs(marker: Marker) -> Compound:
     return Compound(element=_disc(marker), centers=points_from(marker.points))
 
@@ -149,6 +163,7 @@ _DECODERS: dict[int, Callable[[Marker], Shape]] = {
     Marker.TRIANGLE_LIST: _triangles,
     Marker.CUBE_LIST: _boxes,
     Marker.SPHERE_LIST: _discs,
+    Marker.TEXT_VIEW_FACING: _note,
 }
 _ENCODERS: dict[type[Shape], Callable[[Any], Geometry]] = {
     Disc: _of_disc,

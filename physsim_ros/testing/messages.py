@@ -48,6 +48,7 @@ class BodyProperties(TypedDict, total=False):
     sensor: bool
     surface_velocity: Numbers
     robot: Mapping[str, Any]
+    label: str
 
 
 class MarkerOptions(BodyProperties, total=False):

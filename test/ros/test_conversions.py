@@ -9,6 +9,7 @@ import math
 from typing import Any
 
 from geometry_msgs.msg import Pose, Quaternion, Transform
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import (
     BadOutline,
     BadProperty,
@@ -247,6 +248,21 @@ def test_a_cube_is_a_box_and_a_sphere_or_cylinder_a_disc() -> None:
         assert spawn_of(marker(kind, scale=(3.0, 3.0))).shape == Disc(radius=1.5)
 
 
+def test_a_text_is_a_note_whose_box_has_room_for_it() -> None:
+    kind, size = Marker.TEXT_VIEW_FACING, (0.0, 0.0, 0.3)
+    note = spawn_of(marker(kind, 'note/0', text='{mass: 1}\nm', at=(1, 2), scale=size))
+    again = spawn_of(marker(kind, 'note/0', text='{mass: 1}\nm', scale=(0.0, 0.0, 0.6)))
+
+    assert note.properties == Properties(anchored=True, sensor=True, label='{mass: 1}\nm')
+    assert note.pose == (1.0, 2.0, 0.0)
+    assert isinstance(note.shape, Box)
+    assert isinstance(again.shape, Box)
+    # Nine characters and two lines of letters 0.3 m high.
+    assert 9 * 0.15 < note.shape.width < 9 * 0.45
+    assert 0.6 < note.shape.height < 1.8
+    assert again.shape.width == pytest.approx(2 * note.shape.width)
+
+
 @pytest.mark.parametrize('kind', [Marker.SPHERE, Marker.CYLINDER, Marker.SPHERE_LIST])
 def test_an_oval_is_refused(kind: int) -> None:
     refusal = refusal_of(marker(kind, scale=(1.0, 1.0000001), points=[(0, 0)]))
@@ -300,7 +316,7 @@ def test_lists_are_one_compound_body() -> None:
     assert spawn_of(message).shape == Compound(element=Disc(radius=0.5), centers=centers)
 
 
-@pytest.mark.parametrize('kind', [0, 5, 8, 9, 10, 12, -1, 99])
+@pytest.mark.parametrize('kind', [0, 5, 8, 10, 12, -1, 99])
 def test_a_type_that_is_no_body_is_refused(kind: int) -> None:
     refusal = refusal_of(marker(kind, points=SQUARE))
     assert (type(refusal), refusal.field) == (UnknownShape, 'type')

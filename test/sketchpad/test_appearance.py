@@ -45,7 +45,7 @@ def test_nothing_covers_the_walls_of_a_world_that_is_framed(
     sheet.begin()
     sheet.press('Rectangle')
     hint = sheet.page.locator('#hint')
-    hint.get_by_text('then click the side across').wait_for()
+    hint.get_by_text('then click the opposite one').wait_for()
     (left, top), (right, bottom) = sheet.place(-8.0, 9.0), sheet.place(8.0, 0.0)
     assert 0 < left < right < width
     for each in ('#top', '#hint', '#status'):

@@ -72,6 +72,49 @@ def number(sheet: Sheet, label: str, text: str) -> None:
     field.press('Enter')
 
 
+def test_labels_and_notes_are_written_on_the_world(sheet: Sheet) -> None:
+    label, keyboard = sheet.page.get_by_label('Label', exact=True), sheet.page.keyboard
+    label.fill('m1')
+    label.press('Shift+Enter')
+    keyboard.type('2 kg')
+    label.press('Enter')
+    written(sheet, '2 kg')
+    written(sheet, 'm1')
+    before = sheet.names()
+    # The key of the tool, then a text whose letters are keys of tools, too.
+    keyboard.press('Escape')
+    keyboard.press('9')
+    sheet.page.mouse.click(*sheet.place(0.0, 7.0))
+    keyboard.type('who wins?')
+    keyboard.press('Enter')
+    written(sheet, 'who wins?')
+    sheet.page.get_by_text('Note added').wait_for()
+    (note,) = sheet.names() - before
+    assert sheet.pose(note) == pytest.approx([0.0, 7.0, 0.0], abs=0.02)
+    # It has the size of its text: a point beside the middle is on it, and edits it.
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.3, 7.0))
+    sheet.page.get_by_role('heading', name='Note').wait_for()
+    label.fill('a much longer question')
+    label.press('Enter')
+    written(sheet, 'a much longer question')
+    keyboard.press('Escape')
+    sheet.page.mouse.click(*sheet.place(1.2, 7.0))
+    sheet.page.get_by_role('heading', name='Note').wait_for()
+    sheet.press('Undo')
+    sheet.press('Undo')
+    sheet.wait('name => !(name in physsim.bodies)', note)
+    # Escape while one types leaves text and world as they were.
+    keyboard.press('9')
+    sheet.page.mouse.click(*sheet.place(0.0, 7.0))
+    keyboard.type('no')
+    keyboard.press('Escape')
+    sheet.press('Play')
+    sheet.wait('physsim.time > 0.1')
+    assert sheet.names() == before
+    assert not sheet.errors
+
+
 def test_the_round_handle_turns_a_body(sheet: Sheet) -> None:
     drag_handle(sheet, 'turn', math.radians(70.0), 1.3)
     sheet.wait('Math.abs(physsim.bodies["box/0"][2] - 70 * Math.PI / 180) < 0.02')

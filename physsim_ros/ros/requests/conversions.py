@@ -111,10 +111,15 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         frame=named_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
         lifetime=marker.lifetime.sec + marker.lifetime.nanosec * 1e-9,
-        properties=Properties.from_mapping(
-            with_shipped_robot(mapping_of(marker.text, 'text'), PROPERTIES)
-        ),
+        properties=_properties(marker),
     )
+
+
+def _properties(marker: Marker) -> Properties:
+    """Return the properties in the text of a marker, or those of a note of that text."""
+    if marker.type == Marker.TEXT_VIEW_FACING:
+        return Properties(anchored=True, sensor=True, label=marker.text)
+    return Properties.from_mapping(with_shipped_robot(mapping_of(marker.text, 'text'), PROPERTIES))
 
 
 def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll:

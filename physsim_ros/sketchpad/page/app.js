@@ -189,9 +189,9 @@ export class App {
   #listBodies() {
     const {world} = this, {bodies} = world.scene;
     const texts = bodies.slice(0, LISTED).map((body, row) => {
-      const {name, anchored} = body;
+      const {name, anchored, label} = body;
       const [x, y] = world.place(row, [0, 0]);
-      return `${name}: ${shapeWord(body)}${anchored ? ', anchored' : ''}, at ${x.toFixed(1)}, ${y.toFixed(1)} m`;
+      return `${name}: ${shapeWord(body)}${label && ` ${label}`}${anchored ? ', anchored' : ''}, at ${x.toFixed(1)}, ${y.toFixed(1)} m`;
     });
     if (bodies.length > LISTED) texts.push(`and ${bodies.length - LISTED} more`);
     const list = elementOf('list', HTMLElement);

@@ -2,9 +2,11 @@
 /** The panel of the selected bodies: properties of a body, its plots. */
 
 import {createElement, elementOf, iconButton, inRow, textButton, textField} from './dom.js';
+import {sizeOf} from './label_view.js';
 import {Numbers} from './numbers.js';
 import {Plots} from './plots.js';
 import {gravityButtons, materialButtons} from './presets.js';
+import {sendNote} from './tools/note.js';
 import {isDrawn} from './words.js';
 
 /** @import {App, Point} from './types.js' */
@@ -51,7 +53,12 @@ export class BodyPanel {
       onchange: () => change({anchored: anchored.checked})});
     const gate = createElement('input', {type: 'checkbox', checked: body.sensor,
       onchange: () => change({sensor: gate.checked})});
-    const label = textField({value: body.label, rows: body.label.split('\n').length, onchange: () => change({label: label.value})});
+    const label = textField({value: body.label, onchange: () => {
+      const {value} = label, {height = 0} = body.shape, row = app.world.row(name);
+      if (body.name.startsWith('note/') && height) {
+        sendNote(app, name, value, [...app.world.place(row, [0, 0]), app.world.frame.yaw[row]], height / sizeOf(app.view.ctx, body.label)[1]);
+      } else change({label: value});
+    }});
     this.show(this.app.words.title(name), [
       this.numbers.element,
       ...body.robot ? this.app.driving.show(body.robot) : [],

@@ -14,6 +14,7 @@ import {pathOf, reachOf} from './body_path.js';
 // outline is the rim that a smaller filling leaves free: without a GPU, a stroke costs twice a filling.
 const SMALL = 4, MARKED = 8, MEDIUM = 11;
 const RIM = 1.2, MARK = 1.8; // px
+const SHEER = 0.35; // opacity of a sensor
 
 export class BodyView {
   /**
@@ -119,7 +120,7 @@ export class BodyView {
     } else {
       if (size < MEDIUM && appearance.plain) this.#drawMedium(body, appearance, 1 - RIM / size);
       else this.#drawLarge(body, appearance, pixel);
-      if (body.anchored) this.#drawRim(appearance, pixel);
+      if (body.anchored) this.#drawRim(body, appearance, pixel);
       else if (size >= MARKED) this.#drawMark(body, appearance, pixel);
     }
   }
@@ -154,7 +155,7 @@ export class BodyView {
     ctx.stroke(path);
     ctx.setLineDash([]);
     ctx.fillStyle = fill;
-    ctx.globalAlpha = sensor ? 0.35 : 1;
+    ctx.globalAlpha = sensor ? SHEER : 1;
     ctx.fill(path, 'nonzero');
     ctx.globalAlpha = 1;
   }
@@ -178,14 +179,16 @@ export class BodyView {
   }
 
   /**
+   * @param {Body} body
    * @param {Appearance} appearance
    * @param {number} pixel [m]
    */
-  #drawRim({path, dark}, pixel) {
+  #drawRim({sensor}, {path, dark}, pixel) {
     const {ctx} = this, hatch = this.hatches[Number(dark)];
     hatch.setTransform(ctx.getTransform().inverse().scaleSelf(this.ratio, this.ratio));
     ctx.save();
     ctx.clip(path);
+    ctx.globalAlpha = sensor ? SHEER : 1;
     ctx.strokeStyle = hatch;
     ctx.lineWidth = 14 * pixel;
     ctx.stroke(path);

@@ -48,12 +48,16 @@ export function textButton(label, onclick, className = '') {
 }
 
 /**
- * A text of several lines, as bodies have it: Enter ends it, Shift and Enter break a line.
+ * A text of several lines, as bodies have it: Enter ends it, Shift and Enter break a line, Escape restores it.
  * @param {Record<string, any>} properties
  */
 export function textField(properties) {
-  const field = createElement('textarea', {rows: 1, maxLength: 200, ...properties});
+  const fit = () => { field.rows = field.value.split('\n').length; };
+  const field = createElement('textarea', {maxLength: 200, oninput: fit, ...properties});
+  const before = field.value;
+  fit();
   field.onkeydown = (event) => {
+    if (event.key === 'Escape') field.value = before;
     if (event.key !== 'Enter' || event.shiftKey || event.isComposing) return;
     event.preventDefault();
     field.blur();

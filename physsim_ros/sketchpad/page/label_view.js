@@ -3,7 +3,7 @@
 
 /** @import {SceneView} from './types.js' */
 
-const SMALLEST = 12, LARGEST = 28; // px: size of letters
+const SMALLEST = 11, LARGEST = 28; // px: size of letters
 const LINE = 1.25, MARGIN = 1.2; // em: height of a line, left free in a body beside and above the text
 
 /** @param {SceneView} view */

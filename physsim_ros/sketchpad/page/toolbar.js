@@ -6,6 +6,7 @@ import {ClickTool} from './tools/click_tool.js';
 import {Lasso, Pen} from './tools/freehand.js';
 import {Hand} from './tools/hand.js';
 import {Protractor, Ruler} from './tools/measuring.js';
+import {Note} from './tools/note.js';
 
 /** @import {App, Tool} from './types.js' */
 
@@ -36,10 +37,11 @@ export const TOOLS = [[
 ], [
   ['ruler', 'Ruler', 'm', 'drag from point to point; tap it to remove it'],
   ['protractor', 'Protractor', 'q', 'drag from the corner along one side, then click the other one; tap it to remove it'],
+  ['note', 'Note', '9', 'press where it is to be, type, Enter'],
 ]];
 
 /** @type {Record<string, new (app: App) => Tool>} */
-const OWN = {pen: Pen, hand: Hand, lasso: Lasso, ruler: Ruler, protractor: Protractor};
+const OWN = {pen: Pen, hand: Hand, lasso: Lasso, note: Note, ruler: Ruler, protractor: Protractor};
 
 export class Toolbar {
   /** @param {App} app */

@@ -20,7 +20,7 @@ const SENTENCES = [
 ];
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
 /** Names that nobody chose: of what a pen or a click has drawn. */
-const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?(drawn\/\d+)/g;
+const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((?:drawn|note)\/\d+)/g;
 
 export class Words {
   /** @param {Connection} connection */
@@ -76,7 +76,7 @@ export class Words {
 
 /** @param {string} name of a body */
 export function isDrawn(name) {
-  return name.startsWith('drawn/');
+  return /^(drawn|note)\//.test(name);
 }
 
 /** @param {string} name which may have 1,000 characters */
@@ -93,7 +93,8 @@ export function capital(text) {
  * @param {Body} body
  * @returns {string} what somebody calls it who sees it
  */
-export function shapeWord({shape: {kind, outline, width}}) {
+export function shapeWord({name, shape: {kind, outline, width}}) {
+  if (name.startsWith('note/')) return 'note';
   if (kind === 'disc') return 'circle';
   if (kind === 'chain') return 'wall';
   if (width) return 'rectangle';

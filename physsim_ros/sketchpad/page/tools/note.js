@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Notes on the world: anchored sensors that are boxes as large as their label. */
+
+import {elementOf, textField} from '../dom.js';
+import {sizeOf} from '../label_view.js';
+
+/** @import {App, Touch} from '../types.js' */
+
+const LETTERS = 16, HALF = 140; // px: size of letters where a note is written, half the width of its field
+const LOOK = {anchored: true, sensor: true, color: '#ffe680'};
+const FREE = 1e9; // numbers of notes; pages choose them at random, so that no two choose the same
+
+export class Note {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.clicks = 1;
+  }
+
+  down() {}
+
+  move() {}
+
+  /** @param {Touch} touch */
+  up({at, page: [x, y]}) {
+    const {app} = this, em = LETTERS / app.camera.scale;
+    const field = textField({'aria-label': 'Note', onblur: () => field.remove(), onchange: () => {
+      const label = field.value.trim();
+      if (label) sendNote(app, `note/${Math.floor(Math.random() * FREE)}`, label, at, em, LOOK);
+    }});
+    field.style.left = `${Math.min(Math.max(x, HALF), app.camera.width - HALF)}px`;
+    field.style.top = `${y}px`;
+    elementOf('places', HTMLElement).append(field);
+    field.focus();
+  }
+
+  cancel() {}
+
+  draw() {}
+}
+
+/**
+ * Write a note, or change what is written on it.
+ * @param {App} app
+ * @param {string} name
+ * @param {string} label
+ * @param {number[]} at x, y [m], and where there are three, yaw [rad]
+ * @param {number} em size of letters [m]
+ * @param {object} look other properties
+ */
+export function sendNote({view, connection}, name, label, at, em, look = {}) {
+  const [wide, high] = sizeOf(view.ctx, label);
+  connection.send('spawn', {body: {name, label, at, box: {width: wide * em, height: high * em}, ...look}});
+}
