@@ -81,11 +81,11 @@ def test_labels_and_notes_are_written_on_the_world(sheet: Sheet) -> None:
     written(sheet, '2 kg')
     written(sheet, 'm1')
     before = sheet.names()
-    # The key of the tool, then a text whose letters are keys of tools, too.
+    # The key of the tool, then a text, as pasted.
     keyboard.press('Escape')
     keyboard.press('9')
     sheet.page.mouse.click(*sheet.place(0.0, 7.0))
-    keyboard.type('who wins?')
+    keyboard.insert_text('who\twins?')
     keyboard.press('Enter')
     written(sheet, 'who wins?')
     sheet.page.get_by_text('Note added').wait_for()

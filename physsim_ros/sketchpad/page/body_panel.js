@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of the selected bodies: properties of a body, its plots. */
 
-import {createElement, elementOf, iconButton, inRow, textButton, textField} from './dom.js';
+import {createElement, elementOf, iconButton, inRow, textOf, textButton, textField} from './dom.js';
 import {sizeOf} from './label_view.js';
 import {Numbers} from './numbers.js';
 import {Plots} from './plots.js';
@@ -54,7 +54,7 @@ export class BodyPanel {
     const gate = createElement('input', {type: 'checkbox', checked: body.sensor,
       onchange: () => change({sensor: gate.checked})});
     const label = textField({value: body.label, onchange: () => {
-      const {value} = label, {height = 0} = body.shape, row = app.world.row(name);
+      const value = textOf(label), {height = 0} = body.shape, row = app.world.row(name);
       if (body.name.startsWith('note/') && height) {
         sendNote(app, name, value, [...app.world.place(row, [0, 0]), app.world.frame.yaw[row]], height / sizeOf(app.view.ctx, body.label)[1]);
       } else change({label: value});

@@ -65,6 +65,11 @@ export function textField(properties) {
   return field;
 }
 
+/** @param {HTMLTextAreaElement} field, into which text with tabs may be pasted */
+export function textOf(field) {
+  return field.value.replaceAll('\t', ' ');
+}
+
 /** @param {Node[]} children beside each other */
 export function inRow(...children) {
   return createElement('div', {className: 'row'}, ...children);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Notes on the world: anchored sensors that are boxes as large as their label. */
 
-import {elementOf, textField} from '../dom.js';
+import {elementOf, textOf, textField} from '../dom.js';
 import {sizeOf} from '../label_view.js';
 
 /** @import {App, Touch} from '../types.js' */
@@ -25,7 +25,7 @@ export class Note {
   up({at, page: [x, y]}) {
     const {app} = this, em = LETTERS / app.camera.scale;
     const field = textField({'aria-label': 'Note', onblur: () => field.remove(), onchange: () => {
-      const label = field.value.trim();
+      const label = textOf(field).trim();
       if (label) sendNote(app, `note/${Math.floor(Math.random() * FREE)}`, label, at, em, LOOK);
     }});
     field.style.left = `${Math.min(Math.max(x, HALF), app.camera.width - HALF)}px`;
