@@ -508,7 +508,7 @@ def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Shee
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
     sheet.page.get_by_role('complementary', name='Body').wait_for()
-    sheet.wait('physsim.scales.speed > 0')
+    sheet.wait('Number.isFinite(physsim.scales.speed)')
     scale = sheet.page.evaluate('physsim.scales.speed')
     x, y = sheet.place(0.0, 0.5)
     gap = 22  # px from the centre to the tail

@@ -17,6 +17,8 @@ export class Connection {
     this.pause = SHORTEST_PAUSE;
     /** @type {?WebSocket} */
     this.socket = null;
+    /** That has come before its first frame. @type {?{epoch: number}} */
+    this.scene = null;
   }
 
   /**
@@ -67,10 +69,20 @@ export class Connection {
     if (typeof data !== 'string') {
       // Only a frame tells that the server keeps a socket open: until then the pauses grow.
       this.pause = SHORTEST_PAUSE;
-      this.#emit('frame', decodeFrame(data));
+      const frame = decodeFrame(data);
+      // Without a frame the bodies of a scene are nowhere.
+      if (!frame.ghost && this.scene?.epoch === frame.epoch) {
+        this.#emit('scene', this.scene);
+        this.scene = null;
+      }
+      this.#emit('frame', frame);
       return;
     }
     const message = JSON.parse(data);
+    if (message.type === 'scene') {
+      this.scene = message;
+      return;
+    }
     if (message.type === 'answer' && this.waiting.has(message.request)) {
       this.waiting.get(message.request)?.(message);
       this.waiting.delete(message.request);
