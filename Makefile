@@ -59,7 +59,7 @@ class: $(STAMP)  ## start a world for each pupil of a class, PUPILS=20, open to 
 # A worker that a test takes down is replaced, but not without end.
 PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4
 
-test: $(STAMP)  ## run all tests but the slow ones: some minutes
+test: $(STAMP)  ## run all tests but the slow ones: four minutes
 	$(PYTEST) -m 'not slow' $(ARGS)
 
 test-all: $(STAMP)  ## run every test: a quarter of an hour
