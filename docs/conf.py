@@ -70,13 +70,17 @@ MOVED = {
 }
 
 
-def begin_with_readme(_app: object, name: str, source: list[str]) -> None:
-    """Put README before the tables of contents of the first page."""
+def amend_source(_app: object, name: str, source: list[str]) -> None:
+    """Put README on the first page, and keep modules out of the table of contents."""
     if name == 'index':
         readme = (ROOT / 'README.md').read_text(encoding='utf-8')
         for old, new in MOVED.items():
             readme = readme.replace(old, new)
         source[0] = f'{readme}\n{source[0]}'
+    elif name == 'api/modules':
+        # The theme writes its whole table of contents on each page: with hundreds of modules in
+        # it the site takes five times as long.
+        source[0] = f':orphan:\n\n{source[0]}'
 
 
 def skip_exported(
@@ -95,5 +99,5 @@ def skip_exported(
 
 def setup(app: Any) -> None:
     """Connect what Sphinx calls for each page and each member."""
-    app.connect('source-read', begin_with_readme)
+    app.connect('source-read', amend_source)
     app.connect('autodoc-skip-member', skip_exported)
