@@ -120,7 +120,7 @@ def worlds_in(directory: Path) -> dict[str, Path]:
 
 @suspended_collection()
 def load_world(
-    path: Path,
+    path: str | Path,
     *,
     settings: WorldSettings | None = None,
     physics_rate: float = 240.0,
@@ -137,6 +137,7 @@ def load_world(
         or joint and the reason
     :raises WorldFull: it has too many bodies
     """
+    path = Path(path)
     try:
         text = read_file(path, MOST_BYTES)
     except (OSError, UnicodeDecodeError) as error:

@@ -204,8 +204,8 @@ def check_finite(values: tuple[float, ...], count: int, name: str) -> None:
 
     :raises Malformed: they are not
     """
-    if len(values) != count:
-        raise Malformed(f'{name} needs {count} numbers, not {len(values)}', field=name)
+    if isinstance(values, str) or len(values) != count:
+        raise Malformed(f'{name} needs {count} numbers, not {shown(values)}', field=name)
     if not all(map(math.isfinite, values)):
         raise Malformed(f'{name} is not finite', field=name)
 
@@ -237,7 +237,7 @@ def check_pose(pose: Pose, name: str) -> None:
 
 def check_key(key: object, known: list[str]) -> None:
     """
-    Refuse an unknown key, and name the known one that is meant or similar, if there is one.
+    Refuse an unknown key, and name the known one that is meant or similar, else all of them.
 
     :raises UnknownProperty: the key is not one of the known
     """
@@ -246,6 +246,8 @@ def check_key(key: object, known: list[str]) -> None:
     word = str(key)
     meant = property_meant(word, known)
     hint = f'; use {meant!r}' if meant else nearest_name(word.lower(), known)
+    if known and not hint:
+        hint = f'; there are {", ".join(known)}'
     raise UnknownProperty(f'there is no property {shown(word)}{hint}', field=word[:_LONGEST_SHOWN])
 
 

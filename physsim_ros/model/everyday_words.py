@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Everyday words for kinds of joints, and for properties of bodies and joints."""
+"""Everyday words for kinds of joints, and for keys of bodies and joints."""
 
 from __future__ import annotations
 
@@ -22,6 +22,10 @@ _WORDS: dict[str, tuple[str, ...]] = {
     'sensor': ('trigger', 'ghost', 'detector', 'is_trigger'),
     'surface_velocity': ('conveyor', 'belt', 'belt_speed'),
     'robot': ('vehicle', 'drive'),
+    'at': ('position', 'pose', 'x', 'y', 'yaw', 'angle', 'orientation'),
+    'color': ('colour', 'rgb', 'rgba'),
+    'circle': ('disc', 'disk', 'sphere', 'radius', 'diameter'),
+    'box': ('rectangle', 'cube', 'size', 'width', 'height'),
     'label': ('text', 'caption', 'note', 'title'),
     'lower': ('min', 'minimum', 'from'),
     'upper': ('max', 'maximum', 'to'),

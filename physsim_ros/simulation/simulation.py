@@ -12,8 +12,10 @@ after it; a frame without a step shows what requests have changed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from numbers import Integral
 
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checks import shown, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
@@ -28,6 +30,8 @@ from physsim_ros.simulation.world import World
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
+# Check of the rates: the range that the node's parameters have.
+_RATE = Within(1.0, 1e4, 'Hz')
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
 
@@ -43,7 +47,8 @@ class Simulation:
     :param history: length of the past that is kept [s of simulation time]
     :param history_memory: budget of the past [MB]; when it is spent, the oldest is dropped
     :param checkpoints: from one checkpoint to the next [s]
-    :raises BadProperty: publish_rate does not divide physics_rate, or the memory is out of range
+    :raises BadProperty: a rate or the memory is out of range, or publish_rate does not divide
+        physics_rate
 
     :ivar requests: queue of the requests that wait for the next frame
     :ivar past: the timeline in force, cached frames, ghosts, and their budget of memory
@@ -61,6 +66,8 @@ class Simulation:
         history_memory: float = DEFAULT_MEMORY,
         checkpoints: float = CHECKPOINTS,
     ) -> None:
+        physics_rate = _RATE(physics_rate, 'physics_rate')
+        publish_rate = _RATE(publish_rate, 'publish_rate')
         steps = physics_rate / publish_rate
         if steps < 1 or abs(steps - round(steps)) > 1e-9:
             raise BadProperty(
@@ -246,7 +253,10 @@ class Simulation:
         Go to a simulation time [ns], and return a message about it.
 
         :raises OutOfHistory: the time is no longer kept, or in the future
+        :raises BadProperty: it is no whole number, as of seconds
         """
+        if not isinstance(stamp, Integral):
+            raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
         self._handler.apply_waiting()
         return self._handler.seek(stamp)
 

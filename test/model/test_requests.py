@@ -5,17 +5,21 @@
 
 from dataclasses import fields, FrozenInstanceError
 import math
+import re
+from typing import Any
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_point, check_pose, FARTHEST, FASTEST, HEAVIEST, LONGEST
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    Join,
     Release,
     Spawn,
 )
@@ -55,10 +59,17 @@ def test_a_pose_that_is_not_finite_is_malformed(value: float, place: int) -> Non
             make()
 
 
-@pytest.mark.parametrize('pose', [(), (0.0,), (0.0, 0.0), (0.0, 0.0, 0.0, 0.0)])
+@pytest.mark.parametrize('pose', [(), (0.0,), (0.0, 0.0), (0.0, 0.0, 0.0, 0.0), 'far'])
 def test_a_pose_has_three_numbers(pose: tuple[float, ...]) -> None:
-    with pytest.raises(Malformed):
+    with pytest.raises(Malformed, match=re.escape(f'pose needs 3 numbers, not {pose!r}')):
         Spawn(name='a/0', shape=DISC, pose=pose)
+
+
+def test_a_kind_of_joint_may_be_its_word() -> None:
+    known: dict[str, Any] = {'name': 'a/0', 'points': ((0.0, 0.0), (1.0, 0.0))}
+    assert Join(kind='rod', **known).kind is JointKind.ROD
+    with pytest.raises(BadProperty, match="nearest is 'rod'"):
+        Join(kind='rodd', **known)
 
 
 @pytest.mark.parametrize('sign', [1.0, -1.0])

@@ -66,6 +66,12 @@ def test_a_misspelt_name_is_answered_with_the_nearest() -> None:
     assert nearest_name('', []) == ''
 
 
+def test_a_word_is_answered_with_the_names_that_have_it_not_with_another_word() -> None:
+    known = ['trace', 'physics_rate', 'publish_rate', 'friction']
+    assert nearest_name('rate', known) == "; nearest are 'physics_rate', 'publish_rate'"
+    assert nearest_name('position', known) == ''
+
+
 def test_the_time_for_the_nearest_name_is_bounded() -> None:
     def names() -> Iterator[str]:
         yield from (f'box/{number}' for number in range(1000))

@@ -39,10 +39,19 @@ def test_a_publish_rate_has_to_divide_the_physics_rate() -> None:
     assert Simulation(physics_rate=240.0, publish_rate=60.0).frame_steps == 4
     assert Simulation(physics_rate=60.0, publish_rate=60.0).frame_steps == 1
     assert Simulation(physics_rate=100.0, publish_rate=33.0 + 1.0 / 3.0).frame_steps == 3
-    for physics_rate, publish_rate in ((240.0, 50.0), (60.0, 120.0), (240.0, 59.9)):
+    for physics_rate, publish_rate in ((240.0, 50.0), (60.0, 120.0), (240.0, 59.9), (240.0, 0.0)):
         with pytest.raises(BadProperty) as refused:
             Simulation(physics_rate=physics_rate, publish_rate=publish_rate)
         assert refused.value.field == 'publish_rate'
+
+
+def test_a_time_in_seconds_is_refused() -> None:
+    sim = simulation()
+    sim.advance_frame()
+    with pytest.raises(BadProperty, match='whole number of ns'):
+        sim.seek(0.01)  # type: ignore[arg-type]
+    assert sim.step == FRAME
+    assert sim.seek(0) == 'at 0.000 s'
 
 
 def test_requests_are_answered_in_order_and_one_each() -> None:

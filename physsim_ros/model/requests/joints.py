@@ -42,7 +42,8 @@ class Join:
     :param properties: of the kind
     :param unset: names of the properties that get their defaults again
     :raises Malformed: a number is not finite, the name has no id, or the number of points is wrong
-    :raises BadProperty: a body would be joined to itself, or a point is too far away
+    :raises BadProperty: there is no such kind, a body would be joined to itself, or a point is too
+        far away
     :raises BadSize: the points are closer than the kind allows
     :raises UnknownProperty: the kind of joint does not have a property
     """
@@ -58,6 +59,7 @@ class Join:
 
     def __post_init__(self) -> None:
         check_name(self.name)
+        object.__setattr__(self, 'kind', kind_from(self.kind))
         count = self.kind.points
         if len(self.points) != count:
             raise Malformed(
