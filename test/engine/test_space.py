@@ -164,7 +164,7 @@ def test_a_command_moves_many_bodies_at_once(world: World) -> None:
         )
     )
 
-    assert answer == ('', 'commanded 2 bodies')
+    assert answer == ('', 'set pose and velocity of 2 bodies')
     assert world.snapshot().poses[:, 0].tolist() == [2.0, 0.0, 1.0]
     assert world.snapshot().twists[:, 0].tolist() == [4.0, 0.0, 3.0]
 

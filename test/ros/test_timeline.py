@@ -55,14 +55,14 @@ def test_it_tells_the_state_the_course_and_what_can_be_undone(
     assert (status['state'], status['course'], status['undo']) == (
         'paused',
         '2',
-        'undo command a/0',
+        'undo set motion of a/0',
     )
     assert status['courses'] == '1:0.500000:1.000000'
     client.call('~/undo')
     physsim.node.apply_requests()
     physsim.settle()
     status = told(messages[-1])
-    assert (status['undo'], status['redo']) == ('undo spawn a/0', 'redo command a/0')
+    assert (status['undo'], status['redo']) == ('undo spawn a/0', 'redo set motion of a/0')
     physsim.spawn(delete('a/0'))
     assert told(messages[-1])['redo'] == ''
 

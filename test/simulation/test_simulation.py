@@ -76,7 +76,7 @@ def test_requests_are_answered_in_order_and_one_each() -> None:
             field='name',
         ),
         Answer(topic='~/spawn_array', subject='a/1', message='spawned a/1'),
-        Answer(topic='~/command', subject='a/1', message='commanded a/1'),
+        Answer(topic='~/command', subject='a/1', message='set velocity of a/1'),
         Answer(
             topic='~/anchor',
             message='there is no body at (9, 9)',

@@ -16,7 +16,7 @@ from physsim_ros.simulation.past.tree import Node
 # or joint.
 _PHRASES = {
     requests.ChangeBody: ('change', ''),
-    requests.Command: ('command', 'several bodies'),
+    requests.Command: ('set motion of', 'several bodies'),
     requests.Configure: ('change', 'settings'),
     requests.DeleteAll: ('delete', 'all bodies'),
     requests.DeleteBodies: ('delete', 'several bodies'),

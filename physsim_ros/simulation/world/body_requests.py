@@ -108,7 +108,9 @@ def command(live: LiveSpace, request: Command) -> Done:
     until = live.step_after(live.settings.command_timeout)
     for rigid, wrench in zip(rigids, _tuples(request.wrenches), strict=False):
         space.set_wrench(rigid, wrench, until)
-    return _done('commanded', request.names)
+    quantities = {'pose': request.poses, 'velocity': request.twists, 'force': request.wrenches}
+    said = ' and '.join(noun for noun, rows in quantities.items() if len(rows))
+    return _done(f'set {said or "nothing"} of', request.names)
 
 
 def check_command(body: Body, request: Command) -> None:

@@ -8,7 +8,7 @@
 
 /** Verbs before the name of a body, and what is said after what it is. */
 const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', 'moved'], ['deleted', 'deleted'],
-  ['anchored', 'anchored'], ['released', 'released']]);
+  ['anchored', 'anchored'], ['released', 'released'], ['set velocity of', 'has a new velocity']]);
 /** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
 const SENTENCES = [
   [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'], [/^loaded 0 bodies$/, 'An empty world'],

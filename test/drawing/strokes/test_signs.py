@@ -7,7 +7,9 @@ import math
 
 import numpy as np
 from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised
-from physsim_ros.model.requests import Anchor, Configure, Delete, Spawn
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import Anchor, Configure, Delete, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
@@ -147,14 +149,20 @@ def test_an_arrow_from_a_body_is_its_velocity(world: World) -> None:
     assert world.snapshot().twists[0] == pytest.approx((3.0, 1.0, 0.0), abs=0.05)
 
 
-def test_hatching_makes_a_body_heavier(world: World) -> None:
+def test_hatching_makes_a_body_heavier_and_changes_nothing_else(world: World) -> None:
     spawn(world, 'a/0', Box(width=2.0, height=1.0), (0.0, 0.0, 0.0))
+    # An axle that was drawn first waits for a second body, which is not the first again.
+    points = ((0.5, 0.2),)
+    world.apply(Join(name='drawn/0', kind=JointKind.AXLE, points=points, a='a/0', b=WORLD))
     before = world.snapshot().scene.bodies[0].total_mass
     lines = [(-0.6, -0.3), (-0.4, 0.3), (-0.2, -0.3), (0.0, 0.3)]
 
     reading = draw(world, lines)
+    world.step(24)
+    pose = world.snapshot().poses[0].tolist()
     carry_out(world, reading)
 
     assert reading.meaning == 'hatching'
+    assert world.snapshot().poses[0].tolist() == pose
     (body,) = world.snapshot().scene.bodies
     assert body.total_mass == pytest.approx(before * 1.25**3)

@@ -10,7 +10,7 @@ from functools import partial
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, Outcome
 from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.requests import Spawn
+from physsim_ros.model.requests import ChangeBody
 
 # Factor on the density of a body by each line of its hatching.
 HEAVIER = 1.25
@@ -42,12 +42,7 @@ def interpretation(body: str, lines: int, context: Context, *, weight: float) ->
 def _make_heavier(name: str, lines: int, context: Context) -> Outcome:
     body = context.scene.body(name)
     density = body.total_mass / body.shape.form.area * HEAVIER**lines
-    heavier = Spawn(
-        name=name,
-        shape=body.shape,
-        pose=context.scene.pose(name),
-        properties=Properties(density=density),
-    )
+    heavier = ChangeBody(name=name, properties=Properties(density=density))
     return Outcome(
         requests=(heavier,),
         subject=name,
