@@ -24,6 +24,7 @@ from physsim_ros.model.errors import BadProperty, BadSize
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point
 
 # Length of a link by its thickness [1]: the proportions of an anchor chain.
@@ -80,6 +81,17 @@ def chain(
             )
         )
     return tuple(requests)
+
+
+def message(requests: tuple[Request, ...], ends: tuple[str, str]) -> str:
+    """
+    Return the message about a chain.
+
+    :param requests: for its links and axles
+    :param ends: names of the bodies there, or 'world' for the background
+    """
+    first, last = ('the background' if name == WORLD else name for name in ends)
+    return f'a chain of {counted(len(requests) // 2, "link")} from {first} to {last}'
 
 
 def _links(length: float, link: float) -> int:

@@ -209,9 +209,13 @@ class PageSession:
         queue = self.world.simulation.requests
         queue.refuse(refusal, topic=origin.topic, subject='', asker=origin.asker)
 
-    def tell(self, origin: Origin, message: str) -> None:
-        """Queue the answer to a message."""
-        answer = Answer(topic=origin.topic, message=message, asker=origin.asker)
+    def tell(self, origin: Origin, message: str, values: tuple[tuple[str, str], ...] = ()) -> None:
+        """
+        Queue the answer to a message.
+
+        :param values: of the answer; `requests` of them are answered after it, and are one doing
+        """
+        answer = Answer(topic=origin.topic, message=message, values=values, asker=origin.asker)
         self.world.simulation.requests.tell(answer)
 
     def answer_page(self, origin: Origin, message: str, **details: Any) -> None:

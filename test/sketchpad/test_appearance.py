@@ -26,6 +26,36 @@ GRID_LINES = """async at => {
 }"""
 
 
+# The labels that are drawn of three small bodies in a row, the last one apart, and how often their
+# texts are measured in two frames.
+LABELS = """async () => {
+    const {drawLabels} = await import('/page/label_view.js'), drawn = [];
+    const camera = Object.assign(new (await import('/page/camera.js')).Camera(),
+        {x: 0, y: 0, scale: 20, width: 400, height: 400});
+    const bodies = ['first', 'second', 'third'].map((label, row) =>
+        ({label, shape: {radius: 0.1}, centroid: [0, 0], at: [row === 2 ? 5 : 0.2 * row, 0]}));
+    let measured = 0;
+    const ctx = {strokeText() {}, fillText: (text) => drawn.push(text),
+        measureText: (text) => (measured += 1, {width: 50 * text.length})};
+    const view = {ctx, camera, palette: {},
+        bodies: {appearance: () => ({inner: 0.1}), isOnPage: () => true},
+        world: {count: 3, scene: {bodies}, place: (row) => bodies[row].at}};
+    drawLabels(view);
+    drawLabels(view);
+    return [drawn, measured];
+}"""
+
+
+def test_a_label_that_is_larger_than_its_body_is_on_no_other_and_is_measured_once(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address)
+    drawn, measured = sheet.page.evaluate(LABELS)
+    assert drawn == ['first', 'third'] * 2
+    assert measured == 3
+    sheet.close()
+
+
 def test_a_pressed_button_is_told_from_others_in_the_colours_of_the_reader(
     chromium: Any, address: str
 ) -> None:

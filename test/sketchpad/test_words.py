@@ -58,6 +58,15 @@ def test_what_nobody_has_named_is_called_what_it_is(sheet: Sheet) -> None:
     said(sheet, 'Undone: add the circle')
 
 
+def test_a_chain_is_told_as_one_thing_not_as_its_last_axle(sheet: Sheet) -> None:
+    sheet.press('Chain')
+    sheet.drag((-4.0, 3.0), (-4.0, 6.0))
+    said(sheet, 'Chain of 9 links added')
+    sheet.press('Circle')
+    sheet.drag((2.0, 5.0), (2.7, 5.0))
+    said(sheet, 'Circle added')
+
+
 def test_what_somebody_has_named_is_called_by_its_name(sheet: Sheet) -> None:
     sheet.press('Delete')
     sheet.page.mouse.click(*sheet.place(4.0, 0.5))

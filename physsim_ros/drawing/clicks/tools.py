@@ -72,11 +72,16 @@ class ClickResult:
     The result of a click.
 
     :param requests: to be submitted; empty while the gesture needs more clicks
-    :param message: the clicks so far, and the next click
+    :param message: the clicks so far, and the next click; or what several requests make together
     """
 
     requests: tuple[Request, ...] = ()
     message: str = ''
+
+    @property
+    def values(self) -> tuple[tuple[str, str], ...]:
+        """Return the number of requests that the message is about, as a pair of key and value."""
+        return (('requests', str(len(self.requests))),) if self.requests else ()
 
 
 def circle(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
@@ -210,7 +215,7 @@ def chain(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings)
     checked_distance(start, end, settings, 'the chain')
     first, last = (click.body or WORLD for click in clicks)
     requests = chains.chain(np.array((start, end)), (first, last), scene, settings)
-    return _finished(*requests)
+    return ClickResult(requests=requests, message=chains.message(requests, (first, last)))
 
 
 Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]

@@ -132,11 +132,12 @@ def chain(context: Context) -> Outcome:
         raise NothingThere('a chain joins two bodies; there are none at its ends', field='poses')
     first, last = sorted(ends, key=lambda end: math.dist(end.point, path[0]))
     path[0], path[-1] = first.point, last.point
-    requests = chains.chain(path, (first.body, last.body), context.scene, context.settings)
+    bodies = first.body, last.body
+    requests = chains.chain(path, bodies, context.scene, context.settings)
     return Outcome(
         requests=requests,
         subject='',
-        message=f'a chain of {len(requests) // 2} links from {first.body} to {last.body}',
+        message=chains.message(requests, bodies),
         outline=path,
     )
 

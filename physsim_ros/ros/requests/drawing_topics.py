@@ -73,7 +73,7 @@ class DrawingTopics:
             result = self._session.click(point, frame, snapshot)
             queue = self._simulation.requests
             if result.message:
-                queue.tell(Answer(topic=topic, message=result.message))
+                queue.tell(Answer(topic=topic, message=result.message, values=result.values))
             for number, request in enumerate(result.requests):
                 queue.submit(request, topic=topic, joined=number > 0, field=field)
 

@@ -93,7 +93,10 @@ def copy(page: PageSession, origin: Origin, name: str, to: Point) -> None:
 @message('copy_machine', '~/spawn', names=fields.names, by=fields.point)
 def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
     """Add bodies like others, with the joints among them, at rest, at a distance [m]."""
-    page.submit(origin, page.drawing.copy_machine(names, by, page.world.current_snapshot()))
+    requests = page.drawing.copy_machine(names, by, page.world.current_snapshot())
+    page.check_locked(requests)
+    page.tell(origin, f'copied {counted(len(names), "body")}', (('requests', str(len(requests))),))
+    page.submit(origin, requests)
 
 
 @message('delete', '~/spawn', names=fields.names)

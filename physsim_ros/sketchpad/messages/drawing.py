@@ -144,8 +144,9 @@ def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
     """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
     page.drawing.tool = tool
     result = page.drawing.click(point, '', page.world.current_snapshot())
+    page.check_locked(result.requests)
     if result.message:
-        page.tell(origin, result.message)
+        page.tell(origin, result.message, result.values)
     page.submit(origin, page.with_material(result.requests))
 
 

@@ -100,7 +100,7 @@ export class Connection {
 
   /** Connect again after a pause. A refused socket has no reason, so that the cookie is checked by a request. */
   async #retry() {
-    this.socket = null;
+    this.socket = this.scene = null;
     this.waiting.clear();
     const status = await fetch('/session', {cache: 'no-store'}).then(
       (response) => response.status, () => 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Joints as what they are: coil, rod, rope, axle, motor, rail, toothed wheels. */
 
+/** @import {BodyView} from './body_view.js' */
 /** @import {Camera, Joint, Palette, Point, WorldState} from './types.js' */
 
 const SIZE = 0.12; // m: half of a symbol
@@ -15,9 +16,11 @@ export class JointView {
    * @param {WorldState} world
    * @param {Camera} camera
    * @param {Palette} palette
+   * @param {BodyView} bodies
    */
-  constructor(ctx, world, camera, palette) {
+  constructor(ctx, world, camera, palette, bodies) {
     this.ctx = ctx;
+    this.bodies = bodies;
     this.world = world;
     this.camera = camera;
     this.palette = palette;
@@ -55,7 +58,8 @@ export class JointView {
       // falls through: a motor is an axle that drives
       case 'axle':
         if (ground) this.#support(p);
-        this.#circle(p, size);
+        // Its circle would cover the links of a chain.
+        if (ground || this.#hasRoom(joint.a) || this.#hasRoom(joint.b)) this.#circle(p, size);
         this.#dot(p);
         break;
       case 'spring':
@@ -80,6 +84,11 @@ export class JointView {
         this.#wheel(joint.b);
         break;
     }
+  }
+
+  /** @param {number} row of a body, whether it has room for a symbol */
+  #hasRoom(row) {
+    return this.bodies.appearance(this.world.scene.bodies[row]).inner * this.camera.scale > this.size;
   }
 
   /** @param {Point} point [m] */

@@ -22,6 +22,7 @@ export class Notes {
     this.pinned = new Map();
     this.timer = 0;
     this.until = 0; // [ms] until then an answer to this page stays
+    this.parts = {of: '', left: 0}; // answers to come that are parts of what was told as one thing
     this.expected = () => {}; // shows an answer with the next scene
     app.view.overlays.push(() => this.#place());
     app.connection.on('answer', (answer) => this.#tell(answer));
@@ -36,6 +37,12 @@ export class Notes {
     const {request, ok, code, message} = answer, own = request !== '';
     // A dialog asks about a name that is taken.
     if (SILENT.test(message) || own && code === 'exists' || !own && performance.now() < this.until) return;
+    const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0);
+    if (several > 1) this.parts = {of, left: several};
+    else if (this.parts.left && this.parts.of === of) {
+      this.parts.left -= 1;
+      if (ok) return;
+    }
     const who = own ? '' : this.app.classroom.nameOf(answer.page);
     const tell = () => this.showMessage(`${who}${who && ': '}${this.app.words.tell(answer)}`, {ok, quiet: !own});
     this.expected = () => {};

@@ -70,7 +70,7 @@ export class SceneView {
     for (let row = 0; row < world.count; row++) this.bodies.draw(world.frame, row, world.scene.bodies[row]);
     if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     this.#toPixels();
-    if (world.count) new JointView(ctx, world, camera, palette).draw();
+    if (world.count) new JointView(ctx, world, camera, palette, this.bodies).draw();
     drawLabels(this);
     this.#drawHands();
     for (const overlay of this.overlays) overlay(this);

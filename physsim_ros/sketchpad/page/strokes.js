@@ -16,7 +16,7 @@ const STROKES = [
   ['x: anchor', 'M24 14 36 26 30 20 36 14 24 26', 'M14 9h32v22H14z'],
   ['small circle: axle', 'M34 20a4 4 0 1 1 0-1', 'M8 14h32v12H8zM22 8h30v24H22z'],
   ['round arrow: motor', 'M40 20a10 10 0 1 1-4-8M30 8l7 4-6 6', 'M32 20a2 2 0 1 1 0-1M14 4h32v32H14z'],
-  ['small square: weld', 'M27 16h8v8h-8z', 'M8 14h30v12H8zM22 8h30v24H22z'],
+  ['small square: pin', 'M27 16h8v8h-8z', 'M8 14h30v12H8zM22 8h30v24H22z'],
   ['zigzag: spring', 'M9 20h5l4-7 5 14 5-14 5 14 5-14 5 14 3-7h5', 'M4 12h10v16H4zM46 12h10v16H46z'],
   ['straight: rod', 'M9 20h42', 'M4 12h10v16H4zM46 12h10v16H46z'],
   ['slack: rope, chain', 'M9 12Q30 50 51 12', 'M4 6h10v12H4zM46 6h10v12H46z'],
