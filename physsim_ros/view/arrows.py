@@ -20,7 +20,6 @@ from physsim_ros.appearance import nice_number
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts
-from physsim_ros.view import columns
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
@@ -170,7 +169,7 @@ def sampling_period(count: int) -> int:
 
 def _arrow_columns(
     origins: Floats, vectors: Floats, height: float, lengths: Sequence[int]
-) -> list[rr.ComponentColumn]:
+) -> rr.ComponentColumnList:
     """
     Return arrows in the plane as columns.
 
@@ -183,10 +182,7 @@ def _arrow_columns(
     places[:, :2] = origins
     ways = np.zeros((len(vectors), 3), dtype=np.float32)
     ways[:, :2] = vectors
-    return [
-        columns.column(columns.ORIGINS, places, lengths),
-        columns.column(columns.VECTORS, ways, lengths),
-    ]
+    return rr.Arrows3D.columns(origins=places, vectors=ways).partition(lengths)
 
 
 def _log_style(recording: rr.RecordingStream, path: str, color: tuple[int, int, int]) -> None:

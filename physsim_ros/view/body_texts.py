@@ -15,7 +15,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.scene import Scene
-from physsim_ros.view import columns, styles
+from physsim_ros.view import styles
 from physsim_ros.view.arrows import sampling_period
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
@@ -53,12 +53,9 @@ class BodyTexts:
         if not (before or len(self._rows)):
             return
         shown = [text for text in texts if text]
-        times = batch.times_at([0])
-        values = [columns.column(columns.POINT_LABELS, shown, [len(shown)])]
-        if not shown:
-            nowhere = np.empty((0, 3), np.float32)
-            values.append(columns.column(columns.POSITIONS, nowhere, [0]))
-        self._recording.send_columns(self._path, times, values)
+        nowhere = None if shown else np.empty((0, 3), np.float32)
+        points = rr.Points3D.columns(labels=shown, positions=nowhere).partition([len(shown)])
+        self._recording.send_columns(self._path, batch.times_at([0]), points)
 
     def send_places(self, batch: FrameBatch, moved: NDArray[np.bool_], height: float) -> None:
         """
@@ -74,5 +71,6 @@ class BodyTexts:
         places = np.full((len(chosen), count, 3), height, dtype=np.float32)
         for number, index in enumerate(chosen):
             places[number, :, :2] = batch.frames[index].snapshot.centers[rows]
-        values = columns.column(columns.POSITIONS, places.reshape(-1, 3), [count] * len(chosen))
-        self._recording.send_columns(self._path, batch.times_at(chosen), [values])
+        points = rr.Points3D.columns(positions=places.reshape(-1, 3))
+        times = batch.times_at(chosen)
+        self._recording.send_columns(self._path, times, points.partition([count] * len(chosen)))

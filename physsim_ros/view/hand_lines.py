@@ -6,8 +6,9 @@
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.view import columns, styles
+from physsim_ros.view import styles
 from physsim_ros.view.frame_batch import FrameBatch
+from physsim_ros.view.line_strips import strip_column
 import rerun as rr
 
 LINES, HANDS = 'world/hands/lines', 'world/hands'
@@ -43,16 +44,8 @@ class HandLines:
         self._shown = lengths[-1] > 0
         corners = np.full((sum(lengths), 2, 3), height, dtype=np.float32)
         corners[..., :2] = np.concatenate(ends)
-        strips = corners.reshape(-1, 3), np.full(len(corners), 2, dtype=np.intp)
         names = [grip.hand for each in batch.frames for grip in each.snapshot.grips]
-        self._recording.send_columns(
-            LINES, batch.times, [columns.column(columns.STRIPS, strips, lengths)]
-        )
-        self._recording.send_columns(
-            HANDS,
-            batch.times,
-            [
-                columns.column(columns.POSITIONS, corners[:, 1], lengths),
-                columns.column(columns.POINT_LABELS, names, lengths),
-            ],
-        )
+        lines = strip_column(corners.reshape(-1, 3), 2, lengths)
+        self._recording.send_columns(LINES, batch.times, [lines])
+        hands = rr.Points3D.columns(positions=corners[:, 1], labels=names).partition(lengths)
+        self._recording.send_columns(HANDS, batch.times, hands)

@@ -31,8 +31,8 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point
-from physsim_ros.view import columns
 from physsim_ros.view.frame_batch import FrameBatch, Times
+from physsim_ros.view.line_strips import strip_column
 from physsim_ros.view.meshes.body_mesh import JOINT_INK, JOINT_LINE
 from physsim_ros.view.meshes.mesh import MeshBuilder, Strips
 from physsim_ros.view.meshes.mesh_track import MeshGroup, MeshTrack
@@ -146,12 +146,11 @@ class JointGeometry:
         places[..., :2] = corners
         lengths = [len(lines.owner)] * frames
         every = np.tile(lines.lengths, frames)
+        levels = self._levels(snapshots, lines.owner)
         return [
-            columns.column(columns.STRIPS, (places.reshape(-1, 3), every), lengths),
-            columns.column(columns.STRIP_COLORS, self._levels(snapshots, lines.owner), lengths),
-            columns.column(
-                columns.STRIP_RADII, np.full(frames, self._radius, np.float32), [1] * frames
-            ),
+            strip_column(places.reshape(-1, 3), every, lengths),
+            *rr.LineStrips3D.columns(colors=levels).partition(lengths),
+            *rr.LineStrips3D.columns(radii=[self._radius] * frames),
         ]
 
     def dot_columns(self, poses: Floats, snapshots: list[Snapshot]) -> list[rr.ComponentColumn]:
@@ -166,12 +165,12 @@ class JointGeometry:
             return []
         places = np.full((frames, count, 3), self._height, dtype=np.float32)
         places[..., :2] = self._lines.points(poses)[:, self._dotted, 0]
-        lengths = [count] * frames
-        return [
-            columns.column(columns.POSITIONS, places.reshape(-1, 3), lengths),
-            columns.column(columns.POINT_COLORS, self._levels(snapshots, self._dotted), lengths),
-            columns.column(columns.POINT_RADII, np.tile(self._dots, frames), lengths),
-        ]
+        points = rr.Points3D.columns(
+            positions=places.reshape(-1, 3),
+            colors=self._levels(snapshots, self._dotted),
+            radii=np.tile(self._dots, frames),
+        )
+        return list(points.partition([count] * frames))
 
     def _levels(self, snapshots: list[Snapshot], joints: NDArray[np.intp]) -> NDArray[np.uint8]:
         """Return the colours of some joints in each frame, (f * k, 4) uint8."""

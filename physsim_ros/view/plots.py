@@ -11,7 +11,6 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.transform import cross
-from physsim_ros.view import columns
 from physsim_ros.view.frame_batch import FrameBatch, RECORDED
 from physsim_ros.view.frame_context import FrameContext
 import rerun as rr
@@ -132,9 +131,10 @@ class Plots:
                 rows = self._changes(path, rows, batch.numbers)
             if rows:
                 values = np.array([each for _, each in rows]).ravel()
-                column = columns.column(columns.SCALARS, values, [len(plot.series)] * len(rows))
+                scalars = rr.Scalars.columns(scalars=values)
                 times = batch.times_at([index for index, _ in rows])
-                self._recording.send_columns(path, times, [column])
+                parts = scalars.partition([len(plot.series)] * len(rows))
+                self._recording.send_columns(path, times, parts)
 
     def _changes(self, path: str, rows: list[_Row], numbers: Sequence[int]) -> list[_Row]:
         """Return the rows whose values differ from those sent last, and those that are due."""
@@ -162,8 +162,8 @@ class Plots:
         for path, value in values.items():
             if value:
                 self._paced = now
-                column = columns.column(columns.SCALARS, np.array([value]), [1])
-                self._recording.send_columns(path, batch.times_at([last]), [column])
+                scalars = rr.Scalars.columns(scalars=[value])
+                self._recording.send_columns(path, batch.times_at([last]), scalars)
 
 
 def plot_views(*, paced: bool, traced: bool) -> list[rrb.Horizontal]:

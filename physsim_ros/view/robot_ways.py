@@ -13,8 +13,8 @@ from __future__ import annotations
 import numpy as np
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, Pose, rotated
-from physsim_ros.view import columns
 from physsim_ros.view.frame_batch import FrameBatch
+from physsim_ros.view.line_strips import strip_column
 import rerun as rr
 
 TRUTH, ODOMETRY = 'world/ways/truth', 'world/ways/odometry'
@@ -58,9 +58,8 @@ class RobotWays:
         corners = np.full((2, len(rows) * count * 2, 3), height, dtype=np.float32)
         corners[:, :, :2] = np.array(segments).transpose(3, 0, 1, 2, 4).reshape(2, -1, 2)
         for path, each in zip((TRUTH, ODOMETRY), corners, strict=True):
-            strips = each, np.full(len(rows) * count, 2, dtype=np.intp)
-            column = columns.column(columns.STRIPS, strips, [count] * len(rows))
-            self._recording.send_columns(path, batch.times_at(rows), [column])
+            strips = strip_column(each, 2, [count] * len(rows))
+            self._recording.send_columns(path, batch.times_at(rows), [strips])
 
     def _segments(self, now: Snapshot) -> list[tuple[tuple[Point, Point], tuple[Point, Point]]]:
         """Return the places of each robot at the row before, and now."""

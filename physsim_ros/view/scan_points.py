@@ -8,7 +8,6 @@ from __future__ import annotations
 import numpy as np
 from physsim_ros.appearance import LaserScans
 from physsim_ros.model.scene import Scene
-from physsim_ros.view import columns
 from physsim_ros.view.frame_batch import FrameBatch
 import rerun as rr
 
@@ -53,5 +52,5 @@ class ScanPoints:
         lengths = [len(each) for each in points]
         places = np.full((sum(lengths), 3), height, dtype=np.float32)
         places[:, :2] = np.concatenate(points)
-        column = columns.column(columns.POSITIONS, places, lengths)
-        self._recording.send_columns(PATH, batch.times_at(rows), [column])
+        hits = rr.Points3D.columns(positions=places).partition(lengths)
+        self._recording.send_columns(PATH, batch.times_at(rows), hits)

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.view import columns
 from physsim_ros.view.frame_batch import FrameBatch
+from physsim_ros.view.line_strips import strip_column
 import rerun as rr
 
 PATH = 'world/traces'
@@ -73,13 +73,10 @@ class Traces:
         colors = [batch.scene.bodies[row].color for row in traced.values()] * len(batch)
         corners = np.array(segments, dtype=np.float32).reshape(-1, 3)
         lengths = [len(traced)] * len(batch)
-        strips = corners, np.full(len(segments), 2, dtype=np.intp)
         levels = np.rint(np.array(colors) * 255).astype(np.uint8)
-        values = [
-            columns.column(columns.STRIPS, strips, lengths),
-            columns.column(columns.STRIP_COLORS, levels, lengths),
-        ]
-        self._recording.send_columns(PATH, batch.times, values)
+        strips = strip_column(corners, 2, lengths)
+        styles = rr.LineStrips3D.columns(colors=levels).partition(lengths)
+        self._recording.send_columns(PATH, batch.times, [strips, *styles])
 
     def _segments(
         self, frame: Frame, traced: dict[str, int], height: float
@@ -115,8 +112,8 @@ class Traces:
             )
             self._recording.log(plot, series, static=True)
         values = np.array(self._heights.pop(name)).ravel()
-        column = columns.column(columns.SCALARS, values, [2] * len(batch))
-        self._recording.send_columns(plot, batch.times, [column])
+        scalars = rr.Scalars.columns(scalars=values).partition([2] * len(batch))
+        self._recording.send_columns(plot, batch.times, scalars)
 
     @staticmethod
     def _flight_height(frame: Frame, row: int, trace: _Trace) -> float | None:

@@ -107,7 +107,7 @@ class Recording:
         corners = self.last(entity, 'Mesh3D:vertex_positions')[:, :2]
         triangles = self.last(entity, 'Mesh3D:triangle_indices')
         colors = unpack(self.last(entity, 'Mesh3D:vertex_colors'))
-        columns = ('translations', 'rotation_axis_angles', 'scales')
+        columns = ('translations', 'quaternions', 'scales')
         places, turns, scales = (
             self.rows(entity, f'InstancePoses3D:{column}') for column in columns
         )
@@ -116,8 +116,9 @@ class Recording:
             instances = []
             for row, (x, y, z) in enumerate(place.value):
                 scale = scales[number].value[row, :2] if scales else 1.0
-                yaw = turn.value[row]['angle']
-                assert turn.value[row]['axis'] == [0, 0, 1]
+                *tilt, half_sin, half_cos = turn.value[row]
+                assert tilt == [0, 0]
+                yaw = 2 * math.atan2(half_sin, half_cos)
                 cos, sin = math.cos(yaw), math.sin(yaw)
                 turned = corners * scale @ np.array([[cos, sin], [-sin, cos]])
                 instances.append(Drawn(turned + np.array((x, y)), triangles, colors, z))

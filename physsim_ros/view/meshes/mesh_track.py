@@ -11,12 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-import math
 
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Singles
-from physsim_ros.view import columns
 from physsim_ros.view.frame_batch import Times
 from physsim_ros.view.meshes.mesh import Mesh
 import rerun as rr
@@ -57,15 +55,16 @@ class MeshGroup:
         places[..., 2] = self.depths
         return places.reshape(-1, 3)
 
-    def yaws(self, poses: Floats) -> Singles:
+    def rotations(self, poses: Floats) -> Singles:
         """
-        Return the rotations of the instances in frames, (f * k,) float32 [rad], -pi .. pi.
+        Return the rotations of the instances in frames, (f * k, 4) float32: x, y, z, w.
 
         :param poses: (f, n, 3) float64: x, y [m], yaw [rad]
         """
-        # float32 has no digits to spare for whole turns.
-        yaw = np.remainder(poses[:, self.rows, 2] + math.pi, math.tau) - math.pi
-        return yaw.astype(np.float32).ravel()
+        half = poses[:, self.rows, 2].ravel() / 2
+        quaternions = np.zeros((len(half), 4), dtype=np.float32)
+        quaternions[:, 2], quaternions[:, 3] = np.sin(half), np.cos(half)
+        return quaternions
 
 
 class MeshTrack:
@@ -117,16 +116,14 @@ class MeshTrack:
         for group in groups:
             if not moved[group.rows].any():
                 continue
-            lengths = [len(group.rows)] * len(poses)
-            values = [
-                columns.column(columns.TRANSLATIONS, group.translations(poses), lengths),
-                columns.column(columns.ROTATIONS, group.yaws(poses), lengths),
-            ]
-            if group.scales is not None:
-                # Rerun (0.41) takes all components of a pose from one row.
-                scales = np.tile(group.scales, (len(poses), 1))
-                values.append(columns.column(columns.SCALES, scales, lengths))
-            self._recording.send_columns(rr.new_entity_path([*group.path]), times, values)
+            # Rerun (0.41) takes all components of a pose from one row.
+            scales = None if group.scales is None else np.tile(group.scales, (len(poses), 1))
+            instances = rr.InstancePoses3D.columns(
+                translations=group.translations(poses),
+                quaternions=group.rotations(poses),
+                scales=scales,
+            ).partition([len(group.rows)] * len(poses))
+            self._recording.send_columns(rr.new_entity_path([*group.path]), times, instances)
 
     def _send_mesh(self, group: MeshGroup, times: Times) -> None:
         mesh = group.mesh
