@@ -26,8 +26,13 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
-from physsim_ros.ros import encoders
+from physsim_ros.ros.encoders.clock import ClockEncoder
+from physsim_ros.ros.encoders.contacts import ContactsEncoder
+from physsim_ros.ros.encoders.events import encode_event
 from physsim_ros.ros.encoders.marker_symbols import body_symbols
+from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder
+from physsim_ros.ros.encoders.poses import PosesEncoder
+from physsim_ros.ros.encoders.states import StatesEncoder
 from physsim_ros.ros.requests.conversions import body_request
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message
@@ -212,9 +217,9 @@ def drawn(markers, action=Marker.ADD):
 @pytest.mark.parametrize('count', [0, 1, 2, 500])
 def test_any_number_of_bodies_is_encoded_as_rclpy_does(count):
     snapshot = snapshot_of(bodies_named(*['body'] * count))
-    check_same(encoders.PosesEncoder('world').encode(frame_of(snapshot)), pose_array(snapshot))
-    check_same(encoders.StatesEncoder('world').encode(frame_of(snapshot)), body_states(snapshot))
-    check_same(encoders.MarkersEncoder('world').encode(frame_of(snapshot)), marker_array(snapshot))
+    check_same(PosesEncoder('world').encode(frame_of(snapshot)), pose_array(snapshot))
+    check_same(StatesEncoder('world').encode(frame_of(snapshot)), body_states(snapshot))
+    check_same(MarkersEncoder('world').encode(frame_of(snapshot)), marker_array(snapshot))
 
 
 @settings(deadline=None)
@@ -223,19 +228,17 @@ def test_names_of_any_length_are_encoded_as_rclpy_does(namespaces, frame_id):
     snapshot = snapshot_of(bodies_named(*namespaces))
     count = len(namespaces)
     contacts = contacts_of([(a, b) for a in range(count) for b in range(-1, count) if a != b])
+    check_same(PosesEncoder(frame_id).encode(frame_of(snapshot)), pose_array(snapshot, frame_id))
     check_same(
-        encoders.PosesEncoder(frame_id).encode(frame_of(snapshot)), pose_array(snapshot, frame_id)
-    )
-    check_same(
-        encoders.StatesEncoder(frame_id).encode(frame_of(snapshot)),
+        StatesEncoder(frame_id).encode(frame_of(snapshot)),
         body_states(snapshot, frame_id),
     )
     check_same(
-        encoders.MarkersEncoder(frame_id).encode(frame_of(snapshot)),
+        MarkersEncoder(frame_id).encode(frame_of(snapshot)),
         marker_array(snapshot, frame_id),
     )
     check_contacts(
-        encoders.ContactsEncoder(frame_id).encode(frame_of(snapshot, contacts)),
+        ContactsEncoder(frame_id).encode(frame_of(snapshot, contacts)),
         snapshot,
         contacts,
         frame_id,
@@ -246,14 +249,10 @@ def test_a_name_of_every_length_is_encoded_as_rclpy_does():
     for length in range(1, 41):
         snapshot = snapshot_of(bodies_named('n' * length, 'm'))
         contacts = contacts_of([(0, 1)])
-        check_same(
-            encoders.StatesEncoder('world').encode(frame_of(snapshot)), body_states(snapshot)
-        )
-        check_same(
-            encoders.MarkersEncoder('world').encode(frame_of(snapshot)), marker_array(snapshot)
-        )
+        check_same(StatesEncoder('world').encode(frame_of(snapshot)), body_states(snapshot))
+        check_same(MarkersEncoder('world').encode(frame_of(snapshot)), marker_array(snapshot))
         check_contacts(
-            encoders.ContactsEncoder('world').encode(frame_of(snapshot, contacts)),
+            ContactsEncoder('world').encode(frame_of(snapshot, contacts)),
             snapshot,
             contacts,
         )
@@ -263,9 +262,9 @@ def test_what_was_returned_stays_as_it_was_when_the_next_frame_is_written():
     first = snapshot_of(bodies_named('a', 'b', 'c'))
     second = moved(first.scene, np.random.default_rng(7), stamp=98_000_000_007)
     for encoder, expected in (
-        (encoders.PosesEncoder('world'), pose_array),
-        (encoders.StatesEncoder('world'), body_states),
-        (encoders.MarkersEncoder('world'), marker_array),
+        (PosesEncoder('world'), pose_array),
+        (StatesEncoder('world'), body_states),
+        (MarkersEncoder('world'), marker_array),
     ):
         messages = [encoder.encode(frame_of(first)), encoder.encode(frame_of(second))]
         check_same(messages[0], expected(first))
@@ -275,8 +274,8 @@ def test_what_was_returned_stays_as_it_was_when_the_next_frame_is_written():
 def test_a_changed_scene_is_encoded_anew():
     few, many = bodies_named('a', 'bb'), bodies_named('ccc', 'a', 'bb', 'dddd')
     for encoder, expected in (
-        (encoders.PosesEncoder('world'), pose_array),
-        (encoders.StatesEncoder('world'), body_states),
+        (PosesEncoder('world'), pose_array),
+        (StatesEncoder('world'), body_states),
     ):
         for bodies in (few, many, (), few):
             snapshot = snapshot_of(bodies)
@@ -284,7 +283,7 @@ def test_a_changed_scene_is_encoded_anew():
 
 
 def test_contacts_follow_their_pairs_and_their_scene():
-    encoder = encoders.ContactsEncoder('world')
+    encoder = ContactsEncoder('world')
     first, second = snapshot_of(bodies_named('a', 'b', 'c')), snapshot_of(bodies_named('d', 'e'))
     steps = [
         (first, contacts_of([])),
@@ -302,7 +301,7 @@ def test_contacts_follow_their_pairs_and_their_scene():
 def test_a_contact_turns_the_x_axis_onto_its_normal():
     snapshot, contacts = snapshot_of(bodies_named('a', 'b')), contacts_of([(0, 1)] * 50)
     contacts.normals[:6] = [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1e-9), (-1, -1e-9)]
-    data = encoders.ContactsEncoder('world').encode(frame_of(snapshot, contacts))
+    data = ContactsEncoder('world').encode(frame_of(snapshot, contacts))
     for transform, normal in zip(
         decoded(data, MultiDOFJointState).transforms, contacts.normals, strict=True
     ):
@@ -311,22 +310,11 @@ def test_a_contact_turns_the_x_axis_onto_its_normal():
         assert (w * w - z * z, 2 * w * z) == pytest.approx(tuple(normal), abs=1e-15)
 
 
-def test_names_of_pairs_stay_right_when_the_store_of_them_is_full(monkeypatch):
-    monkeypatch.setattr(encoders.contacts, '_MOST_PAIRS', 3)
-    encoder = encoders.ContactsEncoder('world')
-    snapshot = snapshot_of(bodies_named('a', 'b', 'c'))
-    for pairs in ([(0, 1), (0, 2)], [(1, 2), (0, -1)], [(0, 1), (2, -1)]):
-        contacts = contacts_of(pairs)
-        check_contacts(encoder.encode(frame_of(snapshot, contacts)), snapshot, contacts)
-    # Emptied once: what is left is what has touched since.
-    assert len(encoder._names) == 2  # noqa: SLF001  (its size is what the test is about)
-
-
 @pytest.mark.parametrize('shape', [shape for shape, *_ in SHAPES], ids=repr)
 def test_a_marker_spawns_the_body_that_it_draws(shape):
     body = replace(PLAIN, name='a/b/-7', shape=shape, color=(0.25, 0.5, 1.0, 0.75))
     snapshot = snapshot_of([body])
-    (marker,) = picture(encoders.MarkersEncoder('world'), snapshot)
+    (marker,) = picture(MarkersEncoder('world'), snapshot)
     spawn = body_request(marker, frame_id='world')
     assert (spawn.name, spawn.frame, spawn.lifetime) == ('a/b/-7', '', 0)
     assert (spawn.shape, spawn.color) == (body.shape, body.color)
@@ -339,7 +327,7 @@ def test_a_marker_spawns_the_body_that_it_draws(shape):
 def test_the_marker_of_a_chain_whose_ends_meet_is_no_polygon():
     shape = Chain(points=((0.0, 0.0), (2.0, 0.0), (1.0, 1.0), (0.0, 0.0)), thickness=0.1)
     body = replace(PLAIN, name='ring/0', shape=shape)
-    (marker,) = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
+    (marker,) = picture(MarkersEncoder('world'), snapshot_of([body]))
     again = body_request(marker, frame_id='world').shape
     assert isinstance(again, Chain)
     assert np.array(again.points) == pytest.approx(np.array(shape.points), abs=1e-300)
@@ -377,23 +365,21 @@ def test_the_text_of_a_marker_gives_back_the_properties_of_its_body(body, role):
     if role:
         body = replace(body, **{role: True})
         expected[role] = True
-    marker, *_ = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
+    marker, *_ = picture(MarkersEncoder('world'), snapshot_of([body]))
     assert body_request(marker, frame_id='world').properties.explicit() == expected
     # PyYAML by itself reads YAML 1.1, in which 1e-09 is a string.
     assert yaml.safe_load(marker.text) == expected
 
 
 def test_the_text_of_a_marker_reads_as_the_contract_shows_it():
-    marker, _ = picture(
-        encoders.MarkersEncoder('world'), snapshot_of([replace(PLAIN, anchored=True)])
-    )
+    marker, _ = picture(MarkersEncoder('world'), snapshot_of([replace(PLAIN, anchored=True)]))
     assert marker.text == '{density: 1.0, friction: 0.5, elasticity: 0.25, anchored: true}'
 
 
 def test_an_anchored_body_carries_a_symbol_at_its_centre_of_mass():
     body = replace(PLAIN, name='walls/7', shape=SHAPES[2][0], anchored=True)
     snapshot = snapshot_of([PLAIN, body])
-    symbol = picture(encoders.MarkersEncoder('world'), snapshot)[2]
+    symbol = picture(MarkersEncoder('world'), snapshot)[2]
     assert (symbol.ns, symbol.id, symbol.type) == ('anchor:walls', 7, Marker.LINE_LIST)
     assert symbol.pose == poses_of(snapshot)[1]
     assert symbol.header == header(snapshot)
@@ -419,19 +405,19 @@ def test_an_anchored_body_carries_a_symbol_at_its_centre_of_mass():
 )
 def test_an_anchor_symbol_is_about_a_third_of_the_smaller_side(shape, size):
     body = replace(PLAIN, shape=shape, anchored=True)
-    _, symbol = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
+    _, symbol = picture(MarkersEncoder('world'), snapshot_of([body]))
     assert np.ptp([point.x for point in symbol.points]) == pytest.approx(size, rel=0.25)
 
 
 @pytest.mark.parametrize('color', [(0.0, 0.0, 0.1, 1.0), (1.0, 1.0, 0.8, 1.0)])
 def test_an_anchor_symbol_stands_out_from_its_body(color):
     body = replace(PLAIN, color=color, anchored=True)
-    marker, symbol = picture(encoders.MarkersEncoder('world'), snapshot_of([body]))
+    marker, symbol = picture(MarkersEncoder('world'), snapshot_of([body]))
     assert abs(symbol.color.g - marker.color.g) > 0.7
 
 
 def test_the_walls_are_drawn_where_the_bounds_are():
-    encoder = encoders.MarkersEncoder('world')
+    encoder = MarkersEncoder('world')
     _, walls = picture(encoder, snapshot_of([PLAIN], bounds=(-1, 0, 4, 3)))
     assert (walls.ns, walls.id, walls.type) == ('physsim:bounds', 0, Marker.LINE_STRIP)
     assert walls.pose == Pose()
@@ -441,7 +427,7 @@ def test_the_walls_are_drawn_where_the_bounds_are():
 
 
 def test_what_has_gone_is_deleted_in_sixty_messages_and_then_no_more():
-    encoder = encoders.MarkersEncoder('world')
+    encoder = MarkersEncoder('world')
     before = snapshot_of([replace(PLAIN, anchored=True), *bodies_named('a', 'b')])
     after = snapshot_of(bodies_named('a', 'b'))
     encoder.encode(frame_of(before))
@@ -454,27 +440,27 @@ def test_what_has_gone_is_deleted_in_sixty_messages_and_then_no_more():
 
 
 def test_deletions_run_out_one_after_the_other():
-    encoder = encoders.MarkersEncoder('world')
+    encoder = MarkersEncoder('world')
     bodies = bodies_named('a', 'b', 'c')
     encoder.encode(frame_of(snapshot_of(bodies)))
     encoder.encode(frame_of(snapshot_of(bodies[1:])))
     last = snapshot_of(bodies[2:])
-    expected = [['a/0', 'b/1']] * (encoders.DELETE_REPEATS - 1) + [['b/1'], [], []]
+    expected = [['a/0', 'b/1']] * (DELETE_REPEATS - 1) + [['b/1'], [], []]
     assert [drawn(picture(encoder, last), Marker.DELETE) for _ in expected] == expected
 
 
 def test_what_comes_back_is_deleted_no_more():
-    encoder = encoders.MarkersEncoder('world')
+    encoder = MarkersEncoder('world')
     bodies = bodies_named('a', 'b')
     encoder.encode(frame_of(snapshot_of(bodies)))
     assert drawn(picture(encoder, snapshot_of(bodies[:1])), Marker.DELETE) == ['b/1']
     both = snapshot_of(bodies)
-    for _ in range(encoders.DELETE_REPEATS + 1):
+    for _ in range(DELETE_REPEATS + 1):
         check_same(encoder.encode(frame_of(both)), marker_array(both))
 
 
 def test_a_released_body_loses_only_its_symbol():
-    encoder = encoders.MarkersEncoder('world')
+    encoder = MarkersEncoder('world')
     encoder.encode(frame_of(snapshot_of([replace(PLAIN, anchored=True)])))
     markers = picture(encoder, snapshot_of([PLAIN]))
     assert drawn(markers) == ['body/0']
@@ -487,7 +473,7 @@ def test_only_bodies_that_are_new_or_different_are_drawn_again(monkeypatch):
         'physsim_ros.ros.encoders.markers.body_symbols',
         lambda body: asked.append(body.name) or body_symbols(body),
     )
-    encoder = encoders.MarkersEncoder('world')
+    encoder = MarkersEncoder('world')
     first, second = bodies_named('a', 'b')
     encoder.encode(frame_of(snapshot_of([first, second])))
     asked.clear()
@@ -501,7 +487,7 @@ def test_only_bodies_that_are_new_or_different_are_drawn_again(monkeypatch):
 def test_the_clock_has_the_stamp_of_the_frame(stamp):
     sec, nanosec = divmod(stamp, 1_000_000_000)
     frame = frame_of(replace(snapshot_of([PLAIN]), stamp=stamp))
-    assert encoders.ClockEncoder().encode(frame) == Clock(clock=Time(sec=sec, nanosec=nanosec))
+    assert ClockEncoder().encode(frame) == Clock(clock=Time(sec=sec, nanosec=nanosec))
 
 
 @settings(deadline=None)
@@ -525,10 +511,10 @@ def test_an_event_is_encoded_as_rclpy_does(answer):
         message=answer.message,
         values=values,
     )
-    check_same(encoders.encode_event(answer), expected)
+    check_same(encode_event(answer), expected)
 
 
 def test_an_event_can_tell_of_a_file_name_that_is_no_text():
     answer = Answer(topic='~/load_world', message='no file \udcff.yaml', code='bad_world_file')
-    event = decoded(encoders.encode_event(answer), DiagnosticStatus)
+    event = decoded(encode_event(answer), DiagnosticStatus)
     assert event.message == 'no file ?.yaml'

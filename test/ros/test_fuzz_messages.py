@@ -26,7 +26,11 @@ import numpy as np
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.ros import encoders
+from physsim_ros.ros.encoders.contacts import ContactsEncoder
+from physsim_ros.ros.encoders.events import encode_event
+from physsim_ros.ros.encoders.markers import MarkersEncoder
+from physsim_ros.ros.encoders.poses import PosesEncoder
+from physsim_ros.ros.encoders.states import StatesEncoder
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.requests.decoders import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation
@@ -219,11 +223,11 @@ class Fuzzed:
         self.simulation = Simulation(settings=bounds)
         self.simulation.reports_contacts = True
         self._encoders = [
-            encoders.PosesEncoder('world'),
-            encoders.StatesEncoder('world'),
-            encoders.MarkersEncoder('world'),
+            PosesEncoder('world'),
+            StatesEncoder('world'),
+            MarkersEncoder('world'),
         ]
-        self._contacts = encoders.ContactsEncoder('world')
+        self._contacts = ContactsEncoder('world')
         for message in (box('a/0'), disc('b/0', at=(0.0, 2.0))):
             assert self.ask('~/spawn', message) == 'ok'
 
@@ -242,7 +246,7 @@ class Fuzzed:
         (answer,) = frame.answers
         assert answer.topic == topic
         assert answer.message
-        encoders.encode_event(answer)
+        encode_event(answer)
         if answer.code:
             assert self.simulation.world.digest() == before
         self.look(frame)

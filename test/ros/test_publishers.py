@@ -15,7 +15,12 @@ import numpy as np
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
-from physsim_ros.ros import encoders
+from physsim_ros.ros.encoders.clock import ClockEncoder
+from physsim_ros.ros.encoders.contacts import ContactsEncoder
+from physsim_ros.ros.encoders.markers import MarkersEncoder
+from physsim_ros.ros.encoders.poses import PosesEncoder
+from physsim_ros.ros.encoders.states import StatesEncoder
+from physsim_ros.ros.publishers import event_publisher
 from physsim_ros.ros.publishers.publishers import LATCH_PERIOD, Publishers
 import pytest
 import rclpy
@@ -137,12 +142,12 @@ def encoded(monkeypatch):
 
         monkeypatch.setattr(owner, name, wrapper)
 
-    spy(encoders.PosesEncoder, 'encode', 'poses')
-    spy(encoders.StatesEncoder, 'encode', 'states')
-    spy(encoders.ContactsEncoder, 'encode', 'contacts')
-    spy(encoders.MarkersEncoder, 'encode', 'markers')
-    spy(encoders.ClockEncoder, 'encode', 'clock')
-    spy(encoders, 'encode_event', 'event')
+    spy(PosesEncoder, 'encode', 'poses')
+    spy(StatesEncoder, 'encode', 'states')
+    spy(ContactsEncoder, 'encode', 'contacts')
+    spy(MarkersEncoder, 'encode', 'markers')
+    spy(ClockEncoder, 'encode', 'clock')
+    spy(event_publisher, 'encode_event', 'event')
     return calls
 
 

@@ -18,6 +18,8 @@ import struct
 import numpy as np
 from physsim_ros.model.arrays import Floats, Singles
 
+# Doubles of a planar pose or transform that are not always 0: x, y; z and w of the quaternion.
+POSE_COLUMNS = (0, 1, 5, 6)
 # Four bytes of padding, which align the values in memory, and the header of the message.
 START = b'\0\0\0\0\0\1\0\0'
 # A second [ns].
@@ -31,11 +33,15 @@ class CdrWriter:
     :param start: bytes to begin with; none, or a multiple of 8 bytes
 
     :ivar data: the bytes so far
+    :ivar stamps: offset of the stamp of each header [bytes]
+    :ivar poses: offset of each pose [bytes]
     :ivar blocks: offset [bytes], count and width of each block of doubles
     """
 
     def __init__(self, start: bytes = b'') -> None:
         self.data = bytearray(start)
+        self.stamps: list[int] = []
+        self.poses: list[int] = []
         self.blocks: list[tuple[int, int, int]] = []
 
     def align(self, size: int) -> None:
@@ -60,8 +66,18 @@ class CdrWriter:
 
     def header(self, frame_id: str) -> None:
         """Write a std_msgs/Header with stamp 0."""
+        self.align(4)
+        self.stamps.append(len(self.data))
         self.ints(0, 0)
         self.text(frame_id)
+
+    def pose(self, count: int = 1) -> None:
+        """Write one or more geometry_msgs/Pose or Transform, all zero."""
+        if count:
+            self.align(8)
+        start = len(self.data)
+        self.data += bytes(56 * count)
+        self.poses += range(start, len(self.data), 56)
 
     def block(self, count: int, width: int) -> None:
         """Write a sequence of `count` values of `width` doubles each, all zero."""
@@ -77,24 +93,30 @@ class MessageTemplate:
     A serialised message whose stamps and floats can be overwritten.
 
     :param writer: with all of the message, from `START` on
-    :param starts: offsets of the stamps [bytes]
 
     :ivar doubles: (k,) float64: view of the whole message as doubles
     :ivar floats: (k,) float32: view of the whole message as floats
     :ivar blocks: (count, width) float64 each: views of the blocks of doubles
     """
 
-    def __init__(self, writer: CdrWriter, starts: Sequence[int] = (len(START),)) -> None:
+    def __init__(self, writer: CdrWriter) -> None:
         self._message = memoryview(writer.data)[4:]
         self._words = np.frombuffer(writer.data, '<u4', len(writer.data) // 4)
-        self._seconds = np.array(starts, np.intp) // 4
+        self._seconds = np.array(writer.stamps, np.intp) // 4
         self._nanoseconds = self._seconds + 1
+        # Offsets of each column in all poses, in numbers of 8 bytes.
+        self._poses = np.array(writer.poses, np.intp) // 8 + np.array(POSE_COLUMNS)[:, None]
         self.doubles: Floats = np.frombuffer(writer.data, '<f8', len(writer.data) // 8)
         self.floats: Singles = np.frombuffer(writer.data, '<f4', len(writer.data) // 4)
         self.blocks = [
             np.frombuffer(writer.data, '<f8', count * width, start).reshape(count, width)
             for start, count, width in writer.blocks
         ]
+
+    def write_poses(self, columns: Sequence[Floats]) -> None:
+        """Write x, y [m], and z and w of the quaternion about z, (n,) float64 each, into poses."""
+        for offsets, values in zip(self._poses, columns, strict=True):
+            self.doubles[offsets] = values
 
     def stamped(self, stamp: int) -> bytes:
         """Return a copy of the message with a stamp [ns]."""

@@ -9,9 +9,8 @@ import numpy as np
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
-from physsim_ros.ros.encoders.scene_encoder import POSE_COLUMNS, pose_columns, SceneEncoder
+from physsim_ros.ros.encoders.scene_encoder import SceneEncoder
 
-_ZERO = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 # The type UPDATE, and no markers.
 _UPDATE, _NO_MARKERS = b'\1', 0
 
@@ -39,22 +38,14 @@ class InteractivePosesEncoder(SceneEncoder):
         writer.doubles(0.0)
         writer.data += _UPDATE
         writer.ints(_NO_MARKERS, len(scene.names))
-        stamps, poses = [], []
         for name in scene.names:
-            writer.align(4)
-            stamps.append(len(writer.data))
             writer.header(self._frame_id)
-            writer.align(8)
-            poses.append(len(writer.data))
-            writer.doubles(*_ZERO)
+            writer.pose()
             writer.text(name)
         # No names of bodies that are gone.
         writer.ints(0)
-        # Offsets of each column in all poses, in numbers of 8 bytes.
-        self._offsets = np.array(poses, np.intp) // 8 + np.array(POSE_COLUMNS)[:, None]
-        return MessageTemplate(writer, stamps)
+        return MessageTemplate(writer)
 
     def _fill(self, template: MessageTemplate, snapshot: Snapshot) -> None:
+        super()._fill(template, snapshot)
         template.doubles.view(np.int64)[self._number_at] = self.number
-        for offsets, values in zip(self._offsets, pose_columns(snapshot), strict=True):
-            template.doubles[offsets] = values

@@ -7,9 +7,8 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Callable
-import math
 
-from geometry_msgs.msg import Point, Pose, Quaternion
+from geometry_msgs.msg import Point, Pose
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 import numpy as np
 from physsim_ros.maps import anchored_grid
@@ -18,6 +17,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.ros.robots.frames import rotation_of
 from rclpy.time import Time
 from std_msgs.msg import Header
 
@@ -67,7 +67,6 @@ def _message(grid: Grid, frame_id: str, stamp: int) -> OccupancyGrid:
     time = Time(nanoseconds=stamp).to_msg()
     rows, columns = grid.occupied.shape
     x, y, yaw = grid.origin
-    turn = Quaternion(z=math.sin(yaw / 2), w=math.cos(yaw / 2))
     cells = np.where(grid.occupied, _OCCUPIED, 0).astype(np.int8)
     return OccupancyGrid(
         header=Header(frame_id=frame_id, stamp=time),
@@ -76,7 +75,7 @@ def _message(grid: Grid, frame_id: str, stamp: int) -> OccupancyGrid:
             resolution=grid.resolution,
             width=columns,
             height=rows,
-            origin=Pose(position=Point(x=x, y=y), orientation=turn),
+            origin=Pose(position=Point(x=x, y=y), orientation=rotation_of(yaw)),
         ),
         data=array('b', cells.tobytes()),
     )

@@ -36,7 +36,7 @@ from physsim_ros.ros.encoders.marker_symbols import (
     Symbol,
     wall_symbol,
 )
-from physsim_ros.ros.encoders.scene_encoder import POSE_COLUMNS, pose_columns
+from physsim_ros.ros.encoders.scene_encoder import pose_columns
 from visualization_msgs.msg import Marker
 
 # A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.
@@ -92,8 +92,7 @@ class MarkersEncoder:
             ends = self._hands_at + 3 * np.arange(2 * hands)
             for column, values in enumerate(snapshot.grip_lines.reshape(-1, 2).T):
                 self._template.doubles[ends + column] = values
-        for offsets, values in zip(self._offsets, pose_columns(snapshot), strict=True):
-            self._template.doubles[offsets] = values[self._rows]
+        self._template.write_poses([values[self._rows] for values in pose_columns(snapshot)])
         return self._template.stamped(snapshot.stamp)
 
     def _build_template(self, scene: Scene, hands: int) -> None:
@@ -116,12 +115,11 @@ class MarkersEncoder:
 
         writer = CdrWriter(START)
         writer.ints(len(markers))
-        starts: list[int] = []
         offsets: list[int] = []
         parts: list[bytes] = []
         size = len(writer.data)
         for _, marker in markers:
-            starts.append(size)
+            writer.stamps.append(size)
             # All begin at a multiple of 4 bytes, some of 8.
             part = marker.at_8 if size % 8 == 0 else marker.at_4
             parts.append(part)
@@ -130,17 +128,16 @@ class MarkersEncoder:
         writer.data += b''.join(parts)
         if parts:
             del writer.data[-_PADDING:]
-        self._template = MessageTemplate(writer, starts)
+        rows = np.array([row for row, _ in markers], np.intp)
+        self._rows = rows[rows >= 0]
+        writer.poses = [offset for offset, row in zip(offsets, rows, strict=True) if row >= 0]
+        self._template = MessageTemplate(writer)
         last = before + len(joints)
         self._joint_columns = _JointColumns(scene, offsets[before:last]) if joints else None
         self._hands, self._hands_at = (
             hands,
             (offsets[before - 1] + _POSED.size) // 8 if hands else 0,
         )
-        rows = np.array([row for row, _ in markers], np.intp)
-        moving = rows >= 0
-        self._rows = rows[moving]
-        self._offsets = np.array(offsets, np.intp)[moving] // 8 + np.array(POSE_COLUMNS)[:, None]
         self._scene, self._shown, self._gone = scene, shown, gone
         self._until = min((last for _, last in gone.values()), default=-1)
 

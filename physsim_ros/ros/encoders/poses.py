@@ -6,9 +6,8 @@
 from __future__ import annotations
 
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.ros.encoders.cdr import CdrWriter, fill_columns, MessageTemplate, START
-from physsim_ros.ros.encoders.scene_encoder import POSE_COLUMNS, pose_columns, SceneEncoder
+from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
+from physsim_ros.ros.encoders.scene_encoder import SceneEncoder
 
 
 class PosesEncoder(SceneEncoder):
@@ -17,8 +16,6 @@ class PosesEncoder(SceneEncoder):
     def _template_of(self, scene: Scene) -> MessageTemplate:
         writer = CdrWriter(START)
         writer.header(self._frame_id)
-        writer.block(len(scene.bodies), 7)
+        writer.ints(len(scene.bodies))
+        writer.pose(len(scene.bodies))
         return MessageTemplate(writer)
-
-    def _fill(self, template: MessageTemplate, snapshot: Snapshot) -> None:
-        fill_columns(template.blocks[0], POSE_COLUMNS, pose_columns(snapshot))

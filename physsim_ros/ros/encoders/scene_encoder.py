@@ -14,9 +14,6 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.ros.encoders.cdr import MessageTemplate
 
-# Doubles of a planar pose or transform that are not always 0: x, y; z and w of the quaternion.
-POSE_COLUMNS = (0, 1, 5, 6)
-
 
 class SceneEncoder(ABC):
     """
@@ -42,9 +39,9 @@ class SceneEncoder(ABC):
     def _template_of(self, scene: Scene) -> MessageTemplate:
         """Return the message of a scene, all numbers 0."""
 
-    @abstractmethod
     def _fill(self, template: MessageTemplate, snapshot: Snapshot) -> None:
-        """Write the numbers of a snapshot into the message of its scene."""
+        """Write the numbers of a snapshot into the message of its scene: at least the poses."""
+        template.write_poses(pose_columns(snapshot))
 
 
 # Three streams need the poses of the same frame, one after the other.

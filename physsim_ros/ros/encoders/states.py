@@ -14,7 +14,7 @@ from physsim_ros.ros.encoders.cdr import (
     padded_string,
     START,
 )
-from physsim_ros.ros.encoders.scene_encoder import POSE_COLUMNS, pose_columns, SceneEncoder
+from physsim_ros.ros.encoders.scene_encoder import SceneEncoder
 
 # Doubles of a planar twist that are not always 0: vx, vy and the angular velocity.
 _TWIST_COLUMNS = (0, 1, 5)
@@ -28,16 +28,15 @@ class StatesEncoder(SceneEncoder):
         return multi_dof_template(self._frame_id, names, twists=len(names))
 
     def _fill(self, template: MessageTemplate, snapshot: Snapshot) -> None:
-        transforms, twists, _ = template.blocks
-        fill_columns(transforms, POSE_COLUMNS, pose_columns(snapshot))
-        fill_columns(twists, _TWIST_COLUMNS, snapshot.twists.T)
+        super()._fill(template, snapshot)
+        fill_columns(template.blocks[0], _TWIST_COLUMNS, snapshot.twists.T)
 
 
 def multi_dof_template(
     frame_id: str, names: list[bytes], *, twists: int = 0, wrenches: int = 0
 ) -> MessageTemplate:
     """
-    Return a sensor_msgs/MultiDOFJointState; its blocks are transforms, twists and wrenches.
+    Return a sensor_msgs/MultiDOFJointState; its blocks are twists and wrenches.
 
     :param frame_id: name of the world frame
     :param names: of the entries, serialised with padding
@@ -48,7 +47,8 @@ def multi_dof_template(
     writer.header(frame_id)
     writer.ints(len(names))
     writer.data += b''.join(names)
-    writer.block(len(names), 7)
+    writer.ints(len(names))
+    writer.pose(len(names))
     writer.block(twists, 6)
     writer.block(wrenches, 6)
     return MessageTemplate(writer)

@@ -9,7 +9,7 @@ from collections import deque
 import time
 
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros import encoders
+from physsim_ros.ros.encoders.events import encode_event
 from rclpy.duration import Duration
 from rclpy.publisher import Publisher
 
@@ -58,7 +58,7 @@ class EventPublisher:
     def publish(self, answer: Answer) -> None:
         """Publish an answer, after those that wait."""
         if self._publisher.get_subscription_count():
-            self._waiting.append(encoders.encode_event(answer))
+            self._waiting.append(encode_event(answer))
             # While others wait, acknowledgements are looked up once a tick.
             if len(self._waiting) == 1:
                 self._publish_waiting()

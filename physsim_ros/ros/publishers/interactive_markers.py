@@ -19,7 +19,7 @@ from geometry_msgs.msg import Point, Pose, Quaternion
 import numpy as np
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.ros.encoders import InteractivePosesEncoder
+from physsim_ros.ros.encoders.interactive_poses import InteractivePosesEncoder
 from physsim_ros.ros.marker_shapes import geometry_of, THIN
 from physsim_ros.ros.robots.frames import rotation_of
 from rclpy.node import Node

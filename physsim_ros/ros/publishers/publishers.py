@@ -14,18 +14,25 @@ local). It is published without subscribers too, when the scene has changed and 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Protocol
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from nav_msgs.msg import OccupancyGrid
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
-from physsim_ros.ros import encoders
-from physsim_ros.ros.encoders import Encoder
+from physsim_ros.ros.encoders.clock import ClockEncoder
+from physsim_ros.ros.encoders.contacts import ContactsEncoder
+from physsim_ros.ros.encoders.map import MapEncoder
+from physsim_ros.ros.encoders.markers import MarkersEncoder
+from physsim_ros.ros.encoders.poses import PosesEncoder
+from physsim_ros.ros.encoders.preview import preview_message
+from physsim_ros.ros.encoders.states import StatesEncoder
+from physsim_ros.ros.encoders.transforms import TransformsEncoder
 from physsim_ros.ros.publishers.event_publisher import EventPublisher, EVENTS_DEPTH
 from physsim_ros.ros.publishers.interactive_markers import InteractiveMarkers
 from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
+from physsim_ros.ros.robots.frames import TF_DEPTH, tf_message_type
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -68,22 +75,26 @@ class Publishers:
             qos = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
             return node.create_publisher(kind, topic, qos)
 
-        self.clock = stream(Clock, 'clock', 10, encoders.ClockEncoder())
+        self.clock = stream(Clock, 'clock', 10, ClockEncoder())
         # Contacts are those of one frame, so a late subscriber does not receive the last ones.
-        self.contacts = stream(
-            MultiDOFJointState, '~/contacts', 5, encoders.ContactsEncoder(frame_id)
-        )
+        self.contacts = stream(MultiDOFJointState, '~/contacts', 5, ContactsEncoder(frame_id))
         self._state_streams: tuple[Stream, ...] = (
             self.clock,
-            stream(PoseArray, '~/poses', 5, encoders.PosesEncoder(frame_id)),
-            stream(MultiDOFJointState, '~/states', 5, encoders.StatesEncoder(frame_id)),
-            LatchedStream(latched(MarkerArray, '~/markers'), encoders.MarkersEncoder(frame_id)),
+            stream(PoseArray, '~/poses', 5, PosesEncoder(frame_id)),
+            stream(MultiDOFJointState, '~/states', 5, StatesEncoder(frame_id)),
+            LatchedStream(latched(MarkerArray, '~/markers'), MarkersEncoder(frame_id)),
             # DDS keeps the last map for late subscribers; there is another one when it changes.
-            Stream(latched(OccupancyGrid, '~/map'), encoders.MapEncoder(frame_id, map_resolution)),
+            Stream(latched(OccupancyGrid, '~/map'), MapEncoder(frame_id, map_resolution)),
         )
         if publish_tf:
-            # The depth that tf2_ros has.
-            tf = stream(_tf_message(), '/tf', 100, encoders.TransformsEncoder(frame_id))
+            message = tf_message_type()
+            if message is None:
+                raise BadProperty(
+                    'publish_tf needs the package tf2_msgs, which is not installed here (on '
+                    'Ubuntu ros-jazzy-tf2-msgs; there is no wheel of it)',
+                    field='publish_tf',
+                )
+            tf = stream(message, '/tf', TF_DEPTH, TransformsEncoder(frame_id))
             self._state_streams += (tf,)
         self._interactive_markers = InteractiveMarkers(node, frame_id)
         self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'))
@@ -117,29 +128,19 @@ class Publishers:
         if preview != self._preview:
             self._preview = preview
             stamp = self._frame.snapshot.stamp if self._frame else 0
-            message = encoders.preview_message(preview, frame_id=self._frame_id, stamp=stamp)
+            message = preview_message(preview, frame_id=self._frame_id, stamp=stamp)
             self._preview_publisher.publish(message)
-
-
-def _tf_message() -> Any:
-    """
-    Return the message type of `/tf`, which is no part of common_interfaces.
-
-    :raises BadProperty: its package is not installed
-    """
-    try:
-        from tf2_msgs.msg import TFMessage  # noqa: PLC0415 - most worlds do without
-    except ModuleNotFoundError as error:
-        raise BadProperty(
-            'publish_tf needs the package tf2_msgs, which is not installed here (on Ubuntu '
-            'ros-jazzy-tf2-msgs; there is no wheel of it)',
-            field='publish_tf',
-        ) from error
-    return TFMessage
 
 
 def _reliable(depth: int, durability: DurabilityPolicy = DurabilityPolicy.VOLATILE) -> QoSProfile:
     return QoSProfile(depth=depth, reliability=ReliabilityPolicy.RELIABLE, durability=durability)
+
+
+class Encoder(Protocol):
+    """An encoder of frames."""
+
+    def encode(self, frame: Frame) -> Any:
+        """Return the message of a frame, serialised or not; None where the frame has none."""
 
 
 class Stream:

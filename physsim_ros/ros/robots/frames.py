@@ -21,6 +21,8 @@ from physsim_ros.model.robots import Robot
 from physsim_ros.model.transform import Pose
 
 ODOM, FOOTPRINT, BASE = 'odom', 'base_footprint', 'base_link'
+# Depth of `/tf`: that of tf2_ros.
+TF_DEPTH = 100
 
 
 class RobotTf(StrEnum):

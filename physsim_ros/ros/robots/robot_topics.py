@@ -26,6 +26,7 @@ from physsim_ros.ros.robots.frames import (
     ODOM,
     RobotFrames,
     RobotTf,
+    TF_DEPTH,
     tf_message_type,
 )
 from physsim_ros.ros.robots.messages import (
@@ -40,9 +41,6 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-
-# The depth that tf2_ros has.
-_TF_DEPTH = 100
 
 
 class RobotTopics:
@@ -88,7 +86,7 @@ class RobotTopics:
         self._tf_message: Any = None if robot_tf is RobotTf.NONE else tf_message_type()
         if (kind := self._tf_message) is not None:
             below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
-            self._tf = self._publisher(kind, 'tf', below=below, depth=_TF_DEPTH)
+            self._tf = self._publisher(kind, 'tf', below=below, depth=TF_DEPTH)
             fixed = self._publisher(
                 kind,
                 'tf_static',
