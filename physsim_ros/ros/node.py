@@ -35,7 +35,6 @@ from physsim_ros.ros.requests.services import create_services, Service, ServiceC
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.ros.simulation_services import create_simulation_services
-from physsim_ros.ros.simulation_services.control import SimulationControl
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.request_handler import DeferredCalls, Wait
@@ -178,25 +177,16 @@ class PhysSimNode(NodeWithoutQosEvents):
         calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer)
         create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
-        create_simulation_services(
-            self,
-            SimulationControl(
-                simulation=simulation,
-                values=self._values,
-                current_snapshot=self._current_snapshot,
-                actions=self._time_control.actions,
-                load_world=partial(self._perform_on, services['load_world']),
-                note_change=self._note_change,
-                world_dir=self.world_files.directory,
-            ),
-            calls,
-        )
         control = WorldControl(
             simulation=simulation,
+            frame_id=self._values['frame_id'],
+            world_dir=self.world_files.directory,
+            world_file=lambda: str(self._values['world_file']),
             drawing_settings=lambda: parameters.drawing_settings(self._values),
             current_snapshot=self._current_snapshot,
             submit_call=deferred_calls.submit,
             services=services,
+            note_change=self._note_change,
             load_world=partial(self._perform_on, services['load_world']),
             save_world=partial(self._perform_on, services['save_world']),
             set_speed=self._time_control.set_speed,
@@ -206,12 +196,12 @@ class PhysSimNode(NodeWithoutQosEvents):
             set_frozen=self._set_frozen,
             set_locked=self._set_locked,
         )
+        create_simulation_services(self, control, calls)
         self._pages = Pages(
             self,
             self.outputs,
             self._values,
             control,
-            world_dir=self.world_files.directory,
             apply_requests=self.apply_requests,
             is_started=lambda: self._started,
         )

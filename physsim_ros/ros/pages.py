@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from pathlib import Path
 import sys
 from typing import Any
 
@@ -29,7 +28,6 @@ class Pages:
     :param outputs: of the node; they have the sketchpad while it is served
     :param values: of the parameters of the node, by name, always up to date
     :param control: the actions of the node that pages use
-    :param world_dir: directory of the user's worlds
     :param apply_requests: applies the waiting requests, and publishes what they changed
     :param is_started: returns whether the node has started: its ticks handle the messages then
     """
@@ -41,7 +39,6 @@ class Pages:
         values: Mapping[str, Any],
         control: WorldControl,
         *,
-        world_dir: Path,
         apply_requests: Callable[[], object],
         is_started: Callable[[], bool],
     ) -> None:
@@ -49,7 +46,6 @@ class Pages:
         self._outputs = outputs
         self._values = values
         self._control = control
-        self._world_dir = world_dir
         self._apply_requests = apply_requests
         self._is_started = is_started
 
@@ -65,11 +61,9 @@ class Pages:
         try:
             sketchpad = Sketchpad(
                 self._control,
-                welcome={'frame_id': values['frame_id'], 'rate': values['publish_rate']},
                 recordings=self._outputs.viewer,
                 address=values['sketchpad_address'],
                 port=values['sketchpad_port'],
-                world_dir=self._world_dir,
                 wake=self._wake,
             )
         except PhysSimError as error:

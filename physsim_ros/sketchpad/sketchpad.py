@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
-from pathlib import Path
 import time
 from typing import Any
 
@@ -44,10 +43,8 @@ class Sketchpad:
     The sketchpad of a world.
 
     :param world: that the pages draw in
-    :param welcome: further fields of the first message to a page: frame_id, rate
     :param address: to listen on
     :param port: to listen on, or the first free one after it
-    :param world_dir: directory of the user's worlds
     :param recordings: the viewer
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
@@ -57,22 +54,19 @@ class Sketchpad:
         self,
         world: WorldControl,
         *,
-        welcome: dict[str, Any],
         address: str,
         port: int,
-        world_dir: Path,
         recordings: Recordings,
         wake: Callable[[], None],
     ) -> None:
         self._world = world
         self._simulation = world.simulation
-        self._welcome = welcome
         self._recordings = recordings
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts()
-        self._own_worlds = OwnWorlds(world_dir)
-        self._autosave = Autosave(world_dir, self._world_text)
+        self._own_worlds = OwnWorlds(world.world_dir)
+        self._autosave = Autosave(world.world_dir, self._world_text)
         self._server = Server(
             address=address,
             port=port,
@@ -230,15 +224,16 @@ class Sketchpad:
             autosave=self._autosave,
             list_worlds=self._server.list_worlds,
         )
-        settings = self._simulation.settings
+        simulation, settings = self._simulation, self._simulation.settings
         drawing = self._world.drawing_settings()
         send(
             {
                 'type': 'welcome',
                 'client': str(number),
                 'version': VERSION,
-                'physics_rate': self._simulation.physics_rate,
-                **self._welcome,
+                'physics_rate': simulation.physics_rate,
+                'frame_id': self._world.frame_id,
+                'rate': simulation.physics_rate / simulation.frame_steps,
                 'rerun': self._recording_path(),
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The actions of a node that its pages use, besides the requests of its world.
+The actions of a node that its pages and the services of `simulation_interfaces` use, besides the
+requests of its world.
 
 Law: a page can do nothing that a service, a topic or a parameter cannot do; but only people at
 pages have names, and an undo of their own.
@@ -12,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
@@ -22,15 +24,19 @@ from physsim_ros.simulation.simulation import Simulation
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldControl:
     """
-    The actions of a node that its pages use; a returned text is a message about it.
+    The actions of a node; a returned text is a message about it.
 
     :param simulation: the world and its time
+    :param frame_id: name of the world frame
+    :param world_dir: directory of the user's worlds
+    :param world_file: returns the name or path of the world that was loaded or saved last
     :param drawing_settings: returns the settings of drawing
     :param current_snapshot: applies the waiting requests; returns the snapshot that is shown
     :param submit_call: makes a call at its time and tells its answers; raises Busy where too many
         requests wait
     :param services: actions by the names of the services, with their times; each raises a
         PhysSimError where it is refused
+    :param note_change: has parameters follow what was changed, and a short seek be done at once
     :param load_world: loads the world of a name; raises a PhysSimError
     :param save_world: saves the world under a name; raises a PhysSimError
     :param set_speed: sets the speed [simulation seconds a second]; raises a Refusal
@@ -42,10 +48,14 @@ class WorldControl:
     """
 
     simulation: Simulation
+    frame_id: str
+    world_dir: Path
+    world_file: Callable[[], str]
     drawing_settings: Callable[[], DrawingSettings]
     current_snapshot: Callable[[], Snapshot]
     submit_call: Callable[[Callable[[], Iterable[Answer]], Wait], None]
     services: Mapping[str, tuple[Callable[[], str], Wait]]
+    note_change: Callable[[], None]
     load_world: Callable[[str], str]
     save_world: Callable[[str], str]
     set_speed: Callable[[float], str]

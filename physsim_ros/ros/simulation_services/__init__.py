@@ -15,15 +15,13 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from physsim_ros.ros.requests.services import ServiceCalls
-    from physsim_ros.ros.simulation_services.control import SimulationControl
+    from physsim_ros.sketchpad import WorldControl
     from rclpy.node import Node
 
 __all__ = ['create_simulation_services']
 
 
-def create_simulation_services(
-    node: Node, control: SimulationControl, calls: ServiceCalls
-) -> None:
+def create_simulation_services(node: Node, control: WorldControl, calls: ServiceCalls) -> None:
     """
     Offer the services below `~/simulation/`, if their package is installed.
 

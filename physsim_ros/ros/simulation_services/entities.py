@@ -28,9 +28,9 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import REST
 from physsim_ros.ros.requests.conversions import mapping_of, named_frame, planar_pose
 from physsim_ros.ros.robots.frames import rotation_of
-from physsim_ros.ros.simulation_services.control import SimulationControl
 from physsim_ros.ros.simulation_services.entity_filters import category_of, passing, tags_of
 from physsim_ros.ros.simulation_services.results import Failed, failed, failing_with
+from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import (
     Bounds,
     EntityCategory,
@@ -58,7 +58,7 @@ class Entities:
     :param control: of the node
     """
 
-    def __init__(self, control: SimulationControl) -> None:
+    def __init__(self, control: WorldControl) -> None:
         self._control = control
 
     def spawnables(self, request: Any, response: Any) -> str:

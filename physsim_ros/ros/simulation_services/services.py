@@ -13,11 +13,11 @@ from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.reply_pacer import SERVICE_QOS
 from physsim_ros.ros.requests.services import ServiceCalls
-from physsim_ros.ros.simulation_services.control import SimulationControl
 from physsim_ros.ros.simulation_services.entities import Entities
 from physsim_ros.ros.simulation_services.results import Failed, result_of
 from physsim_ros.ros.simulation_services.time_and_worlds import TimeAndWorlds
 from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.sketchpad import WorldControl
 from rclpy.action import ActionServer
 from rclpy.node import Node
 from rclpy.task import Future
@@ -45,7 +45,7 @@ class SimulationServices:
     :param calls: of services
     """
 
-    def __init__(self, node: Node, control: SimulationControl, calls: ServiceCalls) -> None:
+    def __init__(self, node: Node, control: WorldControl, calls: ServiceCalls) -> None:
         self._control = control
         self._calls = calls
         entities, self._time = Entities(control), TimeAndWorlds(control)

@@ -15,10 +15,10 @@ from typing import Any
 from physsim_ros.files import shipped_lessons, shipped_worlds, worlds_in
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.requests import DeleteBodies, Restore
-from physsim_ros.ros.simulation_services.control import SimulationControl
 from physsim_ros.ros.simulation_services.entities import unknown_sources
 from physsim_ros.ros.simulation_services.entity_filters import passes_tags
 from physsim_ros.ros.simulation_services.results import Failed, failed
+from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures, WorldResource
 from simulation_interfaces.srv import LoadWorld, ResetSimulation, SetSimulationState
 
@@ -73,7 +73,7 @@ class TimeAndWorlds:
     :param control: of the node
     """
 
-    def __init__(self, control: SimulationControl) -> None:
+    def __init__(self, control: WorldControl) -> None:
         self._control = control
 
     def features(self, _: Any, response: Any) -> str:
@@ -105,8 +105,8 @@ class TimeAndWorlds:
         if (now, target) == (_STOPPED, _PAUSED):
             raise failed('it is stopped; what is stopped is played', codes.INCORRECT_TRANSITION)
         if target == _PLAYING:
-            return self._control.actions['play']()
-        message = self._control.actions['pause']()
+            return self._perform('play')
+        message = self._perform('pause')
         return self._control.simulation.reset() if target == _STOPPED else message
 
     def step(self, request: Any, _: Any) -> str:
@@ -134,7 +134,7 @@ class TimeAndWorlds:
 
     def step_once(self) -> str:
         """Advance a paused world by a frame."""
-        return self._control.actions['step']()
+        return self._perform('step')
 
     def reset(self, request: Any, _: Any) -> str:
         """Go to the beginning, or restore some of it at the time that is shown."""
@@ -184,7 +184,7 @@ class TimeAndWorlds:
             # One that is there, but no world, has a cause.
             result = codes.RESOURCE_PARSE_ERROR if refusal.cause else Result.RESULT_NOT_FOUND
             raise Failed(refusal, result) from refusal
-        self._control.actions['pause']()
+        self._perform('pause')
         self._control.simulation.reset()
         response.world = self._current()
         return message
@@ -194,6 +194,10 @@ class TimeAndWorlds:
         response.world = self._current()
         return ''
 
+    def _perform(self, service: str) -> str:
+        perform, _ = self._control.services[service]
+        return perform()
+
     @property
     def _state(self) -> int:
         simulation = self._control.simulation
@@ -202,9 +206,10 @@ class TimeAndWorlds:
         return int(_PAUSED if simulation.step else _STOPPED)
 
     def _current(self) -> WorldResource:
-        name = Path(self._control.values['world_file']).stem
+        uri = self._control.world_file()
+        name = Path(uri).stem
         known = (each for each in self._worlds() if each.name == name)
-        return next(known, WorldResource(name=name, uri=self._control.values['world_file']))
+        return next(known, WorldResource(name=name, uri=uri))
 
     def _worlds(self) -> list[WorldResource]:
         directories = (
