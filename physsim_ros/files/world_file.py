@@ -22,7 +22,6 @@ from physsim_ros.files.resources import files_by_name, is_plain, shipped, user_d
 from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import FORMAT
 from physsim_ros.files.world_writer import text_of
-from physsim_ros.files.yaml12 import first_value
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import (
     BadWorldFile,
@@ -39,8 +38,6 @@ from physsim_ros.model.texts import nearest_name
 _SUFFIX = '.yaml'
 # Greatest size of a world file [bytes]: 100,000 bodies have 30 MB.
 MOST_BYTES = 64 * 2**20
-# Length of the part of a file in which its format is looked for [characters]: half a second.
-_HEAD = 2**20
 
 
 def user_worlds() -> Path:
@@ -264,11 +261,12 @@ def _check_place(path: Path, name: str, directories: tuple[Path, ...]) -> None:
 
 
 def _is_world_file(path: Path) -> bool:
-    """Return whether a file exists whose format is that of world files."""
+    """Return whether a file can be read, and its format is that of world files."""
     try:
-        return first_value(read_file(path, MOST_BYTES)[:_HEAD], 'format') == str(FORMAT)
-    except (OSError, UnicodeDecodeError):
+        content = load_entries(read_file(path, MOST_BYTES), field=path.name)
+    except (OSError, UnicodeDecodeError, Malformed):
         return False
+    return str(content.get('format')) == str(FORMAT)
 
 
 def _unreadable(name: str, error: OSError | UnicodeDecodeError) -> BadWorldFile:

@@ -15,8 +15,6 @@ import yaml
 from yaml.composer import Composer
 
 _TAG = 'tag:yaml.org,2002:'
-# Depth of brackets: Python's recursion ends the composer at some 300, too.
-_DEEPEST = 100
 
 
 class NotYaml(Malformed):
@@ -159,38 +157,6 @@ def load_mapping(text: str, *, field: str, loader: type[Loader] = Loader) -> dic
     if not isinstance(value, dict):
         raise Malformed(f'{field} must be a YAML mapping as {{friction: 0.3}}', field=field)
     return value
-
-
-def first_value(text: str, key: str) -> str | None:
-    """
-    Return the scalar of a key of the mapping in a YAML text; None where there is none.
-
-    The text is read up to that scalar, and no further than to brackets nested `_DEEPEST` deep: the
-    time of libyaml grows with the square of the depth.
-    """
-    depth = nodes = 0
-    named = False
-    try:
-        for event in yaml.parse(text, Loader=yaml.CSafeLoader):
-            if isinstance(event, yaml.CollectionStartEvent):
-                if depth == 0 and not isinstance(event, yaml.MappingStartEvent):
-                    return None
-                depth += 1
-                if depth > _DEEPEST:
-                    return None
-                continue
-            ended = isinstance(event, yaml.CollectionEndEvent)
-            depth -= ended
-            if depth == 1 and (ended or isinstance(event, yaml.NodeEvent)):
-                scalar: str | None = getattr(event, 'value', None)
-                if nodes % 2 == 0:
-                    named = scalar == key
-                elif named:
-                    return scalar
-                nodes += 1
-    except (yaml.YAMLError, ValueError):
-        pass
-    return None
 
 
 def _line(error: Exception, text: str) -> int | None:

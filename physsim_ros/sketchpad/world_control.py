@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The actions of a node that its pages and the services of `simulation_interfaces` use, besides the
-requests of its world.
+The actions of a node for its pages and the services of `simulation_interfaces`, besides requests.
 
 Law: a page can do nothing that a service, a topic or a parameter cannot do; but only people at
 pages have names, and an undo of their own.

@@ -196,9 +196,9 @@ def test_only_visible_yaml_files_are_read_and_written(name: str, folder: Path) -
 @pytest.mark.parametrize(
     'text',
     ['', 'format: 2', 'services: {}', '[format, 1]', 'name: format\nbodies: 1', '{format: [1]}',
-     '- format: 1', 'inner: {format: 1}', 'alias ll=ls', '\x00', '{' * 10_000,
-     # Not searched for: as deep and as far as libyaml takes minutes.
-     f'a: {"[" * 200}{"]" * 200}\nformat: 1', f'#{" " * 2**20}\nformat: 1'],
+     '- format: 1', 'inner: {format: 1}', 'alias ll=ls', '\x00', '{' * 10_000, '[' * 10**6,
+     # A mistake of who edits it.
+     'format: 1\nbodies: [', 'format: true'],
 )  # fmt: skip
 def test_what_is_no_world_file_is_not_written_over(text: str, folder: Path) -> None:
     path = write(folder, text, 'compose.yaml')
