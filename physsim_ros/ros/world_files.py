@@ -27,6 +27,8 @@ class WorldFiles:
     :param simulation: of the world
     :param values: of the parameters of the node, by name, always up to date
     :param report: told of the progress of loading
+
+    :ivar directory: of the user's worlds
     """
 
     def __init__(
@@ -36,12 +38,7 @@ class WorldFiles:
         self._values = values
         self._report = report
         # Absolute, whatever the working directory will be.
-        self._directory = Path(values['world_dir'] or user_worlds()).absolute()
-
-    @property
-    def directory(self) -> Path:
-        """Return the directory of the user's worlds."""
-        return self._directory
+        self.directory = Path(values['world_dir'] or user_worlds()).absolute()
 
     def begin_with(self) -> None:
         """
@@ -77,16 +74,16 @@ class WorldFiles:
         path = save_world(
             state,
             self._values['world_file'],
-            world_dir=self._directory,
+            world_dir=self.directory,
             physics_rate=self._simulation.physics_rate,
         )
         message = f'saved {counted(len(state.bodies), "body")} to {path.name}'
-        if hides_shipped(path, world_dir=self._directory):
+        if hides_shipped(path, world_dir=self.directory):
             message += '; from now on it comes before the shipped world of that name'
         return message
 
     def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
-        path = find_world(self._values['world_file'], world_dir=self._directory, confined=confined)
+        path = find_world(self._values['world_file'], world_dir=self.directory, confined=confined)
         simulation = self._simulation
         told = time.monotonic()
 

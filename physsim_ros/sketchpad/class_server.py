@@ -22,10 +22,10 @@ from urllib.parse import quote
 
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
 from physsim_ros.sketchpad.access import Access, Role
-from physsim_ros.sketchpad.guarded import Guarded, TYPES
+from physsim_ros.sketchpad.guarded import Guarded
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_handlers import Login, Missing, PAGE, PageFiles, QrCode
+from physsim_ros.sketchpad.page_handlers import Login, Missing, PAGE, Page, PageFiles, QrCode
 from tornado.web import Application
 
 # Size of a request [bytes].
@@ -96,7 +96,7 @@ class ClassServer:
         seats = Seats(worlds)
         self._application = Application(
             [
-                ('/', _ClassPage),
+                ('/', Page, {'file': 'class.html'}),
                 ('/login', Login),
                 ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
                 ('/seats', _SeatList, {'seats': seats}),
@@ -127,15 +127,6 @@ class ClassServer:
             await asyncio.sleep(_CHECK_PERIOD)
         server.stop()
         await server.close_all_connections()
-
-
-class _ClassPage(Guarded):
-    """The page itself."""
-
-    async def get(self) -> None:
-        """Answer with the page."""
-        self.set_header('Content-Type', TYPES['.html'])
-        self.finish((PAGE / 'class.html').read_bytes())
 
 
 class _OfSeats(Guarded):

@@ -6,14 +6,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
+import io
 from pathlib import Path
 import re
 
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.guarded import Guarded, TYPES
-from physsim_ros.sketchpad.qr_code import qr_code
 from tornado.web import HTTPError, StaticFileHandler
 
+# Width of a module of a QR code [pixels], and of the quiet zone around the code, in modules
+# (ISO/IEC 18004: 4).
+_SCALE, _QUIET = 8, 4
 # The files that a browser runs.
 PAGE = Path(__file__).with_name('page')
 # Descriptions, types of editors, and lines that are comments, but for the licence.
@@ -53,13 +56,17 @@ class Login(_CookieSetting):
 class Page(_CookieSetting):
     """The page itself."""
 
+    def initialize(self, file: str) -> None:
+        """Set the name of its file."""
+        self._file = file
+
     async def get(self) -> None:
         """Answer with the page."""
         if self.role is not None:
             # The time of the cookie begins anew at each visit.
             self.set_cookie_for(self.role)
         self.set_header('Content-Type', TYPES['.html'])
-        self.finish((PAGE / 'index.html').read_bytes())
+        self.finish((PAGE / self._file).read_bytes())
 
 
 class CookieCheck(Guarded):
@@ -82,11 +89,14 @@ class QrCode(Guarded):
         if self.role is not Role.TEACH:
             self.refuse(403, 'this is for teachers')
         try:
-            image = qr_code(self._address())
+            # An extra: a node without a class does not need it.
+            import segno  # noqa: PLC0415 - see above
         except ImportError:
             self.refuse(404, 'QR codes need segno: pip install segno')
+        image, code = io.BytesIO(), segno.make(self._address(), micro=False)
+        code.save(image, kind='svg', scale=_SCALE, border=_QUIET, dark='#000', light='#fff')
         self.set_header('Content-Type', TYPES['.svg'])
-        self.finish(image)
+        self.finish(image.getvalue())
 
 
 class Missing(Guarded):

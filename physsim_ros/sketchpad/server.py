@@ -86,7 +86,7 @@ class Server:
         self._feed = FrameFeed(self._loop)
         self._application = Application(
             [
-                ('/', Page),
+                ('/', Page, {'file': 'index.html'}),
                 ('/login', Login),
                 ('/session', CookieCheck),
                 ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),

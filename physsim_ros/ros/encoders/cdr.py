@@ -22,8 +22,6 @@ from physsim_ros.model.arrays import Floats, Singles
 POSE_COLUMNS = (0, 1, 5, 6)
 # Four bytes of padding, which align the values in memory, and the header of the message.
 START = b'\0\0\0\0\0\1\0\0'
-# A second [ns].
-SECOND = 1_000_000_000
 
 
 class CdrWriter:
@@ -120,7 +118,7 @@ class MessageTemplate:
 
     def stamped(self, stamp: int) -> bytes:
         """Return a copy of the message with a stamp [ns]."""
-        self._words[self._seconds], self._words[self._nanoseconds] = divmod(stamp, SECOND)
+        self._words[self._seconds], self._words[self._nanoseconds] = divmod(stamp, 10**9)
         return bytes(self._message)
 
 

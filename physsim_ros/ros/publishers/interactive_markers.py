@@ -24,6 +24,7 @@ from physsim_ros.ros.marker_shapes import geometry_of, THIN
 from physsim_ros.ros.robots.frames import rotation_of
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import (
     InteractiveMarker,
@@ -128,12 +129,15 @@ class InteractiveMarkers:
     def _marker(self, snapshot: Snapshot, row: int) -> InteractiveMarker:
         """Return a body as a marker that is dragged in the plane, where it is clicked."""
         body = snapshot.scene.bodies[row]
-        header = Header(frame_id=self._frame_id)
-        header.stamp.sec, header.stamp.nanosec = divmod(snapshot.stamp, 10**9)
+        stamp = Time(nanoseconds=snapshot.stamp).to_msg()
         x, y, yaw = snapshot.poses[row].tolist()
         pose = Pose(position=Point(x=x, y=y), orientation=rotation_of(yaw))
         return InteractiveMarker(
-            header=header, pose=pose, name=body.name, scale=1.0, controls=[_control(body)]
+            header=Header(frame_id=self._frame_id, stamp=stamp),
+            pose=pose,
+            name=body.name,
+            scale=1.0,
+            controls=[_control(body)],
         )
 
 

@@ -13,6 +13,7 @@ rclpy. A new message about many things is a function here and a line in `DECODER
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any, NamedTuple
 
 from nav_msgs.msg import OccupancyGrid, Path
@@ -137,18 +138,10 @@ def _header(reader: CdrReader) -> tuple[int, str]:
     return stamp, frame
 
 
-def grid_from(message: bytes) -> OccupancyGrid:
-    """
-    Return the map of a serialised nav_msgs/OccupancyGrid, whose cells rclpy copies at once.
-
-    :raises RMWError: it cannot be decoded
-    """
-    return deserialize_message(message, OccupancyGrid)
-
-
 DECODERS: dict[type, Callable[[bytes], Any]] = {
     MarkerArray: markers_from,
     MultiDOFJointState: command_from,
-    OccupancyGrid: grid_from,
+    # rclpy copies its cells at once.
+    OccupancyGrid: partial(deserialize_message, message_type=OccupancyGrid),
     Path: stroke_from,
 }

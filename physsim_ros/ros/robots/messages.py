@@ -14,7 +14,7 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any, NamedTuple
 
-from builtin_interfaces.msg import Time
+from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import Point, Vector3
 from nav_msgs.msg import Odometry
 from physsim_ros.model.robots.sensors import (
@@ -29,7 +29,6 @@ from physsim_ros.model.robots.sensors import (
 from physsim_ros.model.robots.sensors.range_finder import Radiation
 from physsim_ros.model.snapshot import Frame, NO_CONTACTS, Snapshot
 from physsim_ros.model.transform import Pose, rotated
-from physsim_ros.ros.encoders.cdr import SECOND
 from physsim_ros.ros.robots.frames import rotation_of
 from physsim_ros.sensing import (
     FloorMarks,
@@ -41,6 +40,7 @@ from physsim_ros.sensing import (
     read_wheels,
     Surroundings,
 )
+from rclpy.time import Time
 from sensor_msgs.msg import Image, JointState, LaserScan, Range
 from sensor_msgs.msg import Imu as ImuMessage
 from std_msgs.msg import Bool
@@ -69,9 +69,9 @@ class View:
         self.seed = frame.snapshot.scene.settings.seed
 
     @cached_property
-    def stamp(self) -> Time:
+    def stamp(self) -> TimeMessage:
         """Time of the frame, in the simulation."""
-        return time_of(self.snapshot.stamp)
+        return Time(nanoseconds=self.snapshot.stamp).to_msg()
 
     @cached_property
     def surroundings(self) -> Surroundings:
@@ -82,12 +82,6 @@ class View:
     def floor_marks(self) -> FloorMarks:
         """Sensor bodies on the floor, as colours."""
         return FloorMarks(self.snapshot)
-
-
-def time_of(stamp: int) -> Time:
-    """Return a simulation time [ns] as a message."""
-    seconds, nanoseconds = divmod(stamp, SECOND)
-    return Time(sec=seconds, nanosec=nanoseconds)
 
 
 def odometry_message(

@@ -11,9 +11,6 @@ from contextlib import contextmanager
 from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
 from simulation_interfaces.msg import Result
 
-# Of refusals that have a code of their own in every service; all others have failed.
-_RESULTS = {UnknownBody.code: Result.RESULT_NOT_FOUND}
-
 
 class Failed(Exception):
     """
@@ -44,4 +41,5 @@ def failing_with(result: int) -> Iterator[None]:
 
 def result_of(refusal: Refusal) -> int:
     """Return the result code of a refusal that no service gives another one."""
-    return int(_RESULTS.get(refusal.code, Result.RESULT_OPERATION_FAILED))
+    unknown = isinstance(refusal, UnknownBody)
+    return int(Result.RESULT_NOT_FOUND if unknown else Result.RESULT_OPERATION_FAILED)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any
 
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
@@ -29,13 +29,6 @@ from simulation_interfaces.msg import Result
 _Perform = Callable[[Any, Any], str]
 
 
-class _Offer(NamedTuple):
-    """A service: its type, and what it does."""
-
-    kind: Any
-    perform: _Perform
-
-
 class SimulationServices:
     """
     The services of `simulation_interfaces`, below `~/simulation/`.
@@ -50,34 +43,34 @@ class SimulationServices:
         self._calls = calls
         entities, self._time = Entities(control), TimeAndWorlds(control)
         time = self._time
-        for name, offer in {
-            'get_simulator_features': _Offer(srv.GetSimulatorFeatures, time.features),
-            'get_spawnables': _Offer(srv.GetSpawnables, entities.spawnables),
-            'spawn_entity': _Offer(srv.SpawnEntity, entities.spawn),
-            'delete_entity': _Offer(srv.DeleteEntity, entities.delete),
-            'get_entity_state': _Offer(srv.GetEntityState, entities.state),
-            'set_entity_state': _Offer(srv.SetEntityState, entities.set_state),
-            'get_entities': _Offer(srv.GetEntities, entities.names),
-            'get_entities_states': _Offer(srv.GetEntitiesStates, entities.states),
-            'get_entity_info': _Offer(srv.GetEntityInfo, entities.info),
-            'get_entity_bounds': _Offer(srv.GetEntityBounds, entities.bounds),
-            'get_simulation_state': _Offer(srv.GetSimulationState, time.state),
-            'set_simulation_state': _Offer(srv.SetSimulationState, time.set_state),
-            'step_simulation': _Offer(srv.StepSimulation, time.step),
-            'reset_simulation': _Offer(srv.ResetSimulation, time.reset),
-            'get_available_worlds': _Offer(srv.GetAvailableWorlds, time.worlds),
-            'load_world': _Offer(srv.LoadWorld, time.load),
-            'get_current_world': _Offer(srv.GetCurrentWorld, time.current_world),
+        for name, (kind, perform) in {
+            'get_simulator_features': (srv.GetSimulatorFeatures, time.features),
+            'get_spawnables': (srv.GetSpawnables, entities.spawnables),
+            'spawn_entity': (srv.SpawnEntity, entities.spawn),
+            'delete_entity': (srv.DeleteEntity, entities.delete),
+            'get_entity_state': (srv.GetEntityState, entities.state),
+            'set_entity_state': (srv.SetEntityState, entities.set_state),
+            'get_entities': (srv.GetEntities, entities.names),
+            'get_entities_states': (srv.GetEntitiesStates, entities.states),
+            'get_entity_info': (srv.GetEntityInfo, entities.info),
+            'get_entity_bounds': (srv.GetEntityBounds, entities.bounds),
+            'get_simulation_state': (srv.GetSimulationState, time.state),
+            'set_simulation_state': (srv.SetSimulationState, time.set_state),
+            'step_simulation': (srv.StepSimulation, time.step),
+            'reset_simulation': (srv.ResetSimulation, time.reset),
+            'get_available_worlds': (srv.GetAvailableWorlds, time.worlds),
+            'load_world': (srv.LoadWorld, time.load),
+            'get_current_world': (srv.GetCurrentWorld, time.current_world),
         }.items():
-            self._create(node, f'~/simulation/{name}', offer)
+            self._create(node, f'~/simulation/{name}', kind, perform)
         ActionServer(node, SimulateSteps, '~/simulation/simulate_steps', self._simulate_steps)
 
-    def _create(self, node: Node, topic: str, offer: _Offer) -> None:
+    def _create(self, node: Node, topic: str, kind: Any, perform: _Perform) -> None:
         def callback(request: Any, response: Any) -> Future:
-            fill = partial(self._fill, topic, offer.perform, request, response)
+            fill = partial(self._fill, topic, perform, request, response)
             return self._calls.add(response, fill, Wait.FOR_SEEK)
 
-        service = node.create_service(offer.kind, topic, callback, qos_profile=SERVICE_QOS)
+        service = node.create_service(kind, topic, callback, qos_profile=SERVICE_QOS)
         self._calls.delay_replies(service)
 
     def _fill(
