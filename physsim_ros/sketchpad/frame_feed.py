@@ -37,7 +37,7 @@ class FrameFeed:
 
     :ivar pages: that are open
     :ivar cursors: of the people at them
-    :ivar newest: frame, and ghost beside it; the world's thread sets it
+    :ivar newest: frame, and ghost beside it
     """
 
     def __init__(self, loop: AbstractEventLoop) -> None:
@@ -82,7 +82,7 @@ class FrameFeed:
 
     def send_frame(self) -> None:
         """Send the newest frame to the pages that are not busy; the others get it later."""
-        if self.newest is None or self.newest[0] is self._frame:
+        if not len(self.pages) or self.newest is None or self.newest[0] is self._frame:
             return
         frame, ghost = self.newest
         if frame.snapshot.scene is not self._codec.scene:

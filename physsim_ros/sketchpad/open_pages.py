@@ -173,6 +173,8 @@ class OpenPages:
 
     def send_answers(self, answers: Sequence[Answer]) -> None:
         """Send each answer of a frame to the page that asked, and the first ones to all others."""
+        if not self._pages:
+            return
         # Answers after the first ones, by the page that asked.
         own: Counter[int] = Counter()
         for index, answer in enumerate(answers):

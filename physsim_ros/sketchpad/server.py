@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
+from collections.abc import Callable
 from functools import partial
 import threading
 
@@ -112,8 +113,8 @@ class Server:
             # Answers with an error concern those who asked.
             log_function=lambda _: None,
         )
-        # Messages of the world's thread, by the number of the page, and answers.
-        self._outbox: deque[tuple[int | None, Content] | tuple[Answer, ...]] = deque()
+        # Calls of the world's thread for the server's thread.
+        self._outbox: deque[Callable[[], None]] = deque()
         self._scheduled = False
         self._ended = asyncio.Event()
         self._thread = threading.Thread(target=self._run, name='sketchpad', daemon=True)
@@ -129,24 +130,21 @@ class Server:
         host = reachable_host(self._address)
         return f'http://{host}:{self.port}/login?token={self._access.tokens[role]}'
 
-    def keep(self, frame: Frame) -> None:
-        """Keep a frame for the next page to come."""
-        self._feed.newest = frame, None
-
-    def show(self, frame: Frame, ghost: Snapshot | None) -> None:
+    def show(
+        self, frame: Frame, ghost: Snapshot | None = None, timeline: Content | None = None
+    ) -> None:
         """
-        Send a frame and its answers to all pages.
+        Send the answers of a frame, the timeline that goes with it, and the frame to all pages.
 
         :param ghost: of a course that was left, at the same time; None where there is no such
+        :param timeline: where it has changed
         """
-        self._feed.newest = frame, ghost
-        self.answer(frame.answers)
+        self._post(partial(self._show, frame, ghost, timeline))
 
     def answer(self, answers: tuple[Answer, ...]) -> None:
-        """Send answers, and the newest frame."""
+        """Send answers that no frame carries."""
         if answers:
-            self._outbox.append(answers)
-        self._schedule()
+            self._post(partial(self._feed.pages.send_answers, answers))
 
     def send(self, content: Content, page: int | None = None) -> None:
         """
@@ -155,8 +153,7 @@ class Server:
         :param content: becomes JSON on the server's thread, and must not change until then
         :param page: number of the page; None is all pages
         """
-        self._outbox.append((page, content))
-        self._schedule()
+        self._post(partial(self._send, content, page))
 
     def list_worlds(self, page: int | None = None) -> None:
         """Send the list of worlds to a page, or to all."""
@@ -171,12 +168,14 @@ class Server:
             return
         self._thread.join(_CLOSING)
 
-    def _schedule(self) -> None:
-        """Have the server's thread send the newest frame and all messages of the outbox, once."""
-        if self._scheduled or not self._thread.is_alive():
+    def _post(self, call: Callable[[], None]) -> None:
+        """Have the server's thread make a call in its turn, and then send the newest frame."""
+        if not self._thread.is_alive():
             return
-        self._scheduled = True
-        self._loop.call_soon_threadsafe(self._flush)
+        self._outbox.append(call)
+        if not self._scheduled:
+            self._scheduled = True
+            self._loop.call_soon_threadsafe(self._flush)
 
     # The server's thread
 
@@ -204,14 +203,19 @@ class Server:
         await server.close_all_connections()
 
     def _flush(self) -> None:
-        """Send the messages and the newest frame that the world's thread has left here."""
+        """Make the calls that the world's thread has left here, and send the newest frame."""
         self._scheduled = False
-        pages = self._feed.pages
         while self._outbox:
-            item = self._outbox.popleft()
-            if isinstance(item[0], Answer):
-                pages.send_answers(item)
-            else:
-                page, content = item
-                pages.send(compact(content() if callable(content) else content), page)
+            self._outbox.popleft()()
         self._feed.send_frame()
+
+    def _show(self, frame: Frame, ghost: Snapshot | None, timeline: Content | None) -> None:
+        """Send what belongs to a frame; the frame, if no newer one waits, is sent after it."""
+        self._feed.pages.send_answers(frame.answers)
+        if timeline is not None:
+            self._send(timeline)
+        self._feed.newest = frame, ghost
+
+    def _send(self, content: Content, page: int | None = None) -> None:
+        text = compact(content() if callable(content) else content)
+        self._feed.pages.send(text, page)

@@ -119,14 +119,16 @@ class Sketchpad:
         frame = self._contacts.completed(frame)
         self._autosave.note_frame(frame, drawn=bool(self._sessions))
         if not self._sessions:
-            self._server.keep(frame)
+            self._server.show(frame)
             return
         status = self._timeline.take_status(frame, time.monotonic())
-        self._server.show(frame, self._timeline.ghost(frame.snapshot))
         for session in self._sessions.values():
             session.tell_touches(frame)
-        if status is not None:
-            self._server.send(timeline_content(status))
+        self._server.show(
+            frame,
+            self._timeline.ghost(frame.snapshot),
+            timeline_content(status) if status is not None else None,
+        )
 
     def report(self, answers: tuple[Answer, ...]) -> None:
         """Send answers that no frame carries."""
@@ -249,7 +251,8 @@ class Sketchpad:
                 },
             }
         )
-        send(timeline_content(self._simulation.status))
+        # To all: what is not sent again is what all pages have got.
+        self._server.send(timeline_content(self._timeline.read_status(time.monotonic())))
         self._server.list_worlds(number)
         send(self._class_content())
 

@@ -42,12 +42,18 @@ class TimelineReport:
         known = last is not None and last.speed == frame.speed
         if runs and known and now - self._read_at < PERIOD:
             return None
-        status = self._simulation.status
+        status = self.read_status(now)
+        return None if status == last else status
+
+    def read_status(self, now: float) -> TimelineStatus:
+        """
+        Return the status, to be sent to all pages.
+
+        :param now: steady time [s]
+        """
+        self._sent = status = self._simulation.status
         self._read_at = now
         self._beside = max(status.courses, key=lambda each: each.number, default=None)
-        if status == last:
-            return None
-        self._sent = status
         return status
 
     def ghost(self, snapshot: Snapshot) -> Snapshot | None:

@@ -72,6 +72,8 @@ class Page:
         self.frames: list[Picture] = []
         self.ghosts: list[Picture] = []
         self.messages: list[dict[str, Any]] = []
+        # Types of all of these, in their order.
+        self.order: list[str] = []
         self.closed = False
         self._numbers = 0
         self._reading = browser.loop.create_task(self._read())
@@ -81,8 +83,10 @@ class Page:
             if isinstance(message, bytes):
                 picture = decoded(message)
                 (self.ghosts if picture.flags & Show.GHOST else self.frames).append(picture)
+                self.order.append('frame')
             else:
                 self.messages.append(json.loads(message))
+                self.order.append(self.messages[-1]['type'])
         self.closed = True
 
     def send(self, kind: str, **fields: Any) -> str:

@@ -3,6 +3,7 @@
 
 """Frames of a page are those of the world, and its messages become the world's own requests."""
 
+import asyncio
 from collections.abc import Mapping
 import inspect
 import json
@@ -91,6 +92,30 @@ def test_each_answer_goes_to_the_page_that_asked_and_is_told_to_the_others(
     other.until(lambda: other.of_type('answer'))
     assert other.answers('')[0]['code'] == 'nothing_there'
     assert not other.answers(id_)
+
+
+def test_a_frame_comes_after_its_answers_and_the_timeline_that_it_is_shown_with(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    original = asyncio.SelectorEventLoop.call_soon_threadsafe
+
+    def call_at_once(loop: Any, call: Any, *words: Any, **options: Any) -> None:
+        """Have the server's thread make a call before this one goes on."""
+        called = threading.Event()
+        original(loop, call, *words, **options)
+        original(loop, called.set)
+        called.wait(PATIENCE)
+
+    physsim, page = browser.physsim, browser.open_page()
+    page.until(lambda: page.of_type('class') and page.frames)
+    begin = len(page.order)
+    requests = physsim.node.simulation.requests
+    requests.tell(Answer(topic='page', message='done', asker='1:a'))
+    with monkeypatch.context() as patch:
+        patch.setattr(asyncio.SelectorEventLoop, 'call_soon_threadsafe', call_at_once)
+        physsim.step()
+    page.until(lambda: 'frame' in page.order[begin:])
+    assert page.order[begin:] == ['answer', 'timeline', 'frame']
 
 
 def test_of_many_answers_in_a_frame_others_get_the_first_and_the_count_of_the_rest(
