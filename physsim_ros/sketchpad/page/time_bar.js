@@ -26,6 +26,8 @@ export class TimeBar {
     this.slider = elementOf('slider', HTMLInputElement);
     this.clock = elementOf('clock', HTMLElement);
     this.marks = elementOf('marks', HTMLElement);
+    /** @type {Map<string, HTMLElement>} of courses that were left, by id and name */
+    this.rings = new Map();
     this.speed = elementOf('speed', HTMLButtonElement);
     /** @type {Map<string, HTMLButtonElement>} */
     this.buttons = new Map();
@@ -156,12 +158,15 @@ export class TimeBar {
     }
     this.clock.classList.toggle('past', state === 'in the past');
     this.clock.title = state;
-    this.marks.replaceChildren(...courses.map(({id, from}) => {
-      const name = `Go back to how it went before, from ${from.toFixed(1)} s`;
-      const mark = createElement('button', {type: 'button', 'aria-label': name, title: name,
-        onclick: () => this.app.connection.send('course', {course: id})});
-      mark.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
-      return mark;
+    const before = this.rings;
+    this.rings = new Map(courses.map(({id, from}) => {
+      const name = `Go back to how it went before, from ${from.toFixed(1)} s`, key = `${id} ${name}`;
+      // While time runs it is the same element: one that was made anew could not be pressed.
+      const ring = before.get(key) ?? this.marks.appendChild(createElement('button', {type: 'button', 'aria-label': name, title: name,
+        onclick: () => this.app.connection.send('course', {course: id})}));
+      ring.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
+      return [key, ring];
     }));
+    for (const [key, ring] of before) if (!this.rings.has(key)) ring.remove();
   }
 }

@@ -84,8 +84,9 @@ export class Hand {
       this.#sendMove();
       app.connection.send('let_go');
       app.askForParts();
-      app.hints.completeStep('throw');
-    } else if (!this.moved) app.selection.selectAt(touch);
+      if (this.moved) app.hints.completeStep('throw');
+    }
+    if (!this.moved) app.selection.selectAt(touch);
     else if (state === 'carrying' && start) {
       app.connection.send('move_bodies', {names: [this.name],
         by: this.#carried(start, touch)});
@@ -102,7 +103,7 @@ export class Hand {
   /** @param {number} angle [rad] */
   turn(angle) {
     this.yaw += angle;
-    this.turned = true;
+    this.turned = this.moved = true;
     this.#sendSoon();
   }
 
