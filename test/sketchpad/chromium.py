@@ -40,6 +40,47 @@ VIEWPORT = {'width': 1200, 'height': 800}
 PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
     x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
 MILLISECONDS = 1000.0 * PATIENCE
+# Notes what a page is told: topics of its requests that are answered, and of those after whose
+# answer a frame has come; speeds of time; texts of notes, which go by themselves; and for the
+# message of a failure the last timeline and refusals.
+LISTENER = """
+const heard = window.heard = {
+    answered: [], shown: [], speeds: [], notes: [], timeline: null, refusals: []};
+window.WebSocket = class extends WebSocket {
+    constructor(...words) {
+        super(...words);
+        this.addEventListener('message', ({data}) => {
+            if (typeof data !== 'string') {
+                const speed = new DataView(data).getFloat32(16, true);
+                if (heard.speeds.at(-1) !== speed) heard.speeds.push(speed);
+                heard.shown.push(...heard.answered.splice(0));
+                return;
+            }
+            const message = JSON.parse(data), {type, request, ok, topic} = message;
+            if (type === 'timeline') heard.timeline = message;
+            if (type !== 'answer') return;
+            if (request) heard.answered.push(topic);
+            if (!ok) heard.refusals = [...heard.refusals.slice(-4), message.message];
+        });
+    }
+};
+new MutationObserver((changes) => {
+    for (const {addedNodes} of changes) for (const node of addedNodes) {
+        if (node.classList?.contains('note')) heard.notes.push(node.textContent);
+    }
+}).observe(document, {childList: true, subtree: true});"""
+# The state of a page, for the message of a failure.
+STATE = """() => ({
+    time: physsim.time, speed: physsim.speed, bodies: Object.keys(physsim.bodies), ...heard,
+    status: document.querySelector('[role=status]').textContent})"""
+# Press Pause at the first frame after a time [s].
+PAUSE_AFTER = """seconds => {
+    const look = () => {
+        if (physsim.time > seconds) document.querySelector('[aria-label=Pause]').click();
+        else requestAnimationFrame(look);
+    };
+    look();
+}"""
 
 
 def launched_chromium(playwright: Any, arguments: Sequence[str] = ARGUMENTS) -> Any:
@@ -84,6 +125,8 @@ class Sheet:
 
     def __init__(self, browser: Any, address: str, **options: Any) -> None:
         self.context = browser.new_context(**{'viewport': VIEWPORT} | options)
+        self.context.set_default_timeout(MILLISECONDS)
+        self.context.add_init_script(LISTENER)
         self.page = self.context.new_page()
         self.errors: list[str] = []
         self.page.on('pageerror', lambda error: self.errors.append(str(error)))
@@ -100,8 +143,11 @@ class Sheet:
         :param bodies: number of bodies at the beginning
         """
         self.wait('Object.keys(physsim.bodies).length > 0')
+        before = self.page.evaluate('heard.shown.length')
         self.press('Pause')
         self.press('Reset')
+        # The world may have looked like this before.
+        self.wait('before => heard.shown.indexOf("~/reset", before) >= 0', before)
         self.wait('physsim.time === 0 && physsim.speed === 0')
         self.wait('count => Object.keys(physsim.bodies).length === count', bodies)
 
@@ -109,20 +155,41 @@ class Sheet:
         """
         Wait for an expression on the page, or a function of an argument, to become true.
 
-        The browser's own waiting evaluates text in the page, which the page's policy forbids.
+        It is evaluated when a picture has been drawn, so that buttons and fields show what it
+        knows. The browser's own waiting evaluates text in the page, which the page's policy
+        forbids.
         """
-        self.until(lambda: self.page.evaluate(predicate, argument), predicate)
+        value = predicate if argument is None else f'({predicate})(argument)'
+        drawn = f'argument => new Promise(requestAnimationFrame).then(() => {value})'
+        self.until(lambda: self.page.evaluate(drawn, argument), predicate)
 
     def until(self, predicate: Callable[[], object], what: str) -> None:
         """Wait frame by frame until something holds."""
         deadline = time.monotonic() + PATIENCE
         while not predicate():
-            assert time.monotonic() < deadline, f'{what} did not come about in time'
+            late = time.monotonic() > deadline
+            assert not late, f'{what} did not come about in time: {self.page.evaluate(STATE)}'
             self.page.evaluate('new Promise(requestAnimationFrame)')
+
+    def play_until(self, seconds: float) -> float:
+        """
+        Play from before a time to just after it, pause, and return the time [s].
+
+        The page itself pauses: time would go on while a busy machine has this process wait.
+        """
+        self.press('Play')
+        self.page.evaluate(PAUSE_AFTER, seconds)
+        self.wait('seconds => physsim.time > seconds && physsim.speed === 0', seconds)
+        return float(self.page.evaluate('physsim.time'))
+
+    def seek(self, seconds: float) -> None:
+        """Go to a time that is kept, by the slider."""
+        self.page.get_by_role('slider', name='Time', exact=True).fill(str(seconds))
+        self.wait('seconds => Math.abs(physsim.time - seconds) < 0.02', seconds)
 
     def press(self, name: str) -> None:
         """Press a button."""
-        self.page.get_by_role('button', name=name, exact=True).click(timeout=MILLISECONDS)
+        self.page.get_by_role('button', name=name, exact=True).click()
 
     def names(self) -> set[str]:
         """Return the names of the bodies."""

@@ -76,6 +76,8 @@ def test_each_undoes_what_is_its_own_while_time_goes_on(pages: tuple[Sheet, Shee
     teacher, pupil = pages
     pupil.drag(*circle(-3.0, 4.0, 0.8))
     first = pupil.wait_for_new(set())
+    # Beside an empty canvas a card of strokes would be in the way.
+    teacher.wait('name => name in physsim.bodies', first)
     teacher.drag(*circle(3.0, 4.0, 0.8))
     second = teacher.wait_for_new({first})
     time = pupil.page.evaluate('physsim.time')

@@ -15,16 +15,22 @@ from ..outside import Outside
 def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str) -> None:
     sheet = Sheet(chromium, 'about:blank')
     sockets: list[Any] = []
+    cut = False
 
     def pass_on(socket: Any) -> None:
         sockets.append(socket)
-        socket.connect_to_server()
+        if cut:
+            socket.close()
+        else:
+            socket.connect_to_server()
 
     sheet.page.route_web_socket('**/ws*', pass_on)
     sheet.page.goto(address)
     sheet.begin()
+    cut = True
     sockets[0].close()
     sheet.page.get_by_role('alert').wait_for(state='visible')
+    cut = False
     sheet.page.get_by_role('alert').wait_for(state='hidden')
     before = sheet.names()
     sheet.press('Circle')

@@ -70,14 +70,6 @@ def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
     sheet.close()
 
 
-def play_until(sheet: Sheet, seconds: float) -> None:
-    """Play to a time, and pause."""
-    sheet.press('Play')
-    sheet.wait('seconds => physsim.time > seconds', seconds)
-    sheet.press('Pause')
-    sheet.wait('physsim.speed === 0')
-
-
 def forces_on(sheet: Sheet, name: str) -> dict[str, tuple[float, float]]:
     """Return the forces on a body as they are drawn [N], by kind."""
     drawn = sheet.page.evaluate('physsim.forces')
@@ -108,7 +100,7 @@ def check_block(sheet: Sheet) -> None:
 
 
 def test_a_block_on_a_slope_has_the_same_forces_at_four_speeds_and_paused(sheet: Sheet) -> None:
-    play_until(sheet, 1.0)
+    sheet.play_until(1.0)
     speed = sheet.page.locator('#speed')
     for _ in range(3):
         wanted = float(speed.inner_text().removesuffix('×'))
@@ -152,7 +144,7 @@ def test_the_pixels_of_an_arrow_are_its_newtons(sheet: Sheet) -> None:
             5.0 * G * math.sin(SLOPE), abs=slack
         )
 
-    play_until(sheet, 1.5)
+    sheet.play_until(1.5)
     check()
     speed = sheet.page.locator('#speed')
     for _ in range(3):
@@ -173,14 +165,14 @@ def test_forces_that_are_first_shown_while_paused_are_those_of_the_last_steps(
     sheet: Sheet,
 ) -> None:
     sheet.press('Show forces')
-    play_until(sheet, 1.0)
+    sheet.play_until(1.0)
     sheet.press('Show forces')
     sheet.until(lambda: len(forces_on(sheet, 'block/0')) == 4, 'the forces on the block')
     check_block(sheet)
 
 
 def test_a_rope_and_an_axle_bear_a_weight(sheet: Sheet) -> None:
-    play_until(sheet, 1.0)
+    sheet.play_until(1.0)
     for name in ('bob/0', 'bob/1'):
         found = forces_on(sheet, name)
         assert found['joint'] == pytest.approx((0.0, 2.0 * G), rel=1e-3, abs=1e-3)
@@ -190,7 +182,7 @@ def test_a_rope_and_an_axle_bear_a_weight(sheet: Sheet) -> None:
 def test_on_a_body_that_is_tapped_forces_have_their_names_and_others_have_none(
     sheet: Sheet,
 ) -> None:
-    play_until(sheet, 1.0)
+    sheet.play_until(1.0)
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(3.0, 4.0))
     sheet.wait('physsim.forces.every(({name}) => name === "bob/0")')
@@ -200,7 +192,7 @@ def test_on_a_body_that_is_tapped_forces_have_their_names_and_others_have_none(
 def test_what_was_moved_in_a_paused_world_has_no_contacts_any_more_and_others_keep_theirs(
     sheet: Sheet,
 ) -> None:
-    play_until(sheet, 2.0)
+    sheet.play_until(2.0)
     sheet.press('Hand')
     x, y, _ = sheet.pose('ball/0')
     assert 'normal' in numbers_on(sheet, 'ball/0')

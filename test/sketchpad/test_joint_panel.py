@@ -82,10 +82,8 @@ def test_a_spring_has_the_constant_that_is_typed(sheet: Sheet) -> None:
 
 def test_an_axle_has_limits_from_the_pose_in_which_it_was_made(sheet: Sheet) -> None:
     # The beam has turned before its limits are set.
-    sheet.press('Play')
-    sheet.wait('physsim.bodies["beam/0"][2] < -0.2')
-    sheet.press('Pause')
-    sheet.wait('physsim.speed === 0')
+    sheet.play_until(0.25)
+    assert -0.6 < sheet.pose('beam/0')[2] < -0.1
     panel = tapped(sheet, 2.2, 5.0, 'Axle')
     set_number(sheet, panel, 'Least [rad]', '-0.6')
     sheet.press('Play')

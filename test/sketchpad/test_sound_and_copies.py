@@ -30,10 +30,7 @@ def sheet(chromium: Any, outside: Outside) -> Iterator[Sheet]:
     """Give a test a page of a world with a ball in the air, paused."""
     program, address = started_world(outside, world=WORLD)
     sheet = Sheet(chromium, address)
-    sheet.wait('Object.keys(physsim.bodies).length === 2')
-    sheet.press('Pause')
-    sheet.press('Reset')
-    sheet.wait('physsim.time === 0 && physsim.speed === 0')
+    sheet.begin(2)
     yield sheet
     sheet.close()
     program.interrupt()
