@@ -16,8 +16,8 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import Trigger
 
-# Ten times what discovery takes where it loses its first message [s].
-PATIENCE = 25.0
+from .outside import PATIENCE
+
 # Of topics that keep their last message for whoever comes late.
 KEPT = QoSProfile(
     depth=1,

@@ -19,7 +19,7 @@ from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
 # Many times what is expected, on a machine that is busy with other tests [s].
-PATIENCE = 60.0
+PATIENCE = 90.0
 # Like ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST: the first 32 participants of this machine.
 LOCALHOST = """
 <CycloneDDS><Domain>

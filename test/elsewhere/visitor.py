@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import count
 import json
 import sys
 import time
@@ -90,13 +91,14 @@ class Visitor:
 
     def greet(self, events: list[DiagnosticStatus], publisher: Any) -> None:
         """Ask for what is not there until that is answered: then both directions have met."""
-        nobody = Marker(ns='nobody', action=Marker.DELETE)
+        numbers = count()
         while not events:
-            publisher.publish(nobody)
+            last = f'nobody/{(number := next(numbers))}'
+            publisher.publish(Marker(ns='nobody', id=number, action=Marker.DELETE))
             until = time.monotonic() + 0.5
             self.spin_until(lambda: events or time.monotonic() > until, 'an answer')  # noqa: B023
-        sent = time.monotonic() + 0.5
-        self.spin_until(lambda: time.monotonic() > sent, 'the last answers')
+        # Those before it are answered before it, or never.
+        self.spin_until(lambda: last in [each.hardware_id for each in events], 'the last answer')
         events.clear()
 
     def client(self, kind: Any, service: str) -> None:

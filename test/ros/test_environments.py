@@ -106,5 +106,5 @@ def test_time_does_not_hurry_after_the_process_was_stopped(outside: Outside) -> 
         world.wait_for('ready')
         seen = outside.run_program('stopper', world.process.pid)
         assert world.interrupt() == 0
-    # It is stopped for 5 s and read for 1 s.
-    assert 0.0 < seen['passed'] < 3.0
+    # It is stopped for 5 s, and then read for 1 s or a little more.
+    assert 0.0 < seen['passed'] < seen['read'] + 2.0

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 import json
 import os
 from pathlib import Path
@@ -162,9 +163,11 @@ def test_a_bug_ends_it_loudly_and_leaves_no_viewer_running(outside: Outside) -> 
     with outside.start(sys.executable, '-c', BUG, *words) as world:
         _, page = world.wait_for('CHILDREN').split()
         assert world.finish() == 1
-    left = psutil.pid_exists(int(page))
-    if left:
-        psutil.Process(int(page)).kill()
+    left = []
+    with suppress(psutil.NoSuchProcess):
+        _, left = psutil.wait_procs([psutil.Process(int(page))], PATIENCE)
+    for each in left:
+        each.kill()
     assert 'ZeroDivisionError' in ''.join(world.lines)
     assert not left
 

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-import random
 import time
 
 from diagnostic_msgs.msg import DiagnosticStatus
@@ -22,9 +21,8 @@ from physsim_ros.ros.encoders.poses import PosesEncoder
 from physsim_ros.ros.encoders.states import StatesEncoder
 from physsim_ros.ros.publishers import event_publisher
 from physsim_ros.ros.publishers.publishers import LATCH_PERIOD, Publishers
+from physsim_ros.testing import own_context
 import pytest
-import rclpy
-from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -33,6 +31,7 @@ from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
 from ..building import DISC, PLAIN_BODY
+from ..outside import PATIENCE
 
 ALL = {
     '/physsim/poses': PoseArray,
@@ -66,9 +65,8 @@ class Bench:
         self.spin_until(lambda: subscription.get_publisher_count() > 0)
         return received
 
-    def spin_until(self, predicate, timeout=25.0):
-        # Ten times the 2.5 s that discovery takes where it loses its first message.
-        deadline = time.monotonic() + timeout
+    def spin_until(self, predicate):
+        deadline = time.monotonic() + PATIENCE
         while not predicate():
             assert time.monotonic() < deadline, 'it did not come about in time'
             self.executor.spin_once(timeout_sec=0.05)
@@ -91,15 +89,13 @@ class Bench:
 
 
 @pytest.fixture
-def bench():
-    context = Context()
-    rclpy.init(context=context, domain_id=random.randint(1, 200))
-    bench = Bench(context)
-    yield bench
-    bench.executor.shutdown()
-    bench.listener.destroy_node()
-    bench.world.destroy_node()
-    rclpy.shutdown(context=context)
+def bench(monkeypatch):
+    with own_context(monkeypatch) as context:
+        bench = Bench(context)
+        yield bench
+        bench.executor.shutdown()
+        bench.listener.destroy_node()
+        bench.world.destroy_node()
 
 
 def scene_of(*names):

@@ -19,8 +19,7 @@ from physsim_ros.testing import PhysSim
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
 from tornado.websocket import websocket_connect, WebSocketClientConnection
 
-# Far more than anything here takes [s].
-PATIENCE = 20.0
+from ..outside import PATIENCE
 
 
 class Picture(NamedTuple):

@@ -28,7 +28,8 @@ from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.parameter import Parameter
 
-from .browser import Browser, Page, PATIENCE
+from .browser import Browser, Page
+from ..outside import PATIENCE
 
 PROTOCOL = Path(__file__).parents[2] / 'docs' / 'page_protocol.md'
 

@@ -293,7 +293,7 @@ def test_chromium_shows_the_recording_and_calls_no_other_origin(
     recording = opening.value
 
     # 43 MB are compiled, and each frame is drawn by the processor.
-    deadline = time.monotonic() + 4.0 * PATIENCE
+    deadline = time.monotonic() + 2.0 * PATIENCE
     while not shows_bodies(recording):
         assert time.monotonic() < deadline, recording.locator('#recording').text_content()
     # All but what data and blobs hold is asked of this server.
@@ -316,5 +316,5 @@ def test_a_browser_that_draws_slowly_says_how_far_it_is_behind(
     page.goto(f'{address.partition("/login")[0]}/rerun/')
     told = page.get_by_role('status').get_by_text(re.compile(r'\d\.\d s behind'))
     # 43 MB are read first.
-    told.wait_for(timeout=4.0 * MILLISECONDS)
+    told.wait_for(timeout=2.0 * MILLISECONDS)
     context.close()

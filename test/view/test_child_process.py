@@ -14,10 +14,9 @@ import textwrap
 from physsim_ros.view.sinks.child_process import end_child, start_child
 import pytest
 
-psutil = pytest.importorskip('psutil')
+from ..outside import PATIENCE
 
-# Ten times what a start or an end takes [s].
-PATIENCE = 20.0
+psutil = pytest.importorskip('psutil')
 
 PARENT = """
     import os, sys, time

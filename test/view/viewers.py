@@ -23,12 +23,10 @@ from physsim_ros.view import FrameContext
 import pytest
 
 from ..building import PLAIN_BODY
+from ..outside import PATIENCE
 from ..rerun_program import free_port, is_open, rerun
 
 chunk = pytest.importorskip('rerun.chunk')
-
-# Ten times what anything here takes; importing Rerun alone is a second.
-PATIENCE = 20.0
 
 CONTEXT = FrameContext(real_time_factor=1.0)
 SCENE = Scene(bodies=(PLAIN_BODY,), settings=WorldSettings())
@@ -93,7 +91,7 @@ def run_alone(program, *arguments):
         cwd=Path(__file__).parents[2],
         stdout=subprocess.PIPE,
         text=True,
-        timeout=3 * PATIENCE,
+        timeout=2 * PATIENCE,
         check=True,
     )
     return done.stdout
