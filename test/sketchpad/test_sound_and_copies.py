@@ -56,6 +56,6 @@ def test_bodies_of_the_lasso_are_copied_beside_with_their_joint(sheet: Sheet) ->
     assert ball[1] == 4.0
     assert box[0] - ball[0] == pytest.approx(2.0)
     assert ball[0] > 0.0
-    sheet.page.get_by_role('status').get_by_text('Rod added').wait_for()
+    sheet.page.get_by_role('status').get_by_text('Copied 2 bodies').wait_for()
     sheet.press('Undo')
     sheet.wait('Object.keys(physsim.bodies).length === 2')
