@@ -57,7 +57,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
                 without=shape_numbers(unsupported),
                 joints=space.joints.impulses(),
             ),
-            pushes=space.pipeline.floor.pushes(table, space.dt),
+            pushes=space.pipeline.floor.pushes(table),
         ),
         grips=space.pipeline.mouse_joints.grips(),
         unstepped=space.joints.unstepped(),
@@ -190,7 +190,7 @@ def restore_checkpoint(
     space.joints.set_unstepped(checkpoint.unstepped)
     for grip in checkpoint.grips:
         space.pipeline.mouse_joints.set_grip(grip)
-    space.pipeline.floor.put_pushes(table, checkpoint.memory.pushes)
+    space.pipeline.floor.begin(table, checkpoint.memory.pushes)
     space.pipeline.floor.drives.put_states(checkpoint.scene, checkpoint.robots)
     return space
 

@@ -114,23 +114,24 @@ def places_in(words: Ints) -> Ints:
 
 def read_words(places: Ints, offsets: Ints | int) -> Ints:
     """Return a word of each struct, or (..., w) words at w offsets."""
-    words: Ints = _WORDS[_at(places, offsets)]
+    words: Ints = _WORDS[words_at(places, offsets)]
     return words
 
 
 def read_numbers(places: Ints, offsets: Ints | int) -> Floats:
     """Return a number of each struct, or (..., w) numbers at w offsets."""
-    numbers: Floats = NUMBERS[_at(places, offsets)]
+    numbers: Floats = NUMBERS[words_at(places, offsets)]
     return numbers
 
 
-def _at(places: Ints, offsets: Ints | int) -> Ints:
+def words_at(places: Ints, offsets: Ints | int) -> Ints:
+    """Return the word at an offset in each struct, or (..., w) words at w offsets."""
     return places + offsets if isinstance(offsets, int) else places[..., None] + offsets
 
 
 def write_numbers(places: Ints, offsets: Ints | int, numbers: Floats | float) -> None:
     """Set a number of each struct, or (k, w) numbers at w offsets."""
-    NUMBERS[_at(places, offsets)] = numbers
+    NUMBERS[words_at(places, offsets)] = numbers
 
 
 def contacts_of_step(pm_space: pymunk.Space) -> Ints:

@@ -79,7 +79,7 @@ class Pipeline:
         self.mouse_joints = MouseJoints(bodies)
         self.half_step = HalfStep(pm_space, io)
         self.resting_damping = RestingDamping(io, dt)
-        self.floor = Floor()
+        self.floor = Floor(dt)
         self.continuous_collision = ContinuousCollision(pm_space, Hulls())
         self._impact_propagation = ImpactPropagation(pm_space, io)
         self._block_solver = BlockSolver(pm_space)

@@ -17,7 +17,6 @@ Law: the way of the wheels is the integral of their velocity by the trapezoidal 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import math
 
 import numpy as np
@@ -147,13 +146,6 @@ class Drives:
                 told = ahead * share, aside * share, turn + drift
             poses.append(reckoned(pose, told))
         states.travel[:], states.path[:], states.odometry[:] = travel, paths, poses
-
-    def turning(self, scene: Scene) -> Sequence[int]:
-        """Return the rows of the robots whose wheels turn, or are about to."""
-        states = self.states(scene)
-        moving = (states.aim != 0.0).any(axis=1) | (states.wheels != 0.0).any(axis=1)
-        rows: list[int] = robot_columns(scene).rows[moving].tolist()
-        return rows
 
 
 def _accelerated(

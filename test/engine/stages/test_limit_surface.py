@@ -4,7 +4,7 @@
 """Friction with the floor lies on its limit surface, or stops the slip."""
 
 import numpy as np
-from physsim_ros.engine.stages.limit_surface import friction_of
+from physsim_ros.engine.stages.limit_surface import friction_of, LimitSurface
 import pytest
 
 DT = 1 / 240
@@ -28,24 +28,24 @@ def _size(changes, most, lever, gyration):
 def test_what_slips_has_friction_on_the_surface_and_what_sticks_within_it():
     bodies = _bodies(5000)
 
-    changes, sticks = friction_of(*bodies)
+    changes, slides = friction_of(bodies[0], LimitSurface.of(*bodies[1:]))
 
     size = _size(changes, *bodies[1:])
-    assert 100 < sticks.sum() < 4900
-    assert size[~sticks] == pytest.approx(1.0, abs=1e-9)
-    assert (size[sticks] <= 1.0 + 1e-12).all()
-    assert np.array_equal(changes[sticks], -bodies[0][sticks])
+    assert 100 < slides.sum() < 4900
+    assert size[slides] == pytest.approx(1.0, abs=1e-9)
+    assert (size[~slides] <= 1.0 + 1e-12).all()
+    assert np.array_equal(changes[~slides], -bodies[0][~slides])
 
 
 def test_friction_is_against_the_slip_that_is_left():
     slips, most, lever, gyration = _bodies(5000)
 
-    changes, sticks = friction_of(slips, most, lever, gyration)
+    changes, slides = friction_of(slips, LimitSurface.of(most, lever, gyration))
 
     # Maximum dissipation: the slip is normal to the surface where the friction is.
-    left = (slips + changes)[~sticks]
-    lever, changes = lever[~sticks], changes[~sticks]
-    gyration, most = gyration[~sticks], most[~sticks]
+    left = (slips + changes)[slides]
+    lever, changes = lever[slides], changes[slides]
+    gyration, most = gyration[slides], most[slides]
     normal = np.column_stack((changes[:, :2], changes[:, 2] * gyration / lever**2))
     speed = np.hypot(np.hypot(left[:, 0], left[:, 1]), lever * left[:, 2])
     expected = -normal / most[:, None] * speed[:, None]
@@ -53,15 +53,15 @@ def test_friction_is_against_the_slip_that_is_left():
 
 
 def test_no_slip_has_no_friction():
-    changes, sticks = friction_of(np.zeros((1, 3)), np.ones(1), np.ones(1), np.ones(1))
+    changes, slides = friction_of(np.zeros((1, 3)), LimitSurface.of(*np.ones((3, 1))))
 
-    assert sticks.all()
+    assert not slides.any()
     assert not changes.any()
 
 
 def test_friction_never_turns_a_slip_round():
     bodies = _bodies(5000, seed=2)
 
-    changes, _ = friction_of(*bodies)
+    changes, _ = friction_of(bodies[0], LimitSurface.of(*bodies[1:]))
 
     assert ((bodies[0] + changes) * bodies[0] >= 0.0).all()
