@@ -61,7 +61,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         ),
         grips=space.pipeline.mouse_joints.grips(),
         unstepped=space.joints.unstepped(),
-        robots=space.robot_states.copy(),
+        robots=space.robot_states,
     )
 
 
@@ -75,8 +75,8 @@ def saved_state(space: Space, step: int) -> WorldState:
     # A contact may have ended as a stage moved a body, with its impulses still in the cache. A
     # rebuilt space does not find it, and what is loaded must be saved as it was.
     memory = take_checkpoint(restore_checkpoint(checkpoint, space.dt), step).memory
-    robots = zip(checkpoint.scene.robot_rows.tolist(), checkpoint.robots.driven(step), strict=True)
-    driven = dict(robots)
+    states = (each.shifted(-step) for each in checkpoint.robots.rows())
+    driven = dict(zip(checkpoint.scene.robot_rows.tolist(), states, strict=True))
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
     _, twists = observe_bodies(space.table, space.start_state)
     rigids = enumerate(space.bodies.by_name.values())
@@ -135,7 +135,11 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
         memory=state.memory or _no_impulses(state),
         unstepped=frozenset(joint.name for joint in state.joints),
         robots=RobotStates.of(
-            [each.driven or SPAWNED for each in state.bodies if each.body.robot is not None], step
+            [
+                (saved.driven or SPAWNED).shifted(step)
+                for saved in state.bodies
+                if saved.body.robot is not None
+            ]
         ),
     )
 
@@ -191,7 +195,7 @@ def restore_checkpoint(
     for grip in checkpoint.grips:
         space.pipeline.mouse_joints.set_grip(grip)
     space.pipeline.floor.begin(table, checkpoint.memory.pushes)
-    space.pipeline.floor.drives.put_states(checkpoint.scene, checkpoint.robots)
+    space.pipeline.floor.drives.put_states(checkpoint.scene, checkpoint.robots.rows())
     return space
 
 

@@ -215,8 +215,8 @@ class Space:
 
     @property
     def robot_states(self) -> RobotStates:
-        """Return drives and odometry of the robots, in the order of the scene; not copied."""
-        return self.pipeline.floor.drives.states(self.table.scene)
+        """Return drives and odometry of the robots, in the order of the scene."""
+        return RobotStates.of([*self.pipeline.floor.drives.states(self.table.scene).values()])
 
     def drive(self, rigid: RigidBody, velocity: Twist, until: int) -> None:
         """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""

@@ -15,7 +15,7 @@ from physsim_ros.model.checks import (
     Within,
 )
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.robot_states import Driven
+from physsim_ros.model.robot_states import NEVER, RobotState
 from physsim_ros.model.scene import Body
 from physsim_ros.model.transform import Pose
 
@@ -25,14 +25,14 @@ _GREATEST = 1e12
 _LENGTH = Within(0.0, _GREATEST)
 
 
-def driven_entry(driven: Driven, physics_rate: float) -> dict[str, object]:
+def driven_entry(driven: RobotState, physics_rate: float) -> dict[str, object]:
     """Return the entry of the state of a robot."""
     entry: dict[str, object] = {key: list(getattr(driven, key)) for key in _POSES}
-    seconds = None if driven.steps is None else driven.steps / physics_rate
+    seconds = None if driven.until == NEVER else driven.until / physics_rate
     return {**entry, 'path': list(driven.path), 'seconds': seconds}
 
 
-def driven_from(entry: object, body: Body, physics_rate: float) -> Driven:
+def driven_from(entry: object, body: Body, physics_rate: float) -> RobotState:
     """
     Return the state of a robot from its entry.
 
@@ -44,14 +44,14 @@ def driven_from(entry: object, body: Body, physics_rate: float) -> Driven:
     if body.robot is None:
         raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
     seconds = values.get('seconds')
-    steps = None
+    until = NEVER
     if seconds is not None:
-        steps = round(Within(0.0, LONGEST, 's')(seconds, 'seconds') * physics_rate)
+        until = round(Within(0.0, LONGEST, 's')(seconds, 'seconds') * physics_rate)
     poses = [_three(values.get(key, [0.0, 0.0, 0.0]), key) for key in _POSES]
     aim, wheels, travel, odometry = poses
     way, turned = pair(values.get('path', [0.0, 0.0]), 'path')
     path = _LENGTH(way, 'path'), _LENGTH(turned, 'path')
-    return Driven(aim, steps, wheels, travel, odometry, path)
+    return RobotState(aim, until, wheels, travel, odometry, path)
 
 
 def _three(value: object, name: str) -> Pose:

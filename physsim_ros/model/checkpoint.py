@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.robot_states import Driven, NO_ROBOTS, RobotStates
+from physsim_ros.model.robot_states import NO_ROBOTS, RobotState, RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
@@ -60,7 +60,7 @@ class BodyState:
     motion: Motion | None = None
     wrench: Wrench = NO_WRENCH
     wrench_steps: int | None = None
-    driven: Driven | None = None
+    driven: RobotState | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

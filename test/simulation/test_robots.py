@@ -174,7 +174,7 @@ def test_a_robot_keeps_its_state_when_it_is_changed_and_loses_it_when_it_is_remo
     for name in ('a/0', 'b/0'):
         world.apply(DriveRobot(name=name, velocity=(0.2, 0.0, 0.0)))
     world.step(60)
-    before = world.snapshot().robots.copy()
+    before = world.snapshot().robots
 
     world.apply(ChangeBody(name='a/0', properties=Properties(friction=0.9)))
     kept = world.snapshot().robots

@@ -17,6 +17,7 @@ Law: the way of the wheels is the integral of their velocity by the trapezoidal 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 import math
 
 import numpy as np
@@ -24,10 +25,10 @@ from physsim_ros.engine.robots.odometry import chord_by_arc, noise_of_step, reck
 from physsim_ros.engine.robots.robot_columns import robot_columns
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.robot_states import NO_ROBOTS, RobotStates
+from physsim_ros.model.robot_states import RobotState, SPAWNED
 from physsim_ros.model.robots.drives.drive import within
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.transform import Point, Pose, rotated, Twist
+from physsim_ros.model.transform import Point, Pose, REST, rotated, Twist
 
 
 class Drives:
@@ -35,36 +36,29 @@ class Drives:
 
     def __init__(self) -> None:
         self._scene: Scene | None = None
-        self._names: dict[str, int] = {}
-        self._states = NO_ROBOTS
-        # Mean velocity of the wheels of each robot in this step.
-        self._mean: list[Twist] = []
+        # Of each robot of that scene by name, in its order.
+        self._states: dict[str, RobotState] = {}
+        # Of each robot the yaw at which this step begins, and the mean velocity of its wheels.
+        self._yaws: list[float] = []
+        self._means: list[Twist] = []
 
-    def states(self, scene: Scene) -> RobotStates:
-        """Return the states of the robots of a scene, in its order; they are not copied."""
+    def states(self, scene: Scene) -> dict[str, RobotState]:
+        """Return the states of the robots of a scene by name, in its order; not copied."""
         if scene is not self._scene:
             names = robot_columns(scene).names
-            states = RobotStates.at_rest(len(names)) if names else NO_ROBOTS
-            known = [
-                (row, self._names[name]) for row, name in enumerate(names) if name in self._names
-            ]
-            if known:
-                new, old = map(list, zip(*known, strict=True))
-                for column, before in zip(states, self._states, strict=True):
-                    column[new] = before[old]
-            self._scene, self._states = scene, states
-            self._names = {name: row for row, name in enumerate(names)}
+            self._states = {name: self._states.get(name, SPAWNED) for name in names}
+            self._scene = scene
         return self._states
 
-    def put_states(self, scene: Scene, states: RobotStates) -> None:
+    def put_states(self, scene: Scene, states: Iterable[RobotState]) -> None:
         """Continue with the states of the robots of a scene."""
         names = robot_columns(scene).names
-        self._scene, self._states = scene, states.copy()
-        self._names = {name: row for row, name in enumerate(names)}
+        self._scene, self._states = scene, dict(zip(names, states, strict=True))
 
     def forget_body(self, name: str) -> None:
         """Drop the state of a removed body."""
-        self._names.pop(name, None)
+        if self._states.pop(name, None) is not None:
+            self._scene = None
 
     def command(self, scene: Scene, name: str, velocity: Twist, until: int) -> bool:
         """
@@ -74,12 +68,10 @@ class Drives:
         :param until: step at which it stops, without another command
         :return: whether that changes anything
         """
-        states = self.states(scene)
-        number = self._names[name]
-        aim = robot_columns(scene).robots[number].drive.aim(velocity)
-        changed = bool((states.aim[number] != aim).any() or states.until[number] != until)
-        states.aim[number], states.until[number] = aim, until
-        return changed
+        columns, states = robot_columns(scene), self.states(scene)
+        robot, before = columns.robots[columns.names.index(name)], states[name]
+        states[name] = before._replace(aim=robot.drive.aim(velocity), until=until)
+        return states[name] != before
 
     def begin_step(self, context: StepContext) -> Floats:
         """
@@ -90,62 +82,53 @@ class Drives:
             [m/s, rad/s]
         """
         columns, states = robot_columns(context.table.scene), self.states(context.table.scene)
-        ended = states.until <= context.step
-        if np.count_nonzero(ended):
-            states.aim[ended] = 0.0
-        self._mean, wheels, means, ends = [], [], [], []
-        for robot, rims, curvature, center, before, aim, yaw in zip(
+        self._yaws = context.poses[columns.rows, 2].tolist()
+        self._means = []
+        means: list[float] = []
+        ends: list[float] = []
+        for (name, state), robot, rims, curvature, center, yaw in zip(
+            states.items(),
             columns.robots,
             columns.rims,
             columns.curvatures,
             columns.centers,
-            states.wheels.tolist(),
-            states.aim.tolist(),
-            context.poses[columns.rows, 2].tolist(),
+            self._yaws,
             strict=True,
         ):
-            mean = after = before
-            if before != aim:
+            aim = state.aim if context.step < state.until else REST
+            mean = after = before = state.wheels
+            if not before == aim == state.aim:
                 most = robot.drive.acceleration * context.dt
                 after = _accelerated(before, aim, rims, most, curvature)
                 mean = _middle(before, after)
+                states[name] = state._replace(aim=aim, wheels=after)
             turn = mean[2] * context.dt
             vx, vy, spin = _at_center(mean, center, yaw + turn / 2)
             # The chord of the arc that they roll along.
             chord = chord_by_arc(turn)
-            means.append((vx * chord, vy * chord, spin))
-            ends.append(_at_center(after, center, yaw + turn))
-            wheels.append(after)
-            self._mean.append(mean)
-        states.wheels[:] = wheels
-        return np.array((means, ends))
+            means += vx * chord, vy * chord, spin
+            ends += _at_center(after, center, yaw + turn)
+            self._means.append(mean)
+        return np.array(means + ends).reshape(2, -1, 3)
 
     def end_step(self, context: StepContext) -> None:
         """Add the step to the way of the wheels, and to the odometry."""
         columns, states = robot_columns(context.table.scene), self.states(context.table.scene)
-        turns = context.table.state[columns.rows, 2] - context.poses[columns.rows, 2]
-        travel, paths, poses = [], [], []
-        for name, robot, mean, (x, y, around), (length, turned), pose, turn in zip(
-            columns.names,
-            columns.robots,
-            self._mean,
-            states.travel.tolist(),
-            states.path.tolist(),
-            states.odometry.tolist(),
-            turns.tolist(),
-            strict=True,
+        dt, yaws = context.dt, context.table.state[columns.rows, 2].tolist()
+        for (name, state), robot, mean, before, after in zip(
+            states.items(), columns.robots, self._means, self._yaws, yaws, strict=True
         ):
-            ahead, aside = mean[0] * context.dt, mean[1] * context.dt
+            aim, until, wheels, (x, y, around), odometry, (length, turned) = state
+            ahead, aside, turn = mean[0] * dt, mean[1] * dt, after - before
             way = abs(complex(ahead, aside))
-            travel.append((x + ahead, y + aside, around + mean[2] * context.dt))
-            paths.append((length + way, turned + abs(turn)))
             told = ahead, aside, turn
             if any(robot.odometry.slip):
                 noise = noise_of_step(context.settings.seed, name, context.step)
                 share, drift = slips(way, turn, robot.odometry.slip, noise)
                 told = ahead * share, aside * share, turn + drift
-            poses.append(reckoned(pose, told))
-        states.travel[:], states.path[:], states.odometry[:] = travel, paths, poses
+            travel = x + ahead, y + aside, around + mean[2] * dt
+            path = length + way, turned + abs(turn)
+            states[name] = RobotState(aim, until, wheels, travel, reckoned(odometry, told), path)
 
 
 def _accelerated(

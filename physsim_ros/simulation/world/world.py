@@ -151,7 +151,7 @@ class World(LiveSpace):
             compressed=self.space.joints.compressed(),
             springs=self.space.joints.springs(),
             grips=self.grips,
-            robots=self.space.robot_states.copy(),
+            robots=self.space.robot_states,
             pulls=self.space.joints.pulls() if self.reports_contacts else np.empty((0, 2)),
         )
 
