@@ -160,13 +160,16 @@ class BodyTable:
         :param poses: (k, 3) float64: of the engine's origins [m, rad]
         """
         state = self.state
-        moved = (state[rows, :3] != poses).any(axis=1) & ~self.asleep[rows]
-        rows, poses = rows[moved], poses[moved]
-        for row, (x, y, yaw) in zip(rows.tolist(), poses.tolist(), strict=True):
-            # Pymunk's own attributes check and convert each value: ten times the cost.
-            pm_body = self.bodies[row].pm_body._body  # noqa: SLF001
-            lib.cpBodySetPosition(pm_body, (x, y))
-            lib.cpBodySetAngle(pm_body, yaw)
+        if self.sleepers:
+            awake = ~self.asleep[rows]
+            rows, poses = rows[awake], poses[awake]
+        before = state[rows, :3].tolist()
+        for row, old, new in zip(rows.tolist(), before, poses.tolist(), strict=True):
+            if new != old:
+                # Pymunk's own attributes check and convert each value: ten times the cost.
+                pm_body = self.bodies[row].pm_body._body  # noqa: SLF001
+                lib.cpBodySetPosition(pm_body, new[:2])
+                lib.cpBodySetAngle(pm_body, new[2])
         state[rows, :3] = poses
         self._sizes = self._all_within = None
 

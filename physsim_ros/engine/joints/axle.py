@@ -47,9 +47,9 @@ def _bounds(joint: Joint) -> list[tuple[float, float]]:
     return [EQUAL, EQUAL, (least, math.inf if lower is None else phase - lower)]
 
 
-def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    point = rows.point(batch, a, b)
-    return rows.both(point, rows.angle(batch, a, b)) if batch.lower.shape[1] > 2 else point
+def _rows(batch: Batch, poses: Floats) -> tuple[Floats, Floats]:
+    point = rows.point(batch, poses)
+    return rows.both(point, rows.angle(batch, poses)) if batch.lower.shape[1] > 2 else point
 
 
 KIND = Kind(_constraints, _bounds, _rows)

@@ -33,10 +33,8 @@ class Batch(NamedTuple):
     Joints of one kind, by column.
 
     :ivar numbers: (k,) of the joints in their set
-    :ivar a: (k,) row of the first body in the states
-    :ivar b: (k,) row of the second body
-    :ivar at_a: (k, 2) float64: anchor in the frame of the first body [m]
-    :ivar at_b: (k, 2) float64: anchor in the frame of the second body [m]
+    :ivar ends: (2, k) rows of the first and of the second body in the states
+    :ivar anchors: (2, k, 2) float64: in the frames of these [m]
     :ivar axis: (k, 2) float64: unit vector of a slider in the frame of the second body
     :ivar ratio: (k,) float64: of a gear
     :ivar lower: (k, r) float64: least value of each row [m, rad]
@@ -45,10 +43,8 @@ class Batch(NamedTuple):
     """
 
     numbers: Rows
-    a: Rows
-    b: Rows
-    at_a: Floats
-    at_b: Floats
+    ends: Rows
+    anchors: Floats
     axis: Floats
     ratio: Floats
     lower: Floats
@@ -63,31 +59,32 @@ class Kind(NamedTuple):
     :ivar constraints: makes the Pymunk constraints; their impulses, but those of motors and
         springs, are those of the rows in the same order
     :ivar bounds: returns (lower, upper) of each constraint row of a joint [m, rad]
-    :ivar rows: returns the (k, r) values x and the (k, r, 6) Jacobian J at the (k, 3) poses of the
-        first and the second bodies; None where the engine alone solves the joint
+    :ivar rows: returns the (k, r) values x and the (k, r, 6) Jacobian J at the (2, k, 3) poses of
+        the first and the second bodies; None where the engine alone solves the joint
     :ivar prepare: changes constraints before a step, at the poses that it will have; None where
         they do not depend on poses
     """
 
     constraints: Callable[[Joint, Ends], list[pymunk.Constraint]]
     bounds: Callable[[Joint], Sequence[tuple[float, float]]] = lambda _: ()
-    rows: Callable[[Batch, Floats, Floats], tuple[Floats, Floats]] | None = None
-    prepare: Callable[[Batch, Floats, Floats], None] | None = None
+    rows: Callable[[Batch, Floats], tuple[Floats, Floats]] | None = None
+    prepare: Callable[[Batch, Floats], None] | None = None
 
 
-def arms(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats, Floats]:
+def arms(batch: Batch, poses: Floats) -> tuple[Floats, Floats, Floats]:
     """
     Return the arms to both anchors, and from the second anchor to the first [m].
 
     :return: (k, 2) float64 each, world axes
     """
-    arm_a, arm_b = rotated_each(batch.at_a, a[:, 2]), rotated_each(batch.at_b, b[:, 2])
-    return arm_a, arm_b, (a[:, :2] + arm_a) - (b[:, :2] + arm_b)
+    both_arms = rotated_each(batch.anchors, poses[..., 2])
+    place_a, place_b = poses[..., :2] + both_arms
+    return both_arms[0], both_arms[1], place_a - place_b
 
 
-def point(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def point(batch: Batch, poses: Floats) -> tuple[Floats, Floats]:
     """Return the rows of two anchors that coincide: x = p_a - p_b."""
-    arm_a, arm_b, apart = arms(batch, a, b)
+    arm_a, arm_b, apart = arms(batch, poses)
     jacobian = np.zeros((len(apart), 2, 6))
     jacobian[:, 0, 0] = jacobian[:, 1, 1] = 1.0
     jacobian[:, 0, 3] = jacobian[:, 1, 4] = -1.0
@@ -96,16 +93,17 @@ def point(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     return apart, jacobian
 
 
-def angle(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def angle(batch: Batch, poses: Floats) -> tuple[Floats, Floats]:
     """Return the row of the turn of the second body against the first: x = ratio yaw_b - yaw_a."""
-    jacobian = np.zeros((len(a), 1, 6))
+    yaw_a, yaw_b = poses[..., 2]
+    jacobian = np.zeros((len(yaw_a), 1, 6))
     jacobian[:, 0, 2], jacobian[:, 0, 5] = -1.0, batch.ratio
-    return (batch.ratio * b[:, 2] - a[:, 2])[:, None], jacobian
+    return (batch.ratio * yaw_b - yaw_a)[:, None], jacobian
 
 
-def distance(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def distance(batch: Batch, poses: Floats) -> tuple[Floats, Floats]:
     """Return the row of the distance of two anchors: `x = |p_a - p_b|`."""
-    arm_a, arm_b, apart = arms(batch, a, b)
+    arm_a, arm_b, apart = arms(batch, poses)
     length = np.hypot(apart[:, 0], apart[:, 1])
     # Anchors on each other have no direction; any one parts them.
     direction = apart / np.maximum(length, 1e-300)[:, None]
@@ -113,22 +111,22 @@ def distance(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     return length[:, None], along(direction, arm_a, arm_b)
 
 
-def on_line(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def on_line(batch: Batch, poses: Floats) -> tuple[Floats, Floats]:
     """Return the row of the distance of an anchor from a line that turns with the second body."""
-    return _place_on_line(batch, a, b, across)
+    return _place_on_line(batch, poses, across)
 
 
-def along_line(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
+def along_line(batch: Batch, poses: Floats) -> tuple[Floats, Floats]:
     """Return the row of the way of an anchor along a line that turns with the second body."""
-    return _place_on_line(batch, a, b, lambda axis: axis)
+    return _place_on_line(batch, poses, lambda axis: axis)
 
 
 def _place_on_line(
-    batch: Batch, a: Floats, b: Floats, direction_of: Callable[[Floats], Floats]
+    batch: Batch, poses: Floats, direction_of: Callable[[Floats], Floats]
 ) -> tuple[Floats, Floats]:
     """Return x = direction . (p_a - p_b), the direction turning with the second body."""
-    arm_a, arm_b, apart = arms(batch, a, b)
-    direction = direction_of(rotated_each(batch.axis, b[:, 2]))
+    arm_a, arm_b, apart = arms(batch, poses)
+    direction = direction_of(rotated_each(batch.axis, poses[1, :, 2]))
     # The line reaches from the second body to where the first anchor is.
     return dots(direction, apart)[:, None], along(direction, arm_a, arm_b + apart)
 

@@ -113,14 +113,12 @@ def read_contacts(table: BodyTable, jointed: Rows) -> ContactRows:
 
 def _arbiters_of(bodies: Ints) -> Ints:
     """Return (a,) int64: places of the `cpArbiter` in the lists of bodies, each of them once."""
-    found = [np.empty(0, np.int64)]
+    found = []
     arbiters = memory.places_in(memory.read_words(bodies, memory.BODY_ARBITERS))
-    while True:
-        listed = arbiters >= 0
+    while np.count_nonzero(listed := arbiters >= 0):
         arbiters, bodies = arbiters[listed], bodies[listed]
-        if not len(arbiters):
-            return np.unique(np.concatenate(found))
         found.append(arbiters)
         is_second = (memory.bodies_of(arbiters)[:, 1] == bodies).astype(np.intp)
         following = arbiters + memory.ARBITER_NEXT[is_second]
         arbiters = memory.places_in(memory.read_words(following, 0))
+    return np.unique(np.concatenate(found)) if found else bodies[:0]

@@ -34,8 +34,6 @@ Impulses of springs and motors, and contacts between bodies without joints, stay
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from physsim_ros.engine import memory
 from physsim_ros.engine.body_table import BodyTable
@@ -77,30 +75,51 @@ _INVERSES = np.array([memory.BODY_INVERSE_MASS] * 2 + [memory.BODY_INVERSE_MOMEN
 FRICTION_ROUNDS = 10
 
 
-class Bodies(NamedTuple):
+class Bodies:
     """
     The jointed bodies, the background, and what they touch.
 
-    :ivar rows: (b,) intp: in the body table
-    :ivar jointed: count of the jointed bodies with the background, which come first
+    :param table: of all bodies
+    :param jointed: rows of the jointed bodies and the background
+    :param touching: rows of bodies
+
+    :ivar rows: (b,) intp: in the body table; the jointed bodies and the background come first
     :ivar places: (b,) int64: of `cpBody`
     :ivar inverse: (b, 3) float64: inverse masses, masses and moments; 0 is not dynamic
-    :ivar poses: (b, 3) float64: [m, rad]
-    :ivar velocities: (b, 3) float64: [m/s, rad/s]
+    :ivar dynamic: (b,) bool
+    :ivar jointed: (b, 1) bool: jointed bodies, and the background
+    :ivar poses: (b, 3) float64: of this step [m, rad]
+    :ivar velocities: (b, 3) float64: of this step [m/s, rad/s]
     """
 
-    rows: Rows
-    jointed: int
-    places: Ints
-    inverse: Floats
-    poses: Floats
-    velocities: Floats
+    def __init__(self, table: BodyTable, jointed: Rows, touching: Rows) -> None:
+        others = np.zeros(len(table.places), np.bool_)
+        others[touching] = True
+        others[jointed] = False
+        self.rows = np.concatenate((jointed, np.flatnonzero(others)))
+        self.places = table.places[self.rows]
+        self.inverse = memory.read_numbers(self.places, _INVERSES)
+        self.inverse[~table.columns.dynamic[self.rows]] = 0.0
+        self.dynamic: Flags = np.asarray(self.inverse.any(axis=1))
+        self.jointed = (np.arange(len(self.rows)) < len(jointed))[:, None]
+        self.poses: Floats
+        self.velocities: Floats
+
+    def read(self, table: BodyTable) -> None:
+        """Read poses and velocities after the step of the engine."""
+        state = table.state_with_background.take(self.rows, axis=0)
+        self.poses, self.velocities = state[:, :3].copy(), state[:, 3:].copy()
 
     def write_velocities(self, changes: Floats) -> None:
         """Add (b, 3) changes to the velocities, here and in the engine."""
-        self.velocities[:] += changes
+        self.velocities += changes
         moved = changes.any(axis=1)
         memory.write_numbers(self.places[moved], memory.BODY_TWIST, self.velocities[moved])
+
+    def numbers_of(self, rows: Rows) -> Rows:
+        """Return the numbers of bodies in the table, of any shape, among these."""
+        order = np.argsort(self.rows)
+        return order[np.searchsorted(self.rows, rows, sorter=order)]
 
 
 class JointSolver:
@@ -113,7 +132,9 @@ class JointSolver:
     def __init__(self, dt: float) -> None:
         self._dt = dt
         # Kept while the same bodies are jointed and touch.
-        self._system: SaddlePoint | None = None
+        self._key: tuple[JointTable, BodyTable, bytes] | None = None
+        self._bodies: Bodies
+        self._system: SaddlePoint
 
     def solve(self, joints: JointTable, table: BodyTable) -> None:
         """Change velocities, poses and impulses of jointed bodies and of what they touch."""
@@ -121,23 +142,20 @@ class JointSolver:
             return
         jointed = joints.rows(table.bodies)
         contacts = read_contacts(table, jointed[table.columns.dynamic[jointed]])
-        bodies = _bodies_of(table, jointed, contacts.ends)
-        ends = np.concatenate((joints.ends, *[_places_of(bodies, contacts)] * 2))
-        system = self._system
-        if (
-            system is None
-            or not np.array_equal(system.ends, ends)
-            or not np.array_equal(system.inverse, bodies.inverse)
-        ):
-            self._system = system = SaddlePoint(ends, bodies.inverse)
-        step = _Step(joints, contacts, bodies, system, self._dt)
+        key = joints, table, contacts.ends.tobytes()
+        if key != self._key:
+            self._key, self._bodies = key, Bodies(table, jointed, contacts.ends)
+            ends = (joints.ends, *[self._bodies.numbers_of(contacts.ends)] * 2)
+            self._system = SaddlePoint(np.concatenate(ends), self._bodies.inverse)
+        bodies = self._bodies
+        bodies.read(table)
+        step = _Step(joints, contacts, bodies, self._system, self._dt)
         # A slow swing would fall asleep at its turn. The idle time of static bodies is infinite.
-        dynamic = bodies.inverse.any(axis=1)
-        memory.write_numbers(bodies.places[dynamic], memory.BODY_IDLE_TIME, 0.0)
+        memory.write_numbers(bodies.places[bodies.dynamic], memory.BODY_IDLE_TIME, 0.0)
         step.solve_velocities()
         step.solve_positions()
         table.forget_state()
-        table.write_poses(bodies.rows[dynamic], bodies.poses[dynamic])
+        table.write_poses(bodies.rows[bodies.dynamic], bodies.poses[bodies.dynamic])
 
 
 class _Step:
@@ -165,8 +183,11 @@ class _Step:
         self._of_joints = slice(0, count)
         self._normals = slice(count, count + points)
         self._tangents = slice(count + points, count + 2 * points)
+        self._slop = np.where(joints.equal, 0.0, LIMIT_SLOP)
         # Rows of joints that have not reached their greatest force.
         self._holding = np.ones(count, np.bool_)
+        # The rows of joints where the engine's step ends.
+        self._rows = joints.read(bodies.poses)
 
     def _per_row(
         self, joints: Floats | float, normals: Floats | float, tangents: Floats | float
@@ -182,7 +203,7 @@ class _Step:
     def solve_velocities(self) -> None:
         """Solve joints, contacts and friction in velocities."""
         joints, contacts, bodies, system = self._joints, self._contacts, self._bodies, self._system
-        rows = joints.read(bodies.poses)
+        rows = self._rows
         jacobian = np.concatenate((rows.jacobian, contacts.normals, contacts.tangents))
         given = self._per_row(joints.impulses(rows), *contacts.impulses)
         without = -system.momenta(jacobian, given) * bodies.inverse
@@ -236,7 +257,7 @@ class _Step:
         sides[tangents] = np.where(slides, np.where(given[tangents] < 0.0, -1, 1), 0)
         cone = Problem(pressing.jacobian, pressing.wanted, lower, upper)
         solution = self._system.solve(cone, sides, even, FRICTION_ROUNDS)
-        if not solution.wrong.any():
+        if not np.count_nonzero(solution.wrong):
             return solution
         wrong = solution.wrong.copy()
         wrong[: tangents.start] = False
@@ -274,7 +295,7 @@ class _Step:
         count = len(self._islands)
         paid = np.bincount(self._islands, lost, count)
         owed = np.maximum(np.bincount(self._islands, gained, count), 1e-300)
-        share: Floats = np.clip(paid / owed, 0.0, 1.0)
+        share: Floats = np.minimum(np.maximum(paid / owed, 0.0), 1.0)
         return share
 
     # Positions
@@ -285,15 +306,18 @@ class _Step:
         normals = np.zeros((len(self._of_row), 2, 3))
         normals[self._normals] = contacts.normals
         start = bodies.poses.copy()
-        bodies.poses[:] += self._take_pushes(normals)
+        moves = self._take_pushes(normals)
+        bodies.poses += moves
         pushed = bodies.poses.copy()
         # Of an overlap the engine's share of a step is pushed out; nothing gets deeper.
         apart = contacts.distance + COLLISION_SLOP
         apart = apart - np.minimum(apart, 0.0) * COLLISION_BIAS**self._dt
-        rows, most = joints.read(bodies.poses), FASTEST_CORRECTION * self._dt
+        rows, most = self._rows, FASTEST_CORRECTION * self._dt
+        if np.count_nonzero(moves):
+            rows = joints.read(bodies.poses)
         gaps = self._gaps(rows)
         # Parts of gaps that are too wide to be closed in one step.
-        left = gaps - np.clip(gaps, -most, most)
+        left = gaps - np.minimum(np.maximum(gaps, -most), most)
         impulses, count = np.zeros(len(self._of_row)), len(self._islands)
         # Of each island the iterate of the least error.
         best, best_impulses = bodies.poses.copy(), impulses
@@ -308,11 +332,12 @@ class _Step:
             np.add.at(sums, of_row, errors)
             better = sums < least
             least = np.minimum(sums, least)
-            best[better[self._islands]] = bodies.poses[better[self._islands]]
+            of_body = better[self._islands]
+            best[of_body] = bodies.poses[of_body]
             best_impulses = np.where(better[self._of_row], impulses, best_impulses)
             wide = np.zeros(count, np.bool_)
             wide[of_row[errors > (CLOSED if number else NEGLIGIBLE)]] = True
-            if number == MOST_STEPS or not wide.any():
+            if number == MOST_STEPS or not np.count_nonzero(wide):
                 break
             solution = self._newton_step(
                 JointRows(gaps, rows.jacobian), distance, impulses, wide[self._of_row]
@@ -321,7 +346,7 @@ class _Step:
             bodies.poses[:] += solution.changes * share[self._islands][:, None]
             impulses = impulses + solution.impulses * share[self._of_row]
             rows = joints.read(bodies.poses)
-        if not best_impulses.any():
+        if not np.count_nonzero(best_impulses):
             return
         bodies.poses[:] = best
         self._remove_velocity(best - pushed, rows, best_impulses)
@@ -329,8 +354,7 @@ class _Step:
     def _gaps(self, rows: JointRows) -> Floats:
         """Return (j,) float64: C of the rows of joints that hold, less the slop of limits."""
         excess = np.where(self._holding, rows.excess, 0.0)
-        slop = np.where(self._joints.equal, 0.0, LIMIT_SLOP)
-        gaps: Floats = np.sign(excess) * np.maximum(np.abs(excess) - slop, 0.0)
+        gaps: Floats = np.sign(excess) * np.maximum(np.abs(excess) - self._slop, 0.0)
         return gaps
 
     def _newton_step(
@@ -367,11 +391,11 @@ class _Step:
         pushes = memory.read_numbers(bodies.places, memory.BODY_BIAS)
         bias = self._per_row(0.0, contacts.bias, 0.0)
         pushes -= self._system.momenta(normals, bias) * bodies.inverse
-        pushes[~bodies.inverse.any(axis=1)] = 0.0
-        jointed = (np.arange(len(pushes)) < bodies.jointed)[:, None]
-        ways: Floats = np.where(jointed, pushes * self._dt, 0.0)
+        pushes[~bodies.dynamic] = 0.0
+        ways: Floats = np.where(bodies.jointed, pushes * self._dt, 0.0)
         # The engine moves what has no joints by the others itself, in the next step.
-        memory.write_numbers(bodies.places, memory.BODY_BIAS, np.where(jointed, 0.0, pushes))
+        others = np.where(bodies.jointed, 0.0, pushes)
+        memory.write_numbers(bodies.places, memory.BODY_BIAS, others)
         return ways
 
     def _trusted(self, changes: Floats, errors: Floats) -> Floats:
@@ -409,30 +433,6 @@ class _Step:
         impulses = contacts.impulses
         impulses[0] += given[self._normals]
         contacts.write_impulses(impulses)
-
-
-def _bodies_of(table: BodyTable, jointed: Rows, touching: Rows) -> Bodies:
-    """
-    Return jointed bodies and what they touch.
-
-    :param jointed: rows of the jointed bodies and the background
-    :param touching: rows of bodies
-    """
-    others = np.zeros(len(table.places), np.bool_)
-    others[touching] = True
-    others[jointed] = False
-    rows = np.concatenate((jointed, np.flatnonzero(others)))
-    places, state = table.places[rows], table.state_with_background[rows]
-    inverse = memory.read_numbers(places, _INVERSES)
-    inverse[~table.columns.dynamic[rows]] = 0.0
-    poses, velocities = state[:, :3].copy(), state[:, 3:].copy()
-    return Bodies(rows, len(jointed), places, inverse, poses, velocities)
-
-
-def _places_of(bodies: Bodies, contacts: ContactRows) -> Rows:
-    """Return (c, 2) intp: the bodies of contacts, as places among the bodies of the solver."""
-    order = np.argsort(bodies.rows)
-    return order[np.searchsorted(bodies.rows, contacts.ends, sorter=order)]
 
 
 def _first_sides(problem: Problem, guess: Floats) -> Ints:

@@ -66,8 +66,8 @@ class JointTable:
         self._owners = _repeated((batch.numbers for batch in batches), counts)
         self.ends = np.stack(
             (
-                _repeated((batch.a for batch in batches), counts),
-                _repeated((batch.b for batch in batches), counts),
+                _repeated((batch.ends[0] for batch in batches), counts),
+                _repeated((batch.ends[1] for batch in batches), counts),
             ),
             axis=1,
         )
@@ -98,14 +98,14 @@ class JointTable:
         """Prepare constraints for a step in which the jointed bodies come to (b, 3) poses."""
         for kind, batch in self._batches:
             if kind.prepare is not None:
-                kind.prepare(batch, poses[batch.a], poses[batch.b])
+                kind.prepare(batch, poses.take(batch.ends, axis=0))
 
     def read(self, poses: Floats) -> JointRows:
         """Return the rows at (b, 3) float64: poses of the jointed bodies and the background."""
-        values, jacobians = [np.empty(0)], [np.empty((0, 2, 3))]
+        values, jacobians = [], []
         for kind, batch in self._batches:
             if kind.rows is not None:
-                value, jacobian = kind.rows(batch, poses[batch.a], poses[batch.b])
+                value, jacobian = kind.rows(batch, poses.take(batch.ends, axis=0))
                 values.append(value.ravel())
                 jacobians.append(jacobian.reshape(-1, 2, 3))
         x = np.concatenate(values)
@@ -183,10 +183,12 @@ def _batches(
             kind,
             Batch(
                 numbers=np.array([number for number, _ in some], np.intp),
-                a=np.array([rows[each.ends.a] for each in group], np.intp),
-                b=np.array([rows[each.ends.b] for each in group], np.intp),
-                at_a=np.array([each.ends.at_a for each in group], np.float64),
-                at_b=np.array([each.ends.at_b for each in group], np.float64),
+                ends=np.array(
+                    [[rows[each.ends.a], rows[each.ends.b]] for each in group], np.intp
+                ).T,
+                anchors=np.array([[each.ends.at_a, each.ends.at_b] for each in group]).swapaxes(
+                    0, 1
+                ),
                 axis=np.array(seats, np.float64),
                 ratio=np.array([each.joint.number('ratio') for each in group], np.float64),
                 lower=bounds[:, :, 0],

@@ -89,6 +89,8 @@ class SaddlePoint:
 
     def __init__(self, ends: Rows, inverse: Floats) -> None:
         self.ends, self.inverse = ends, inverse
+        # (6 r,) of x, y and yaw of both bodies of each row, among those of all bodies.
+        self._coordinates = (3 * ends[..., None] + np.arange(3)).ravel()
         dynamic: Flags = np.asarray(inverse.any(axis=1))
         self.islands = components(len(inverse), ends[dynamic[ends].all(axis=1)])
         self.island_of_row = self.islands[np.where(dynamic[ends[:, 0]], *ends.T)]
@@ -129,17 +131,16 @@ class SaddlePoint:
 
     def rates(self, jacobian: Floats, velocities: Floats) -> Floats:
         """Return (r,) float64: J v, of (b, 3) velocities."""
-        parts = (jacobian * velocities[self.ends]).reshape(-1, 6)
+        parts = (jacobian * velocities.take(self.ends, axis=0)).reshape(-1, 6)
         rates: Floats = np.add.reduce(parts, axis=1)
         return rates
 
     def momenta(self, jacobian: Floats, impulses: Floats) -> Floats:
         """Return (b, 3) float64: J^T λ [N s, N m s]."""
-        pushes = (jacobian * impulses[:, None, None]).reshape(-1, 3)
-        momenta = np.empty_like(self.inverse)
-        for axis in range(3):
-            momenta[:, axis] = np.bincount(self.ends.ravel(), pushes[:, axis], len(momenta))
-        return momenta
+        pushes = (jacobian * impulses[:, None, None]).ravel()
+        # Weighted counts are float64, which the types of NumPy 2.4 do not say.
+        momenta = np.bincount(self._coordinates, pushes, self.inverse.size)
+        return momenta.reshape(-1, 3)  # type: ignore[return-value]
 
     def products(self, one: Floats, other: Floats) -> Floats:
         """Return (b,) float64: the part of each body in u M v of two changes of velocities [J]."""
@@ -156,7 +157,8 @@ class SaddlePoint:
         np.multiply(jacobian.reshape(-1, 6), active[:, None], out=used)
         diagonal = np.add.reduce(used * used * self._inverse_of_rows, axis=1)
         self._rows[:, 6] = np.where(diagonal > 0.0, -regularisation * diagonal, -1.0)
-        np.take(self._rows, self._sources, out=self._of_rows)
+        # Any mode but that of the default writes without a copy.
+        self._rows.take(self._sources, out=self._of_rows, mode='clip')
         if self._factors is None:
             self._factors = qdldl.Solver(self._matrix, upper=True)
         else:
@@ -173,7 +175,7 @@ class SaddlePoint:
         pushes = np.zeros(self._unknowns) if momenta is None else momenta[self._moved].ravel()
         # For `solve` to be called is for `factor` to have been.
         found = self._factors.solve(np.concatenate((pushes, wanted)))  # type: ignore[union-attr]
-        changes, count = np.zeros_like(self.inverse), self._unknowns
+        changes, count = np.zeros(self.inverse.shape), self._unknowns
         changes[self._moved] = found[:count].reshape(-1, 3)
         return -found[count:], changes
 
@@ -194,7 +196,7 @@ class SaddlePoint:
             fixed = np.where(sides < 0, lower, upper)
             fixed[active] = 0.0
             self.factor(jacobian, active, regularisation)
-            momenta = self.momenta(jacobian, fixed) if fixed.any() else None
+            momenta = self.momenta(jacobian, fixed) if np.count_nonzero(fixed) else None
             found, changes = self.solve_active(np.where(active, wanted, 0.0), momenta)
             impulses = np.where(active, found, fixed)
             rounding = SHARE_OF_ROUNDING * self._greatest(impulses)
@@ -203,7 +205,7 @@ class SaddlePoint:
             inward = np.where(sides < 0, beyond < -ROUNDING, (sides > 0) & (beyond > ROUNDING))
             inward &= lower < upper
             wrong = below | above | inward
-            if not following or not wrong.any():
+            if not following or not np.count_nonzero(wrong):
                 break
             changed = wrong if following >= rounds // 2 else self._last(wrong)
             sides[changed] = np.where(below, -1, np.where(above, 1, 0))[changed]

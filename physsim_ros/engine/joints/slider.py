@@ -70,16 +70,17 @@ def _bounds(joint: Joint) -> list[tuple[float, float]]:
     return [EQUAL, (phase, phase), *([] if limits == (-math.inf, math.inf) else [limits])]
 
 
-def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    found = rows.both(rows.on_line(batch, a, b), rows.angle(batch, a, b))
-    return rows.both(found, rows.along_line(batch, a, b)) if batch.lower.shape[1] > 2 else found
+def _rows(batch: Batch, poses: Floats) -> tuple[Floats, Floats]:
+    found = rows.both(rows.on_line(batch, poses), rows.angle(batch, poses))
+    return rows.both(found, rows.along_line(batch, poses)) if batch.lower.shape[1] > 2 else found
 
 
-def _prepare(batch: Batch, a: Floats, b: Floats) -> None:
+def _prepare(batch: Batch, poses: Floats) -> None:
     """Put the other end of each `PinJoint` across the line from the anchor."""
-    _, arm_b, apart = rows.arms(batch, a, b)
-    across = rows.across(rotated_each(batch.axis, b[:, 2]))
-    anchors = rotated_each(arm_b + apart - across * _ARM, -b[:, 2])
+    _, arm_b, apart = rows.arms(batch, poses)
+    yaw = poses[1, :, 2]
+    across = rows.across(rotated_each(batch.axis, yaw))
+    anchors = rotated_each(arm_b + apart - across * _ARM, -yaw)
     for pointer, anchor in zip(batch.constraints, anchors.tolist(), strict=True):
         lib.cpPinJointSetAnchorA(pointer, anchor)
 

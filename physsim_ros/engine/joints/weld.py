@@ -23,8 +23,8 @@ def _bounds(joint: Joint) -> list[tuple[float, float]]:
     return [EQUAL, EQUAL, (joint.seat.phase, joint.seat.phase)]
 
 
-def _rows(batch: Batch, a: Floats, b: Floats) -> tuple[Floats, Floats]:
-    return rows.both(rows.point(batch, a, b), rows.angle(batch, a, b))
+def _rows(batch: Batch, poses: Floats) -> tuple[Floats, Floats]:
+    return rows.both(rows.point(batch, poses), rows.angle(batch, poses))
 
 
 KIND = Kind(_constraints, _bounds, _rows)
