@@ -17,7 +17,7 @@ import sys
 import time
 
 from physsim_ros.drawing import DrawingSession, Tool
-from physsim_ros.model.errors import PhysSimError, Refusal
+from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.model.texts import counted
@@ -137,7 +137,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _create_subscriptions(self) -> None:
         frame_id = self._values['frame_id']
-        self.requests = RequestSubscriptions(self, self._refuse_message)
+        self.requests = RequestSubscriptions(self, self.simulation.requests)
         self._diagnostics = DiagnosticsPublisher(
             self, self.simulation, self.outputs, self.requests
         )
@@ -158,7 +158,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             advance_frame=self.advance_frame,
             on_seek=self.outputs.statistics.reset_pace,
         )
-        self._time_control.subscribe(self.requests, self._refuse_message)
+        self._time_control.subscribe(self.requests)
 
     def _create_services(self) -> None:
         simulation = self.simulation
@@ -179,9 +179,9 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._parameter_services = ParameterServices(self, calls)
         control = WorldControl(
             simulation=simulation,
-            frame_id=self._values['frame_id'],
+            values=self._values,
+            set_parameter=partial(parameters.set_value, self),
             world_dir=self.world_files.directory,
-            world_file=lambda: str(self._values['world_file']),
             drawing_settings=lambda: parameters.drawing_settings(self._values),
             current_snapshot=self._current_snapshot,
             submit_call=deferred_calls.submit,
@@ -191,16 +191,12 @@ class PhysSimNode(NodeWithoutQosEvents):
             save_world=partial(self._perform_on, services['save_world']),
             set_speed=self._time_control.set_speed,
             seek=self._time_control.seek,
-            is_frozen=lambda: self._values['sketchpad_frozen'],
             locked_bodies=lambda: parameters.listed_names(self._values['sketchpad_locked']),
-            set_frozen=self._set_frozen,
-            set_locked=self._set_locked,
         )
         create_simulation_services(self, control, calls)
         self._pages = Pages(
             self,
             self.outputs,
-            self._values,
             control,
             apply_requests=self.apply_requests,
             is_started=lambda: self._started,
@@ -219,16 +215,6 @@ class PhysSimNode(NodeWithoutQosEvents):
         except PhysSimError:
             parameters.set_value(self, 'world_file', before)
             raise
-
-    def _set_frozen(self, frozen: bool) -> str:  # noqa: FBT001 - the value of a parameter
-        """Set whether pages of pupils change nothing; return a message about it."""
-        parameters.set_value(self, 'sketchpad_frozen', frozen)
-        return 'the pages are frozen' if frozen else 'the pages are no longer frozen'
-
-    def _set_locked(self, names: tuple[str, ...]) -> str:
-        """Set the bodies that pages of pupils do not change; return a message about it."""
-        parameters.set_value(self, 'sketchpad_locked', ','.join(names))
-        return f'locked {", ".join(names)}' if names else 'no body is locked'
 
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
@@ -369,9 +355,6 @@ class PhysSimNode(NodeWithoutQosEvents):
         )
 
     # Answers
-
-    def _refuse_message(self, refusal: Refusal, topic: str) -> None:
-        self.simulation.requests.refuse(refusal, topic=topic, subject='')
 
     def _report_answers(self) -> tuple[Answer, ...]:
         """Publish and log the answers that no frame carries, and return them."""

@@ -9,10 +9,9 @@ Law: a value of the parameter that cannot have its effect is refused before it i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 import sys
-from typing import Any
 
 from physsim_ros.model.errors import BadProperty, PhysSimError
 from physsim_ros.ros.frame_outputs import FrameOutputs
@@ -26,7 +25,6 @@ class Pages:
 
     :param node: whose executor handles their messages before the node has started
     :param outputs: of the node; they have the sketchpad while it is served
-    :param values: of the parameters of the node, by name, always up to date
     :param control: the actions of the node that pages use
     :param apply_requests: applies the waiting requests, and publishes what they changed
     :param is_started: returns whether the node has started: its ticks handle the messages then
@@ -36,7 +34,6 @@ class Pages:
         self,
         node: Node,
         outputs: FrameOutputs,
-        values: Mapping[str, Any],
         control: WorldControl,
         *,
         apply_requests: Callable[[], object],
@@ -44,7 +41,6 @@ class Pages:
     ) -> None:
         self._node = node
         self._outputs = outputs
-        self._values = values
         self._control = control
         self._apply_requests = apply_requests
         self._is_started = is_started
@@ -57,7 +53,7 @@ class Pages:
         """
         if value != 'serve' or self._outputs.sketchpad is not None:
             return
-        values = self._values
+        values = self._control.values
         try:
             sketchpad = Sketchpad(
                 self._control,
@@ -76,7 +72,7 @@ class Pages:
 
     def update(self) -> None:
         """Close the sketchpad, or show the world on it, as its parameter says."""
-        if self._values['sketchpad'] != 'serve':
+        if self._control.values['sketchpad'] != 'serve':
             self._outputs.close_sketchpad()
         elif self._outputs.frame is None:
             # A page shows the world before its time has begun.

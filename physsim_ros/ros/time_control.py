@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from physsim_ros.model.errors import Refusal, Running
+from physsim_ros.model.errors import Running
 from physsim_ros.model.snapshot import Answer, run_state
 from physsim_ros.ros import parameters
 from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
@@ -61,30 +61,17 @@ class TimeControl:
             'step': self.step,
         }
 
-    def subscribe(
-        self, subscriptions: RequestSubscriptions, refuse: Callable[[Refusal, str], None]
-    ) -> None:
-        """
-        Subscribe to `~/speed` and `~/seek`.
-
-        :param refuse: answers a refused message, by refusal and topic
-        """
-
-        def perform(topic: str, action: Callable[[], str]) -> None:
-            try:
-                message = action()
-            except Refusal as refusal:
-                refuse(refusal, topic)
-            else:
-                self._simulation.requests.tell(Answer(topic=topic, message=message))
+    def subscribe(self, subscriptions: RequestSubscriptions) -> None:
+        """Subscribe to `~/speed` and `~/seek`."""
+        requests = self._simulation.requests
 
         def set_speed(message: Float64) -> None:
-            perform('~/speed', lambda: self.set_speed(message.data))
+            requests.tell(Answer(topic='~/speed', message=self.set_speed(message.data)))
 
         def seek(message: Clock) -> None:
             stamp = message.clock.sec * 10**9 + message.clock.nanosec
             self._on_seek()
-            self._simulation.requests.submit_seek(stamp, topic='~/seek')
+            requests.submit_seek(stamp, topic='~/seek')
 
         subscriptions.add(Float64, '~/speed', set_speed)
         subscriptions.add(Clock, '~/seek', seek)

@@ -185,7 +185,7 @@ class PageSession:
         :param kind: of a message
         :raises Frozen: it is refused
         """
-        if self.role is Role.DRAW and kind not in WHILE_FROZEN and self.world.is_frozen():
+        if self.role is Role.DRAW and kind not in WHILE_FROZEN and self.world.is_frozen:
             raise Frozen('a teacher has frozen this world')
 
     def with_material(self, requests: Iterable[Request]) -> tuple[Request, ...]:

@@ -170,7 +170,7 @@ class Sketchpad:
         ]
         return {
             'type': 'class',
-            'frozen': self._world.is_frozen(),
+            'frozen': self._world.is_frozen,
             'locked': self._world.locked_bodies(),
             'people': people,
         }
@@ -195,7 +195,7 @@ class Sketchpad:
 
         def load() -> str:
             content = upload.take()
-            if self._world.is_frozen() and upload.role is not Role.TEACH:
+            if self._world.is_frozen and upload.role is not Role.TEACH:
                 raise Frozen('a teacher has frozen this world')
             if content is None:
                 raise Busy('an upload has waited too long; nothing was done')
@@ -234,8 +234,8 @@ class Sketchpad:
                 'client': str(number),
                 'version': VERSION,
                 'physics_rate': simulation.physics_rate,
-                'frame_id': self._world.frame_id,
-                'rate': simulation.physics_rate / simulation.frame_steps,
+                'frame_id': self._world.values['frame_id'],
+                'rate': self._world.values['publish_rate'],
                 'rerun': self._recording_path(),
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,

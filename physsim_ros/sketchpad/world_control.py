@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
@@ -26,9 +27,9 @@ class WorldControl:
     The actions of a node; a returned text is a message about it.
 
     :param simulation: the world and its time
-    :param frame_id: name of the world frame
+    :param values: of the parameters of the node, by name, always up to date
+    :param set_parameter: sets a parameter by its name; raises a Refusal
     :param world_dir: directory of the user's worlds
-    :param world_file: returns the name or path of the world that was loaded or saved last
     :param drawing_settings: returns the settings of drawing
     :param current_snapshot: applies the waiting requests; returns the snapshot that is shown
     :param submit_call: makes a call at its time and tells its answers; raises Busy where too many
@@ -40,16 +41,13 @@ class WorldControl:
     :param save_world: saves the world under a name; raises a PhysSimError
     :param set_speed: sets the speed [simulation seconds a second]; raises a Refusal
     :param seek: goes to a simulation time [ns]; raises a Refusal
-    :param is_frozen: returns whether pages of pupils change nothing
-    :param locked_bodies: returns patterns of the names of bodies that they do not change
-    :param set_frozen: sets the first
-    :param set_locked: sets the second; raises a Refusal
+    :param locked_bodies: returns patterns of the names of bodies that pupils do not change
     """
 
     simulation: Simulation
-    frame_id: str
+    values: Mapping[str, Any]
+    set_parameter: Callable[[str, str | bool], None]
     world_dir: Path
-    world_file: Callable[[], str]
     drawing_settings: Callable[[], DrawingSettings]
     current_snapshot: Callable[[], Snapshot]
     submit_call: Callable[[Callable[[], Iterable[Answer]], Wait], None]
@@ -59,7 +57,9 @@ class WorldControl:
     save_world: Callable[[str], str]
     set_speed: Callable[[float], str]
     seek: Callable[[int], str]
-    is_frozen: Callable[[], bool]
     locked_bodies: Callable[[], tuple[str, ...]]
-    set_frozen: Callable[[bool], str]
-    set_locked: Callable[[tuple[str, ...]], str]
+
+    @property
+    def is_frozen(self) -> bool:
+        """Whether pages of pupils change nothing."""
+        return bool(self.values['sketchpad_frozen'])

@@ -68,14 +68,9 @@ class RequestTopics:
             self._submit(marker, topic=topic, convert=conversions.body_request, joined=number > 0)
 
     def _make_walls(self, message: OccupancyGrid) -> None:
-        topic = '~/walls'
-        try:
-            requests = conversions.walls_requests(message, frame_id=self._frame_id)
-        except Refusal as refusal:
-            self._requests.refuse(refusal, topic=topic, subject='')
-            return
+        requests = conversions.walls_requests(message, frame_id=self._frame_id)
         for number, request in enumerate(requests):
-            self._requests.submit(request, topic=topic, joined=number > 0)
+            self._requests.submit(request, topic='~/walls', joined=number > 0)
 
     def _submit(
         self,

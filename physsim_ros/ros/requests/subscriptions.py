@@ -4,9 +4,10 @@
 """
 Subscriptions of requests.
 
-Law: no message of a burst is lost, and a message that cannot be decoded is answered. rclpy drops
-such a message silently; so messages arrive as bytes here. Small ones are decoded in the callback,
-large ones one at a time, behind all messages that have arrived (`message_queue`).
+Law: no message of a burst is lost, and one that cannot be decoded, or is refused by what handles
+it, is answered. rclpy drops messages that it cannot decode silently; so they arrive as bytes here.
+Small ones are decoded in the callback, large ones one at a time, behind all messages that have
+arrived (`message_queue`).
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests.cdr_reader import Truncated
 from physsim_ros.ros.requests.decoders import DECODERS
 from physsim_ros.ros.requests.message_queue import MessageQueue
+from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
@@ -37,33 +39,31 @@ class RequestSubscriptions:
     The subscriptions of a node whose messages are requests.
 
     :param node: that owns them
-    :param refuse: answers a refused message, by refusal and topic
+    :param requests: the queue that answers refused messages
     :ivar undecodable: number of messages that could not be decoded
     :ivar queue: of messages that wait to be decoded
     """
 
-    def __init__(self, node: Node, refuse: Callable[[Refusal, str], None]) -> None:
+    def __init__(self, node: Node, requests: RequestQueue) -> None:
         self.undecodable = 0
         self.queue = MessageQueue(node)
         self._node = node
-        self._refuse = refuse
+        self._requests = requests
 
     def add(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
-        """Subscribe to messages of a type."""
+        """Subscribe to messages of a type; a `Refusal` that the callback raises is answered."""
 
         def handle(data: bytes) -> None:
             try:
-                message = self._decoded(data, kind)
+                callback(self._decoded(data, kind))
             except Refusal as refusal:
-                self._refuse(refusal, topic)
-            else:
-                callback(message)
+                self._requests.refuse(refusal, topic=topic, subject='')
 
         def receive(data: bytes) -> None:
             try:
                 self.queue.add_message(handle, data)
             except Busy as refusal:
-                self._refuse(refusal, topic)
+                self._requests.refuse(refusal, topic=topic, subject='')
 
         self._node.create_subscription(kind, topic, receive, LOSSLESS, raw=True)
 

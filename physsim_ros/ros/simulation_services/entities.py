@@ -60,6 +60,7 @@ class Entities:
 
     def __init__(self, control: WorldControl) -> None:
         self._control = control
+        self._frame_id = str(control.values['frame_id'])
 
     def spawnables(self, request: Any, response: Any) -> str:
         """List what `spawn` takes by name: shipped robots and plain shapes."""
@@ -90,7 +91,7 @@ class Entities:
             pose = planar_pose(request.initial_pose.pose, 'initial_pose')
         with failing_with(SpawnEntity.Response.RESOURCE_PARSE_ERROR):
             spawn = spawn_from(entry)
-        frame = named_frame(request.initial_pose.header.frame_id, self._control.frame_id)
+        frame = named_frame(request.initial_pose.header.frame_id, self._frame_id)
         with failing_with(SpawnEntity.Response.INVALID_POSE):
             spawn = replace(spawn, pose=pose, frame=frame)
         message = self._perform_spawn(spawn)
@@ -112,9 +113,9 @@ class Entities:
         state, name = request.state, request.entity
         snapshot = self._control.current_snapshot()
         body = snapshot.scene.bodies[snapshot.row(name)]
-        if named_frame(state.header.frame_id, self._control.frame_id):
+        if named_frame(state.header.frame_id, self._frame_id):
             raise failed(
-                f'a state is set in the frame {self._control.frame_id!r} only',
+                f'a state is set in the frame {self._control.values["frame_id"]!r} only',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='state.header.frame_id',
             )
@@ -172,7 +173,7 @@ class Entities:
 
     def _state_of(self, snapshot: Snapshot, row: int) -> EntityState:
         state = EntityState()
-        state.header.frame_id = self._control.frame_id
+        state.header.frame_id = self._frame_id
         state.header.stamp.sec, state.header.stamp.nanosec = divmod(snapshot.stamp, 10**9)
         x, y, yaw = snapshot.poses[row].tolist()
         state.pose.position.x, state.pose.position.y = x, y

@@ -206,7 +206,7 @@ class TimeAndWorlds:
         return int(_PAUSED if simulation.step else _STOPPED)
 
     def _current(self) -> WorldResource:
-        uri = self._control.world_file()
+        uri = str(self._control.values['world_file'])
         name = Path(uri).stem
         known = (each for each in self._worlds() if each.name == name)
         return next(known, WorldResource(name=name, uri=uri))

@@ -44,13 +44,15 @@ def take_back(page: PageSession, origin: Origin) -> None:
 @message('freeze', 'page', frozen=flag)
 def freeze(page: PageSession, origin: Origin, *, frozen: bool) -> None:
     """Freeze the pages of pupils, or free them."""
-    page.answer_page(origin, page.world.set_frozen(frozen))
+    page.world.set_parameter('sketchpad_frozen', frozen)
+    page.answer_page(origin, f'the pages are {"frozen" if frozen else "no longer frozen"}')
 
 
 @message('lock', 'page', names=_patterns)
 def lock(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     """Lock bodies, so that pages of pupils do not change them, in place of those before."""
-    page.answer_page(origin, page.world.set_locked(names))
+    page.world.set_parameter('sketchpad_locked', ','.join(names))
+    page.answer_page(origin, f'locked {", ".join(names)}' if names else 'no body is locked')
 
 
 @message('clear_of', '~/command', person=fields.person)
