@@ -37,8 +37,8 @@ class WorldControl:
     :param services: actions by the names of the services, with their times; each raises a
         PhysSimError where it is refused
     :param note_change: has parameters follow what was changed, and a short seek be done at once
-    :param load_world: loads the world of a name; raises a PhysSimError
-    :param save_world: saves the world under a name; raises a PhysSimError
+    :param perform_on: performs a service, `load_world` or `save_world`, on the world of a name;
+        raises a PhysSimError
     :param set_speed: sets the speed [simulation seconds a second]; raises a Refusal
     :param seek: goes to a simulation time [ns]; raises a Refusal
     :param locked_bodies: returns patterns of the names of bodies that pupils do not change
@@ -53,8 +53,7 @@ class WorldControl:
     submit_call: Callable[[Callable[[], Iterable[Answer]], Wait], None]
     services: Mapping[str, tuple[Callable[[], str], Wait]]
     note_change: Callable[[], None]
-    load_world: Callable[[str], str]
-    save_world: Callable[[str], str]
+    perform_on: Callable[[str, str], str]
     set_speed: Callable[[float], str]
     seek: Callable[[int], str]
     locked_bodies: Callable[[], tuple[str, ...]]

@@ -179,7 +179,7 @@ class TimeAndWorlds:
         if Path(uri).suffix not in ('', '.yaml'):
             raise failed('a world is a YAML file', codes.UNSUPPORTED_FORMAT, field='uri')
         try:
-            message = self._control.load_world(uri)
+            message = self._control.perform_on('load_world', uri)
         except BadWorldFile as refusal:
             # One that is there, but no world, has a cause.
             result = codes.RESOURCE_PARSE_ERROR if refusal.cause else Result.RESULT_NOT_FOUND

@@ -65,12 +65,10 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
     if name in ('clear', 'load_world'):
         page.check_locked((DeleteAll(),))
     action, wait = page.world.services[name]
-    if world and name == 'load_world':
-        action = partial(page.world.load_world, world)
-    elif world and name == 'save_world':
-        action = partial(page.world.save_world, world)
-    elif world:
-        raise BadWorldFile(f'~/{name} takes no world', field='world')
+    if world:
+        if name not in ('load_world', 'save_world'):
+            raise BadWorldFile(f'~/{name} takes no world', field='world')
+        action = partial(page.world.perform_on, name, world)
     page.perform(origin, partial(_saving, page, action) if name == 'save_world' else action, wait)
 
 
@@ -100,7 +98,7 @@ def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
 def open_world(page: PageSession, origin: Origin, name: str) -> None:
     """Load a world."""
     page.check_locked((DeleteAll(),))
-    page.perform(origin, partial(page.world.load_world, name), Wait.FOR_SEEK)
+    page.perform(origin, partial(page.world.perform_on, 'load_world', name), Wait.FOR_SEEK)
 
 
 @message('save', '~/save_world', name=_world_name, replace=Optional(flag))
@@ -114,7 +112,7 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     def save() -> str:
         page.own_worlds.check_free(check_world_name(name), replace=replace)
         page.own_worlds.keep(name)
-        return page.world.save_world(name)
+        return page.world.perform_on('save_world', name)
 
     page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
 
