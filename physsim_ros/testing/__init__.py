@@ -40,27 +40,14 @@ if TYPE_CHECKING:
     )
     from physsim_ros.testing.world import PhysSim
 else:
-    # The modules that import ROS, by the name that each is imported for.
-    _BUILDERS = (
-        'box',
-        'chain',
-        'command',
-        'delete',
-        'delete_all',
-        'disc',
-        'joint',
-        'marker',
-        'point',
-        'polygon',
-    )
-    _WITH_ROS = {'PhysSim': 'world'} | dict.fromkeys(_BUILDERS, 'messages')
-    _WITH_ROS |= dict.fromkeys(('own_context', 'shared_context'), 'context')
+    # The modules that import ROS, by the name that each is imported for; `messages` by others.
+    _WITH_ROS = {'PhysSim': 'world', 'own_context': 'context', 'shared_context': 'context'}
 
     def __getattr__(name: str) -> Any:
         """Import a name when it is first used (PEP 562)."""
-        if name not in _WITH_ROS:
+        if name not in __all__:
             raise AttributeError(f'module {__name__!r} has no attribute {name!r}')
-        return getattr(import_module(f'{__name__}.{_WITH_ROS[name]}'), name)
+        return getattr(import_module(f'{__name__}.{_WITH_ROS.get(name, "messages")}'), name)
 
     def __dir__() -> list[str]:
         """Return all names, those that are imported at their first use too."""

@@ -27,10 +27,10 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.encoders.contacts import ContactsEncoder
-from physsim_ros.ros.encoders.events import encode_event
 from physsim_ros.ros.encoders.markers import MarkersEncoder
 from physsim_ros.ros.encoders.poses import PosesEncoder
 from physsim_ros.ros.encoders.states import StatesEncoder
+from physsim_ros.ros.publishers.event_publisher import encode_event
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.requests.decoders import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation

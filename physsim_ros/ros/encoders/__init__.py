@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Encoders: frames and answers become messages, one file for each stream.
+Encoders: frames become messages, one file for each stream.
 
 Messages with a part for each body, joint or contact are written as bytes (`cdr`): arrays of NumPy
 are copied into a template, without an object for each part, which took 40 times as long. The bytes

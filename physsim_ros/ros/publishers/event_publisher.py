@@ -8,10 +8,11 @@ from __future__ import annotations
 from collections import deque
 import time
 
+from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros.encoders.events import encode_event
 from rclpy.duration import Duration
 from rclpy.publisher import Publisher
+from rclpy.serialization import serialize_message
 
 # Depth of `~/events`. A full history loses messages that are not yet acknowledged; so the answers
 # of a longer burst wait until earlier ones have been acknowledged.
@@ -95,3 +96,24 @@ class EventPublisher:
             self._period_count, self._period_end = 0, now + STOPPED_PERIOD
         self._period_count += 1
         return self._period_count <= STOPPED_ANSWERS
+
+
+def encode_event(answer: Answer) -> bytes:
+    """Return an answer as a serialised message, which takes a tenth of the memory of an object."""
+    field = [('field', answer.field)] if answer.field else []
+    values = [('code', answer.code or 'ok'), *field, *answer.values]
+    message: bytes = serialize_message(
+        DiagnosticStatus(
+            level=DiagnosticStatus.ERROR if answer.code else DiagnosticStatus.OK,
+            name=answer.topic,
+            message=_encodable(answer.message),
+            hardware_id=_encodable(answer.subject),
+            values=[KeyValue(key=key, value=_encodable(value)) for key, value in values],
+        )
+    )
+    return message
+
+
+def _encodable(text: str) -> str:
+    """Return a text with '?' for characters without UTF-8, as half surrogates of file names."""
+    return text.encode(errors='replace').decode()

@@ -13,7 +13,7 @@ alone: `page_socket` carries it out.
 """
 
 from physsim_ros.sketchpad.message import read_message
-from physsim_ros.sketchpad.messages import bodies, classroom, drawing, robots, worlds
+from physsim_ros.sketchpad.messages import bodies, classroom, drawing, worlds
 from physsim_ros.sketchpad.messages.worlds import ACTIONS
 
-__all__ = ['ACTIONS', 'bodies', 'classroom', 'drawing', 'read_message', 'robots', 'worlds']
+__all__ = ['ACTIONS', 'bodies', 'classroom', 'drawing', 'read_message', 'worlds']

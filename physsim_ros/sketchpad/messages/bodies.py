@@ -1,7 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Messages that add, change, move, copy and delete bodies or joints, watch a body, set gravity."""
+"""
+Messages about bodies and joints: add, change, move, copy, delete, watch them, drive robots.
+
+And what acts on all bodies: gravity, air.
+"""
 
 from __future__ import annotations
 
@@ -17,6 +21,7 @@ from physsim_ros.model.requests import (
     ChangeBody,
     Configure,
     DeleteBodies,
+    DriveRobot,
     Join,
     MoveBodies,
     Spawn,
@@ -24,7 +29,7 @@ from physsim_ros.model.requests import (
     unset_in,
 )
 from physsim_ros.model.texts import counted
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import Point, REST, Twist
 from physsim_ros.simulation.world.joint_requests import drawn_points
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
@@ -44,7 +49,7 @@ def _changes(value: object, name: str) -> dict[str, Any]:
     if 'color' in given:
         changes['color'] = fields.color(given.pop('color'), 'color')
     if 'at' in given:
-        changes['pose'] = fields.pose(given.pop('at'), 'at')
+        changes['pose'] = fields.three(given.pop('at'), 'at', 'x', 'y', 'yaw')
     return changes | {'properties': Properties.from_mapping(with_shipped_robot(given, ['robot']))}
 
 
@@ -54,6 +59,11 @@ def _joint_changes(value: object, name: str) -> dict[str, Any]:
     unset = unset_in(given)
     changed = {key: given[key] for key in given if key not in unset}
     return {'properties': JointProperties.from_mapping(changed), 'unset': unset}
+
+
+def _velocity(value: object, name: str) -> Twist:
+    """Return vx forward, vy to the left [m/s], turn counter-clockwise [rad/s]."""
+    return fields.three(value, name, 'forward', 'left', 'turn')
 
 
 def _followed(value: object, name: str) -> frozenset[str]:
@@ -116,6 +126,15 @@ def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
     """Tell the page from now on when other bodies begin to touch these; none is no body."""
     page.followed = names
     page.answer_page(origin, f'following {counted(len(names), "body")}')
+
+
+@message('drive', 'cmd_vel', name=fields.text, velocity=_velocity)
+def drive(page: PageSession, origin: Origin, name: str, velocity: Twist) -> None:
+    """Drive a robot at a velocity; all commands up to one of rest are undone together."""
+    driven, gesture = page.driven
+    request = DriveRobot(name=name, velocity=velocity)
+    gesture = page.submit(origin, (request,), gesture=gesture if driven == name else None)
+    page.driven = ('', 0) if velocity == REST else (name, gesture)
 
 
 # Joints

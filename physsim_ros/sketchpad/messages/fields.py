@@ -17,7 +17,7 @@ from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.texts import is_printable
-from physsim_ros.model.transform import Point, Pose
+from physsim_ros.model.transform import Point
 
 # Length of the name of a person [characters].
 LONGEST_PERSON = 24
@@ -61,12 +61,12 @@ def point(value: object, name: str) -> Point:
     return checked
 
 
-def pose(value: object, name: str) -> Pose:
-    """Return x, y [m] and yaw [rad]."""
+def three(value: object, name: str, *names: str) -> tuple[float, float, float]:
+    """Return the three numbers of a list, which have names."""
     if not isinstance(value, list) or len(value) != 3:
-        raise Malformed(f'{name} must be [x, y, yaw]', field=name)
-    x, y, yaw = (number(each, name) for each in value)
-    return x, y, yaw
+        raise Malformed(f'{name} must be [{", ".join(names)}]', field=name)
+    first, second, third = (number(each, name) for each in value)
+    return first, second, third
 
 
 def color(value: object, name: str) -> Color:
