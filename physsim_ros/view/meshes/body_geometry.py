@@ -10,8 +10,9 @@ bodies are drawn in spawn order, the last one on top.
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 import math
 from types import MappingProxyType
 
@@ -44,18 +45,6 @@ class BodyGroup(MeshGroup):
     first: Body
 
 
-@dataclass(slots=True)
-class _Members:
-    """The bodies of a group that is being made, and the group of that key in the scene before."""
-
-    first: Body
-    before: BodyGroup | None
-    symbols: Strips
-    rows: list[int] = field(default_factory=list)
-    names: list[str] = field(default_factory=list)
-    scales: list[tuple[float, float, float]] = field(default_factory=list)
-
-
 class BodyGeometry:
     """
     The bodies of one scene in groups.
@@ -81,24 +70,44 @@ class BodyGeometry:
         self._keys: dict[int, tuple[Body, Hashable]] = {}
         known = {} if before is None else before._keys  # noqa: SLF001  of the same class
         kept = {} if before is None or before.unit != unit else before._by_key  # noqa: SLF001
-        members: dict[Hashable, _Members] = {}
+        members: defaultdict[Hashable, list[int]] = defaultdict(list)
         for row, body in enumerate(scene.bodies):
             if row in symbols:
                 key: Hashable = body.shape, *_look(body), symbols[row]
             else:
                 _, key = self._keys[id(body)] = known.get(id(body)) or (body, _appearance(body))
-            group = members.get(key)
-            if group is None:
-                group = members[key] = _Members(body, kept.get(key), symbols.get(row, ()))
-            group.rows.append(row)
-            group.names.append(body.name)
-            group.scales.append(_scale(body, group.first))
+            members[key].append(row)
         self._by_key: dict[Hashable, BodyGroup] = {}
-        taken = {each.before.path for each in members.values() if each.before is not None}
-        spacing = DEPTH * unit / max(1, len(scene.bodies))
-        for key, each in members.items():
-            self._by_key[key] = _group(each, unit, spacing, taken)
+        taken = {kept[key].path for key in members if key in kept}
+        for key, rows in members.items():
+            self._by_key[key] = self._group(rows, kept.get(key), symbols.get(rows[0], ()), taken)
         self.groups = list(self._by_key.values())
+
+    def _group(
+        self, rows: list[int], before: BodyGroup | None, symbols: Strips, taken: set[Path]
+    ) -> BodyGroup:
+        """
+        Return the group of some bodies, by their rows.
+
+        :param before: the group of their look in the scene before
+        :param symbols: of joints, in the mesh
+        :param taken: paths of other groups
+        """
+        bodies = [self.scene.bodies[row] for row in rows]
+        first = bodies[0]
+        mesh = None if before is None or before.first.shape != first.shape else before.mesh
+        scales = np.array([_scale(body, first) for body in bodies], dtype=np.float32)
+        spacing = DEPTH * self.unit / len(self.scene.bodies)
+        return BodyGroup(
+            path=before.path if before is not None else _new_path(first.name, taken),
+            first=first,
+            names=tuple(body.name for body in bodies),
+            mesh=mesh or body_mesh(first, self.unit, symbols),
+            opacity=opacity(first),
+            rows=np.array(rows, dtype=np.intp),
+            scales=None if (scales == 1.0).all() else scales,
+            depths=(np.array(rows) * spacing).astype(np.float32),
+        )
 
     def extent(self, poses: Floats) -> Bounds:
         """
@@ -149,23 +158,6 @@ def _scale(body: Body, first: Body) -> tuple[float, float, float]:
         case Box(width=width, height=height), Box(width=wide, height=high):
             return width / wide, height / high, 1.0
     return 1.0, 1.0, 1.0
-
-
-def _group(members: _Members, unit: float, spacing: float, taken: set[Path]) -> BodyGroup:
-    before = members.before
-    scales = np.array(members.scales, dtype=np.float32)
-    rows = np.array(members.rows, dtype=np.intp)
-    mesh = None if before is None or before.first.shape != members.first.shape else before.mesh
-    return BodyGroup(
-        path=before.path if before is not None else _new_path(members.first.name, taken),
-        first=members.first,
-        names=tuple(members.names),
-        mesh=mesh or body_mesh(members.first, unit, members.symbols),
-        opacity=opacity(members.first),
-        rows=rows,
-        scales=None if (scales == 1.0).all() else scales,
-        depths=(rows * spacing).astype(np.float32),
-    )
 
 
 def _new_path(name: str, taken: set[Path]) -> Path:
