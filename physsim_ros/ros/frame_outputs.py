@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import lru_cache
 from pathlib import Path
 import time
 from typing import Any
@@ -139,7 +138,7 @@ class FrameOutputs:
         context = FrameContext(
             real_time_factor=self.statistics.real_time_factor,
             cost=self.statistics.frame_cost,
-            title=_title_of(self._values['world_file']),
+            title=Path(self._values['world_file']).stem or 'empty world',
             traced=parameters.listed_names(self._values['trace']),
         )
         self.viewer.show(frame, context=context)
@@ -158,8 +157,3 @@ class FrameOutputs:
         elif answer.topic == 'viewer':
             # The address of the viewer, for the person at the terminal.
             self._node.get_logger().info(answer.message)
-
-
-@lru_cache(maxsize=1)
-def _title_of(world_file: str) -> str:
-    return Path(world_file).stem or 'empty world'

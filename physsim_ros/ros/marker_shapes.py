@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The marker codec of shapes: one row for each type of marker, and one for each shape.
+The marker codec of shapes: a row for each type of marker, and a case for each shape.
 
 Law: the marker of a shape makes the same shape again.
 """
@@ -10,8 +10,8 @@ Law: the marker of a shape makes the same shape again.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 import math
-from typing import Any
 
 from geometry_msgs.msg import Point as PointMessage
 from physsim_ros.model.checks import check_finite
@@ -68,7 +68,25 @@ def shape_from(marker: Marker) -> Shape:
 
 def geometry_of(shape: Shape) -> Geometry:
     """Return type, scale and points of the marker of a shape."""
-    return _ENCODERS[type(shape)](shape)
+    match shape:
+        case Disc(radius=radius):
+            return Marker.CYLINDER, (2 * radius, 2 * radius, THIN), ()
+        case Box(width=width, height=height):
+            return Marker.CUBE, (width, height, THIN), ()
+        case Polygon(outline=outline):
+            return Marker.LINE_STRIP, (THIN, 0.0, 0.0), (*outline, outline[0])
+        case Chain(points=points, thickness=thickness):
+            (x, y), last = points[0], points[-1]
+            if last == (x, y):
+                # The least change of the last point: a line strip with equal ends is a polygon.
+                points = (*points[:-1], (math.nextafter(x, math.inf), y))
+            return Marker.LINE_STRIP, (thickness, 0.0, 0.0), points
+        case Triangles(vertices=vertices):
+            return Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), vertices
+        case Compound(element=element, centers=centers):
+            kind, scale, _ = geometry_of(element)
+            kind = Marker.CUBE_LIST if kind == Marker.CUBE else Marker.SPHERE_LIST
+            return kind, scale, centers
 
 
 def points_from(points: Sequence[PointMessage]) -> tuple[Point, ...]:
@@ -106,8 +124,8 @@ def _triangles(marker: Marker) -> Triangles:
     return Triangles(vertices=tuple((px * x, py * y) for px, py in points))
 
 
-def _boxes(marker: Marker) -> Compound:
-    return Compound(element=_box(marker), centers=points_from(marker.points))
+def _compound(element: Callable[[Marker], Box | Disc], marker: Marker) -> Compound:
+    return Compound(element=element(marker), centers=points_from(marker.points))
 
 
 def _note(marker: Marker) -> Box:
@@ -121,55 +139,13 @@ def _note(marker: Marker) -> Box:
         raise
 
 
-def _discs(marker: Marker) -> Compound:
-    return Compound(element=_disc(marker), centers=points_from(marker.points))
-
-
-def _of_disc(disc: Disc) -> Geometry:
-    return Marker.CYLINDER, (2 * disc.radius, 2 * disc.radius, THIN), ()
-
-
-def _of_box(box: Box) -> Geometry:
-    return Marker.CUBE, (box.width, box.height, THIN), ()
-
-
-def _of_polygon(polygon: Polygon) -> Geometry:
-    return Marker.LINE_STRIP, (THIN, 0.0, 0.0), (*polygon.outline, polygon.outline[0])
-
-
-def _of_chain(chain: Chain) -> Geometry:
-    points, (x, y) = chain.points, chain.points[0]
-    if points[-1] == (x, y):
-        # The least change of the last point: a line strip with equal ends is a polygon.
-        points = (*points[:-1], (math.nextafter(x, math.inf), y))
-    return Marker.LINE_STRIP, (chain.thickness, 0.0, 0.0), points
-
-
-def _of_triangles(triangles: Triangles) -> Geometry:
-    return Marker.TRIANGLE_LIST, (1.0, 1.0, 1.0), triangles.vertices
-
-
-def _of_compound(compound: Compound) -> Geometry:
-    kind, scale, _ = geometry_of(compound.element)
-    kind = Marker.CUBE_LIST if kind == Marker.CUBE else Marker.SPHERE_LIST
-    return kind, scale, compound.centers
-
-
 _DECODERS: dict[int, Callable[[Marker], Shape]] = {
     Marker.CUBE: _box,
     Marker.SPHERE: _disc,
     Marker.CYLINDER: _disc,
     Marker.LINE_STRIP: _line,
     Marker.TRIANGLE_LIST: _triangles,
-    Marker.CUBE_LIST: _boxes,
-    Marker.SPHERE_LIST: _discs,
+    Marker.CUBE_LIST: partial(_compound, _box),
+    Marker.SPHERE_LIST: partial(_compound, _disc),
     Marker.TEXT_VIEW_FACING: _note,
-}
-_ENCODERS: dict[type[Shape], Callable[[Any], Geometry]] = {
-    Disc: _of_disc,
-    Box: _of_box,
-    Polygon: _of_polygon,
-    Chain: _of_chain,
-    Triangles: _of_triangles,
-    Compound: _of_compound,
 }

@@ -9,7 +9,6 @@ import math
 
 from physsim_ros.appearance import nice_number
 from physsim_ros.model.settings import Bounds
-from physsim_ros.view import styles
 from physsim_ros.view.blueprint import WIDTH
 from physsim_ros.view.camera import PIXELS
 import rerun as rr
@@ -71,11 +70,6 @@ def grid_columns(
         labels=[f'{number * spacing:g} m' for _, number in labelled],
     )
     return list(strips.partition([len(lines)])), list(points.partition([len(labelled)]))
-
-
-def send_style(recording: rr.RecordingStream) -> None:
-    """Log the style of the labels."""
-    recording.log(LABELS, styles.LABELS, static=True)
 
 
 def _multiples(low: float, high: float, spacing: float) -> range:

@@ -59,10 +59,6 @@ def _energies(frame: Frame) -> tuple[float, ...]:
     return *parts, sum(parts)
 
 
-def _momenta(frame: Frame) -> tuple[float, ...]:
-    return frame.snapshot.momentum
-
-
 def angular_momentum(snapshot: Snapshot) -> float:
     """Return the angular momentum of all dynamic bodies about the origin [kg m²/s]."""
     mass, moment = snapshot.scene.inertia.T
@@ -82,7 +78,9 @@ PLOTS = {
         (('kinetic', _ORANGE), ('potential', _BLUE), ('elastic', _GREEN), ('total', _GREY)),
         _energies,
     ),
-    'plots/momentum': Plot('Momentum [kg m/s]', (('x', _ORANGE), ('y', _BLUE)), _momenta),
+    'plots/momentum': Plot(
+        'Momentum [kg m/s]', (('x', _ORANGE), ('y', _BLUE)), lambda frame: frame.snapshot.momentum
+    ),
     'plots/angular_momentum': Plot(
         'Angular momentum about the origin [kg m²/s]',
         (('angular momentum', _PURPLE),),

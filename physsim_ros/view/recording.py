@@ -17,13 +17,13 @@ import numpy as np
 from physsim_ros.model.arrays import Floats, Singles
 from physsim_ros.model.settings import Bounds
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.view import grid
+from physsim_ros.view import grid, styles
 from physsim_ros.view.arrows import ContactArrows, force_scale, VelocityArrows
 from physsim_ros.view.blueprint import blueprint, send_blueprint
 from physsim_ros.view.body_texts import BodyTexts, LABELS_PATH, NAMES_PATH
 from physsim_ros.view.camera import Camera, pinhole
 from physsim_ros.view.event_log import send_events
-from physsim_ros.view.frame_batch import FrameBatch, RecordedClock, Times
+from physsim_ros.view.frame_batch import FrameBatch, RecordedClock
 from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.hand_lines import HandLines
 from physsim_ros.view.joints import JointTrack
@@ -70,7 +70,7 @@ class FrameRecorder:
         self._layout: tuple[bool, bool] | None = None
         recording.log('world/camera', pinhole(), static=True)
         recording.log(WALLS, rr.Mesh3D.from_fields(albedo_factor=WALL), static=True)
-        grid.send_style(recording)
+        recording.log(grid.LABELS, styles.LABELS, static=True)
         self._bodies = MeshTrack(recording)
         self._texts = (
             BodyTexts(recording, NAMES_PATH, lambda scene: scene.names),
@@ -180,7 +180,9 @@ class FrameRecorder:
         for texts in self._texts:
             texts.send_texts(batch)
         self._joints.send_symbols(times, everything=everything)
-        self._send_walls(batch.scene.settings.bounds, bodies.unit, times)
+        corners = wall_corners(batch.scene.settings.bounds, bodies.unit)
+        walls = rr.Mesh3D.columns(vertex_positions=corners).partition([len(corners)])
+        self._recording.send_columns(WALLS, times, walls)
         self._recording.send_columns('world/camera', times, self._camera.transform())
         lines, labels = grid.grid_columns(self._camera.area, bodies.unit)
         self._recording.send_columns(grid.LINES, times, lines)
@@ -188,11 +190,6 @@ class FrameRecorder:
         forces = force_scale(batch.scene, bodies.unit)
         self._contacts.change_scale(forces)
         self._legend.send(batch, forces, bodies.unit)
-
-    def _send_walls(self, bounds: Bounds | None, unit: float, times: Times) -> None:
-        corners = wall_corners(bounds, unit)
-        columns = rr.Mesh3D.columns(vertex_positions=corners).partition([len(corners)])
-        self._recording.send_columns(WALLS, times, columns)
 
 
 def wall_corners(bounds: Bounds | None, unit: float) -> Singles:

@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.view.frame_batch import FrameBatch
 from physsim_ros.view.line_strips import strip_column
 import rerun as rr
@@ -118,16 +118,9 @@ class Traces:
     @staticmethod
     def _flight_height(frame: Frame, row: int, trace: _Trace) -> float | None:
         """Return the height of a body in free flight [m]; None where another flight begins."""
-        now = frame.snapshot
-        if now.stamp < trace.stamp or _is_touched(frame, row) or _is_joined(now, row):
+        now, contacts = frame.snapshot, frame.contacts
+        touched = contacts is not None and (contacts.pairs == row).any()
+        if now.stamp < trace.stamp or touched or (now.scene.joint_rows == row).any():
             return None
         time = (now.stamp - trace.start) * 1e-9
         return trace.height + trace.rise * time + now.scene.settings.gravity[1] * time**2 / 2
-
-
-def _is_touched(frame: Frame, row: int) -> bool:
-    return frame.contacts is not None and bool((frame.contacts.pairs == row).any())
-
-
-def _is_joined(now: Snapshot, row: int) -> bool:
-    return bool((now.scene.joint_rows == row).any())

@@ -110,7 +110,11 @@ class MarkersEncoder:
             for key, (marker, last) in self._gone.items()
             if last > self._count and key not in shown
         }
-        gone |= {key: (self._deletion(key), until) for key in self._shown if key not in shown}
+        gone |= {
+            key: (self._serialise(Symbol(key, action=Marker.DELETE)), until)
+            for key in self._shown
+            if key not in shown
+        }
         markers += [(-1, marker) for marker, _ in gone.values()]
 
         writer = CdrWriter(START)
@@ -170,9 +174,6 @@ class MarkersEncoder:
             joints[joint.name] = known
         self._joints = joints
         return [markers for _, markers in joints.values()]
-
-    def _deletion(self, key: Key) -> _MarkerBytes:
-        return self._serialise(Symbol(key, action=Marker.DELETE))
 
     def _serialise(self, symbol: Symbol) -> _MarkerBytes:
         head = CdrWriter()

@@ -21,7 +21,7 @@ from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError, UnknownProperty
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.parameters.settings import drawing_settings, world_settings
-from physsim_ros.ros.parameters.table import Spec, SPECS, Type
+from physsim_ros.ros.parameters.table import SPECS, Type
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -46,10 +46,10 @@ def declare(node: Node) -> dict[str, Any]:
         check(parameter)
         node.set_parameters([parameter])
         node.set_descriptor(name, spec.descriptor)
-        values[name] = _plain(parameter.value, spec)
+        values[name] = list(parameter.value) if isinstance(spec.default, list) else parameter.value
     world_settings(values)
     drawing_settings(values)
-    node.add_pre_set_parameters_callback(_all_converted)
+    node.add_pre_set_parameters_callback(lambda given: [_converted(each) for each in given])
     return values
 
 
@@ -138,10 +138,6 @@ def set_value(node: Node, name: str, value: str | float) -> None:
         raise BadProperty(result.reason, field=name)
 
 
-def _all_converted(parameters: Iterable[Parameter]) -> list[Parameter]:
-    return [_converted(parameter) for parameter in parameters]
-
-
 def _converted(parameter: Parameter) -> Parameter:
     """Return a parameter with an integer or an empty list converted to the declared type."""
     spec = SPECS.get(parameter.name)
@@ -157,7 +153,3 @@ def _converted(parameter: Parameter) -> Parameter:
         # A message holds an array.array; the value is always a list.
         return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value])
     return parameter
-
-
-def _plain(value: Any, spec: Spec) -> Any:
-    return list(value) if isinstance(spec.default, list) else value
