@@ -79,20 +79,16 @@ class ContactArrows:
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
         _log_style(recording, CONTACTS, CONTACT_COLOR)
-        self._scale = ForceScale(1.0, 1.0)
         # Whether the last row that was sent has arrows, and the time of the frame before [ns].
         self._shown = False
         self._stamp: int | None = None
 
-    def change_scale(self, scale: ForceScale) -> None:
-        """Draw arrows by another scale from now on."""
-        self._scale = scale
-
-    def send(self, batch: FrameBatch, *, height: float) -> None:
+    def send(self, batch: FrameBatch, scale: ForceScale, *, height: float) -> None:
         """
         Send the contacts of a batch.
 
-        :param height: z of the arrows [m]
+        :param scale: of the arrows
+        :param height: z of them [m]
         """
         most = max(
             0 if each.contacts is None else len(each.contacts.pairs) for each in batch.frames
@@ -102,7 +98,7 @@ class ContactArrows:
             self._stamp = batch.frames[-1].snapshot.stamp
             return
         chosen = batch.sampled(sampling_period(most))
-        arrows = [self._arrows(batch, index) for index in chosen]
+        arrows = [self._arrows(batch, index, scale) for index in chosen]
         origins, vectors = zip(*arrows, strict=True)
         lengths = [len(each) for each in origins]
         self._shown, self._stamp = lengths[-1] > 0, batch.frames[-1].snapshot.stamp
@@ -112,7 +108,7 @@ class ContactArrows:
             _arrow_columns(np.concatenate(origins), np.concatenate(vectors), height, lengths),
         )
 
-    def _arrows(self, batch: FrameBatch, index: int) -> tuple[Floats, Floats]:
+    def _arrows(self, batch: FrameBatch, index: int, scale: ForceScale) -> tuple[Floats, Floats]:
         """Return points and vectors of the contacts of a frame, (m, 2) float64 each [m]."""
         frame = batch.frames[index]
         if frame.contacts is None or not len(frame.contacts.pairs):
@@ -120,7 +116,6 @@ class ContactArrows:
         before = batch.frames[index - 1].snapshot.stamp if index else self._stamp
         period = 0 if before is None else abs(frame.snapshot.stamp - before)
         forces = contact_forces(frame.contacts, batch.scene) / ((period or _FIRST_PERIOD) * 1e-9)
-        scale = self._scale
         vectors = forces * (scale.length / scale.force)
         lengths = np.hypot(vectors[:, 0], vectors[:, 1])[:, None]
         vectors *= np.minimum(1.0, LONGEST * scale.length / np.maximum(lengths, 1e-12))

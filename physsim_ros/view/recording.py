@@ -147,7 +147,7 @@ class FrameRecorder:
         for texts in self._texts:
             texts.send_places(batch, moved, _TEXTS * unit)
         self._joints.send(batch, moved)
-        self._contacts.send(batch, height=_ARROWS * unit)
+        self._contacts.send(batch, self._forces, height=_ARROWS * unit)
         self._velocities.send(batch, height=_ARROWS * unit)
         self._traces.send(batch, context.traced, _JOINTS * unit)
         self._scans.send(batch, _ARROWS * unit)
@@ -187,9 +187,8 @@ class FrameRecorder:
         lines, labels = grid.grid_columns(self._camera.area, bodies.unit)
         self._recording.send_columns(grid.LINES, times, lines)
         self._recording.send_columns(grid.LABELS, times, labels)
-        forces = force_scale(batch.scene, bodies.unit)
-        self._contacts.change_scale(forces)
-        self._legend.send(batch, forces, bodies.unit)
+        self._forces = force_scale(batch.scene, bodies.unit)
+        self._legend.send(batch, self._forces, bodies.unit)
 
 
 def wall_corners(bounds: Bounds | None, unit: float) -> Singles:

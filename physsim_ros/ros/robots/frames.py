@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
@@ -38,24 +38,21 @@ class RobotTf(StrEnum):
     NONE = 'none'
 
 
-class RobotFrames(NamedTuple):
+class RobotFrames:
     """
-    Names of the frames of a robot.
+    The frames of a robot.
 
-    :ivar prefix: that all of them begin with; '' or the namespace and a slash
+    :param namespace: of the robot, '' or one without a slash in front
+    :param robot_tf: where its transforms are published
     """
 
-    prefix: str
-
-    @classmethod
-    def of_namespace(cls, namespace: str, robot_tf: RobotTf) -> RobotFrames:
-        """Return the frames of a robot with a namespace, '' or one without a slash in front."""
+    def __init__(self, namespace: str, robot_tf: RobotTf) -> None:
         plain = not namespace or robot_tf is RobotTf.NAMESPACED
-        return cls('' if plain else f'{namespace}/')
+        self._prefix = '' if plain else f'{namespace}/'
 
     def name(self, frame: str) -> str:
         """Return the name of a frame, as `odom` or that of a sensor."""
-        return f'{self.prefix}{frame}'
+        return f'{self._prefix}{frame}'
 
     def moving(self, stamp: Time, odometry: Pose) -> TransformStamped:
         """

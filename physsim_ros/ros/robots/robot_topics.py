@@ -72,7 +72,7 @@ class RobotTopics:
         self._refuse = refuse
         self._world_frame = world_frame
         namespace = robot.namespace_of(body)
-        self._frames = RobotFrames.of_namespace(namespace, robot_tf)
+        self._frames = RobotFrames(namespace, robot_tf)
         self._below = f'/{namespace}/' if namespace else '/'
         self._publishers: list[Publisher] = []
         self._odometry = self._publisher(Odometry, 'odom')

@@ -8,8 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
-from simulation_interfaces.msg import Result
+from physsim_ros.model.errors import BadProperty, Refusal
 
 
 class Failed(Exception):
@@ -37,9 +36,3 @@ def failing_with(result: int) -> Iterator[None]:
         yield
     except Refusal as refusal:
         raise Failed(refusal, result) from refusal
-
-
-def result_of(refusal: Refusal) -> int:
-    """Return the result code of a refusal that no service gives another one."""
-    unknown = isinstance(refusal, UnknownBody)
-    return int(Result.RESULT_NOT_FOUND if unknown else Result.RESULT_OPERATION_FAILED)

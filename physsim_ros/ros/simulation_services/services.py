@@ -9,12 +9,12 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from physsim_ros.model.errors import Busy, Refusal
+from physsim_ros.model.errors import Busy, Refusal, UnknownBody
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.reply_pacer import SERVICE_QOS
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
-from physsim_ros.ros.simulation_services.results import Failed, result_of
+from physsim_ros.ros.simulation_services.results import Failed
 from physsim_ros.ros.simulation_services.time_and_worlds import TimeAndWorlds
 from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad import WorldControl
@@ -85,8 +85,10 @@ class SimulationServices:
             message = perform(request, response)
         except Failed as failure:
             refusal, result.result = failure.refusal, failure.result
+        except UnknownBody as error:
+            refusal, result.result = error, Result.RESULT_NOT_FOUND
         except Refusal as error:
-            refusal, result.result = error, result_of(error)
+            refusal, result.result = error, Result.RESULT_OPERATION_FAILED
         else:
             result.result = Result.RESULT_OK
             if not message:
