@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import cycle
 import math
 from typing import Any
 
@@ -22,6 +23,9 @@ SPY = """() => {
         write.call(this, text, ...at);
     };
 }"""
+
+# Whether a speed of 1 m/s or more was written.
+SPEED = r'window.texts.some((text) => / [1-9]\.\d+ m\/s/.test(text))'
 
 
 @pytest.fixture
@@ -202,7 +206,13 @@ def test_the_hand_tells_where_a_body_is_and_how_fast(sheet: Sheet) -> None:
         written(sheet, 'at -4.00, 5.00 m · 0°')
     sheet.press('Play')
     with sheet.dragging((0.0, 0.5), (1.0, 4.0)):
-        sheet.wait('window.texts.some((text) => / [1-9]\\.\\d+ m\\/s/.test(text))')
+        places = cycle((sheet.place(-1.0, 4.0), sheet.place(1.0, 4.0)))
+
+        def is_told() -> bool:
+            sheet.page.mouse.move(*next(places))
+            return bool(sheet.page.evaluate(SPEED))
+
+        sheet.until(is_told, 'a speed')
     sheet.press('Pen')
     with sheet.dragging((1.0, 5.0), (3.0, 5.0), (3.0, 6.5)):
         written(sheet, '2 × 1.5 m')

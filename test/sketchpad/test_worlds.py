@@ -53,6 +53,12 @@ def said(sheet: Sheet, text: str) -> None:
     sheet.page.get_by_role('status').get_by_text(text, exact=True).wait_for()
 
 
+def undone(sheet: Sheet, text: str) -> None:
+    """Undo what a note says; one before it may still be there."""
+    note = sheet.page.locator('.docked', has_text=text)
+    note.get_by_role('button', name='Undo').click()
+
+
 def open_own(sheet: Sheet, name: str) -> None:
     """Open a world of one's own."""
     sheet.press('Worlds')
@@ -70,7 +76,7 @@ def test_saving_asks_once_before_it_writes_over_a_world_and_can_be_undone(sheet:
     save(sheet, 'mine')
     sheet.press('Replace mine')
     said(sheet, 'Saved as mine')
-    sheet.page.locator('.docked').get_by_role('button', name='Undo').click()
+    undone(sheet, 'mine is replaced')
     said(sheet, 'World mine is back')
     open_own(sheet, 'mine')
     sheet.wait('"box/0" in physsim.bodies')
@@ -104,7 +110,7 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     open_own(sheet, 'yours')
     sheet.press('Worlds')
     sheet.page.locator('.own', has_text='yours').get_by_role('button', name='Delete').click()
-    sheet.page.locator('.docked').get_by_role('button', name='Undo').click()
+    undone(sheet, 'yours is deleted')
     said(sheet, 'World yours is back')
     open_own(sheet, 'yours')
 
