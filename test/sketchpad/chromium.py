@@ -40,12 +40,12 @@ VIEWPORT = {'width': 1200, 'height': 800}
 PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').getImageData(
     x * devicePixelRatio, y * devicePixelRatio, 1, 1).data]"""
 MILLISECONDS = 1000.0 * PATIENCE
-# Notes what a page is told: the last message of its welcome; topics of its requests that are
-# answered, and of those after whose answer a frame has come; speeds of time; texts of notes, which
-# go by themselves; and for the message of a failure the last timeline and refusals.
+# Notes what a page is told: people, with the last message of its welcome; topics of its requests
+# that are answered, and of those after whose answer a frame has come; speeds of time; texts of
+# notes, which go by themselves; and for the message of a failure the last timeline and refusals.
 LISTENER = """
 const heard = window.heard = {
-    welcomed: false, answered: [], shown: [], speeds: [], notes: [], timeline: null, refusals: []};
+    people: null, answered: [], shown: [], speeds: [], notes: [], timeline: null, refusals: []};
 window.WebSocket = class extends WebSocket {
     constructor(...words) {
         super(...words);
@@ -58,7 +58,7 @@ window.WebSocket = class extends WebSocket {
             }
             const message = JSON.parse(data), {type, request, ok, topic} = message;
             if (type === 'timeline') heard.timeline = message;
-            if (type === 'class') heard.welcomed = true;
+            if (type === 'class') heard.people = message.people.map(({name}) => name);
             if (type !== 'answer') return;
             if (request) heard.answered.push(topic);
             if (!ok) heard.refusals = [...heard.refusals.slice(-4), message.message];
@@ -144,7 +144,7 @@ class Sheet:
         :param bodies: number of bodies at the beginning
         """
         # What it is told at first changes its bars, and so the place of the world.
-        self.wait('heard.welcomed && Object.keys(physsim.bodies).length > 0')
+        self.wait('heard.people && Object.keys(physsim.bodies).length > 0')
         before = self.page.evaluate('heard.shown.length')
         self.press('Pause')
         self.press('Reset')

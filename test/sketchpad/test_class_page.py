@@ -70,6 +70,14 @@ def test_a_teacher_freezes_a_pupil_and_sees_who_did_what(pages: tuple[Sheet, She
     frozen.wait_for(state='detached')
     teacher.press('Delete what Anna drew')
     pupil.wait('Object.keys(physsim.bodies).length === 0')
+    # A button stays while it is pressed, whoever comes meanwhile.
+    teacher.page.get_by_role('button', name='Freeze all pupils').hover()
+    teacher.page.mouse.down()
+    call(pupil, 'Bea')
+    teacher.wait('heard.people.includes("Bea")')
+    teacher.page.mouse.up()
+    frozen.wait_for()
+    teacher.page.get_by_role('listitem').get_by_text('Bea').wait_for()
 
 
 def test_each_undoes_what_is_its_own_while_time_goes_on(pages: tuple[Sheet, Sheet]) -> None:

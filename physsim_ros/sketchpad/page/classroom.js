@@ -74,7 +74,7 @@ export class Classroom {
     if (frozen && !this.frozen) this.thaw = app.notes.pin(() => null, ['Your teacher has frozen this world.'], {kind: 'docked', shown: 0});
     else if (!frozen) this.thaw();
     this.frozen = frozen;
-    if (app.gallery.dialog.open && app.gallery.dialog.ariaLabel === TITLE && !(document.activeElement instanceof HTMLInputElement)) this.#showPeople();
+    app.gallery.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
     app.view.dirty = true;
   }
 

@@ -10,6 +10,7 @@ const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
 const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
 const WORLDS = 'Worlds'; // title
 const LONGEST_LINK = 16000; // characters
+const PRESSED = 200; // ms until it is looked again whether a dialog is still pressed
 const LARGEST = 1 << 20; // bytes; no larger world is unpacked from a link
 
 export class Gallery {
@@ -25,7 +26,7 @@ export class Gallery {
     app.connection.on('worlds', ({worlds}) => {
       this.worlds = worlds;
       // The picture of a world comes after the world.
-      if (this.dialog.open && this.dialog.ariaLabel === WORLDS) this.showWorlds();
+      this.renew(WORLDS, () => this.showWorlds());
     });
     this.offered = 0; // [s since 1970] the unsaved world that was offered
     this.name = ''; // of the own world that is open
@@ -47,6 +48,17 @@ export class Gallery {
     ...content);
     if (!this.dialog.open) this.dialog.showModal();
     this.dialog.scrollTop = top;
+  }
+
+  /**
+   * Show a dialog anew that is open, but not while it is pressed: its button would be gone when it is let go.
+   * @param {string} title
+   * @param {() => void} show
+   */
+  renew(title, show) {
+    if (!this.dialog.open || this.dialog.ariaLabel !== title) return;
+    if (this.dialog.matches(':active')) setTimeout(() => this.renew(title, show), PRESSED);
+    else show();
   }
 
   showWorlds() {
