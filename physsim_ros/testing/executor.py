@@ -62,6 +62,7 @@ class SettlingExecutor:
         :param timeout: wall time [s]
         :raises TimeoutError: it is not true in time
         """
+        __tracebackhide__ = True
         deadline = time.monotonic() + timeout
         while not predicate():
             if time.monotonic() > deadline:

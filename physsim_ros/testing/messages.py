@@ -47,7 +47,7 @@ class BodyProperties(TypedDict, total=False):
     group: int
     sensor: bool
     surface_velocity: Numbers
-    robot: Mapping[str, Any]
+    robot: str | Mapping[str, Any]
     label: str
 
 
@@ -130,6 +130,8 @@ def marker(
     namespace, slash, id_ = name.rpartition('/')
     if not slash or not id_.removeprefix('-').isdecimal():
         raise ValueError(f'a name is a namespace, / and a number, as box/0; got {name!r}')
+    if len(at) not in {2, 3}:
+        raise ValueError(f'at is x and y, or x, y and yaw; got {at!r}')
     x, y, yaw = (*at, 0.0)[:3]
     seconds, fraction = divmod(lifetime, 1.0)
     channels = color_from(color) if isinstance(color, str) else color

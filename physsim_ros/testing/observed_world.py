@@ -13,8 +13,10 @@ from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.values import Contact, Pose, Twist, UnknownName
 
-# Bodies that a failure describes [1]: what a screen shows at a time.
+# Bodies that a failure describes [1]: what a screen shows at a time; and those that it names in a
+# line.
 _MOST_DESCRIBED = 30
+_MOST_NAMED = 10
 
 
 class ObservedWorld:
@@ -135,5 +137,6 @@ def _index(name: str, names: Sequence[str], kind: str) -> int:
     """
     if name in names:
         return names.index(name)
-    there = '' if names else '; there are none'
-    raise UnknownName(f'there is no {kind} {name!r}{nearest_name(name, names)}{there}')
+    listed = ', '.join(names[:_MOST_NAMED]) + (', …' if len(names) > _MOST_NAMED else '')
+    hint = nearest_name(name, names) or f'; there are {listed or "none"}'
+    raise UnknownName(f'there is no {kind} {name!r}{hint}')

@@ -168,7 +168,10 @@ class PhysSim(ObservedWorld):
             self.node.fleet.match_publishers()
             return predicate()
 
-        self._executor.spin_until(is_true, f'not true within {timeout:g} s', timeout)
+        try:
+            self._executor.spin_until(is_true, f'not true within {timeout:g} s', timeout)
+        except TimeoutError as error:
+            raise TimeoutError(f'{error} by the wall\n{self.describe_state()}') from None
         self.settle()
 
     def _frames(self, seconds: float) -> int:

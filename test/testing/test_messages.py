@@ -63,3 +63,9 @@ def test_a_joint_joins_the_bodies_that_it_names(physsim: PhysSim) -> None:
 def test_a_name_without_a_number_says_how_names_are(name: str) -> None:
     with pytest.raises(ValueError, match='a name is a namespace, / and a number'):
         box(name)
+
+
+@pytest.mark.parametrize('at', [(1.0,), (1.0, 2.0, 0.5, 0.0)])
+def test_a_place_has_two_numbers_or_three(at: tuple[float, ...]) -> None:
+    with pytest.raises(ValueError, match='at is x and y, or x, y and yaw'):
+        box('crate/0', at=at)

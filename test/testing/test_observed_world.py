@@ -22,6 +22,8 @@ def test_pose_and_twist_are_by_name(physsim: PhysSim) -> None:
     for read in (physsim.pose, physsim.twist, physsim.contacts):
         with pytest.raises(UnknownName, match=r"^there is no body 'a/2'; nearest is 'a/\d'$"):
             read('a/2')
+    with pytest.raises(UnknownName, match=r"^there is no body 'crate'; there are a/0, a/1$"):
+        physsim.pose('crate')
     with pytest.raises(UnknownName, match=r"^there is no joint 'a/2'; there are none$"):
         physsim.force('a/2')
 

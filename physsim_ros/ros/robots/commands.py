@@ -30,6 +30,9 @@ from rclpy.subscription import Subscription
 _TYPES = {'geometry_msgs/msg/Twist': Twist, 'geometry_msgs/msg/TwistStamped': TwistStamped}
 # Of a burst the last ones count.
 _DEPTH = 10
+# Commands in a row that are carried out before a refusal of a code that was told is told again:
+# some seconds at the usual 10 to 30 Hz, so that a publisher that errs now and then does not flood.
+_STEADY = 50
 
 
 class Commands:
@@ -42,7 +45,6 @@ class Commands:
     :param refuse: reports what publishers cannot be heard; takes the refusal and the topic
 
     :ivar topic: that commands come by
-    :ivar refused: code with which the last command was refused; '' if it was not
     :ivar awaited: stamp of the scan that no command has answered yet [ns]; None is none
     """
 
@@ -50,11 +52,13 @@ class Commands:
         self, node: Node, topic: str, body: str, refuse: Callable[[Refusal, str], None]
     ) -> None:
         self.topic = topic
-        self.refused = ''
         self.awaited: int | None = None
         self._node = node
         self._body = body
         self._refuse = refuse
+        # Codes of refusals that were told, and number of commands carried out since the last one.
+        self._told: set[str] = set()
+        self._carried_out = 0
         # Why some publishers are not heard; '' where all are.
         self._deaf = ''
         # Whether the last command had a stamp of 0, which is none.
@@ -144,6 +148,19 @@ class Commands:
         twist = message.twist if kind is TwistStamped else message
         velocity = twist.linear.x, twist.linear.y, twist.angular.z
         return DriveRobot(name=self._body, velocity=velocity)
+
+    def note_refused(self, code: str) -> bool:
+        """Note a refused command; return whether it is to be told: the first of its code."""
+        self._carried_out = 0
+        told = code in self._told
+        self._told.add(code)
+        return not told
+
+    def note_carried_out(self) -> None:
+        """Note a command that was carried out."""
+        self._carried_out += 1
+        if self._carried_out == _STEADY:
+            self._told.clear()
 
     def close(self) -> None:
         """Unsubscribe."""

@@ -64,7 +64,8 @@ class Fleet:
         """
         Submit the last command of each robot since the last call.
 
-        Of commands in a row that are refused for one reason the first is answered.
+        Of commands that are refused for one reason the first is answered, until commands have
+        been carried out for some time.
 
         :param in_past: whether the past is shown
         """
@@ -80,11 +81,10 @@ class Fleet:
                 if in_past:
                     raise InPast(_IN_PAST)
             except Refusal as refusal:
-                if commands.refused != refusal.code:
-                    commands.refused = refusal.code
+                if commands.note_refused(refusal.code):
                     self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
             else:
-                commands.refused = ''
+                commands.note_carried_out()
                 # Undone together with what was asked before it: nobody undoes a tick.
                 self._requests.submit(request, topic=topic, joined=True)
 
