@@ -29,7 +29,7 @@ from physsim_ros.model.checks import number, shown, Within
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Pose
-from PIL import Image
+from PIL import Image, UnidentifiedImageError
 
 # Greatest size of the YAML file [bytes].
 _MOST_TEXT = 2**16
@@ -114,7 +114,7 @@ def _file_in(folder: Path, name: object, field: str, *, root: Path | None = None
     return path
 
 
-def _unreadable(path: Path, error: Exception, field: str) -> BadProperty:
+def _unreadable(path: Path, error: Exception | str, field: str) -> BadProperty:
     reason = error.strerror if isinstance(error, OSError) and error.strerror else error
     return BadProperty(f'cannot read {path.name}: {reason}', field=field)
 
@@ -145,6 +145,8 @@ def _occupied(path: Path, *, negate: bool, threshold: float) -> Flags:
             with Image.open(io.BytesIO(data), formats=_FORMATS) as image:
                 _check_pixels(path, *image.size)
                 sums, most = _brightness(image)
+    except UnidentifiedImageError as error:
+        raise _unreadable(path, 'it is neither a PGM nor a PNG', 'image') from error
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise _unreadable(path, error, 'image') from error
     shades = np.arange(most + 1) / most
