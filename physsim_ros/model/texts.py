@@ -21,8 +21,9 @@ LONGEST_WORD, LONGEST_MESSAGE = 80, 480
 _OMISSION = '…'
 # Names that a misspelt one is compared with [1], some 10 µs each: a peer may repeat its mistake.
 _MOST_COMPARED = 200
-# Names that a word is one word of [1].
+# Names that begin with a part, or have a word that does [1]; length of such a part [characters].
 _MOST_NAMED = 3
+_LEAST_PART = 3
 # Least similarity of a misspelt name, 0 .. 1, of `difflib`: with one wrong letter a name of three
 # has 0.67; `position` and `friction`, which are two words, have 0.63.
 _SIMILAR = 0.65
@@ -68,13 +69,14 @@ def nearest_name(name: str, known: Iterable[str]) -> str:
     """
     Return the end of a sentence that names the most similar of the known names, or ''.
 
-    Names of several words that have it as one of them are nearest: `rate` is `publish_rate`.
+    Names of which a word begins with it are nearest: to `rate` `publish_rate`, to `ball` `ball/0`.
 
     :param name: that is not known
     :param known: names, of which the first `_MOST_COMPARED` are compared
     """
     compared = [str(each) for each in islice(known, _MOST_COMPARED)]
-    longer = [each for each in compared if name in each.split('_')][:_MOST_NAMED]
-    near = longer or difflib.get_close_matches(abbreviated(name), compared, 1, _SIMILAR)
+    similar = difflib.get_close_matches(abbreviated(name), compared, 1, _SIMILAR)
+    begun = [each for each in compared if f'_{name}' in f'_{each}']
+    near = (begun[:_MOST_NAMED] if len(name) >= _LEAST_PART else []) or similar
     verb = 'are' if len(near) > 1 else 'is'
     return f'; nearest {verb} {", ".join(map(repr, near))}' if near else ''

@@ -69,7 +69,9 @@ def test_a_misspelt_name_is_answered_with_the_nearest() -> None:
 def test_a_word_is_answered_with_the_names_that_have_it_not_with_another_word() -> None:
     known = ['trace', 'physics_rate', 'publish_rate', 'friction']
     assert nearest_name('rate', known) == "; nearest are 'physics_rate', 'publish_rate'"
+    assert nearest_name('ball', ['box/0', 'ball/0']) == "; nearest is 'ball/0'"
     assert nearest_name('position', known) == ''
+    assert nearest_name('p', known) == ''
 
 
 def test_the_time_for_the_nearest_name_is_bounded() -> None:

@@ -293,12 +293,20 @@ def test_it_can_be_started_in_a_namespace_under_another_name(outside: Outside) -
 
 
 @pytest.mark.parametrize(
-    ('words', 'code'), [(['--help'], 0), (['demo'], 2), (['--viewer', 'none'], 2)]
+    ('words', 'code', 'said'),
+    [
+        (['--help'], 0, 'usage: physsim'),
+        (['demo'], 2, 'usage: physsim'),
+        (['-p', 'speed:=1.0'], 2, '--ros-args -p name:=value'),
+        (['--ros-args', '--foo'], 1, "unknown arguments after --ros-args: ['--foo']"),
+    ],
 )
-def test_it_says_how_it_is_told_things(outside: Outside, words: list[str], code: int) -> None:
+def test_it_says_how_it_is_told_things(
+    outside: Outside, words: list[str], code: int, said: str
+) -> None:
     with outside.start_installed('physsim', *words) as program:
         assert program.finish() == code
-    assert 'usage: physsim' in ''.join(program.lines)
+    assert said in ''.join(program.lines)
 
 
 def test_its_help_tells_every_world_and_parameter(outside: Outside) -> None:

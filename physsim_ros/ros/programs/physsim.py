@@ -122,12 +122,14 @@ def main() -> None:
     from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
     import rclpy
     from rclpy.experimental import EventsExecutor
+    from rclpy.impl.implementation_singleton import rclpy_implementation
     from rclpy.signals import SignalHandlerOptions
     from rclpy.utilities import remove_ros_args
 
     # All settings are parameters; the parser refuses other arguments, which would be ignored.
     usage = _Usage(
         prog='physsim',
+        usage='physsim [-h] [--ros-args -p name:=value ...]',
         description='Run a physics world as a ROS 2 node.',
         epilog='For example: physsim --ros-args -p world_file:=demo -p speed:=0.5',
     )
@@ -136,6 +138,9 @@ def main() -> None:
         # The signal handlers of rclpy (Jazzy) raise at any point of the program, which can abort
         # its end.
         rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    except rclpy_implementation.UnknownROSArgsError as error:
+        # Its text is a list of them.
+        sys.exit(f'physsim: unknown arguments after --ros-args: {error}')
     except RuntimeError as error:
         # rcl raises it for invalid arguments, and where it cannot write its log.
         hint = '; ROS_LOG_DIR names another' if 'log directory' in str(error) else ''
