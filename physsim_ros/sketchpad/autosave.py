@@ -24,6 +24,8 @@ from physsim_ros.model.snapshot import Frame
 PERIOD, SHARE = 10.0, 100.0
 # Greatest length of the text of a world [characters].
 LONGEST = 2**20
+# Topics of requests after which the world is as it was loaded.
+_FROM_FILE = frozenset({'~/load_world', '~/reset'})
 _NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
 
 
@@ -63,7 +65,7 @@ class Autosave:
     def forget_unsaved(self) -> str:
         """Delete the unsaved world of the last start, and return a message about it."""
         self._unsaved.unlink(missing_ok=True)
-        return 'the unsaved world is forgotten'
+        return 'discarded the unsaved world'
 
     def note_frame(self, frame: Frame, *, drawn: bool) -> None:
         """
@@ -73,7 +75,11 @@ class Autosave:
         """
         scene = frame.snapshot.scene
         changed, self._scene = self._scene is not scene, scene
-        self._changed |= changed and drawn and not frame.past and frame.speed >= 0.0
+        if any(answer.topic in _FROM_FILE and not answer.code for answer in frame.answers):
+            # Nobody has drawn yet in what is a file already.
+            self._changed = False
+        else:
+            self._changed |= changed and drawn and not frame.past and frame.speed >= 0.0
 
     def note_saved(self) -> None:
         """Note that somebody has saved the world."""

@@ -9,6 +9,7 @@ from pathlib import Path
 import time
 
 from physsim_ros.model.errors import WorldFull
+from physsim_ros.model.requests import Restore
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE
 import pytest
@@ -45,6 +46,17 @@ def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> Non
     autosave.save()
     autosave.note_saved()
     assert not list(tmp_path.iterdir())
+
+
+def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> None:
+    simulation = Simulation()
+    autosave = Autosave(tmp_path, lambda _: '')
+    drawn(simulation, autosave, 'a/0')
+    simulation.requests.submit(Restore(state=Simulation().save()), topic='~/load_world')
+    autosave.note_frame(simulation.advance_frame(), drawn=True)
+    assert not autosave.is_due(time.monotonic())
+    drawn(simulation, autosave, 'a/0')
+    assert autosave.is_due(time.monotonic())
 
 
 def test_it_takes_a_hundredth_of_the_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -104,6 +104,11 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     assert sheet.page.evaluate(PICTURE) == [480, 200]
     own = sheet.page.locator('.own', has_text='mine')
     own.get_by_role('button', name='Rename').click()
+    sheet.page.get_by_role('textbox', name='New name').fill('demo')
+    sheet.press('Rename')
+    sheet.page.locator('#status.refused', has_text='demo').wait_for()
+    sheet.press('Worlds')
+    own.get_by_role('button', name='Rename').click()
     sheet.page.get_by_role('textbox', name='New name').fill('yours')
     sheet.press('Rename')
     sheet.page.locator('.docked').get_by_text('Renamed to yours').wait_for()

@@ -9,6 +9,7 @@ import {capital} from './words.js';
 const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
 const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
 const WORLDS = 'Worlds'; // title
+const UNSAVED = 30000; // ms for which the unsaved world is offered beside the world; then it is in the list
 const LONGEST_LINK = 16000; // characters
 const PRESSED = 200; // ms until it is looked again whether a dialog is still pressed
 const LARGEST = 1 << 20; // bytes; no larger world is unpacked from a link
@@ -29,6 +30,8 @@ export class Gallery {
       this.renew(WORLDS, () => this.showWorlds());
     });
     this.offered = 0; // [s since 1970] the unsaved world that was offered
+    this.unsaved = ''; // date of the unsaved world, until it is opened or discarded
+    this.dismiss = () => {};
     this.name = ''; // of the own world that is open
     app.connection.on('welcome', ({unsaved}) => {
       this.#offerLink();
@@ -68,7 +71,8 @@ export class Gallery {
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
     this.show(WORLDS, inRow(textButton('Empty world', () => this.#upload(EMPTY)),
-      createElement('label', {className: 'file'}, 'Open a file', file)),
+      createElement('label', {className: 'file'}, 'Open a file', file),
+      ...this.unsaved ? [textButton(`Unsaved world of ${this.unsaved}`, () => this.#openUnsaved())] : []),
     ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own)] : [],
     ...this.app.lessons.section(), createElement('h3', {textContent: 'To explore, simplest first'}), cards(shipped));
   }
@@ -183,17 +187,21 @@ export class Gallery {
   #offerUnsaved(saved) {
     if (!saved || this.app.viewOnly || this.offered === saved) return;
     this.offered = saved;
-    const time = new Date(saved * 1000).toLocaleString([], {dateStyle: 'medium', timeStyle: 'short'});
-    const remove = this.app.notes.pin(() => null, [`The world of ${time} was not saved.`,
-      textButton('Open it', async () => {
-        remove();
-        const text = await fetch('/unsaved').then((response) => response.ok ? response.text() : null, () => null);
-        if (text !== null && await this.#upload(text)) this.app.connection.send('forget');
-      }),
-      textButton('Discard it', () => {
-        remove();
-        this.app.connection.send('forget');
-      })], {kind: 'docked', shown: 0});
+    this.unsaved = new Date(saved * 1000).toLocaleString([], {dateStyle: 'medium', timeStyle: 'short'});
+    this.dismiss = this.app.notes.pin(() => null, [`The world of ${this.unsaved} was not saved.`,
+      textButton('Open it', () => this.#openUnsaved()), textButton('Discard it', () => this.#forgetUnsaved())],
+    {kind: 'docked', shown: UNSAVED});
+  }
+
+  async #openUnsaved() {
+    const text = await fetch('/unsaved').then((response) => response.ok ? response.text() : null, () => null);
+    if (text !== null && await this.#upload(text)) this.#forgetUnsaved();
+  }
+
+  #forgetUnsaved() {
+    this.dismiss();
+    this.unsaved = '';
+    this.app.connection.send('forget');
   }
 
   showSave() {
@@ -208,6 +216,7 @@ export class Gallery {
   async #open(name) {
     this.dialog.close();
     if (!(await this.app.connection.ask('open', {name})).ok) return;
+    this.dismiss();
     this.app.frameNext();
     this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
   }
@@ -228,6 +237,7 @@ export class Gallery {
     this.app.notes.showMessage(this.app.words.tell({message}), {ok});
     if (ok) {
       this.name = '';
+      this.dismiss();
       this.app.frameNext();
     }
     return ok;

@@ -112,7 +112,8 @@ export class Keyboard {
   }
 
   #drop() {
-    const {app} = this;
+    const {app} = this, {plotWindow} = app;
+    if (!plotWindow.element.hidden) return plotWindow.close();
     app.tool.cancel();
     app.readings.dismiss();
     app.cursor.hide();

@@ -95,7 +95,7 @@ export class Lessons {
       event.preventDefault();
       const value = Number(input.value.trim().replace(',', '.')), right = Math.abs(value - figure) <= within;
       result.className = right ? 'right' : '';
-      result.textContent = right ? 'Right!' : Number.isNaN(value) ? 'That is no number.' : 'Not yet. Measure again, or look at the hint.';
+      result.textContent = right ? 'Right!' : Number.isNaN(value) ? 'That is not a number.' : 'Not yet. Measure again, or look at the hint.';
       // Who has tried may look.
       solution.hidden = false;
       solution.open = right;

@@ -34,9 +34,9 @@ export class Notes {
 
   /** @param {Answer} answer */
   #tell(answer) {
-    const {request, ok, code, message} = answer, own = request !== '';
-    // A dialog asks about a name that is taken.
-    if (SILENT.test(message) || own && code === 'exists' || !own && performance.now() < this.until) return;
+    const {request, ok, code, message, topic} = answer, own = request !== '';
+    // A dialog asks about a name that is taken where a world is saved.
+    if (SILENT.test(message) || own && code === 'exists' && topic === '~/save_world' || !own && performance.now() < this.until) return;
     const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0);
     if (several > 1) this.parts = {of, left: several};
     else if (this.parts.left && this.parts.of === of) {

@@ -8,7 +8,7 @@ import {threeDigits} from './rounding.js';
 
 const DEGREE = Math.PI / 180; // rad
 /** What can be typed; of an anchored body the first ones. @type {[string, string][]} */
-const TYPED = [['mass', 'Mass [kg]'], ['x', 'x [m]'], ['y', 'y [m]'], ['angle', 'Angle [°]'],
+const TYPED = [['x', 'x [m]'], ['y', 'y [m]'], ['angle', 'Angle [°]'], ['mass', 'Mass [kg]'],
   ['vx', 'vx [m/s]'], ['vy', 'vy [m/s]'], ['spin', 'Spin [rad/s]']];
 const NOTHING = 1e-7; // m, °, m/s, rad/s: that is shown as 0
 const AT_REST = 4; // number of those that an anchored body has

@@ -12,7 +12,7 @@ const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', '
 /** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
 const SENTENCES = [
   [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'], [/^loaded 0 bodies$/, 'An empty world'],
-  [/^deleted the world (.+)/, 'World $1 deleted'], [/^put back the world (.+)/, 'World $1 is back'], [/^renamed .* to (.+)/, 'Renamed to $1'], [/^set gravity$/, 'Gravity set'], [/^set damping$/, 'Air drag set'],
+  [/^discarded the unsaved world$/, 'Unsaved world discarded'], [/^deleted the world (.+)/, 'World $1 deleted'], [/^put back the world (.+)/, 'World $1 is back'], [/^renamed .* to (.+)/, 'Renamed to $1'], [/^set gravity$/, 'Gravity set'], [/^set damping$/, 'Air drag set'],
   [/^on course \d+, at .*/, 'Back on the other course'],
   [/^course \d+ begins at .*/, 'A new course begins here'], [/^speed (.+)/, 'Speed $1×'], [/^.*; next: /, 'Next: '],
   [/^a (chain of .+) from .+/, '$1 added'], [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Redone'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
