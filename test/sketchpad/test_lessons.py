@@ -62,7 +62,7 @@ def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> No
     sheet.wait('"heavy/0" in physsim.bodies && physsim.speed === 0 && physsim.time === 0')
     answer = card.get_by_text('whatever the mass')
     assert not answer.is_visible()
-    check(sheet, 'soon', 'no number')
+    check(sheet, 'soon', 'not a number')
     check(sheet, '1.4', 'Not yet')
     assert not answer.is_visible()
     check(sheet, '1,02', 'Right!')

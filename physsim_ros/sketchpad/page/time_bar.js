@@ -160,7 +160,7 @@ export class TimeBar {
     this.clock.title = state;
     const before = this.rings;
     this.rings = new Map(courses.map(({id, from}) => {
-      const name = `Go back to how it went before, from ${from.toFixed(1)} s`, key = `${id} ${name}`;
+      const name = `Go back to how it went before, from ${from.toFixed(1)}\u00a0s`, key = `${id} ${name}`;
       // While time runs it is the same element: one that was made anew could not be pressed.
       const ring = before.get(key) ?? this.marks.appendChild(createElement('button', {type: 'button', 'aria-label': name, title: name,
         onclick: () => this.app.connection.send('course', {course: id})}));
