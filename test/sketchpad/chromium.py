@@ -74,6 +74,12 @@ new MutationObserver((changes) => {
 STATE = """() => ({
     time: physsim.time, speed: physsim.speed, bodies: Object.keys(physsim.bodies), ...heard,
     status: document.querySelector('[role=status]').textContent})"""
+SPACE = """() => {
+    for (const type of ['keydown', 'keyup']) {
+        const event = new KeyboardEvent(type, {key: ' ', bubbles: true, cancelable: true});
+        document.activeElement.dispatchEvent(event);
+    }
+}"""
 # Press Pause at the first frame after a time [s].
 PAUSE_AFTER = """seconds => {
     const look = () => {
@@ -192,6 +198,10 @@ class Sheet:
     def press(self, name: str) -> None:
         """Press a button."""
         self.page.get_by_role('button', name=name, exact=True).click()
+
+    def tap_space(self) -> None:
+        """Tap the space bar: on a busy machine a real key may be held for longer than a tap."""
+        self.page.evaluate(SPACE)
 
     def names(self) -> set[str]:
         """Return the names of the bodies."""

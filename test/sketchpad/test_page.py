@@ -289,9 +289,9 @@ def test_keys_work_after_anything_was_clicked(sheet: Sheet) -> None:
     keyboard = sheet.page.keyboard
 
     def check_space() -> None:
-        keyboard.press(' ')
+        sheet.tap_space()
         sheet.wait('physsim.speed === 1')
-        keyboard.press(' ')
+        sheet.tap_space()
         sheet.wait('physsim.speed === 0')
 
     for name in ('Pen', 'Hand', 'Frame the world', 'Material', 'Close', 'Show forces'):
@@ -489,7 +489,7 @@ def test_all_of_it_goes_by_keys_alone(sheet: Sheet) -> None:
         keyboard.press(key)
     name = sheet.wait_for_new(before)
     # The space bar plays and pauses.
-    keyboard.press(' ')
+    sheet.tap_space()
     sheet.wait('physsim.speed === 1')
     keyboard.press('k')
     sheet.wait('physsim.speed === 0')
