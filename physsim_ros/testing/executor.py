@@ -12,8 +12,9 @@ from rclpy.context import Context
 from rclpy.experimental import EventsExecutor
 from rclpy.node import Node
 
-# Timeout for events that take milliseconds in this process, in wall time [s].
-TIMEOUT = 10.0
+# Timeout for events that take milliseconds in this process, in wall time [s]: a busy machine may
+# stop it for seconds.
+TIMEOUT = 60.0
 # The greatest number of rounds of messages in reaction to messages: two nodes that answer each
 # other never end.
 _MOST_ROUNDS = 100
