@@ -45,6 +45,7 @@ export class TimeBar {
     this.rate = 1; // of playing, as this page has chosen it
     this.held = false; // by a finger or the mouse
     this.busy = false; // a seek is on its way
+    this.asked = 0; // speeds that are on their way
     /** @type {?number} */
     this.wanted = null;
     this.slider.addEventListener('input', () => this.#slide());
@@ -53,7 +54,10 @@ export class TimeBar {
     this.speed.addEventListener('click', () => this.#changeSpeed());
     app.connection.on('timeline', () => this.showTimeline());
     app.connection.on('frame', ({ghost}) => ghost || this.#measurePace());
-    app.connection.on('open', () => { this.busy = false; });
+    app.connection.on('open', () => {
+      this.busy = false;
+      this.asked = 0;
+    });
     app.view.overlays.push(() => this.#showTime());
   }
 
@@ -94,11 +98,17 @@ export class TimeBar {
     this.#seek();
   }
 
-  #changeSpeed() {
-    const {speed} = this.app.world.frame, now = speed > 0 ? speed : this.rate;
+  async #changeSpeed() {
+    // While a speed is asked for, that of the last frame is another one.
+    const {speed} = this.app.world.frame, now = speed > 0 && !this.asked ? speed : this.rate;
     this.rate = SPEEDS[(SPEEDS.indexOf(now) + 1) % SPEEDS.length];
-    if (speed > 0) this.app.connection.send('speed', {speed: this.rate});
-    else this.#showSpeed(this.rate);
+    if (!(speed > 0)) {
+      this.#showSpeed(this.rate);
+      return;
+    }
+    this.asked++;
+    await this.app.connection.ask('speed', {speed: this.rate});
+    this.asked--;
   }
 
   #measurePace() {
