@@ -69,7 +69,7 @@ def nearest_name(name: str, known: Iterable[str]) -> str:
     """
     Return the end of a sentence that names the most similar of the known names, or ''.
 
-    Names of which a word begins with it are nearest: to `rate` `publish_rate`, to `ball` `ball/0`.
+    Names of which a word begins with it are nearest: 'publish_rate' to 'rate', 'ball/0' to 'ball'.
 
     :param name: that is not known
     :param known: names, of which the first `_MOST_COMPARED` are compared
