@@ -14,12 +14,13 @@ from nav_msgs.msg import Odometry
 from physsim_ros.files import shipped_robot
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import DriveRobot
-from physsim_ros.model.robots.sensors import Bumper, Sensor
+from physsim_ros.model.robots.sensors import Bumper
 from physsim_ros.model.shapes import SHAPES
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.marker_shapes import geometry_of
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.robots.messages import View
+from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.sensing import read_bumper
 from physsim_ros.testing.messages import marker
 from physsim_ros.testing.values import UnknownName
@@ -72,13 +73,13 @@ class Robot:
         :param sensor: its name
         :raises UnknownName: there is no such sensor
         """
-        sensors = {each.name: each for each in self._sensors}
+        topics, view, row = self._now()
+        sensors = {each.name: each for each in topics.robot.sensors}
         if sensor not in sensors:
             raise UnknownName(
                 f'{self.name} has no sensor {sensor!r}{nearest_name(sensor, sensors)}'
             )
-        view, row = self._view(), self._row
-        return self._node.fleet.robots[self.name].reading(view, row, sensors[sensor])
+        return topics.reading(view, row, sensors[sensor])
 
     def odom(self) -> Odometry:
         """
@@ -86,9 +87,8 @@ class Robot:
 
         :raises UnknownName: the robot is not there
         """
-        view = self._view()
-        number = [*self._node.fleet.robots].index(self.name)
-        return self._node.fleet.robots[self.name].odometry(view, number)
+        topics, view, _ = self._now()
+        return topics.odometry(view, [*self._node.fleet.robots].index(self.name))
 
     def truth(self) -> Odometry:
         """
@@ -96,40 +96,34 @@ class Robot:
 
         :raises UnknownName: the robot is not there
         """
-        view, row = self._view(), self._row
-        return self._node.fleet.robots[self.name].truth(view, row)
+        topics, view, row = self._now()
+        return topics.truth(view, row)
 
     @property
     def bumped(self) -> bool:
         """Whether it touched something in the last frame: within its bumpers, if it has any."""
-        view, row = self._view(), self._row
-        bumpers = [each for each in self._sensors if isinstance(each, Bumper)] or [_ALL_ROUND]
+        topics, view, row = self._now()
+        sensors = topics.robot.sensors
+        bumpers = [each for each in sensors if isinstance(each, Bumper)] or [_ALL_ROUND]
         return any(read_bumper(view.snapshot, view.contacts, row, each) for each in bumpers)
 
     @property
     def has_controller(self) -> bool:
         """Whether another node publishes its commands and subscribes to one of its topics."""
-        self._view()
-        topics = self._node.fleet.robots[self.name]
+        topics, _, _ = self._now()
         return topics.commands.is_heard and topics.has_subscribers
 
-    def _view(self) -> View:
+    def _now(self) -> tuple[RobotTopics, View, int]:
+        """Return its topics, the last frame, and the row of its body in the scene."""
         fleet = self._node.fleet
         if fleet.view is None or self.name not in fleet.robots:
             raise UnknownName(f'there is no robot {self.name!r}')
-        return fleet.view
-
-    @property
-    def _row(self) -> int:
-        return self._view().snapshot.scene.names.index(self.name)
-
-    @property
-    def _sensors(self) -> Sequence[Sensor]:
-        self._view()
-        return self._node.fleet.robots[self.name].robot.sensors
+        row = fleet.view.snapshot.scene.names.index(self.name)
+        return fleet.robots[self.name], fleet.view, row
 
     def _first(self, kind: str) -> str:
-        names = [each.name for each in self._sensors if kind == each.KIND]
+        topics, _, _ = self._now()
+        names = [each.name for each in topics.robot.sensors if kind == each.KIND]
         if not names:
             raise UnknownName(f'{self.name} has no {kind}')
         return names[0]
