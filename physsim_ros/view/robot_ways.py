@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import Point, Pose, rotated
+from physsim_ros.model.transform import local_to_world, Point, Pose, rotated
 from physsim_ros.view.frame_batch import FrameBatch
 from physsim_ros.view.line_strips import strip_column
 import rerun as rr
@@ -76,9 +76,8 @@ class RobotWays:
             name = now.scene.names[row]
             if not any(path) or name not in self._frames:
                 self._frames[name] = _frame_of(pose, told)
-            x, y, yaw = self._frames[name]
-            ahead, aside = rotated((told[0], told[1]), yaw)
-            self._places[name] = (pose[0], pose[1]), (x + ahead, y + aside)
+            reckoned = local_to_world((told[0], told[1]), self._frames[name])
+            self._places[name] = (pose[0], pose[1]), reckoned
         return [(known.get(name, place), place) for name, place in self._places.items()]
 
 

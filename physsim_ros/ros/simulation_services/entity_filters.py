@@ -11,7 +11,7 @@ import numpy as np
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import extent_of
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import Pose, rotated
+from physsim_ros.model.transform import local_to_world, Pose
 from physsim_ros.ros.simulation_services.results import failed
 from simulation_interfaces.msg import Bounds, EntityCategory, EntityFilters, Result, TagsFilter
 
@@ -115,6 +115,6 @@ def _overlap(bounds: Bounds) -> Callable[[Body, Pose], bool]:
 def _world_box(body: Body, pose: Pose) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the lower left and the upper right corner of the box around a body's box."""
     low, high = extent_of(body.shape.form)
-    corners = [rotated((x, y), pose[2]) for x in (low[0], high[0]) for y in (low[1], high[1])]
+    corners = [local_to_world((x, y), pose) for x in (low[0], high[0]) for y in (low[1], high[1])]
     xs, ys = zip(*corners, strict=True)
-    return (pose[0] + min(xs), pose[1] + min(ys)), (pose[0] + max(xs), pose[1] + max(ys))
+    return (min(xs), min(ys)), (max(xs), max(ys))
