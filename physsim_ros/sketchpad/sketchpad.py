@@ -157,23 +157,20 @@ class Sketchpad:
 
     def _send_class(self) -> None:
         """Tell all pages who is there, and what a teacher has frozen and locked, if it changed."""
-        content = self._class_content()
-        if self._sessions and content != self._sent_class:
-            self._sent_class = content
-            self._server.send(content)
-
-    def _class_content(self) -> dict[str, Any]:
         people = [
             {'page': number, 'name': session.person, 'role': session.role.value}
             for number, session in self._sessions.items()
             if session.role.draws
         ]
-        return {
+        content = {
             'type': 'class',
             'frozen': self._world.is_frozen,
             'locked': self._world.locked_bodies(),
             'people': people,
         }
+        if self._sessions and content != self._sent_class:
+            self._sent_class = content
+            self._server.send(content)
 
     def _save_unsaved(self) -> tuple[Answer, ...]:
         self._autosave.save()
@@ -254,7 +251,8 @@ class Sketchpad:
         # To all: what is not sent again is what all pages have got.
         self._server.send(timeline_content(self._timeline.read_status(time.monotonic())))
         self._server.list_worlds(number)
-        send(self._class_content())
+        # Sent to all again.
+        self._sent_class = {}
 
     def _recording_path(self) -> str:
         """Return where the recording is shown; '' where no viewer serves browsers."""
