@@ -13,7 +13,7 @@ import re
 import shutil
 import tempfile
 import time
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 
@@ -42,7 +42,7 @@ PIXEL = """([x, y]) => [...document.querySelector('canvas').getContext('2d').get
 MILLISECONDS = 1000.0 * PATIENCE
 # Notes what a page is told: people, with the last message of its welcome; topics of its requests
 # that are answered, and of those after whose answer a frame has come; speeds of time; texts of
-# notes, which go by themselves; and for the message of a failure the last timeline and refusals.
+# notes, which go by themselves; and for the report of a failure the last timeline and refusals.
 LISTENER = """
 const heard = window.heard = {
     people: null, answered: [], shown: [], speeds: [], notes: [], timeline: null, refusals: []};
@@ -70,10 +70,10 @@ new MutationObserver((changes) => {
         if (node.classList?.contains('note')) heard.notes.push(node.textContent);
     }
 }).observe(document, {childList: true, subtree: true});"""
-# The state of a page, for the message of a failure.
-STATE = """() => ({
-    time: physsim.time, speed: physsim.speed, bodies: Object.keys(physsim.bodies), ...heard,
-    status: document.querySelector('[role=status]').textContent})"""
+# The state of a page, for the report of a test that failed.
+STATE = """() => ({...window.heard, ...window.physsim && {
+    time: physsim.time, speed: physsim.speed, bodies: Object.keys(physsim.bodies),
+    status: document.querySelector('[role=status]').textContent}})"""
 SPACE = """() => {
     for (const type of ['keydown', 'keyup']) {
         const event = new KeyboardEvent(type, {key: ' ', bubbles: true, cancelable: true});
@@ -128,7 +128,11 @@ class Sheet:
     :param browser: that opens it
     :param address: with the token
     :param options: of its browser context
+
+    :cvar opened: pages of the test that runs
     """
+
+    opened: ClassVar[list[Sheet]] = []
 
     def __init__(self, browser: Any, address: str, **options: Any) -> None:
         self.context = browser.new_context(**{'viewport': VIEWPORT} | options)
@@ -141,6 +145,7 @@ class Sheet:
             'console',
             lambda message: message.type == 'error' and self.errors.append(message.text),
         )
+        self.opened.append(self)
         self.page.goto(address)
 
     def begin(self, bodies: int = 3) -> None:
@@ -175,8 +180,7 @@ class Sheet:
         """Wait frame by frame until something holds."""
         deadline = time.monotonic() + PATIENCE
         while not predicate():
-            late = time.monotonic() > deadline
-            assert not late, f'{what} did not come about in time: {self.page.evaluate(STATE)}'
+            assert time.monotonic() < deadline, f'{what} did not come about in time'
             self.page.evaluate('new Promise(requestAnimationFrame)')
 
     def play_until(self, seconds: float) -> float:
@@ -247,6 +251,14 @@ class Sheet:
         self.wait('count => Object.keys(physsim.bodies).length === count', len(before) + 1)
         (name,) = self.names() - before
         return name
+
+    def state(self) -> str:
+        """Return what the page shows and was told."""
+        sync_api = pytest.importorskip('playwright.sync_api')
+        try:
+            return f'{self.page.evaluate(STATE)}\n{self.errors}'
+        except sync_api.Error as error:
+            return str(error)
 
     def close(self) -> None:
         """Close the page; it has had no errors."""

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +9,21 @@ from physsim_ros.testing import own_context, PhysSim
 import pytest
 
 from .browser import Browser
-from .chromium import launched_chromium, started_world
+from .chromium import launched_chromium, Sheet, started_world
 from ..outside import Outside
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport(
+    call: pytest.CallInfo[None],
+) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """Add the states of its pages to the report of a test that failed."""
+    report = yield
+    if call.when == 'teardown':
+        Sheet.opened.clear()
+    elif report.failed:
+        report.sections += [('page', sheet.state()) for sheet in Sheet.opened]
+    return report
 
 
 @pytest.fixture
