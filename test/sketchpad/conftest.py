@@ -17,12 +17,15 @@ from ..outside import Outside
 def pytest_runtest_makereport(
     call: pytest.CallInfo[None],
 ) -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """Add the states of its pages to the report of a test that failed."""
+    """Add the states of its pages to the report of a test that failed, and close them."""
     report = yield
-    if call.when == 'teardown':
+    if call.when != 'teardown' and report.failed:
+        for sheet in Sheet.opened:
+            report.sections.append(('page', sheet.state()))
+            # The next test would share the world with it.
+            sheet.context.close()
+    if call.when != 'setup' or report.failed:
         Sheet.opened.clear()
-    elif report.failed:
-        report.sections += [('page', sheet.state()) for sheet in Sheet.opened]
     return report
 
 
