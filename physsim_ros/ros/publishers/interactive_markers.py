@@ -23,7 +23,6 @@ from physsim_ros.ros.encoders.interactive_poses import InteractivePosesEncoder
 from physsim_ros.ros.marker_shapes import geometry_of, THIN
 from physsim_ros.ros.robots.frames import rotation_of
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import (
@@ -55,8 +54,7 @@ class InteractiveMarkers:
     def __init__(self, node: Node, frame_id: str) -> None:
         self._frame_id = frame_id
         self._server = node.get_fully_qualified_name()
-        qos = QoSProfile(depth=_DEPTH, reliability=ReliabilityPolicy.RELIABLE)
-        self._publisher = node.create_publisher(InteractiveMarkerUpdate, '~/drag/update', qos)
+        self._publisher = node.create_publisher(InteractiveMarkerUpdate, '~/drag/update', _DEPTH)
         node.create_service(GetInteractiveMarkers, '~/drag/get_interactive_markers', self._tell)
         self._poses = InteractivePosesEncoder(frame_id, self._server)
         self._frame: Frame | None = None

@@ -35,7 +35,7 @@ from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
 from physsim_ros.ros.robots.frames import TF_DEPTH, tf_message_type
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
@@ -69,10 +69,10 @@ class Publishers:
         publish_tf: bool = False,
     ) -> None:
         def stream(kind: Any, topic: str, depth: int, encoder: Encoder) -> Stream:
-            return Stream(node.create_publisher(kind, topic, _reliable(depth)), encoder)
+            return Stream(node.create_publisher(kind, topic, depth), encoder)
 
         def latched(kind: Any, topic: str) -> Publisher:
-            qos = _reliable(1, DurabilityPolicy.TRANSIENT_LOCAL)
+            qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             return node.create_publisher(kind, topic, qos)
 
         self.clock = stream(Clock, 'clock', 10, ClockEncoder())
@@ -103,7 +103,7 @@ class Publishers:
         self._preview: Preview = NO_PREVIEW
         self._frame: Frame | None = None
         self.events = EventPublisher(
-            node.create_publisher(DiagnosticStatus, '~/events', _reliable(EVENTS_DEPTH))
+            node.create_publisher(DiagnosticStatus, '~/events', EVENTS_DEPTH)
         )
 
     def publish_frame(self, frame: Frame) -> None:
@@ -130,10 +130,6 @@ class Publishers:
             stamp = self._frame.snapshot.stamp if self._frame else 0
             message = preview_message(preview, frame_id=self._frame_id, stamp=stamp)
             self._preview_publisher.publish(message)
-
-
-def _reliable(depth: int, durability: DurabilityPolicy = DurabilityPolicy.VOLATILE) -> QoSProfile:
-    return QoSProfile(depth=depth, reliability=ReliabilityPolicy.RELIABLE, durability=durability)
 
 
 class Encoder(Protocol):

@@ -19,12 +19,12 @@ import time
 from typing import Any
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile
 from rclpy.service import Service
 from rclpy.task import Future
 
 # Depth of the requests that wait to be read: 50 clients with 20 calls each.
-SERVICE_QOS = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
+SERVICE_QOS = QoSProfile(depth=1000)
 # Replies that are sent without a pause: half of what a client keeps.
 BURST = 5
 # Time for a client to read a reply [s]: a SingleThreadedExecutor takes 0.5 ms.

@@ -40,7 +40,7 @@ from physsim_ros.sensing import is_due
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import DurabilityPolicy, QoSProfile
 
 
 class RobotTopics:
@@ -105,10 +105,8 @@ class RobotTopics:
         depth: int = 5,
         durability: DurabilityPolicy = DurabilityPolicy.VOLATILE,
     ) -> Publisher | None:
-        # Reliable publishers serve subscribers of both reliabilities.
-        qos = QoSProfile(
-            depth=depth, reliability=ReliabilityPolicy.RELIABLE, durability=durability
-        )
+        # Publishers are reliable by default, and serve subscribers of both reliabilities.
+        qos = QoSProfile(depth=depth, durability=durability)
         topic = (self._below if below is None else below) + topic
         try:
             publisher = self._node.create_publisher(kind, topic, qos)
