@@ -17,6 +17,7 @@ from typing import Any, ClassVar
 
 import pytest
 
+from .delays import DELAYS
 from ..outside import Outside, PATIENCE, Program
 
 WORLD = """
@@ -137,7 +138,7 @@ class Sheet:
     def __init__(self, browser: Any, address: str, **options: Any) -> None:
         self.context = browser.new_context(**{'viewport': VIEWPORT} | options)
         self.context.set_default_timeout(MILLISECONDS)
-        self.context.add_init_script(LISTENER)
+        self.context.add_init_script(DELAYS + LISTENER)
         self.page = self.context.new_page()
         self.errors: list[str] = []
         self.page.on('pageerror', lambda error: self.errors.append(str(error)))
