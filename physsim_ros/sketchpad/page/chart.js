@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A chart on a canvas: axes with round steps, curves, and a mark at the time that is shown. */
 
-import {roundUp} from './rounding.js';
+import {multiplesOf, roundUp} from './rounding.js';
 
 /** @import {Palette} from './types.js' */
 
@@ -44,12 +44,12 @@ export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, c
     for (const [x, y] of points) ctx.lineTo(x, y);
     ctx.stroke();
   };
-  for (const value of ticks(least, most, 2.2 * size / (bottom - top))) {
+  for (const value of multiplesOf(roundUp((most - least) * 2.2 * size / (bottom - top)), least, most)) {
     line([[left, scales.y(value)], [right, scales.y(value)]]);
     ctx.fillText(text(value), left - size * 0.4, scales.y(value) + size * 0.35);
   }
   ctx.textAlign = 'center';
-  for (const value of ticks(start, end, 5 * size / (right - left))) {
+  for (const value of multiplesOf(roundUp((end - start) * 5 * size / (right - left)), start, end)) {
     line([[scales.x(value), top], [scales.x(value), bottom]]);
     ctx.fillText(text(value) + (xLabel ? '' : ' s'), Math.min(scales.x(value), right - size), bottom + size * 1.15);
   }
@@ -83,16 +83,6 @@ function heightsOf(curves) {
   if (least > most) return [0, 1];
   const margin = Math.max((most - least) * MARGIN, Math.abs(most) * 0.02, 0.05);
   return [least - margin, most + margin];
-}
-
-/**
- * @param {number} from
- * @param {number} to
- * @param {number} share of the length that is the least from one to the next
- */
-function ticks(from, to, share) {
-  const step = roundUp((to - from) * share), first = Math.ceil(from / step);
-  return Array.from({length: Math.floor(to / step) - first + 1}, (_, i) => (first + i) * step);
 }
 
 /** @param {number} value */

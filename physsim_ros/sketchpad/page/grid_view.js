@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The grid in metres, and rulers at the edges whose steps follow the zoom. */
 
-/** @import {Camera, Palette} from './types.js' */
+import {multiplesOf} from './rounding.js';
 
-/**
- * @param {number} step
- * @param {number} from
- * @param {number} to
- */
-function multiplesOf(step, from, to) {
-  const first = Math.ceil(from / step);
-  return Array.from({length: Math.floor(to / step) - first + 1}, (_, i) => (first + i) * step);
-}
+/** @import {Camera, Palette} from './types.js' */
 
 /**
  * @param {CanvasRenderingContext2D} ctx in pixels of the page

@@ -67,7 +67,7 @@ export class Handles {
 
   /** @returns {?{center: Point, turn: Point, scale: Point}} [px]; null where no single body is selected */
   places() {
-    const {world, camera, panel, view} = this.app, row = panel.name ? world.row(panel.name) : -1;
+    const {world, camera, panel, view} = this.app, row = world.row(panel.name);
     if (row < 0 || this.app.viewOnly) return null;
     const body = world.scene.bodies[row], center = camera.toPage(...world.place(row, body.centroid));
     const reach = Math.min(view.bodies.appearance(body).radius * camera.scale,

@@ -47,7 +47,7 @@ export class Numbers {
   }
 
   #update() {
-    const {world, panel} = this.app, row = panel.name ? world.row(panel.name) : -1;
+    const {world, panel} = this.app, row = world.row(panel.name);
     if (row < 0) return;
     const body = world.scene.bodies[row], text = `${threeDigits(body.mass)} kg · ${placed(world, row)}`;
     if (this.line.textContent !== text) this.line.textContent = text;

@@ -14,3 +14,13 @@ export function roundUp(value) {
   const power = 10 ** Math.floor(Math.log10(value)), share = value / power * (1 - 1e-9);
   return Number(((share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1) * power).toPrecision(1));
 }
+
+/**
+ * @param {number} step
+ * @param {number} from
+ * @param {number} to
+ */
+export function multiplesOf(step, from, to) {
+  const first = Math.ceil(from / step);
+  return Array.from({length: Math.floor(to / step) - first + 1}, (_, i) => (first + i) * step);
+}

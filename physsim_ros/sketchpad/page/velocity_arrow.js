@@ -63,7 +63,7 @@ export class VelocityArrow {
 
   /** @returns {?{center: Point, tip: Point}} [px]; null where no single body is selected that may move */
   #ends() {
-    const {world, camera, panel} = this.app, row = panel.name ? world.row(panel.name) : -1;
+    const {world, camera, panel} = this.app, row = world.row(panel.name);
     const velocities = world.frame.velocities;
     if (row < 0 || !velocities || world.scene.bodies[row].anchored) return null;
     const center = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
