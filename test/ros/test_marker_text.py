@@ -128,7 +128,16 @@ def test_a_velocity_of_the_wrong_length_is_refused(text: str) -> None:
 
 @pytest.mark.parametrize(
     ('key', 'nearest'),
-    [('frcition', 'friction'), ('Elasticity', 'elasticity'), ('anchor', 'anchored'), ('z', '')],
+    [
+        ('frcition', 'friction'),
+        ('Elasticity', 'elasticity'),
+        ('anchor', 'anchored'),
+        ('z', ''),
+        ('colour', 'color'),
+        ('radius', 'scale'),
+        ('position', 'pose'),
+        ('lifetime', 'as fields'),
+    ],
 )
 def test_an_unknown_key_is_refused_and_the_nearest_known_one_named(key: str, nearest: str) -> None:
     refusal = refusal_of(f'{{{key}: 1}}')

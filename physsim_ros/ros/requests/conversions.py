@@ -21,13 +21,16 @@ from physsim_ros.files import load_mapping, PROPERTIES, with_shipped_robot
 from physsim_ros.maps import OccupancyGrid as Grid
 from physsim_ros.maps import walls_of
 from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checks import shown
 from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import (
     BadProperty,
     Malformed,
     NotPlanar,
     UnknownFrame,
+    UnknownProperty,
 )
+from physsim_ros.model.everyday_words import property_meant
 from physsim_ros.model.names import JOINT_PREFIX
 from physsim_ros.model.requests import (
     AtPoint,
@@ -56,6 +59,8 @@ NAMESPACE, JOINT_NAMESPACE = 'body', 'joint'
 ANONYMOUS_HAND = 'hand'
 # The greatest roll and pitch of a planar rotation [rad]: rounding errors of float32 tools.
 MOST_TILT = 1e-3
+# Keys of a body in a world file for which a marker has fields.
+_FIELDS = ('at', 'circle', 'box', 'color', 'lifetime')
 # The greatest length of `text` [characters]: ten times all properties with all digits.
 LONGEST_TEXT = 10_000
 # The greatest number of brackets in `text`; two are needed. PyYAML takes 1 s for 1000 nested ones.
@@ -119,7 +124,16 @@ def _properties(marker: Marker) -> Properties:
     """Return the properties in the text of a marker, or those of a note of that text."""
     if marker.type == Marker.TEXT_VIEW_FACING:
         return Properties(anchored=True, sensor=True, label=marker.text)
-    return Properties.from_mapping(with_shipped_robot(mapping_of(marker.text, 'text'), PROPERTIES))
+    mapping = mapping_of(marker.text, 'text')
+    for key in mapping:
+        word = str(key)
+        if word in _FIELDS or property_meant(word, _FIELDS):
+            raise UnknownProperty(
+                f'{shown(key)} is no property in a text: a marker has pose, scale, color and '
+                'lifetime as fields',
+                field=word,
+            )
+    return Properties.from_mapping(with_shipped_robot(mapping, PROPERTIES))
 
 
 def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll:

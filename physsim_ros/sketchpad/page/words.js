@@ -15,7 +15,7 @@ const SENTENCES = [
   [/^discarded the unsaved world$/, 'Unsaved world discarded'], [/^deleted the world (.+)/, 'World $1 deleted'], [/^put back the world (.+)/, 'World $1 is back'], [/^renamed .* to (.+)/, 'Renamed to $1'], [/^set gravity$/, 'Gravity set'], [/^set damping$/, 'Air drag set'],
   [/^on course \d+, at .*/, 'Back on the other course'],
   [/^course \d+ begins at .*/, 'A new course begins here'], [/^speed (.+)/, 'Speed $1×'], [/^.*; next: /, 'Next: '],
-  [/^a (chain of .+) from .+/, '$1 added'], [/^there is nothing by .+ to undo$/, 'Nothing of yours to undo'], [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Redone'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
+  [/^a (chain of .+) from .+/, '$1 added'], [/^pose is /, 'position is '], [/^the yaw of pose /, 'the angle '], [/^there is nothing by .+ to undo$/, 'Nothing of yours to undo'], [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Redone'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
   [/ at \([^)]*\)$/, ' here'],
 ];
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
