@@ -58,6 +58,7 @@ def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> No
     open_lesson(sheet, '1. Free fall')
     card = sheet.page.locator('#lesson')
     card.get_by_text('Which one lands first').wait_for()
+    sheet.page.get_by_role('status').get_by_text('Opened Free fall').wait_for()
     # It waits for its pupil.
     sheet.wait('"heavy/0" in physsim.bodies && physsim.speed === 0 && physsim.time === 0')
     answer = card.get_by_text('whatever the mass')

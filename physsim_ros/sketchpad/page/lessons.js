@@ -51,8 +51,11 @@ export class Lessons {
     connection.send('service', {name: 'pause'});
     if (!(await connection.ask('open', {name})).ok) return;
     // Its clock begins at 0.
-    connection.send('service', {name: 'reset'});
+    const reset = connection.ask('service', {name: 'reset'});
+    gallery.dismiss();
     this.app.frameNext();
+    await reset;
+    this.app.notes.showMessage(`Opened ${this.list.find((each) => each.name === name)?.title ?? name}`);
   }
 
   /** Offer the lesson of a link: the link of a stranger does not replace the world of a class. */
