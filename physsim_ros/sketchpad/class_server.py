@@ -99,7 +99,7 @@ class ClassServer:
                 ('/', Page, {'file': 'class.html'}),
                 ('/login', Login),
                 ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
-                ('/seats', _SeatList, {'seats': seats}),
+                ('/seats', _SeatList, {'seats': seats, 'address': partial(self.url, Role.DRAW)}),
                 ('/join', _Join, {'seats': seats}),
                 ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
             ],
@@ -129,27 +129,28 @@ class ClassServer:
         await server.close_all_connections()
 
 
-class _OfSeats(Guarded):
-    """A handler of the seats of a class."""
-
-    def initialize(self, seats: Seats) -> None:
-        """Set the seats."""
-        self.seats = seats
-
-
-class _SeatList(_OfSeats):
+class _SeatList(Guarded):
     """Who is where."""
+
+    def initialize(self, seats: Seats, address: Callable[[], str]) -> None:
+        """Set the seats, and the address of pupils."""
+        self.seats, self.address = seats, address
 
     async def get(self) -> None:
         """Answer a teacher with names and addresses, others with nothing but their role."""
         teaches = self.role is Role.TEACH
         seats = zip(self.seats.names, self.seats.worlds, strict=True)
         listed = [{'name': name, 'address': world.teacher} for name, world in seats]
-        self.finish({'teacher': teaches, 'seats': listed if teaches else []})
+        told = {'seats': listed, 'pupils': self.address()} if teaches else {'seats': []}
+        self.finish({'teacher': teaches, **told})
 
 
-class _Join(_OfSeats):
+class _Join(Guarded):
     """A pupil comes to the class."""
+
+    def initialize(self, seats: Seats) -> None:
+        """Set the seats."""
+        self.seats = seats
 
     async def post(self) -> None:
         """Answer with the address of the pupil's world, and the key of the browser."""

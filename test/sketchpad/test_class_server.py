@@ -78,6 +78,7 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     links = sheet.page.get_by_role('listitem').get_by_role('link')
     links.nth(1).wait_for()
     assert links.all_inner_texts() == ['Anna', 'Ben']
+    assert sheet.page.locator('#pupils').inner_text() == pupils
     with sheet.context.expect_page() as opened:
         links.first.click()
     opened.value.get_by_role('button', name='People').click()

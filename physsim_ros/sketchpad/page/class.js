@@ -23,11 +23,13 @@ form.addEventListener('submit', async (event) => {
 });
 
 async function showSeats() {
-  const {teacher: teaches, seats} = await fetch('/seats').then((response) => response.json(), () => ({}));
+  const {teacher: teaches, seats, pupils} = await fetch('/seats').then((response) => response.json(), () => ({}));
   if (!teaches) return;
   form.hidden = true;
   if (teacher.hidden) teacher.querySelector('img')?.setAttribute('src', '/qr.svg');
   teacher.hidden = false;
+  // No link: it would make a pupil of the teacher's browser.
+  elementOf('pupils', HTMLElement).textContent = pupils;
   elementOf('seats', HTMLElement).replaceChildren(...seats.map((/** @type {{name: string, address: string}} */ seat) =>
     createElement('li', {}, createElement('a', {href: seat.address, target: '_blank', rel: 'noopener', className: 'button',
       textContent: seat.name || 'free'}))));
