@@ -17,7 +17,7 @@ from collections.abc import Callable
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
 from physsim_ros.simulation.clock import Clock
-from physsim_ros.simulation.past.frame_segment import CachedFrame
+from physsim_ros.simulation.past.frame_cache import CachedFrame
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.past.tree import Moment
 from physsim_ros.simulation.world import World

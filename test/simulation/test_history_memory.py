@@ -12,6 +12,7 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
+from physsim_ros.simulation.past.frame_cache import size_of_frames
 from physsim_ros.simulation.past.history_memory import LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -144,11 +145,15 @@ def test_the_memory_that_is_told_is_within_a_fifth_of_what_is_taken(act: str) ->
     times, carry_out = ACTS[act]
     sim = crowd(100.0)
     sim.advance_frame()
-    gc.collect()
     tracemalloc.start()
+    # The bodies that the world uses again after a checkpoint are not the past.
+    for number in range(2):
+        carry_out(sim, number)
+    sim.advance_frame()
+    gc.collect()
     before, _ = tracemalloc.get_traced_memory()
     first = used(sim)
-    for number in range(times):
+    for number in range(2, times + 2):
         carry_out(sim, number)
     sim.advance_frame()
     gc.collect()
@@ -284,7 +289,7 @@ def test_a_budget_that_is_none_is_refused(value: float, refusal: type[Refusal]) 
     assert sim.past.memory.megabytes == 256.0
 
 
-def test_the_frames_take_what_their_segments_take_after_every_way_through_time() -> None:
+def test_the_size_of_the_frames_is_that_of_each_after_every_way_through_time() -> None:
     driven = Driven(history=20.0, checkpoints=1.0, history_memory=1.0)
     driven.ask(Spawn(name='body/0', shape=Disc(radius=0.1), pose=(0.0, 5.0, 0.0)))
     cache = driven.simulation.past.frame_cache
@@ -296,6 +301,6 @@ def test_the_frames_take_what_their_segments_take_after_every_way_through_time()
         driven.tick()
         sizes.append(cache.size)
 
-        assert cache.size == sum(each.size for each in cache._segments.values())  # noqa: SLF001
+        assert cache.size == size_of_frames(cache._frames.values())  # noqa: SLF001
     assert driven.simulation.past.frame_cache is cache
     assert min(sizes) > 0

@@ -18,7 +18,7 @@ from physsim_ros.model.requests import (
     DeleteAll,
     UnjoinAll,
 )
-from physsim_ros.simulation.past.frame_segment import CachedFrame
+from physsim_ros.simulation.past.frame_cache import CachedFrame
 from physsim_ros.simulation.past.tree import Node
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 import pytest

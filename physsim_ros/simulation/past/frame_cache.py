@@ -4,30 +4,56 @@
 """
 Frame cache: snapshots and contacts of the past, kept within a budget, replayed beyond it.
 
-Law: a step of the past is shown as it was the first time, to the bit; its contacts to a rounding,
-since the engine lists them by address, and they are summed in that order.
+Laws: a step of the past is shown as it was the first time, to the bit; its contacts to a rounding,
+since the engine lists them by address, and they are summed in that order. A replay that ends with
+another digest than the checkpoint there is reported.
 
-A rewind through cached frames, or a seek to one, costs nothing. Beyond them, the segment between
-two checkpoints is replayed forward while the segment after it is shown backward.
+A rewind through cached frames, or a seek to one, costs nothing. Beyond them, a segment, the frames
+between two checkpoints, is replayed forward while the segment after it is shown backward.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from bisect import bisect_left, bisect_right
+from collections import Counter
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.simulation.past.frame_segment import CachedFrame, FrameSegment, SegmentReplay
+from physsim_ros.model.snapshot import Answer, Contacts, Snapshot
 from physsim_ros.simulation.past.history import History
+from physsim_ros.simulation.past.memory_size import frame_size, scene_size
 from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.tree import Keyframe
 from physsim_ros.simulation.world import World
 
-# Segments that are kept whatever their memory: the one that is shown, and the one that is shown
-# next.
-_LEAST_SEGMENTS = 2
 # Greatest memory of a body in a frame, on average of all frames [bytes]: a pose.
 _BODY = 24
+
+
+class CachedFrame(NamedTuple):
+    """
+    The state after a step, as it was shown.
+
+    :ivar snapshot: of the world
+    :ivar contacts: since the frame before; None if contacts were not reported
+    """
+
+    snapshot: Snapshot
+    contacts: Contacts | None
+
+    def copy(self) -> CachedFrame:
+        """Return a copy whose snapshot has no cached properties."""
+        return self._replace(snapshot=replace(self.snapshot))
+
+
+def size_of_frames(frames: Iterable[CachedFrame]) -> int:
+    """Return the memory of frames [bytes], each scene counted once."""
+    frames = list(frames)
+    scenes = {id(frame.snapshot.scene): frame.snapshot.scene for frame in frames}
+    size = sum(frame_size(*frame) for frame in frames)
+    return size + sum(map(scene_size, scenes.values()))
 
 
 class FrameCache:
@@ -50,16 +76,18 @@ class FrameCache:
         self._frame_steps = frame_steps
         self.budget = budget
         self.size = 0
-        self._segments: dict[Keyframe, FrameSegment] = {}
-        # The first keyframe of the history when segments before it were dropped last.
-        self._first = history.keyframes[0].moment
+        # The frames by step, and their steps in the order of time.
+        self._frames: dict[int, CachedFrame] = {}
+        self._steps: list[int] = []
+        # Number of frames of each scene, whose memory is counted once.
+        self._scenes: Counter[int] = Counter()
         # The step that is shown.
         self._shown = 0
         # Number of bodies in the last frame.
         self._bodies = 0
         # The world that replays the segment which is shown next in a rewind.
         self._replay = Replay(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
-        self._segment_replay: SegmentReplay | None = None
+        self._segment: SegmentReplay | None = None
 
     def take_answers(self) -> list[Answer]:
         """Return the reports of replays since the last call."""
@@ -72,45 +100,26 @@ class FrameCache:
         :param end: the step
         :param count: greatest number of snapshots
         """
-        frames: dict[int, CachedFrame] = {}
-        for keyframe in sorted(self._segments, key=lambda keyframe: keyframe.moment, reverse=True):
-            for step, frame in self._segments[keyframe].frames.items():
-                if step <= end:
-                    # The step between two segments is in both.
-                    frames.setdefault(step, frame)
-            if len(frames) >= count:
-                break
-        return [frames[step].snapshot for step in sorted(frames)[-count:]]
+        place = bisect_right(self._steps, end)
+        return [self._frames[step].snapshot for step in self._steps[max(0, place - count) : place]]
 
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown."""
         self._bodies = len(frame.snapshot.poses)
-        keyframe, _ = self._history.segment(frame.snapshot.step)
-        segment = self._segments.setdefault(keyframe, FrameSegment())
-        before = segment.size
-        segment.add(frame)
-        self.size += segment.size - before
+        self._add(frame)
         self._evict(frame.snapshot.step)
 
     def with_first_contacts(self, frame: CachedFrame) -> CachedFrame:
         """Return a frame with the contacts of its cached frame, if that shows the same poses."""
-        step = frame.snapshot.step
-        keyframe, _ = self._history.segment(step)
-        old = self._segments[keyframe].frames.get(step) if keyframe in self._segments else None
+        old = self._frames.get(frame.snapshot.step)
         if old is None or old.contacts is None or not _same(old.snapshot, frame.snapshot):
             return frame
         return CachedFrame(frame.snapshot, old.contacts)
 
     def drop_from(self, step: int) -> list[CachedFrame]:
-        """Drop the frames from a step on, and return them."""
-        self._segment_replay = None
-        dropped: list[CachedFrame] = []
-        for keyframe in [keyframe for keyframe in self._segments if keyframe.step >= step]:
-            dropped += self._segments.pop(keyframe).frames.values()
-        for segment in self._segments.values():
-            dropped += segment.pop_from(step)
-        self._count_size()
-        return dropped
+        """Drop the frames from a step on, and return them in the order of time."""
+        self._segment = None
+        return self._drop(bisect_left(self._steps, step), len(self._steps))
 
     @property
     def reports_contacts(self) -> bool:
@@ -121,15 +130,13 @@ class FrameCache:
     def reports_contacts(self, reports_contacts: bool) -> None:
         if reports_contacts != self.reports_contacts:
             self._replay.world.reports_contacts = reports_contacts
-            self._segment_replay = None
+            self._segment = None
 
     def cached_frame(self, step: int) -> CachedFrame | None:
         """Return the cached frame of a step; None if it is not cached, or not in the history."""
-        if not self._history.oldest <= step <= self._history.head:
-            return None
-        keyframe, _ = self._history.segment(step)
-        frame = self._cached(keyframe, step)
-        return None if frame is None else frame.copy()
+        if self._history.oldest <= step <= self._history.head and self._is_cached(step):
+            return self._frames[step].copy()
+        return None
 
     def frame_at(self, step: int, is_overdue: Callable[[], bool]) -> CachedFrame | None:
         """
@@ -138,18 +145,12 @@ class FrameCache:
         :param is_overdue: whether its replay is to continue in another call
         :return: None until its replay is done
         """
-        cached = self.cached_frame(step)
-        if cached is not None:
-            return cached
-        keyframe, end = self._history.segment(step)
-        stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
-        replay = self._begin_segment(keyframe, end, stride)
-        replay.replay_steps(end - keyframe.step, is_overdue)
-        if replay.steps_left:
-            return None
-        self._keep_replayed(keyframe, replay.segment)
-        self._evict(step)
-        return replay.segment.frames[step].copy()
+        if not self._is_cached(step):
+            _, end = self._history.segment(step)
+            stride = self._frame_steps if step == end or step % self._frame_steps == 0 else 1
+            self._replay_segment(step, stride, 1, is_overdue)
+            self._evict(step)
+        return self.cached_frame(step)
 
     def replay_ahead(
         self, step: int, steps: int, is_overdue: Callable[[], bool], *, fine: bool
@@ -165,87 +166,158 @@ class FrameCache:
         stride = 1 if fine else self._frame_steps
         # At whole speeds all frames but the first, which may be shorter, go by as many steps.
         apart = 1 if fine else -(-steps // stride) * stride
-        gap = self._missing_step(step, apart)
-        if gap is None:
-            return
-        keyframe, end = self._history.segment(gap)
-        replay = self._begin_segment(keyframe, end, stride)
-        frames_left = max(1, (step - gap) // max(1, steps))
-        replay.replay_steps(-(-replay.steps_left // frames_left), is_overdue)
-        if replay.steps_left == 0:
-            self._keep_replayed(keyframe, replay.segment)
+        before = self._begin_of_segments(step)
+        missing = (at for at in range(step - apart, before, -apart) if not self._is_cached(at))
+        gap = next(missing, None)
+        if gap is not None:
+            self._replay_segment(gap, stride, max(1, (step - gap) // max(1, steps)), is_overdue)
             self._evict(step)
 
-    def _cached(self, keyframe: Keyframe, step: int) -> CachedFrame | None:
-        """Return the frame of a step of a segment, if it is cached, with contacts if need be."""
-        segment = self._segments.get(keyframe)
-        frame = None if segment is None else segment.frames.get(step)
-        lacks_contacts = frame is not None and frame.contacts is None and self.reports_contacts
-        return None if lacks_contacts else frame
+    def _is_cached(self, step: int) -> bool:
+        """Return whether the frame of a step is cached, with contacts if need be."""
+        frame = self._frames.get(step)
+        return frame is not None and not (frame.contacts is None and self.reports_contacts)
 
-    def _missing_step(self, step: int, apart: int) -> int | None:
-        """
-        Return the last step before another that is not cached, in its segment and the one before.
-
-        :param step: the other step
-        :param apart: from one step that is shown to the next
-        :return: None if all are cached
-        """
+    def _begin_of_segments(self, step: int) -> int:
+        """Return the first step of the segment before that of a step."""
         keyframe, _ = self._history.segment(step)
         before, _ = self._history.segment(keyframe.step)
-        for number in range(step - apart, before.step, -apart):
-            if self._cached(keyframe if number > keyframe.step else before, number) is None:
-                return number
-        return None
+        return before.step
 
-    def _begin_segment(self, keyframe: Keyframe, end: int, stride: int) -> SegmentReplay:
-        """Begin the replay of a segment, or return the one under way if it is suitable."""
-        replay = self._segment_replay
+    def _replay_segment(
+        self, step: int, stride: int, calls: int, is_overdue: Callable[[], bool]
+    ) -> None:
+        """
+        Replay the segment of a step; at its end its frames replace those that were cached.
+
+        :param stride: steps from one frame to the next
+        :param calls: number of calls in which the replay is to end
+        :param is_overdue: whether it is to continue in another call
+        """
+        keyframe, end = self._history.segment(step)
+        replay = self._segment
         if replay is None or not replay.suits(keyframe, end, stride):
-            replay = self._segment_replay = SegmentReplay(self._replay, keyframe, end, stride)
-        return replay
+            replay = self._segment = SegmentReplay(self._replay, keyframe, end, stride)
+        replay.replay_steps(-(-replay.steps_left // calls), is_overdue)
+        if replay.steps_left == 0:
+            self._segment = None
+            # The frame at its keyframe is the last one of the segment before, if there is one.
+            begin = keyframe.step
+            if begin == self._history.keyframes[0].step and not self._is_cached(begin):
+                begin -= 1
+            self._drop(bisect_right(self._steps, begin), bisect_right(self._steps, end))
+            for frame in replay.frames:
+                if frame.snapshot.step > begin:
+                    self._add(frame)
 
-    def _keep_replayed(self, keyframe: Keyframe, segment: FrameSegment) -> None:
-        """Keep the frames of a replay that is done."""
-        self._segments[keyframe] = segment
-        self._segment_replay = None
-        self._count_size()
+    def _add(self, frame: CachedFrame) -> None:
+        """Add a frame, in place of the one of the same step."""
+        step, scene = frame.snapshot.step, frame.snapshot.scene
+        place = bisect_left(self._steps, step)
+        if step in self._frames:
+            self._drop(place, place + 1)
+        self._frames[step] = frame.copy()
+        self._steps.insert(place, step)
+        self._scenes[id(scene)] += 1
+        self.size += frame_size(*frame)
+        if self._scenes[id(scene)] == 1:
+            self.size += scene_size(scene)
 
-    def _count_size(self) -> None:
-        self.size = sum(segment.size for segment in self._segments.values())
+    def _drop(self, begin: int, end: int) -> list[CachedFrame]:
+        """Drop and return the frames from one place to another in the order of time."""
+        dropped = [self._frames.pop(step) for step in self._steps[begin:end]]
+        del self._steps[begin:end]
+        for frame in dropped:
+            scene = frame.snapshot.scene
+            self._scenes[id(scene)] -= 1
+            self.size -= frame_size(*frame)
+            if not self._scenes[id(scene)]:
+                del self._scenes[id(scene)]
+                self.size -= scene_size(scene)
+        return dropped
 
     def _evict(self, step: int) -> None:
-        """Drop the segments before the history, and the oldest ones until all fit."""
+        """Drop the frames before the history, and more until all fit."""
         self._shown = step
-        first = self._history.keyframes[0].moment
-        if first != self._first:
-            self._first = first
-            for keyframe in [keyframe for keyframe in self._segments if keyframe.moment < first]:
-                del self._segments[keyframe]
-            self._count_size()
+        self._drop(0, bisect_left(self._steps, self._history.keyframes[0].step))
         poses = self._history.length // self._frame_steps * self._bodies
         budget = min(self.budget, poses * _BODY)
         while self.size > budget and self.drop_oldest():
             pass
 
-    def drop_oldest(self) -> int:
+    def drop_oldest(self) -> bool:
         """
-        Drop a segment: the last one, if it lies after the step that is shown, else the first.
+        Drop a frame: the last one, if it lies after the segment that is shown, else the first.
 
-        A rewind shows the frames before the step; playback adds those after it again.
+        A rewind shows the frames before the step; playback adds those after it again. The frames
+        of the segment that is shown, and of the one that a rewind shows next, are kept.
 
-        :return: its memory [bytes]; 0 if only the segments that are always kept are left
+        :return: whether there was one
         """
-        if len(self._segments) <= _LEAST_SEGMENTS:
-            return 0
-        keyframes = sorted(self._segments, key=lambda keyframe: keyframe.moment)
-        last = self._segments.pop(
-            keyframes[-1] if keyframes[-1].step > self._shown else keyframes[0]
-        )
-        self.size -= last.size
-        return last.size
+        _, end = self._history.segment(self._shown)
+        if self._steps and self._steps[-1] > end:
+            self._drop(len(self._steps) - 1, len(self._steps))
+        elif self._steps and self._steps[0] < self._begin_of_segments(self._shown):
+            self._drop(0, 1)
+        else:
+            return False
+        return True
 
 
 def _same(one: Snapshot, other: Snapshot) -> bool:
     """Return whether two snapshots have the same bodies at the same poses."""
     return one.scene.names == other.scene.names and np.array_equal(one.poses, other.poses)
+
+
+class SegmentReplay:
+    """
+    The replay of a segment, each step with the requests with which it was shown.
+
+    :param replay: makes the steps
+    :param keyframe: at which it begins
+    :param end: its last step
+    :param stride: steps from one frame to the next
+
+    :ivar frames: that were made, in the order of time
+    """
+
+    def __init__(self, replay: Replay, keyframe: Keyframe, end: int, stride: int) -> None:
+        self.frames: list[CachedFrame] = []
+        self._keyframe = keyframe
+        self._replay = replay
+        self._end = end
+        self._stride = stride
+        replay.resume(keyframe)
+        replay.replay_shown(keyframe.step)
+        # The step may have been shown without the requests before the keyframe.
+        if replay.serial == replay.history.serial_shown_at(keyframe.step):
+            self._add_frame()
+
+    def suits(self, keyframe: Keyframe, end: int, stride: int) -> bool:
+        """Return whether it has the frames of a stride from a keyframe to a step."""
+        return self._keyframe == keyframe and self._end == end and self._stride <= stride
+
+    @property
+    def steps_left(self) -> int:
+        """Return how many steps remain."""
+        return self._end - self._replay.world.step_count
+
+    def replay_steps(self, steps: int, is_overdue: Callable[[], bool]) -> None:
+        """Make a number of steps, at most those that remain, until it is overdue."""
+        replay = self._replay
+        goal = min(self._end, replay.world.step_count + steps)
+        while (at := replay.world.step_count) < goal:
+            stop = min(self._end, at - at % self._stride + self._stride)
+            replay.replay_shown(stop)
+            self._add_frame()
+            if is_overdue():
+                break
+        if self.steps_left == 0:
+            replay.check_digest()
+
+    def _add_frame(self) -> None:
+        world = self._replay.world
+        snapshot = world.snapshot()
+        self.frames.append(
+            CachedFrame(snapshot, world.contacts(snapshot) if world.reports_contacts else None)
+        )

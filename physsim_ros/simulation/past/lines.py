@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.frame_segment import CachedFrame, size_of_frames
+from physsim_ros.simulation.past.frame_cache import CachedFrame, size_of_frames
 from physsim_ros.simulation.past.tree import Node, Tree
 
 # Greatest number of courses that are kept, as many as a person tells apart; the one that was left
@@ -80,10 +80,9 @@ class Lines:
         return line
 
     def keep_ghost(self, line: Line, ghost: Sequence[CachedFrame]) -> None:
-        """Keep the frames that a line has shown."""
-        kept = [frame._replace(contacts=None) for frame in ghost]
-        line.ghost = sorted(kept, key=lambda frame: frame.snapshot.step)
-        line.size = size_of_frames(kept)
+        """Keep the frames that a line has shown, in the order of time."""
+        line.ghost = [frame._replace(contacts=None) for frame in ghost]
+        line.size = size_of_frames(line.ghost)
         self._tree.size += line.size
 
     def drop(self, line: Line) -> None:

@@ -19,8 +19,7 @@ from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
-from physsim_ros.simulation.past.frame_cache import FrameCache
-from physsim_ros.simulation.past.frame_segment import CachedFrame
+from physsim_ros.simulation.past.frame_cache import CachedFrame, FrameCache
 from physsim_ros.simulation.past.gesture_phrase import gesture_phrase
 from physsim_ros.simulation.past.history import History
 from physsim_ros.simulation.past.history_memory import HistoryMemory
