@@ -38,7 +38,7 @@ from physsim_ros.drawing.strokes.meanings import Outcome
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NotRecognised, UnknownBody
+from physsim_ros.model.errors import no_body, NotRecognised
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, Snapshot
@@ -188,7 +188,7 @@ class DrawingSession:
         """
         scene = self._query(snapshot)
         if name not in scene.names:
-            raise UnknownBody(f'there is no body {name}', field='name')
+            raise no_body(name, scene.names, 'name')
         request = body_requests.copy(
             scene.next_body(), scene.body(name), (*position, scene.pose(name)[2])
         )
@@ -213,7 +213,7 @@ class DrawingSession:
         copies = {WORLD: WORLD}
         for name in names:
             if name not in scene.names:
-                raise UnknownBody(f'there is no body {name}', field='names')
+                raise no_body(name, scene.names, 'names')
             x, y, _ = scene.pose(name)
             spawn = self.copy(name, (x + by[0], y + by[1]), snapshot)
             copies[name] = spawn.name

@@ -9,7 +9,10 @@ Law: a refused request changes nothing; the message names what is refused and th
 
 from __future__ import annotations
 
-from physsim_ros.model.texts import abbreviated, message_text
+from collections.abc import Iterable
+
+from physsim_ros.model.texts import abbreviated, message_text, nearest_name
+from physsim_ros.model.transform import Point
 
 
 class PhysSimError(Exception):
@@ -199,3 +202,24 @@ class Busy(Refusal):
     """More requests wait than may wait."""
 
     code = 'busy'
+
+
+def no_body(name: str, known: Iterable[str], field: str) -> UnknownBody:
+    """
+    Return the refusal of the name of no body.
+
+    :param known: names of which the most similar one is told
+    :param field: of the request, that has the name
+    """
+    return UnknownBody(f'there is no body {name!r}{nearest_name(name, known)}', field=field)
+
+
+def no_joint(name: str, known: Iterable[str], field: str) -> UnknownJoint:
+    """Return the refusal of the name of no joint; parameters as for `no_body`."""
+    return UnknownJoint(f'there is no joint {name!r}{nearest_name(name, known)}', field=field)
+
+
+def nothing_at(point: Point, field: str) -> NothingThere:
+    """Return the refusal of a point in no body [m], of a field of the request."""
+    x, y = point
+    return NothingThere(f'there is no body at ({x:g}, {y:g})', field=field)

@@ -15,11 +15,10 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
-from physsim_ros.model.errors import Refusal, UnknownBody
+from physsim_ros.model.errors import no_body, Refusal
 from physsim_ros.model.names import shown_name
 from physsim_ros.model.robot_states import NO_ROBOTS, RobotStates
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, rotated_each
 
 # The field of every request with a point or pose, besides the point or pose itself.
@@ -115,7 +114,7 @@ class Snapshot:
         """
         names = self.scene.names
         if name not in names:
-            raise UnknownBody(f'there is no body {shown_name(name)!r}{nearest_name(name, names)}')
+            raise no_body(name, names, '')
         return names.index(name)
 
     @property

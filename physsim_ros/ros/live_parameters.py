@@ -101,7 +101,7 @@ class LiveParameters:
         if 'speed' in names:
             self._simulation.speed = self._values['speed']
         if 'history' in names:
-            self._simulation.history = self._values['history']
+            self._simulation.limit_history(self._values['history'])
         if 'history_memory' in names:
             self._simulation.limit_memory(self._values['history_memory'])
         for name, effect in self._effects.items():

@@ -127,15 +127,10 @@ class Simulation:
         """Return the state that was loaded last, to which `reset` returns."""
         return self.past.timeline.history.tip.loaded.state
 
-    @property
-    def history(self) -> float:
-        """Return the length of the past that is kept [s of simulation time]."""
-        return self.past.length
-
-    @history.setter
-    def history(self, history: float) -> None:
+    def limit_history(self, seconds: float) -> None:
+        """Set the length of the past that is kept [s of simulation time]."""
         self.playback.seek_shown()
-        if not self.past.limit_length(history):
+        if not self.past.timeline.keep_within(self.past.steps_in(seconds)):
             self.playback.note_jump()
             self._handler.report_oldest()
 
@@ -145,7 +140,7 @@ class Simulation:
 
         :raises Refusal: it is out of range
         """
-        self.past.limit_memory(megabytes)
+        self.past.memory.megabytes = megabytes
         self.playback.changed = True
 
     @property
@@ -347,9 +342,9 @@ class Simulation:
     def _observe_frame(self, *, moved: bool) -> Frame:
         """Return the frame that is shown, with all answers; fit the past into its budget."""
         snapshot, contacts = self.playback.observe_frame(moved=moved)
-        answers = self._handler.answers
-        answers += self.past.fit_memory(self.playback.moment)
-        answers += self.past.take_answers()
+        self.past.fit_memory(self.playback.moment)
+        self._handler.answers += self.past.reports
+        self.past.reports.clear()
         self.playback.changed = False
         return Frame(
             snapshot=snapshot,

@@ -465,7 +465,7 @@ class Player:
 
     def limit_history(self, seconds: float) -> None:
         self.dropped |= seconds < 600.0
-        self.sim.history = seconds
+        self.sim.limit_history(seconds)
         self.look(self.sim.apply_requests())
 
     def drag(self, name: str, to: tuple[float, float], frames: int, lets_go: bool) -> None:

@@ -255,7 +255,7 @@ def test_what_parts_before_the_oldest_checkpoint_is_dropped() -> None:
     run(sim, 1.0)
     branch(sim, 0.75, 5.0)
     assert numbers(sim) == [1]
-    sim.history = 0.5
+    sim.limit_history(0.5)
     run(sim, 3.0)
 
     assert numbers(sim) == []

@@ -40,7 +40,7 @@ def test_a_refused_request_in_the_past_drops_nothing(driven: Driven) -> None:
 def test_what_is_not_in_the_history_is_refused(driven: Driven, stamp: int) -> None:
     step, digest = driven.simulation.step, driven.simulation.world.digest()
     if stamp < 0:
-        driven.simulation.history = 1.0
+        driven.simulation.limit_history(1.0)
         stamp = 0
     with pytest.raises(OutOfHistory):
         driven.simulation.seek(stamp)
@@ -111,7 +111,7 @@ def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest() -> None:
     driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
     driven.record(20.0)
     driven.simulation.seek(2 * SECOND)
-    driven.simulation.history = 1.0
+    driven.simulation.limit_history(1.0)
     frame = driven.apply_requests()
     assert (
         frame.snapshot.step == driven.simulation.past.timeline.history.oldest == 19 * 240 - FRAME
@@ -131,7 +131,7 @@ def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history: float) -> No
     driven.record(15.0)
     driven.simulation.seek(2 * SECOND)
     driven.simulation.reset()
-    driven.simulation.history = history
+    driven.simulation.limit_history(history)
     driven.simulation.undo()
     oldest = driven.simulation.past.timeline.history.oldest
     assert driven.simulation.step == oldest == 15 * 240 - FRAME - round(history * 240)
@@ -251,7 +251,7 @@ def test_redo_that_the_history_is_too_short_for_says_so() -> None:
     driven.run(1.0, 4.0)
     driven.simulation.seek(3 * SECOND // 2)
     driven.simulation.undo()
-    driven.simulation.history = 2.0
+    driven.simulation.limit_history(2.0)
     message = driven.simulation.redo()
     oldest = driven.simulation.past.timeline.history.oldest
     assert driven.simulation.step == oldest > 360

@@ -213,7 +213,7 @@ def test_redo_does_not_pass_over_an_undone_line_that_is_no_longer_kept() -> None
     simulation = Simulation()
     simulation.perform(spawning('a/0', BOX))
     simulation.reset()
-    simulation.history = 1.0
+    simulation.limit_history(1.0)
     simulation.undo()
     simulation.undo()
     # The step of the spawn is dropped, and the line with it; only the reset could be redone.

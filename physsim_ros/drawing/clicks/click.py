@@ -16,7 +16,7 @@ import math
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.model.errors import BadSize, NothingThere, UnknownBody
+from physsim_ros.model.errors import BadSize, nothing_at, UnknownBody
 from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.transform import Point
 
@@ -53,8 +53,7 @@ class Click:
         :raises UnknownBody: the body has been deleted since
         """
         if not self.body:
-            x, y = self.point
-            raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
+            raise nothing_at(self.point, 'point')
         if self.body not in scene.names:
             raise UnknownBody(f'{self.body} no longer exists', field='point')
         return self.body

@@ -295,7 +295,7 @@ class _Step:
         count = len(self._islands)
         paid = np.bincount(self._islands, lost, count)
         owed = np.maximum(np.bincount(self._islands, gained, count), 1e-300)
-        share: Floats = np.minimum(np.maximum(paid / owed, 0.0), 1.0)
+        share: Floats = np.minimum(np.maximum(paid, 0.0), owed) / owed
         return share
 
     # Positions

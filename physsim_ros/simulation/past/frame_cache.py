@@ -21,12 +21,11 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.model.snapshot import Answer, Contacts, Snapshot
-from physsim_ros.simulation.past.history import History
+from physsim_ros.model.snapshot import Contacts, Snapshot
+from physsim_ros.simulation.past.history_memory import HistoryMemory
 from physsim_ros.simulation.past.memory_size import frame_size, scene_size
 from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.tree import Keyframe
-from physsim_ros.simulation.world import World
 
 # Greatest memory of a body in a frame, on average of all frames [bytes]: a pose.
 _BODY = 24
@@ -60,21 +59,19 @@ class FrameCache:
     """
     The cached frames of a history.
 
-    :param history: with the keyframes between which frames are replayed
-    :param physics_rate: of its world [Hz]
-    :param frame_steps: steps from one frame to the next at whole speeds
-    :param budget: greatest memory [bytes]; for few bodies it is less: a pose of each body in each
-        frame of the history
+    :param replay: in a world of its own, of the history of the frames
+    :param memory: with the greatest memory of frames; for few bodies it is less: a pose of each
+        body in each frame of the history
 
     :ivar size: memory that the frames take [bytes]
     """
 
-    def __init__(
-        self, history: History, *, physics_rate: float, frame_steps: int, budget: int
-    ) -> None:
-        self._history = history
-        self._frame_steps = frame_steps
-        self.budget = budget
+    def __init__(self, replay: Replay, memory: HistoryMemory) -> None:
+        # The world of the replay makes the segment which is shown next in a rewind.
+        self._replay = replay
+        self._history = replay.history
+        self._frame_steps = replay.world.frame_steps
+        self._memory = memory
         self.size = 0
         # The frames by step, and their steps in the order of time.
         self._frames: dict[int, CachedFrame] = {}
@@ -85,13 +82,7 @@ class FrameCache:
         self._shown = 0
         # Number of bodies in the last frame.
         self._bodies = 0
-        # The world that replays the segment which is shown next in a rewind.
-        self._replay = Replay(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
         self._segment: SegmentReplay | None = None
-
-    def take_answers(self) -> list[Answer]:
-        """Return the reports of replays since the last call."""
-        return self._replay.take_answers()
 
     def snapshots(self, end: int, count: int) -> list[Snapshot]:
         """
@@ -120,17 +111,6 @@ class FrameCache:
         """Drop the frames from a step on, and return them in the order of time."""
         self._segment = None
         return self._drop(bisect_left(self._steps, step), len(self._steps))
-
-    @property
-    def reports_contacts(self) -> bool:
-        """Return whether frames without contacts are replayed, to have them."""
-        return self._replay.world.reports_contacts
-
-    @reports_contacts.setter
-    def reports_contacts(self, reports_contacts: bool) -> None:
-        if reports_contacts != self.reports_contacts:
-            self._replay.world.reports_contacts = reports_contacts
-            self._segment = None
 
     def cached_frame(self, step: int) -> CachedFrame | None:
         """Return the cached frame of a step; None if it is not cached, or not in the history."""
@@ -174,9 +154,9 @@ class FrameCache:
             self._evict(step)
 
     def _is_cached(self, step: int) -> bool:
-        """Return whether the frame of a step is cached, with contacts if need be."""
-        frame = self._frames.get(step)
-        return frame is not None and not (frame.contacts is None and self.reports_contacts)
+        """Return whether the frame of a step is cached, with contacts if they are reported."""
+        frame, with_contacts = self._frames.get(step), self._replay.world.reports_contacts
+        return frame is not None and not (frame.contacts is None and with_contacts)
 
     def _begin_of_segments(self, step: int) -> int:
         """Return the first step of the segment before that of a step."""
@@ -241,7 +221,7 @@ class FrameCache:
         self._shown = step
         self._drop(0, bisect_left(self._steps, self._history.keyframes[0].step))
         poses = self._history.length // self._frame_steps * self._bodies
-        budget = min(self.budget, poses * _BODY)
+        budget = min(self._memory.frame_limit, poses * _BODY)
         while self.size > budget and self.drop_oldest():
             pass
 
@@ -283,10 +263,10 @@ class SegmentReplay:
 
     def __init__(self, replay: Replay, keyframe: Keyframe, end: int, stride: int) -> None:
         self.frames: list[CachedFrame] = []
-        self._keyframe = keyframe
         self._replay = replay
         self._end = end
         self._stride = stride
+        self._is_of = keyframe, replay.world.reports_contacts
         replay.resume(keyframe)
         replay.replay_shown(keyframe.step)
         # The step may have been shown without the requests before the keyframe.
@@ -295,7 +275,8 @@ class SegmentReplay:
 
     def suits(self, keyframe: Keyframe, end: int, stride: int) -> bool:
         """Return whether it has the frames of a stride from a keyframe to a step."""
-        return self._keyframe == keyframe and self._end == end and self._stride <= stride
+        is_of = keyframe, self._replay.world.reports_contacts
+        return self._is_of == is_of and self._end == end and self._stride <= stride
 
     @property
     def steps_left(self) -> int:

@@ -18,6 +18,7 @@ from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.simulation.past.history_memory import HistoryMemory
 from physsim_ros.simulation.past.tree import Keyframe, Moment, Node, Tree
 
 
@@ -28,8 +29,8 @@ class History:
     :param tree: with all lines
     :param length: number of steps that are kept
     :param spacing: greatest number of steps from one checkpoint to the next
-    :param log_limit: memory of the requests after a checkpoint from which the next one is due
-        [bytes]; a checkpoint is dropped only together with the requests after it
+    :param memory: with the memory of the requests after a checkpoint from which the next one is
+        due; a checkpoint is dropped only together with the requests after it
 
     :ivar nodes: of the line, the root first
     :ivar keyframes: of its nodes, oldest first; also those ahead, where another line has run
@@ -38,15 +39,15 @@ class History:
     :ivar shown: the moment that is shown; the checkpoint before it is not dropped to save memory
     """
 
-    def __init__(self, tree: Tree, *, length: int, spacing: int, log_limit: int) -> None:
+    def __init__(self, tree: Tree, memory: HistoryMemory, *, length: int, spacing: int) -> None:
         self.tree = tree
-        self.log_limit = log_limit
         self.shown = (0, 0)
         self.head = 0
         self.nodes: list[Node] = []
         self.keyframes: list[Keyframe] = []
-        self._length = length
+        self.length = length
         self.spacing = spacing
+        self._memory = memory
         # Serial of the first request of each gesture.
         self._openings: dict[int, int] = {}
         # By tip and head of another line, the step at which that line parts from this one.
@@ -55,22 +56,12 @@ class History:
     # Reading
 
     @property
-    def length(self) -> int:
-        """Return the number of steps that are kept."""
-        return self._length
-
-    @length.setter
-    def length(self, length: int) -> None:
-        self._length = length
-        self._drop_old()
-
-    @property
     def oldest(self) -> int:
         """Return the oldest step that can be shown."""
         root, first = self.nodes[0], self.keyframes[0].step
         # The root's step was shown without its request, and so it cannot be shown again.
         begins_later = root.step == first and not root.shown
-        return min(self.head, max(first + begins_later, self.head - self._length))
+        return min(self.head, max(first + begins_later, self.head - self.length))
 
     @property
     def tip(self) -> Node:
@@ -147,7 +138,7 @@ class History:
     def is_log_long(self) -> bool:
         """Whether the memory of the requests since the last checkpoint exceeds the limit."""
         last = self.node(self.keyframes[-1].serial)
-        return self.tip.total - last.total > self.log_limit
+        return self.tip.total - last.total > self._memory.log_limit
 
     def last_gesture(self, serial: int) -> tuple[Node, int] | None:
         """
@@ -308,9 +299,14 @@ class History:
 
     # Forgetting
 
+    def limit_length(self, length: int) -> None:
+        """Set the number of steps that are kept."""
+        self.length = length
+        self._drop_old()
+
     def _drop_old(self) -> None:
         """Drop the checkpoints before the last one that is older than `length`."""
-        oldest = self.head - self._length
+        oldest = self.head - self.length
         old = bisect_right(self.keyframes, oldest, key=lambda each: each.step) - 1
         if old > 0:
             self._drop_before(old)

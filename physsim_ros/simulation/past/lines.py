@@ -74,11 +74,6 @@ class Lines:
         yield from self.undone
         yield from self.resets
 
-    def hold(self, line: Line) -> Line:
-        """Have the tree keep a line that is not in force from now on; return it."""
-        self._tree.hold(line.tip)
-        return line
-
     def keep_ghost(self, line: Line, ghost: Sequence[CachedFrame]) -> None:
         """Keep the frames that a line has shown, in the order of time."""
         line.ghost = [frame._replace(contacts=None) for frame in ghost]

@@ -24,9 +24,10 @@ from physsim_ros.simulation.past.gesture_phrase import gesture_phrase
 from physsim_ros.simulation.past.history import History
 from physsim_ros.simulation.past.history_memory import HistoryMemory
 from physsim_ros.simulation.past.lines import Line, Lines, MOST_COURSES
+from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.timeline import Timeline
 from physsim_ros.simulation.past.tree import Moment, Node, Tree
-from physsim_ros.simulation.world import Done
+from physsim_ros.simulation.world import Done, World
 
 # Greatest simulation time that is simulated again where a gesture is taken back [s].
 LONGEST_AGAIN = 60.0
@@ -49,6 +50,7 @@ class Past:
     :ivar timeline: the world on the line in force
     :ivar frame_cache: frames of that line
     :ivar course: number of that line
+    :ivar reports: of events without a request, for the next frame
     """
 
     def __init__(
@@ -64,41 +66,37 @@ class Past:
         self.physics_rate = physics_rate
         self.frame_steps = frame_steps
         self.memory = memory
-        self._length = length
         self._tree = Tree()
         self._lines = Lines(self._tree)
         history = History(
             self._tree,
+            memory,
             length=self.steps_in(length),
             spacing=self.steps_in(checkpoints),
-            log_limit=memory.log_limit,
+        )
+        self.reports: list[Answer] = []
+        # The world of the timeline, and the one that replays cached frames.
+        self._worlds = tuple(
+            World(physics_rate=physics_rate, frame_steps=frame_steps) for _ in range(2)
         )
         self.timeline = Timeline(
-            history,
-            WorldState(settings=settings),
-            physics_rate=physics_rate,
-            frame_steps=frame_steps,
+            self._worlds[0], history, self.reports, WorldState(settings=settings)
         )
-        self.frame_cache = FrameCache(
-            history,
-            physics_rate=physics_rate,
-            frame_steps=frame_steps,
-            budget=memory.frame_limit,
-        )
+        self.frame_cache = FrameCache(Replay(self._worlds[1], history, self.reports), memory)
         self.course = self._courses = 1
         self._era = 0
         # The oldest keyframe when lines that part before it were dropped last.
         self._oldest = history.keyframes[0]
-        self._answers: list[Answer] = []
 
     @property
     def reports_contacts(self) -> bool:
         """Return whether contacts are reported."""
-        return self.frame_cache.reports_contacts
+        return self._worlds[0].reports_contacts
 
     @reports_contacts.setter
     def reports_contacts(self, reports_contacts: bool) -> None:
-        self.timeline.reports_contacts = self.frame_cache.reports_contacts = reports_contacts
+        for world in self._worlds:
+            world.reports_contacts = reports_contacts
 
     def steps_in(self, seconds: float) -> int:
         """Return the number of steps in a simulation time [s]."""
@@ -149,43 +147,11 @@ class Past:
         """
         return self._lines.ghost_at(course, self.steps_in(seconds))
 
-    def take_answers(self) -> list[Answer]:
-        """Return the reports of events without a request since the last call."""
-        answers, self._answers = self._answers, []
-        return answers + self.timeline.take_answers() + self.frame_cache.take_answers()
-
-    # Limits
-
-    @property
-    def length(self) -> float:
-        """Return the length of the past that is kept [s of simulation time]."""
-        return self._length
-
-    def limit_length(self, seconds: float) -> bool:
+    def fit_memory(self, shown: Moment) -> None:
         """
-        Set the length of the past that is kept [s of simulation time].
-
-        :return: whether the timeline is at the same moment as before
-        """
-        self._length = seconds
-        return self._limit_timeline()
-
-    def limit_memory(self, megabytes: float) -> None:
-        """
-        Set the budget [MB]; the excess is dropped by the next `fit_memory`.
-
-        :raises Refusal: it is out of range
-        """
-        self.memory.megabytes = megabytes
-        self.frame_cache.budget = self.memory.frame_limit
-        self._limit_timeline()
-
-    def fit_memory(self, shown: Moment) -> list[Answer]:
-        """
-        Drop the oldest entries until everything fits into the budget.
+        Drop the oldest entries until everything fits into the budget; report it, once.
 
         :param shown: the moment that is shown, which is kept
-        :return: the event that the past was shortened, once
         """
         history, lines, frames = self.timeline.history, self._lines, self.frame_cache
         history.shown = shown
@@ -197,12 +163,7 @@ class Past:
             history.drop_oldest,
         )
         if self.memory.fit(lambda: frames.size + self._tree.size, kinds):
-            return [self.memory.report(history.oldest / self.physics_rate)]
-        return []
-
-    def _limit_timeline(self) -> bool:
-        """Limit the timeline in force, and return whether it is at the same moment as before."""
-        return self.timeline.keep_within(self.steps_in(self._length), self.memory.log_limit)
+            self.reports.append(self.memory.report(history.oldest / self.physics_rate))
 
     # Requests
 
@@ -215,7 +176,7 @@ class Past:
         :raises Refusal: and nothing is changed
         """
         timeline = self.timeline
-        left = self._lines.hold(self._line()) if not timeline.is_newest else None
+        left = self._line() if not timeline.is_newest else None
         try:
             done = timeline.apply(request, gesture, author)
         finally:
@@ -234,7 +195,7 @@ class Past:
         self._courses += 1
         self.course = self._courses
         message = f'course {self.course} begins at {step / self.physics_rate:.3f} s'
-        self._answers.append(Answer(topic='branch', message=f'{message}; {left.course} is kept'))
+        self.reports.append(Answer(topic='branch', message=f'{message}; {left.course} is kept'))
 
     def amend(
         self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
@@ -271,11 +232,11 @@ class Past:
             raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
         if timeline.moment[0] - first.step > self.steps_in(LONGEST_AGAIN):
             raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
-        before = self._lines.hold(self._line())
+        before = self._line()
         before.words = gesture_phrase(first, 1)
         amended = timeline.amend((first.gesture,), ())
         if amended.refused:
-            left, _ = self._return_to(before)
+            left, _ = self._go_to(before)
             self._lines.drop(left)
             raise NotAlone('somebody has used it since; delete it instead')
         self.frame_cache.drop_from(amended.step)
@@ -294,9 +255,11 @@ class Past:
         Begin a timeline with a state, at time 0, on course 1.
 
         Nothing before it can be undone or returned to.
+
+        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
-        self._lines.drop_where(lambda _: True)
         self.timeline.begin(state)
+        self._lines.drop_where(lambda _: True)
         self.frame_cache.drop_from(0)
         self.course = self._courses = 1
 
@@ -311,7 +274,7 @@ class Past:
             # Nothing has happened since the beginning.
             return False
         self._lines.clear_undone(self._era)
-        self._lines.resets.append(self._lines.hold(self._line()))
+        self._lines.resets.append(self._line())
         self.timeline.begin(history.tip.loaded.state)
         self.frame_cache.drop_from(0)
         self._courses += 1
@@ -329,14 +292,14 @@ class Past:
         gesture = history.last_gesture(serial)
         if gesture is not None:
             first, count = gesture
-            before = history.node(first.serial - 1)
-            words = gesture_phrase(first, count)
-            left, _ = self._follow(before, first.step, (first.step, before.serial))
+            words, before = gesture_phrase(first, count), history.node(first.serial - 1)
+            goal = self._line_to(before, first.step, (first.step, before.serial))
         elif self._undoes_reset(serial):
             # The requests since a reset are undone before it, though they are no longer kept.
-            words, (left, _) = 'reset', self._return_to(lines.resets.pop())
+            words, goal = 'reset', lines.resets[-1]
         else:
             raise OutOfHistory('there is nothing to undo', field='history')
+        left, _ = self._go_to(goal)
         left.words = words
         lines.undone.append(left)
         return words
@@ -349,8 +312,8 @@ class Past:
         """
         if not self._is_undone:
             raise OutOfHistory('there is nothing to redo', field='history')
-        line, era = self._lines.undone.pop(), self._era
-        left, _ = self._return_to(line)
+        era = self._era
+        left, _ = self._go_to(self._lines.undone[-1])
         if self._era == era:
             self._lines.drop(left)
         else:
@@ -370,7 +333,7 @@ class Past:
         if line is None:
             raise OutOfHistory(f'course {number} is not kept', field='course')
         line.moment = min(self.timeline.moment[0], line.head), None
-        self._keep_course(*self._return_to(line))
+        self._keep_course(*self._go_to(line))
         self._lines.clear_undone(self._era)
         return True
 
@@ -393,33 +356,29 @@ class Past:
                 yield line, step
 
     def _line(self) -> Line:
-        """Return the line in force."""
-        history, moment = self.timeline.history, self.timeline.moment
-        return Line(
-            tip=history.tip, head=history.head, moment=moment, course=self.course, era=self._era
-        )
+        """Return the line in force, kept from now on, at its moment."""
+        history = self.timeline.history
+        return self._line_to(history.tip, history.head, self.timeline.moment)
 
-    def _follow(
-        self, tip: Node, head: int, moment: tuple[int, int | None]
-    ) -> tuple[Line, list[CachedFrame]]:
+    def _line_to(self, tip: Node, head: int, moment: Moment) -> Line:
+        """Return a line of the course in force up to a node, kept from now on, at a moment."""
+        self._tree.hold(tip)
+        return Line(tip=tip, head=head, moment=moment, course=self.course, era=self._era)
+
+    def _go_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
         """Put a line in force; return the line before, and the frames that only that has shown."""
-        left = self._lines.hold(self._line())
-        step = self.timeline.follow(tip, head, moment)
-        reached, _ = self.timeline.moment
-        if reached != moment[0]:
+        left, timeline = self._line(), self.timeline
+        frames = self.frame_cache.drop_from(timeline.follow(line.tip, line.head, line.moment))
+        reached, _ = timeline.moment
+        if reached != line.moment[0]:
             message = f'{reached / self.physics_rate:.3f} s is the oldest that is kept'
-            self._answers.append(Answer(topic='history', message=message))
-        return left, self.frame_cache.drop_from(step)
-
-    def _return_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
-        """Put a line in force that was left; return the same as `_follow`."""
-        left = self._follow(line.tip, line.head, line.moment)
+            self.reports.append(Answer(topic='history', message=message))
         self.course, self._era = line.course, line.era
         for frame in line.ghost:
-            if frame.snapshot.step >= self.timeline.history.oldest:
+            if frame.snapshot.step >= timeline.history.oldest:
                 self.frame_cache.add_frame(frame)
         self._lines.drop(line)
-        return left
+        return left, frames
 
     def _keep_course(self, left: Line, frames: list[CachedFrame]) -> None:
         """Keep a line as a course that was left, with the frames that only it has shown."""

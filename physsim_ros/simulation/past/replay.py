@@ -25,15 +25,16 @@ class Replay:
 
     :param world: at the moment of a checkpoint, or sent there by `resume`
     :param history: that is replayed
+    :param reports: of events without a request, to which it adds
     """
 
-    def __init__(self, world: World, history: History) -> None:
+    def __init__(self, world: World, history: History, reports: list[Answer]) -> None:
         self._world = world
         self.history = history
         # Serial of the last request that was applied.
         self.serial = 0
         self._resumed: Moment | None = None
-        self._reports: list[Answer] = []
+        self._reports = reports
 
     @property
     def world(self) -> World:
@@ -44,11 +45,6 @@ class Replay:
     def moment(self) -> Moment:
         """Return step and serial."""
         return self._world.step_count, self.serial
-
-    def take_answers(self) -> list[Answer]:
-        """Return the reports of events without a request since the last call."""
-        told, self._reports = self._reports, []
-        return told
 
     def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
         """

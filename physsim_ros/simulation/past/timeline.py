@@ -17,8 +17,9 @@ from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import OutOfHistory, Refusal
-from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.history import History
 from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.tree import Moment, Node
@@ -62,39 +63,29 @@ class Timeline(Replay):
     """
     A world and its history, to which new steps and requests are added.
 
+    :param world: that begins with a state
     :param history: of the world
-    :param state: that the world begins with
-    :param physics_rate: steps a second of simulation time [Hz]
-    :param frame_steps: number of steps in a frame
+    :param reports: of events without a request, to which it adds
+    :param state: at time 0
     """
 
     def __init__(
-        self, history: History, state: WorldState, *, physics_rate: float, frame_steps: int
+        self, world: World, history: History, reports: list[Answer], state: WorldState
     ) -> None:
-        super().__init__(World(physics_rate=physics_rate, frame_steps=frame_steps), history)
+        super().__init__(world, history, reports)
         self._seek: _Seek | None = None
         self.begin(state)
 
     def begin(self, state: WorldState) -> None:
-        """Begin another world with a state, at time 0."""
-        old = self._world
-        world = World(
-            physics_rate=old.physics_rate, frame_steps=old.frame_steps, settings=state.settings
-        )
-        world.apply(Restore(state=state))
-        world.reports_contacts = old.reports_contacts
-        self._world, self._seek, self.serial = world, None, 0
-        self.history.begin(state, world.renew(), world.digest())
+        """
+        Begin with another state, at time 0.
+
+        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        """
+        self._world.begin(state, 0)
+        self._seek, self.serial = None, 0
+        self.history.begin(state, self._world.renew(), self._world.digest())
         self._resumed = self.moment
-
-    @property
-    def reports_contacts(self) -> bool:
-        """Return whether contacts are reported."""
-        return self._world.reports_contacts
-
-    @reports_contacts.setter
-    def reports_contacts(self, reports_contacts: bool) -> None:
-        self._world.reports_contacts = reports_contacts
 
     # The cursor
 
@@ -228,27 +219,17 @@ class Timeline(Replay):
                 self._make_steps(end)
                 history.note_step(self.world.step_count)
 
-    def keep_within(self, length: int, log_limit: int) -> bool:
+    def keep_within(self, length: int) -> bool:
         """
-        Limit the history.
+        Limit the history; if the world is before the oldest step that is kept then, go to it.
 
         :param length: steps that are kept
-        :param log_limit: memory of requests after which a checkpoint is due [bytes]
         :return: whether the world is at the same moment as before
         """
         # Before the steps that it replays are dropped.
         self.continue_seek()
-        self.history.log_limit = log_limit
-        self.history.length = length
-        return self.enter_history()
-
-    def enter_history(self) -> bool:
-        """
-        Go to the oldest step that is kept, if the world is before it.
-
-        :return: whether the world is at the same moment as before
-        """
         history = self.history
+        history.limit_length(length)
         if self.world.step_count >= history.oldest and self.moment >= history.keyframes[0].moment:
             return True
         self.seek(history.oldest)

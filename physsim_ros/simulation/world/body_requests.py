@@ -19,7 +19,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, NothingThere
+from physsim_ros.model.errors import Anchored, BadProperty, nothing_at
 from physsim_ros.model.names import names_in
 from physsim_ros.model.requests import (
     Anchor,
@@ -182,8 +182,7 @@ def _topmost(space: Space, request: AtPoint) -> tuple[RigidBody, Point]:
     (point,) = points_in_world(space, (request.point,), request.frame)
     name = next(iter(space.bodies.at(point)), None)
     if name is None:
-        x, y = point
-        raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='point')
+        raise nothing_at(point, 'point')
     return space.bodies.by_name[name], point
 
 

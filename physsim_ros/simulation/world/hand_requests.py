@@ -9,7 +9,7 @@ Law: a hand whose body is gone does nothing, and is not refused.
 
 from __future__ import annotations
 
-from physsim_ros.model.errors import NothingThere
+from physsim_ros.model.errors import nothing_at, NothingThere
 from physsim_ros.model.requests import (
     Grab,
     GrabToPlace,
@@ -37,11 +37,12 @@ def grab(live: LiveSpace, request: Grab) -> Done:
     under = space.bodies.at(point)
     dynamic = [name for name in under if space.bodies.by_name[name].body.dynamic]
     names = dynamic or (under if isinstance(request, GrabToPlace) else [])
+    if not under:
+        raise nothing_at(point, 'mouse_point')
     if not names:
         x, y = point
-        why = 'the body there cannot be moved' if under else 'there is no body'
-        message = f'{why} at ({x:g}, {y:g})'
-        raise NothingThere(message, field='mouse_point', body=under[0] if under else '')
+        message = f'the body there cannot be moved at ({x:g}, {y:g})'
+        raise NothingThere(message, field='mouse_point', body=under[0])
     live.capacity.check_hand(request.hand)
     name = names[0]
     anchor = world_to_local(point, space.bodies.by_name[name].pose)

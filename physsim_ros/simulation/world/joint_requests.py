@@ -15,12 +15,11 @@ from dataclasses import replace
 import math
 
 from physsim_ros.engine.space import Space
-from physsim_ros.model.errors import Anchored, BadProperty, NothingThere, UnknownJoint
+from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, Join, Pin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
-from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import (
     local_to_world,
     ORIGIN,
@@ -92,7 +91,7 @@ def unjoin(live: LiveSpace, request: Unjoin) -> Done:
     """
     name, joints = request.name, live.space.joints.by_name
     if name not in joints:
-        raise UnknownJoint(f'there is no joint {name!r}{nearest_name(name, joints)}', field='name')
+        raise no_joint(name, joints, 'name')
     live.space.unjoin(name)
     return Done(name, f'deleted joint {name}')
 
@@ -155,8 +154,7 @@ def _members(
         # A line that begins in the background and ends on a body: its body is a.
         if request.kind in _STRAIGHT and b in ('', WORLD) and last:
             return last[0], WORLD, points[::-1]
-        x, y = points[0]
-        raise NothingThere(f'there is no body at ({x:g}, {y:g})', field='points')
+        raise nothing_at(points[0], 'points')
     a = a or first[0]
     b = b or next((name for name in last if name != a), WORLD)
     return a, b, points

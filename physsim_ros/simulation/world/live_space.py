@@ -80,18 +80,22 @@ class LiveSpace:
         self._replace(space, BodyPool())
         self.step_count = checkpoint.step
 
-    def begin(self, state: WorldState) -> None:
+    def begin(self, state: WorldState, step: int) -> None:
         """
-        Replace the space by one that begins with a saved state; time goes on.
+        Replace the space by one that begins with a saved state.
 
+        :param step: number of steps that the world has made then
+        :raises WorldFull: the state is too large; nothing is changed
         :raises BadProperty: springs are too stiff for the steps; nothing is changed
         """
-        checkpoint = checkpoint_of(state, self.step_count, self.dt)
+        self.capacity.check_state(state)
+        checkpoint = checkpoint_of(state, step, self.dt)
         space = restore_checkpoint(checkpoint, self.dt)
         space.joints.check_springs(
             {name: rigid.body for name, rigid in space.bodies.by_name.items()}
         )
         self._replace(space, BodyPool(), _Fresh(checkpoint, space, space.changes))
+        self.step_count = step
 
     def build_bodies(self, count: int) -> None:
         """Build a number of bodies for the next `renew`."""

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import UnknownBody, UnknownFrame
+from physsim_ros.model.errors import no_body, UnknownFrame
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import local_to_world, Point, Pose
 
@@ -39,8 +39,7 @@ def body_of_name(
     :raises UnknownBody: there is none
     """
     if name not in space.bodies.by_name:
-        nearest = nearest_name(name, (*others, *space.bodies.by_name))
-        raise UnknownBody(f'there is no body {name!r}{nearest}', field=field)
+        raise no_body(name, (*others, *space.bodies.by_name), field)
     return space.bodies.by_name[name]
 
 

@@ -61,8 +61,7 @@ def restore(live: LiveSpace, request: Restore) -> Done:
     :raises BadProperty: springs are too stiff for the steps; nothing is changed
     """
     state = request.state
-    live.capacity.check_state(state)
-    live.begin(state)
+    live.begin(state, live.step_count)
     joints = f' and {counted(len(state.joints), "joint")}' if state.joints else ''
     return Done('', f'loaded {counted(len(state.bodies), "body")}{joints}')
 

@@ -14,9 +14,8 @@ from typing import Any
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import pair, Within
-from physsim_ros.model.errors import BadProperty, UnknownJoint
+from physsim_ros.model.errors import BadProperty, no_joint
 from physsim_ros.model.joints import JointProperties
-from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import (
     ChangeBody,
     Configure,
@@ -147,7 +146,7 @@ def change_joint(page: PageSession, origin: Origin, name: str, properties: dict[
     scene = snapshot.scene
     joint = next((each for each in scene.joints if each.name == name), None)
     if joint is None:
-        raise UnknownJoint(f'there is no joint {shown_name(name)}', field='name')
+        raise no_joint(name, (each.name for each in scene.joints), 'name')
     poses = dict(zip(scene.names, snapshot.poses.tolist(), strict=True))
     request = Join(
         name=name,
