@@ -91,8 +91,8 @@ class FrameCache:
         :param end: the step
         :param count: greatest number of snapshots
         """
-        place = bisect_right(self._steps, end)
-        return [self._frames[step].snapshot for step in self._steps[max(0, place - count) : place]]
+        steps = self._steps[: bisect_right(self._steps, end)]
+        return [self._frames[step].snapshot for step in steps[-count:]]
 
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown."""
