@@ -166,7 +166,7 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
                 looks[-1] += 1
             super().__setattr__(name, value)
 
-    monkeypatch.setattr('physsim_ros.simulation.past.tree.Node', Counted)
+    monkeypatch.setattr('physsim_ros.simulation.past.history.Node', Counted)
     driven = Driven(speed=0.0)
     driven.ask(spawning('a/0', BOX))
     for _ in range(1000):

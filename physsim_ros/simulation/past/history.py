@@ -15,7 +15,7 @@ from bisect import bisect_left, bisect_right
 from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.requests import Join, Request, Restore, Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.past.history_memory import HistoryMemory
@@ -206,7 +206,8 @@ class History:
 
     def begin(self, state: WorldState, checkpoint: Checkpoint, digest: str) -> None:
         """Begin a world with a state, at time 0."""
-        root = self.tree.add_root(state)
+        request = Restore(state=state)
+        root = Node(parent=None, step=0, request=request, settings=state.settings, shown=True)
         self.tree.add_keyframe(root, Keyframe(0, 0, checkpoint, digest), None)
         self.follow(root, 0)
 
@@ -264,16 +265,18 @@ class History:
         """
         step, serial = moment
         opening = self._openings.get(gesture, serial + 1)
-        node = self.tree.add_node(
-            self.node(serial),
-            step,
-            request,
+        node = Node(
+            parent=self.node(serial),
+            step=step,
+            request=request,
+            settings=settings,
             gesture=gesture,
-            opening=opening if opening <= serial else serial + 1,
+            opening=min(opening, serial + 1),
             author=author,
             subject=subject,
-            settings=settings,
+            size=self.tree.requests.size_of(request),
         )
+        self.tree.size += node.size
         self.follow(node, step)
 
     def add_keyframe(self, moment: Moment, checkpoint: Checkpoint, digest: str) -> Keyframe:

@@ -107,107 +107,67 @@ class Node:
     A request that changed the world, and the run of the world up to the next one.
 
     :param parent: the node before; None at the root
-    :param serial: number of requests from the beginning of the world to this one
     :param step: at which it was applied, and branches off the run of its parent
-    :param after: step of the last checkpoint of its parent before it; -1 is none
     :param request: that was applied; of a root, the one that loads the state
+    :param settings: of the world after the request
     :param gesture: number of its gesture; requests of one gesture are undone together
     :param opening: serial of the first request of the gesture
     :param author: name of the person whose doing it is; '' is nobody's
     :param subject: name of the body or joint concerned, or ''
-    :param loaded: the state that was loaded last
-    :param settings: of the world after the request
     :param size: memory of the request [bytes]
-    :param total: memory of all requests from the beginning to this one [bytes]
     :param shown: whether its step was shown with it; in a running world, a request is first shown
         in the next frame
 
+    :ivar serial: number of requests from the beginning of the world to this one
+    :ivar after: step of the last checkpoint of its parent before it; -1 is none
+    :ivar loaded: the state that was loaded last
+    :ivar total: memory of all requests from the beginning to this one [bytes]
     :ivar end: the last step that was reached without another request
     :ivar keyframes: up to that step
     :ivar users: number of children, and of lines that end with it
     """
 
     parent: Node | None
-    serial: int
     step: int
     request: Request
-    loaded: Loaded
     settings: WorldSettings
-    after: int = -1
     gesture: int = 0
     opening: int = 0
     author: str = ''
     subject: str = ''
     size: int = 0
-    total: int = 0
     shown: bool = False
+    serial: int = field(init=False, default=0)
+    after: int = field(init=False, default=-1)
+    loaded: Loaded = field(init=False)
+    total: int = field(init=False, default=0)
     end: int = field(init=False)
-    keyframes: list[Keyframe] = field(default_factory=list)
-    users: int = 0
+    keyframes: list[Keyframe] = field(init=False, default_factory=list)
+    users: int = field(init=False, default=0)
 
     def __post_init__(self) -> None:
-        self.end = self.step
+        self.end, parent = self.step, self.parent
+        if parent is not None:
+            self.serial, self.total = parent.serial + 1, parent.total + self.size
+            steps = (keyframe.step for keyframe in parent.keyframes)
+            self.after = max((step for step in steps if step <= self.step), default=-1)
+            self.loaded = parent.loaded
+            parent.users += 1
+        if isinstance(self.request, Restore):
+            self.loaded = Loaded(self.serial, self.request.state)
 
 
 class Tree:
     """
-    The nodes of all lines, and their memory.
+    The memory of the nodes of all lines.
 
     :ivar size: memory of requests, checkpoints and ghosts [bytes]
+    :ivar requests: sizes of the requests
     """
 
     def __init__(self) -> None:
         self.size = 0
-        self._sizes = RequestSizes()
-
-    def add_root(self, state: WorldState) -> Node:
-        """Return the root of a world that begins with a state."""
-        request, loaded = Restore(state=state), Loaded(0, state)
-        return Node(
-            parent=None,
-            serial=0,
-            step=0,
-            request=request,
-            loaded=loaded,
-            settings=state.settings,
-            shown=True,
-        )
-
-    def add_node(
-        self,
-        parent: Node,
-        step: int,
-        request: Request,
-        *,
-        gesture: int,
-        opening: int,
-        author: str,
-        subject: str,
-        settings: WorldSettings,
-    ) -> Node:
-        """Return a new node, after the checkpoints of its parent up to a step."""
-        serial, size = parent.serial + 1, self._sizes.size_of(request)
-        keyframes = [keyframe.step for keyframe in parent.keyframes if keyframe.step <= step]
-        node = Node(
-            parent=parent,
-            serial=serial,
-            step=step,
-            after=keyframes[-1] if keyframes else -1,
-            request=request,
-            gesture=gesture,
-            opening=opening,
-            author=author,
-            subject=subject,
-            settings=settings,
-            loaded=Loaded(serial, request.state)
-            if isinstance(request, Restore)
-            else parent.loaded,
-            size=size,
-            total=parent.total + size,
-        )
-        parent.users += 1
-        self.size += size
-        return node
+        self.requests = RequestSizes()
 
     def add_keyframe(self, node: Node, keyframe: Keyframe, before: Checkpoint | None) -> Keyframe:
         """
