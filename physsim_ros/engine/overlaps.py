@@ -202,7 +202,7 @@ def _overlap(cores: Cores, one: Ints, other: Ints) -> Flags:
 def core_boxes(shape: Shape, pose: Pose) -> list[Box]:
     """Return left, bottom, right, top of the cores of a body [m]."""
     if len(shape.form.pieces) > 1:
-        boxes = core_boxes_of([shape], np.array([pose])).tolist()
+        boxes = _boxes(laid_out([shape], np.array([pose])).cores).tolist()
         return [(left, bottom, right, top) for left, bottom, right, top in boxes]
     # Without arrays, which take ten times as long for one piece.
     (x, y), (length, width), yaw = _only_core(shape.form)
@@ -211,15 +211,6 @@ def core_boxes(shape: Shape, pose: Pose) -> list[Box]:
     dx, dy = length * cos + width * sin, length * sin + width * cos
     x, y = pose[0] + x, pose[1] + y
     return [(x - dx, y - dy, x + dx, y + dy)]
-
-
-def core_boxes_of(shapes: Sequence[Shape], poses: Floats) -> Floats:
-    """
-    Return (n, 4) float64: left, bottom, right, top of the cores of bodies [m].
-
-    Other parameters and their order are those of `laid_out`.
-    """
-    return _boxes(laid_out(shapes, poses).cores)
 
 
 def _boxes(cores: Cores) -> Floats:

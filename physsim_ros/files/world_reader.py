@@ -48,7 +48,7 @@ from physsim_ros.model.transform import local_to_world, NO_WRENCH, Pose, REST, T
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
 from physsim_ros.simulation.world.body_requests import check_command
-from physsim_ros.simulation.world.capacity import check_count
+from physsim_ros.simulation.world.capacity import check_limit
 from physsim_ros.simulation.world.robot_requests import check_namespaces
 
 # Keys of a body whose values follow from `motion`.
@@ -107,7 +107,7 @@ def _body_states(
     progress: Callable[[int, int], object] | None,
 ) -> tuple[tuple[BodyState, ...], set[str]]:
     """Return the states of bodies, and the names of those whose poses are the saved ones."""
-    check_count(len(entries), settings)
+    check_limit('max_bodies', len(entries), settings)
     bodies: dict[str, BodyState] = {}
     unmoved: set[str] = set()
     for count, entry in enumerate(entries, 1):

@@ -9,8 +9,7 @@ overlapping pairs of pieces or joints than its settings allow; so is a grip beyo
 
 Overlaps are bounded from above: each body that is spawned or moved adds the pieces whose boxes its
 own boxes meet in the engine's tree. Only when this bound exceeds the limit, the overlaps of the
-whole world are counted (`engine.overlaps`). The boxes of that count are kept for the next
-requests: to list hundreds of pieces takes the tree a microsecond each.
+whole world are counted (`engine.overlaps`).
 """
 
 from __future__ import annotations
@@ -20,22 +19,13 @@ from collections.abc import Sequence
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.ccd.broad_phase import boxes_overlap
-from physsim_ros.engine.overlaps import (
-    core_boxes,
-    core_boxes_of,
-    count_inside,
-    count_overlaps,
-    laid_out,
-)
+from physsim_ros.engine.overlaps import core_boxes, count_inside, count_overlaps, laid_out
 from physsim_ros.engine.space import Space
-from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import MOST_HANDS, MOST_JOINTS_ON_BODY, WorldSettings
-from physsim_ros.model.shapes import Shape
 from physsim_ros.model.transform import Pose
 
 # Pairs of pieces of one body that cost as much as one contact [1]: the engine lists them too, and
@@ -45,6 +35,8 @@ _INSIDE = 10
 # than this many times the pieces of the requests since the last count [1]. A count takes 3 µs for
 # each piece and overlap, a request a third of a millisecond more.
 _PIECE = 100
+# What the limits in the settings count.
+_COUNTED = {'max_bodies': 'bodies', 'max_shapes': 'convex pieces', 'max_joints': 'joints'}
 
 
 class Capacity:
@@ -64,9 +56,6 @@ class Capacity:
         # Steps that the space had made at the last count, and pieces of requests since then.
         self._age = -1
         self._since = 0
-        # Boxes of all cores at the last count, and the number of changes of the space then.
-        self._boxes: Floats = np.empty((0, 4))
-        self._changes = -1
 
     def check_body(self, body: Body, pose: Pose, *, old: RigidBody | None = None) -> None:
         """
@@ -91,14 +80,19 @@ class Capacity:
         space, settings = self._space, self._space.settings
         most = settings.max_overlaps
         if new_bodies := sum(old is None for _, _, old in placed):
-            check_count(len(space.bodies.by_name) + new_bodies, settings)
+            check_limit('max_bodies', len(space.bodies.by_name) + new_bodies, settings)
         added, shapes = 0, len(space.shapes)
         for body, pose, old in placed:
             pieces = len(body.shape.form.pieces)
             shapes += pieces - (0 if old is None else len(old.body.shape.form.pieces))
-            added += self._count_near(body, pose, old) + _inside(body)
+            added += _inside(body) + space.bodies.count_near(
+                core_boxes(body.shape, pose),
+                without=None if old is None else old.pm_body,
+                moving_only=body.anchored,
+                most=most,
+            )
             self._since += pieces
-        _check_shapes(shapes, settings.max_shapes)
+        check_limit('max_shapes', shapes, settings)
         new = [(body, pose) for body, pose, _ in placed]
         if len(new) > 1:
             added += _count(new, most)
@@ -109,13 +103,12 @@ class Capacity:
         before = self._bound
         if before is None or self._age != space.age or self._since * _PIECE > shapes + before:
             names = {body.name for body, _ in new}
-            others = _poses(space, names)
+            rigids = space.bodies.by_name.values()
+            others = [(each.body, each.pose) for each in rigids if each.body.name not in names]
             before = _count(others, most)
             added = _count([*others, *new], most, first=names)
             added += sum(_inside(body) for body, _ in new)
             self._age, self._since = space.age, 0
-            if not names & space.bodies.by_name.keys():
-                self._boxes, self._changes = core_boxes_of(*_columns(others)), space.changes
         if before + added > most:
             raise _too_many(before + added, most)
         self._bound = before + added
@@ -130,7 +123,7 @@ class Capacity:
             return
         joints = self._space.joints
         if joint.name not in joints.by_name:
-            _check_joints(len(joints.by_name) + 1, self._space.settings.max_joints)
+            check_limit('max_joints', len(joints.by_name) + 1, self._space.settings)
         for body in (joint.a, joint.b):
             _check_on_body(joints.count_on(body, joint), body)
 
@@ -152,12 +145,10 @@ class Capacity:
         """
         if not self.checking:
             return
-        check_count(len(state.bodies), state.settings)
-        _check_shapes(
-            sum(len(each.body.shape.form.pieces) for each in state.bodies),
-            state.settings.max_shapes,
-        )
-        _check_joints(len(state.joints), state.settings.max_joints)
+        pieces = sum(len(each.body.shape.form.pieces) for each in state.bodies)
+        check_limit('max_bodies', len(state.bodies), state.settings)
+        check_limit('max_shapes', pieces, state.settings)
+        check_limit('max_joints', len(state.joints), state.settings)
         ends = Counter(end for joint in state.joints for end in (joint.a, joint.b))
         for body, count in ends.items():
             _check_on_body(count, body)
@@ -166,31 +157,17 @@ class Capacity:
         if count > most:
             raise _too_many(count, most)
 
-    def _count_near(self, body: Body, pose: Pose, old: RigidBody | None) -> int:
-        """Return an upper bound of the pieces that those of a body overlap."""
-        space, boxes = self._space, core_boxes(body.shape, pose)
-        is_counted = self._age == space.age and self._changes == space.changes
-        if is_counted and old is None and not body.anchored and len(boxes) == 1:
-            return int(boxes_overlap(self._boxes, np.array(boxes)).sum())
-        return space.bodies.count_near(
-            boxes,
-            without=None if old is None else old.pm_body,
-            moving_only=body.anchored,
-            most=space.settings.max_overlaps,
-        )
 
-
-def check_count(count: int, settings: WorldSettings) -> None:
+def check_limit(limit: str, count: int, settings: WorldSettings) -> None:
     """
-    Refuse a number of bodies.
+    Refuse a number of bodies, convex pieces or joints.
 
-    :param settings: with the greatest number
+    :param limit: name of the greatest number in the settings
     :raises WorldFull: it is too great
     """
-    if count > settings.max_bodies:
-        raise WorldFull(
-            f'the world would have {count} bodies; max_bodies is {settings.max_bodies}'
-        )
+    most = getattr(settings, limit)
+    if count > most:
+        raise WorldFull(f'the world would have {count} {_COUNTED[limit]}; {limit} is {most}')
 
 
 def _count(
@@ -204,40 +181,17 @@ def _count(
         overlaps of all, with those between the pieces of each
     """
     bodies = [body for body, _ in placed]
-    shapes, poses = _columns(placed)
+    poses = np.array([pose for _, pose in placed], np.float64).reshape(-1, 3)
+    layout = laid_out([body.shape for body in bodies], poses)
     some = [first is None or body.name in first for body in bodies]
     anchored = np.array([body.anchored for body in bodies], np.bool_)
     count = sum(map(_inside, bodies)) if first is None else 0
-    return count + count_overlaps(
-        laid_out(shapes, poses), np.array(some, np.bool_), anchored, most=most
-    )
-
-
-def _poses(space: Space, without: set[str]) -> list[tuple[Body, Pose]]:
-    """Return the bodies of a space and their poses, without those of some names."""
-    rigids = space.bodies.by_name.values()
-    return [(rigid.body, rigid.pose) for rigid in rigids if rigid.body.name not in without]
-
-
-def _columns(placed: Sequence[tuple[Body, Pose]]) -> tuple[list[Shape], Floats]:
-    """Return the shapes of bodies, and their poses as (n, 3) float64."""
-    poses: Floats = np.array([pose for _, pose in placed], np.float64).reshape(-1, 3)
-    return [body.shape for body, _ in placed], poses
+    return count + count_overlaps(layout, np.array(some, np.bool_), anchored, most=most)
 
 
 def _inside(body: Body) -> int:
     """Return the overlaps between the pieces of a body, as the contacts that cost the same."""
     return 0 if body.anchored else count_inside(body.shape) // _INSIDE
-
-
-def _check_shapes(count: int, most: int) -> None:
-    if count > most:
-        raise WorldFull(f'the world would have {count} convex pieces; max_shapes is {most}')
-
-
-def _check_joints(count: int, most: int) -> None:
-    if count > most:
-        raise WorldFull(f'the world would have {count} joints; max_joints is {most}')
 
 
 def _check_on_body(count: int, body: str) -> None:
