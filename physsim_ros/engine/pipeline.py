@@ -49,7 +49,6 @@ from physsim_ros.engine.stages.tight_boxes import tighten_boxes
 from physsim_ros.engine.stages.wrenches import Wrenches
 from physsim_ros.engine.step_context import StepContext
 from physsim_ros.engine.warm_start import clear_impulses, ShapeIds
-from physsim_ros.model.settings import WorldSettings
 import pymunk
 
 
@@ -93,7 +92,6 @@ class Pipeline:
     def step(
         self,
         table: BodyTable,
-        settings: WorldSettings,
         *,
         number: int,
         age: int,
@@ -103,7 +101,6 @@ class Pipeline:
         Make a step.
 
         :param table: the bodies
-        :param settings: settings of the world
         :param number: number of steps that the world has made
         :param age: count of steps since the space was built
         :param reports_contacts: whether contacts are reported
@@ -114,7 +111,7 @@ class Pipeline:
             clear_impulses(self._shapes, [table.bodies[row] for row in unsupported])
         state = table.state.copy()
         context = StepContext(
-            table, settings, self._dt, number, age, reports_contacts, state[:, :3], state[:, 3:]
+            table, self._dt, number, age, reports_contacts, state[:, :3], state[:, 3:]
         )
         self.mouse_joints.apply_forces(context)
         self.resting_damping.damp_resting(context)
@@ -143,10 +140,6 @@ class Pipeline:
         self._block_solver.solve_impacts(touches)
         if context.reports_contacts:
             self.contact_report.add_first_touches(touches)
-
-    def forget_body(self, engine_id: int) -> None:
-        """Drop the state of a removed body, or of the background where its walls are replaced."""
-        self.contact_report.forget_body(engine_id)
 
 
 class PreSolveHook:

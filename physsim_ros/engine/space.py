@@ -274,7 +274,6 @@ class Space:
         if table.columns.moving:
             self.pipeline.step(
                 table,
-                self._settings,
                 number=number,
                 age=self._age,
                 reports_contacts=reports_contacts,
@@ -312,7 +311,7 @@ class Space:
         background = self.pm_space.static_body
         touching = self.bodies.touching(background)
         self.boundary.rebuild(self._settings)
-        self.pipeline.forget_body(background.id)
+        self.pipeline.contact_report.forget_body(background.id)
         self.pipeline.half_step.release_bodies(touching)
 
     def _is_free(self, rigid: RigidBody) -> bool:
@@ -334,7 +333,7 @@ class Space:
         self.changes += 1
         self.bodies.take_out(rigid)
         self.pipeline.wrenches.forget_body(rigid)
-        self.pipeline.forget_body(rigid.pm_body.id)
+        self.pipeline.contact_report.forget_body(rigid.pm_body.id)
 
     def _wake(self, rigid: RigidBody) -> None:
         """Wake a body and its island, before the next step: the table shows who sleeps."""

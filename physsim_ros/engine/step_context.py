@@ -18,7 +18,6 @@ class StepContext:
     One step of the pipeline.
 
     :param table: the bodies
-    :param settings: of the world
     :param dt: length of the step [s]
     :param step: number of steps that the world has made
     :param age: count of steps since the space was built; stages that act every n steps count by
@@ -30,10 +29,14 @@ class StepContext:
     """
 
     table: BodyTable
-    settings: WorldSettings
     dt: float
     step: int
     age: int
     reports_contacts: bool
     poses: Floats
     twists: Floats
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return the settings of the world."""
+        return self.table.scene.settings

@@ -12,6 +12,7 @@ after it; a frame without a step shows what requests have changed.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from numbers import Integral
 
 from physsim_ros.model.checkpoint import WorldState
@@ -190,10 +191,9 @@ class Simulation:
 
     def reset(self) -> str:
         """Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message."""
-        self._prepare_change()
-        self._handler.hands.clear()
-        done = self.past.reset()
-        self.playback.note_jump()
+        with self._jump():
+            self._handler.hands.clear()
+            done = self.past.reset()
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
     def undo(self) -> str:
@@ -202,9 +202,8 @@ class Simulation:
 
         :raises OutOfHistory: there is none in the history
         """
-        self._prepare_change()
-        undone = self.past.undo()
-        self.playback.note_jump()
+        with self._jump():
+            undone = self.past.undo()
         return f'undid {undone}, back at {self.playback.time}'
 
     def take_back(self, author: str) -> str:
@@ -214,10 +213,8 @@ class Simulation:
         :param author: name of the person
         :raises Refusal: there is none, or it does not stand alone; nothing is changed
         """
-        self._prepare_change()
-        taken = self.past.take_back(author)
-        self.playback.note_jump()
-        return f'undid {taken}'
+        with self._jump():
+            return f'undid {self.past.take_back(author)}'
 
     def redo(self) -> str:
         """
@@ -225,9 +222,8 @@ class Simulation:
 
         :raises OutOfHistory: nothing was undone, or a request was applied since
         """
-        self._prepare_change()
-        self.past.redo()
-        self.playback.note_jump()
+        with self._jump():
+            self.past.redo()
         return f'redid what was undone, at {self.playback.time}'
 
     def return_to_course(self, number: int) -> str:
@@ -237,10 +233,9 @@ class Simulation:
         :param number: of the course
         :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
-        self._prepare_change()
-        if self.past.return_to_course(number):
-            self._handler.hands.clear()
-        self.playback.note_jump()
+        with self._jump():
+            if self.past.return_to_course(number):
+                self._handler.hands.clear()
         return f'on course {number}, at {self.playback.time}'
 
     def seek(self, stamp: int) -> str:
@@ -356,8 +351,11 @@ class Simulation:
             course=self.past.course,
         )
 
-    def _prepare_change(self) -> None:
-        """Apply the requests that wait, and send the world to the moment that is shown."""
+    @contextmanager
+    def _jump(self) -> Iterator[None]:
+        """Have the block move the timeline, from the moment that is shown after all requests."""
         self._handler.apply_waiting()
         self.playback.frames_due = 0
         self.playback.seek_shown()
+        yield
+        self.playback.note_jump()
