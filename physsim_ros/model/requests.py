@@ -1,0 +1,570 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Requests: everything that can be asked of a world, as frozen values.
+
+A constructor checks the values of its request alone; the world checks them against its bodies when
+it applies the request. Poses are (x, y, yaw) in metres and radians, in the world or, where `frame`
+names a body, relative to that body as it is when the request is applied. Bodies come first, then
+robots, joints, hands and the world. A new request is a class here, a member of `Request`, and a
+line in the table of handlers in `simulation.world.world`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+import math
+from typing import Any
+
+import numpy as np
+from physsim_ros.model.arrays import Floats, greatest
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checks import (
+    check_finite,
+    check_key,
+    check_point,
+    check_pose,
+    FARTHEST,
+    FASTEST,
+    HEAVIEST,
+    LONGEST,
+    shown,
+)
+from physsim_ros.model.colors import check_color, Color
+from physsim_ros.model.errors import BadProperty, BadSize, Malformed
+from physsim_ros.model.joints import (
+    JOINT_KEYS,
+    JointKind,
+    JointProperties,
+    kind_from,
+    PROPERTIES,
+)
+from physsim_ros.model.names import check_body_name, check_hand_name, check_name, WORLD
+from physsim_ros.model.settings import check_setting
+from physsim_ros.model.shapes import Shape
+from physsim_ros.model.transform import ORIGIN, Point, Pose, Twist
+
+_NO_ROWS: Floats = np.empty((0, 3))
+_NO_ROWS.flags.writeable = False
+
+
+def _no_rows() -> Floats:
+    return _NO_ROWS
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spawn:
+    """
+    Add a body, or change the body of that name in place.
+
+    A change replaces the shape, the pose, the colour unless it is None, the lifetime unless it is
+    0, and the properties that are set. Everything else is kept, velocity included.
+
+    :param name: of the body
+    :param shape: geometry in the body's frame
+    :param pose: of the body's origin
+    :param frame: '' for the world, or a body's name
+    :param color: red, green, blue, alpha, each 0 .. 1; None is the default of the
+        name
+    :param lifetime: simulation time after which the body is removed [s]; 0 is for ever
+    :param properties: material, velocity and role
+    :raises Malformed: a number is not finite, or the name is empty or too long
+    :raises BadProperty: a pose, colour or lifetime is out of range
+    """
+
+    name: str
+    shape: Shape
+    pose: Pose = ORIGIN
+    frame: str = ''
+    color: Color | None = None
+    lifetime: float = 0.0
+    properties: Properties = field(default_factory=Properties)
+
+    def __post_init__(self) -> None:
+        check_body_name(self.name)
+        check_pose(self.pose, 'pose')
+        if self.color is not None:
+            object.__setattr__(self, 'color', check_color(self.color))
+        check_finite((self.lifetime,), 1, 'lifetime')
+        if not 0.0 <= self.lifetime <= LONGEST:
+            raise BadProperty(
+                f'lifetime is {self.lifetime:g}; it must lie between 0 and {LONGEST:g} s',
+                field='lifetime',
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ChangeBody:
+    """
+    Change the properties of a body that are named here; everything else is kept.
+
+    :param name: of the body
+    :param properties: that are set
+    :param color: red, green, blue, alpha, each 0 .. 1; None keeps it
+    :param pose: of the body's origin; None keeps it
+    :param frame: of the pose: '' for the world, or a body's name
+    :raises Malformed: a number is not finite, or an array has the wrong length
+    :raises BadProperty: a pose or colour is out of range
+    """
+
+    name: str
+    properties: Properties = field(default_factory=Properties)
+    color: Color | None = None
+    pose: Pose | None = None
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        if self.pose is not None:
+            check_pose(self.pose, 'pose')
+        if self.color is not None:
+            object.__setattr__(self, 'color', check_color(self.color))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveBodies:
+    """
+    Move bodies by one vector; velocities are kept. If one is refused, none is moved.
+
+    :param names: the bodies, each once
+    :param by: vector of the world [m]
+    :raises Malformed: no body is named, one is named twice, or a number is not finite
+    :raises BadProperty: the vector is too long
+    """
+
+    names: tuple[str, ...]
+    by: Point
+
+    def __post_init__(self) -> None:
+        _check_names(self.names)
+        check_point(self.by, 'by')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AtPoint:
+    """A request for the topmost bodies, or joints, at a point [m]."""
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        check_point(self.point, 'point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Anchor(AtPoint):
+    """Fix the topmost body at a point to the background."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Release(AtPoint):
+    """Undo the anchoring of the topmost body at a point, and remove pins and axles there."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Delete:
+    """Remove the body of that name, and its joints."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeleteBodies:
+    """
+    Remove several bodies, and their joints. If one does not exist, none is removed.
+
+    :param names: the bodies, each once
+    :raises Malformed: no body is named, or one is named twice
+    """
+
+    names: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        _check_names(self.names)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeleteAll:
+    """
+    Remove all bodies, or all of a namespace, and their joints.
+
+    :param namespace: of their names, the part before the last slash; None is every body
+    """
+
+    namespace: str | None = None
+
+
+def _check_names(names: tuple[str, ...]) -> None:
+    if not names:
+        raise Malformed('no body is named', field='names')
+    if len(set(names)) != len(names):
+        raise Malformed('a body is named twice', field='names')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Command:
+    """
+    Set poses, twists or wrenches of named bodies; if one is refused, nothing is set.
+
+    Each array is copied and is read-only afterwards; n is the number of names.
+
+    :param names: the bodies, each once
+    :param poses: (n, 3) float64: x, y [m], yaw [rad] of each, or empty
+    :param twists: (n, 3) float64: vx, vy [m/s], spin [rad/s], world axes, or empty
+    :param wrenches: (n, 3) float64: fx, fy [N], torque [N m], world axes, or empty; they act at
+        the centre of mass until the next one, at most for the world's `command_timeout`
+    :param frame: of the poses: '' for the world, or a body's name
+    :raises Malformed: lengths do not fit, a name comes twice, a number is not finite
+    :raises BadProperty: a value is out of range
+    """
+
+    names: tuple[str, ...]
+    poses: Floats = field(default_factory=_no_rows)
+    twists: Floats = field(default_factory=_no_rows)
+    wrenches: Floats = field(default_factory=_no_rows)
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        if not self.names:
+            raise Malformed('the command names no body', field='joint_names')
+        if len(set(self.names)) != len(self.names):
+            raise Malformed('the command names a body twice', field='joint_names')
+        for array, name in (('poses', 'transforms'), ('twists', 'twist'), ('wrenches', 'wrench')):
+            rows = _checked_rows(getattr(self, array), len(self.names), name)
+            object.__setattr__(self, array, rows)
+        if greatest(self.poses[:, :2]) > FARTHEST:
+            raise BadProperty(
+                f'transforms is further away than {FARTHEST:g} m', field='transforms'
+            )
+        if greatest(self.poses[:, 2]) > FARTHEST:
+            raise BadProperty('the yaw of transforms is too large', field='transforms')
+        # The coordinates first, so that their squares do not overflow.
+        if greatest(self.twists) > FASTEST or greatest(np.hypot(*self.twists.T[:2])) > FASTEST:
+            raise BadProperty(f'twist is faster than {FASTEST:g} m/s or rad/s', field='twist')
+        if greatest(self.wrenches) > HEAVIEST:
+            raise BadProperty(f'wrench exceeds {HEAVIEST:g} N or N m', field='wrench')
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Command):
+            return NotImplemented
+        return (self.names, self.frame) == (other.names, other.frame) and all(
+            np.array_equal(one, two) for one, two in zip(self._arrays, other._arrays, strict=True)
+        )
+
+    def __hash__(self) -> int:
+        return hash((self.names, self.frame))
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of its arrays [bytes]."""
+        return sum(array.nbytes for array in self._arrays)
+
+    @property
+    def _arrays(self) -> tuple[Floats, ...]:
+        return self.poses, self.twists, self.wrenches
+
+    def share_names(self, names: tuple[str, ...]) -> None:
+        """Have the names in memory once for many commands: `names` are equal to its own."""
+        object.__setattr__(self, 'names', names)
+
+
+def _checked_rows(values: Any, count: int, name: str) -> Floats:
+    """
+    Return a read-only copy of as many rows of three finite numbers, or none.
+
+    :param name: of the field, for the refusal
+    :raises Malformed: they are something else
+    """
+    if len(values) == 0:
+        return _NO_ROWS
+    if len(values) != count:
+        raise Malformed(f'{name} has {len(values)} entries for {count} bodies', field=name)
+    if any(len(row) != 3 for row in values):
+        raise Malformed(f'each {name} needs 3 numbers', field=name)
+    rows = np.array(values, dtype=np.float64)
+    if not np.isfinite(rows).all():
+        raise Malformed(f'{name} is not finite', field=name)
+    rows.flags.writeable = False
+    return rows
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DriveRobot:
+    """
+    Drive at a velocity, until the next command or the timeout of the drive.
+
+    The drive does what it can of it: a velocity beyond its limits is cut off.
+
+    :param name: of the body of the robot
+    :param velocity: vx forward, vy to the left [m/s], turn counter-clockwise [rad/s]
+    :raises Malformed: a number is not finite, or there are not three
+    :raises BadProperty: it is faster than anything may be
+    """
+
+    name: str
+    velocity: Twist
+
+    def __post_init__(self) -> None:
+        check_finite(self.velocity, 3, 'velocity')
+        object.__setattr__(self, 'velocity', tuple(map(float, self.velocity)))
+        if max(map(abs, self.velocity)) > FASTEST:
+            raise BadProperty(
+                f'velocity is faster than {FASTEST:g} m/s or rad/s', field='velocity'
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Join:
+    """
+    Join two bodies, or a body and the background; or change the joint of that name in place.
+
+    A change replaces the bodies, the points and the properties that are set or unset. The other
+    properties are kept if the kind is the same.
+
+    :param name: of the joint
+    :param kind: of joint
+    :param points: anchor points, one or two as the kind requires [m]
+    :param frame: of the points: '' for the world, or a body's name
+    :param a: name of a body; '' is the topmost one at the first point
+    :param b: name of a body, or 'world' for the background; '' is the next body at the point, or
+        the topmost one at the second point, or the background if there is none
+    :param properties: of the kind
+    :param unset: names of the properties that get their defaults again
+    :raises Malformed: a number is not finite, the name has no id, or the number of points is wrong
+    :raises BadProperty: there is no such kind, a body would be joined to itself, or a point is too
+        far away
+    :raises BadSize: the points are closer than the kind allows
+    :raises UnknownProperty: the kind of joint does not have a property
+    """
+
+    name: str
+    kind: JointKind
+    points: tuple[Point, ...]
+    frame: str = ''
+    a: str = ''
+    b: str = ''
+    properties: JointProperties = field(default_factory=JointProperties)
+    unset: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        check_name(self.name)
+        object.__setattr__(self, 'kind', kind_from(self.kind))
+        count = self.kind.points
+        if len(self.points) != count:
+            raise Malformed(
+                f'a {self.kind} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
+                field='points',
+            )
+        for point in self.points:
+            check_point(point, 'points')
+        if self.a == WORLD:
+            raise BadProperty('a is a body; the background can only be b', field='a')
+        if self.a and self.a == self.b:
+            raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
+        self.properties.check_kind(self.kind, self.unset)
+        least = self.kind.schema.least_distance
+        if least and math.dist(*self.points) < least:
+            raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pin(AtPoint):
+    """Weld the two topmost bodies at a point, or the only one to the background."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Axle(AtPoint):
+    """Join the two topmost bodies at a point by an axle, or the only one to the background."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unjoin:
+    """Remove the joint of that name."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnjoinAll:
+    """
+    Remove all joints, or all of a namespace.
+
+    :param namespace: of their names, the part before the last slash; None is every joint
+    """
+
+    namespace: str | None = None
+
+
+def join_from(
+    mapping: Mapping[Any, Any], *, name: str, points: tuple[Point, ...], frame: str = ''
+) -> Join:
+    """
+    Return the request for a joint of a YAML mapping: `kind`, `a`, `b` and properties.
+
+    Without `b`, a mapping with `a` means the background; without both it means the bodies at the
+    points. A property that is null is unset.
+
+    :param name: of the joint
+    :param points: in the frame [m]
+    :param frame: '' for the world, or a body's name
+    :raises Refusal: a key is unknown, or a value is out of range
+    """
+    unset = unset_in(mapping)
+    kind, a, b, properties = joined_from(
+        {key: mapping[key] for key in mapping if key not in unset}
+    )
+    return Join(
+        name=name,
+        kind=kind,
+        points=points,
+        frame=frame,
+        a=a,
+        b=b,
+        properties=properties,
+        unset=unset,
+    )
+
+
+def unset_in(mapping: Mapping[Any, Any]) -> tuple[str, ...]:
+    """Return the properties that are null in a YAML mapping."""
+    return tuple(name for name in PROPERTIES if mapping.get(name, name) is None)
+
+
+def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
+    """
+    Return kind, names of the bodies a and b, and properties of a YAML mapping.
+
+    :raises Refusal: a key is unknown, or a value is out of range
+    """
+    for key in mapping:
+        check_key(key, JOINT_KEYS)
+    properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
+    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    kind = kind_from(mapping.get('kind'))
+    return kind, a, WORLD if a and not b else b, JointProperties.from_mapping(properties)
+
+
+def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
+    name = mapping.get(key, '')
+    if not isinstance(name, str):
+        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
+    return name
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OfHand:
+    """
+    A request of a hand.
+
+    :param hand: name of the hand, unique in its world
+    :raises Malformed: the name is empty, too long or unprintable
+    """
+
+    hand: str
+
+    def __post_init__(self) -> None:
+        check_hand_name(self.hand)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grab(OfHand):
+    """
+    Have a hand grab the topmost dynamic body under a point; it lets go of any other body.
+
+    :param point: position of the hand [m]
+    :param frame: of the point: '' for the world, or a body's name
+    """
+
+    point: Point
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        OfHand.__post_init__(self)
+        check_point(self.point, 'mouse_point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GrabToPlace(Grab):
+    """`Grab` in a paused world: where no dynamic body is under the point, any body is grabbed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveHand(OfHand):
+    """
+    Move a hand, and draw the body to it that it has grabbed.
+
+    :param point: new position of the hand [m]
+    :param yaw: of the body [rad], where it is placed; None keeps it
+    :param frame: of the point and yaw: '' for the world, or a body's name
+    """
+
+    point: Point
+    yaw: float | None = None
+    frame: str = ''
+
+    def __post_init__(self) -> None:
+        OfHand.__post_init__(self)
+        check_pose((*self.point, self.yaw or 0.0), 'mouse_point')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlaceHand(MoveHand):
+    """`MoveHand` in a paused world: the body is put where its grip is at the hand."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeepHand(OfHand):
+    """Keep a hand that does not move from counting as gone."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LetGo(OfHand):
+    """Have a hand let go of its body, which flies on."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Configure:
+    """
+    Change settings of the world.
+
+    :param changes: new values by the field of WorldSettings
+    """
+
+    changes: Mapping[str, Any]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, 'changes', dict(self.changes))
+        for name in self.changes:
+            check_setting(name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Restore:
+    """Replace all bodies, joints and settings by those of a saved state."""
+
+    state: WorldState
+
+
+HandRequest = Grab | GrabToPlace | MoveHand | PlaceHand | KeepHand | LetGo
+Request = (
+    Spawn
+    | ChangeBody
+    | MoveBodies
+    | Command
+    | Anchor
+    | Release
+    | Delete
+    | DeleteBodies
+    | DeleteAll
+    | Join
+    | Unjoin
+    | UnjoinAll
+    | Pin
+    | Axle
+    | HandRequest
+    | DriveRobot
+    | Configure
+    | Restore
+)
