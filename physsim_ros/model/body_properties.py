@@ -24,7 +24,7 @@ from physsim_ros.model.checks import (
     Within,
 )
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.robots import Robot, robot_from
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.texts import is_printable
 
 # Greatest length of a label [characters]: some lines beside a body.
@@ -85,7 +85,7 @@ class Properties(Checked):
         'group': _group,
         'sensor': flag,
         'surface_velocity': velocity,
-        'robot': robot_from,
+        'robot': Robot.from_value,
         'label': _label,
     }
 

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 import math
 import reprlib
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Generic, Self, TypeVar
 
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.everyday_words import property_meant
@@ -285,6 +285,20 @@ class Checked:
         return cls(**mapping)
 
     @classmethod
+    def from_value(cls, value: object, name: str) -> Self:
+        """
+        Return a value of this class as it is, and that of a mapping as `from_mapping`.
+
+        :param name: of the field, for the refusal
+        :raises BadProperty: it is neither; and as `from_mapping`
+        """
+        if isinstance(value, cls):
+            return value
+        if not isinstance(value, dict):
+            raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
+        return cls.from_mapping(value)
+
+    @classmethod
     def check_keys(cls, mapping: Mapping[Any, Any]) -> None:
         """
         Refuse keys that are no fields, and keys without a value.
@@ -297,3 +311,42 @@ class Checked:
             check_key(key, known)
             if value is None:
                 raise BadProperty(f'{key} has no value', field=str(key))
+
+
+_Value = TypeVar('_Value', bound=Checked)
+
+
+@dataclass(frozen=True, slots=True)
+class OfKind(Generic[_Value]):
+    """
+    A check of values of several kinds, whose mapping says by the key `kind` which one it is.
+
+    :param noun: for such a value, for messages
+    :param kinds: classes by the words for them
+    """
+
+    noun: str
+    kinds: Mapping[str, type[_Value]]
+
+    def __call__(self, value: object, name: str) -> _Value:
+        """
+        Return a value of one of the kinds as it is, and that of a mapping as `from_mapping`.
+
+        :raises BadProperty: it is neither, or there is no such kind; and as `from_mapping`
+        """
+        for each in self.kinds.values():
+            if isinstance(value, each):
+                return value
+        if not isinstance(value, dict):
+            raise BadProperty(f'a {self.noun} must be a mapping, not {shown(value)}', field=name)
+        kind, words = value.get('kind'), ', '.join(self.kinds)
+        if kind is None:
+            raise BadProperty(f'a {self.noun} needs a kind: {words}', field='kind')
+        if not isinstance(kind, str) or kind not in self.kinds:
+            near = nearest_name(str(kind), self.kinds)
+            raise BadProperty(
+                f'there is no kind of {self.noun} {shown(kind)}{near}; there are {words}',
+                field='kind',
+            )
+        rest = {key: each for key, each in value.items() if key != 'kind'}
+        return self.kinds[kind].from_mapping(rest)

@@ -348,5 +348,5 @@ def test_a_machine_is_copied_with_the_joints_among_its_bodies() -> None:
     assert (spring.kind, spring.a, spring.b) == (JointKind.SPRING, 'drawn/0', 'drawn/1')
     assert spring.rest_length == 2.0
     assert (rope.kind, rope.a, rope.b) == (JointKind.ROPE, 'drawn/0', 'world')
-    with pytest.raises(UnknownBody, match="'x/0'; nearest is '[abc]/0'"):
+    with pytest.raises(UnknownBody, match=r"'x/0'; nearest is '[abc]/0'"):
         session.copy_machine(('a/0', 'x/0'), (1.0, 0.0), sim.world.snapshot())

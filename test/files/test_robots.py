@@ -5,7 +5,7 @@
 
 from physsim_ros.files import shipped_robots, spawn_from, with_shipped_robot
 from physsim_ros.model.errors import BadProperty, UnknownProperty
-from physsim_ros.model.robots import robot_from
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
@@ -18,7 +18,7 @@ def test_the_shipped_robots_are_those_that_the_interface_names():
 def test_a_shipped_robot_is_a_body_by_its_name_alone(name):
     spawn = spawn_from({'name': 'robot/0', 'robot': name})
 
-    assert spawn.properties.robot == robot_from(spawn.properties.robot.entry())
+    assert spawn.properties.robot == Robot.from_mapping(spawn.properties.robot.entry())
     assert spawn.properties.mass > 0.0
     assert spawn.color is not None
 
@@ -43,9 +43,9 @@ def test_a_body_keeps_what_it_says_itself():
 def test_a_drive_of_another_kind_keeps_nothing_of_the_shipped_one():
     entry = {'robot': {'from': 'car', 'drive': {'kind': 'omni'}}}
 
-    robot = robot_from(with_shipped_robot(entry, [])['robot'])
+    robot = Robot.from_mapping(with_shipped_robot(entry, [])['robot'])
 
-    assert robot.drive.entry() == robot_from({'drive': {'kind': 'omni'}}).drive.entry()
+    assert robot.drive.entry() == Robot.from_mapping({'drive': {'kind': 'omni'}}).drive.entry()
 
 
 def test_a_body_without_a_shape_of_its_own_has_that_of_the_robot():

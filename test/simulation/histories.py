@@ -60,7 +60,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
-from physsim_ros.model.robots import robot_from
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.model.snapshot import Frame, Snapshot
@@ -87,7 +87,7 @@ NAMES = tuple(f'a/{number}' for number in range(4))
 JOINTS = ('j/0', 'j/1')
 # Each kind of drive, some with odometry that errs.
 ROBOTS = tuple(
-    robot_from(each, 'robot')
+    Robot.from_mapping(each)
     for each in (
         {'drive': {'kind': 'differential', 'track': 0.2, 'timeout': 0.1}},
         {'drive': {'kind': 'differential', 'track': 0.2}, 'odometry': {'slip': [0.1, 0.2]}},

@@ -12,7 +12,7 @@ a new sensor one in `sensors`.
 
 from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni
 from physsim_ros.model.robots.odometry import Odometry
-from physsim_ros.model.robots.robot import check_namespace, Robot, robot_from
+from physsim_ros.model.robots.robot import check_namespace, Robot
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
 __all__ = [
@@ -25,6 +25,5 @@ __all__ = [
     'Robot',
     'Sensor',
     'check_namespace',
-    'robot_from',
     'sensor_from',
 ]

@@ -8,8 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from physsim_ros.model.checks import Checked, Checks, pair, shown, Within
-from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.checks import Checked, Checks, pair, Within
 from physsim_ros.model.transform import Point
 
 _SLIP = Within(0.0, 1.0)
@@ -42,19 +41,3 @@ class Odometry(Checked):
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
         return {'rate': self.rate, 'slip': list(self.slip)}
-
-
-def odometry_from(value: object, name: str) -> Odometry:
-    """
-    Return the odometry of a mapping.
-
-    :param name: of the field, for the refusal
-    :raises UnknownProperty: a key is not a property; the nearest one is named
-    :raises Malformed: a number is not finite
-    :raises BadProperty: a value is null, of the wrong kind or out of range
-    """
-    if isinstance(value, Odometry):
-        return value
-    if not isinstance(value, dict):
-        raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
-    return Odometry.from_mapping(value)

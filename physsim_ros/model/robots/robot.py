@@ -9,15 +9,15 @@ Law: the topics of a robot have different names, which ROS allows.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 import re
-from typing import ClassVar
+from typing import Any, ClassVar, Self
 
 from physsim_ros.model.checks import Checked, Checks, shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
-from physsim_ros.model.robots.odometry import Odometry, odometry_from
+from physsim_ros.model.robots.odometry import Odometry
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
 # Names of topics that every robot has.
@@ -76,7 +76,7 @@ class Robot(Checked):
     CHECKS: ClassVar[Checks] = {
         'namespace': check_namespace,
         'drive': drive_from,
-        'odometry': odometry_from,
+        'odometry': Odometry.from_value,
         'sensors': _sensors,
     }
 
@@ -93,6 +93,18 @@ class Robot(Checked):
                 raise BadProperty(f'{topic} is a frame of each robot', field='sensors')
             if topics.count(topic) > 1:
                 raise BadProperty(f'a robot has two topics {topic}', field='sensors')
+
+    @classmethod
+    def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
+        """
+        Return the robot of a mapping; a shipped name is looked up before (`files.robots`).
+
+        :raises BadProperty: there is no drive; and as those of other values
+        """
+        cls.check_keys(mapping)
+        if 'drive' not in mapping:
+            raise BadProperty('a robot needs a drive', field='drive')
+        return cls(**mapping)
 
     def namespace_of(self, body: str) -> str:
         """
@@ -118,23 +130,3 @@ class Robot(Checked):
         if self.sensors:
             entry['sensors'] = [sensor.entry() for sensor in self.sensors]
         return entry
-
-
-def robot_from(value: object, name: str = 'robot') -> Robot:
-    """
-    Return the robot of a mapping.
-
-    :param value: the mapping; a shipped name is looked up before (`files.robots`)
-    :param name: of the field, for the refusal
-    :raises UnknownProperty: a key is not a property; the nearest one is named
-    :raises Malformed: a number is not finite
-    :raises BadProperty: a value is null, of the wrong kind or out of range, or there is no drive
-    """
-    if isinstance(value, Robot):
-        return value
-    if not isinstance(value, dict):
-        raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
-    Robot.check_keys(value)
-    if 'drive' not in value:
-        raise BadProperty(f'a {name} needs a drive', field='drive')
-    return Robot(**value)

@@ -6,7 +6,7 @@
 import math
 
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
-from physsim_ros.model.robots import Car, Differential, Odometry, Omni, robot_from
+from physsim_ros.model.robots import Car, Differential, Odometry, Omni, Robot
 import pytest
 
 DRIVE = {'kind': 'differential', 'track': 0.16, 'max_speed': 0.22, 'max_turn': 2.84}
@@ -21,17 +21,17 @@ def test_a_robot_is_made_again_from_its_entry(kind):
         'sensors': [{'kind': 'laser', 'beams': 90}, {'kind': 'bumper'}],
     }
 
-    robot = robot_from(said)
+    robot = Robot.from_value(said, 'robot')
 
-    assert robot_from(robot.entry()) == robot
+    assert Robot.from_mapping(robot.entry()) == robot
     assert robot.namespace == 'fleet/tb3'
     assert [sensor.name for sensor in robot.sensors] == ['scan', 'bumper']
     assert robot.odometry == Odometry(rate=10.0, slip=(0.01, 0.02))
 
 
 def test_its_namespace_is_by_the_name_of_its_body_unless_it_says_one():
-    assert robot_from({'drive': DRIVE}).namespace_of('tb3/0') == 'tb3_0'
-    assert robot_from({'drive': DRIVE, 'namespace': ''}).namespace_of('tb3/0') == ''
+    assert Robot.from_mapping({'drive': DRIVE}).namespace_of('tb3/0') == 'tb3_0'
+    assert Robot.from_mapping({'drive': DRIVE, 'namespace': ''}).namespace_of('tb3/0') == ''
 
 
 @pytest.mark.parametrize(
@@ -70,14 +70,14 @@ def test_its_namespace_is_by_the_name_of_its_body_unless_it_says_one():
 )
 def test_a_mapping_that_is_no_robot_is_refused_by_the_name_of_the_field(said, refusal, field):
     with pytest.raises(refusal) as caught:
-        robot_from(said)
+        Robot.from_value(said, 'robot')
 
     assert caught.value.field == field
 
 
 def test_a_misspelt_key_is_told_with_the_nearest_one():
     with pytest.raises(UnknownProperty, match='track'):
-        robot_from({'drive': {**DRIVE, 'trak': 0.1}})
+        Robot.from_mapping({'drive': {**DRIVE, 'trak': 0.1}})
 
 
 @pytest.mark.parametrize(
@@ -108,5 +108,5 @@ def test_wheels_do_not_slip_where_they_stand(drive):
 @pytest.mark.parametrize('name', ['odom', 'cmd_vel', 'tf', 'tf_static', 'base_link'])
 def test_a_sensor_has_no_name_of_a_topic_or_frame_of_each_robot(name):
     with pytest.raises(BadProperty, match=name) as caught:
-        robot_from({'drive': DRIVE, 'sensors': [{'kind': 'imu', 'name': name}]})
+        Robot.from_mapping({'drive': DRIVE, 'sensors': [{'kind': 'imu', 'name': name}]})
     assert caught.value.field == 'sensors'

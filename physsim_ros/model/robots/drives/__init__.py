@@ -11,29 +11,17 @@ then `differential`.
 
 from __future__ import annotations
 
+from physsim_ros.model.checks import OfKind
 from physsim_ros.model.robots.drives.car import Car
 from physsim_ros.model.robots.drives.differential import Differential
 from physsim_ros.model.robots.drives.drive import Drive
 from physsim_ros.model.robots.drives.omni import Omni
-from physsim_ros.model.robots.kinds import value_of_kind
 
 # By the word for it.
 DRIVES: dict[str, type[Drive]] = {each.KIND: each for each in (Differential, Omni, Car)}
 
 
-def drive_from(value: object, name: str) -> Drive:
-    """
-    Return the drive of a mapping.
-
-    :param name: of the field, for the refusal
-    :raises UnknownProperty: a key is not a property of such a drive; the nearest one is named
-    :raises Malformed: a number is not finite
-    :raises BadProperty: there is no such kind, or a value is null, of the wrong kind or out of
-        range
-    """
-    if isinstance(value, Drive):
-        return value
-    return value_of_kind(value, name, 'drive', DRIVES)
-
+# The check of a drive.
+drive_from = OfKind('drive', DRIVES)
 
 __all__ = ['DRIVES', 'Car', 'Differential', 'Drive', 'Omni', 'drive_from']

@@ -10,7 +10,7 @@ A sensor is a value. What it reads in a frame is for the simulation, its message
 
 from __future__ import annotations
 
-from physsim_ros.model.robots.kinds import value_of_kind
+from physsim_ros.model.checks import OfKind
 from physsim_ros.model.robots.sensors.bumper import Bumper
 from physsim_ros.model.robots.sensors.floor_eye import FloorEye
 from physsim_ros.model.robots.sensors.imu import Imu
@@ -25,20 +25,8 @@ SENSORS: dict[str, type[Sensor]] = {
 }
 
 
-def sensor_from(value: object, name: str = 'sensors') -> Sensor:
-    """
-    Return the sensor of a mapping.
-
-    :param name: of the field, for the refusal
-    :raises UnknownProperty: a key is not a property of such a sensor; the nearest one is named
-    :raises Malformed: a number is not finite, or a list has the wrong length
-    :raises BadProperty: there is no such kind, or a value is null, of the wrong kind or out of
-        range
-    """
-    if isinstance(value, Sensor):
-        return value
-    return value_of_kind(value, name, 'sensor', SENSORS)
-
+# The check of a sensor.
+sensor_from = OfKind('sensor', SENSORS)
 
 __all__ = [
     'SENSORS',

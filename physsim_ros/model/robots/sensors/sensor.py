@@ -11,7 +11,7 @@ import math
 import re
 from typing import ClassVar
 
-from physsim_ros.model.checks import Checked, Checks, shown, Within
+from physsim_ros.model.checks import Checked, Checks, pair, shown, Within
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import ORIGIN, Point, Pose
@@ -63,11 +63,7 @@ def span(value: object, name: str, limits: Within) -> Point:
     :raises Malformed: there are not two of them, or one is not finite
     :raises BadProperty: they are out of range or out of order
     """
-    if not isinstance(value, list | tuple):
-        raise BadProperty(f'{name} must be a list of two numbers, not {shown(value)}', field=name)
-    if len(value) != 2:
-        raise Malformed(f'{name} needs two numbers, not {len(value)}', field=name)
-    low, high = (limits(each, name) for each in value)
+    low, high = (limits(each, name) for each in pair(value, name))
     if low > high:
         raise BadProperty(f'{name} must be [min, max], not {shown(value)}', field=name)
     return low, high

@@ -15,10 +15,10 @@ NAN = math.nan
 
 @pytest.mark.parametrize('kind', SENSORS)
 def test_a_kind_alone_is_a_sensor_and_is_written_as_it_is_read(kind):
-    sensor = sensor_from({'kind': kind})
+    sensor = sensor_from({'kind': kind}, 'sensors')
 
     assert type(sensor) is SENSORS[kind]
-    assert sensor_from(sensor.entry()) == sensor
+    assert sensor_from(sensor.entry(), 'sensors') == sensor
 
 
 def test_every_property_of_a_laser_is_written_as_it_is_read():
@@ -33,13 +33,13 @@ def test_every_property_of_a_laser_is_written_as_it_is_read():
         'noise': 0.01,
     }
 
-    assert sensor_from(entry).entry() == entry
+    assert sensor_from(entry, 'sensors').entry() == entry
 
 
 def test_the_last_beam_of_a_full_turn_is_not_the_first():
-    whole = sensor_from({'kind': 'laser', 'beams': 360, 'angle': [0, 6.2832]})
-    front = sensor_from({'kind': 'laser', 'beams': 181, 'angle': [-1.0, 1.0]})
-    one = sensor_from({'kind': 'laser', 'beams': 1, 'angle': [0.5, 0.5]})
+    whole = sensor_from({'kind': 'laser', 'beams': 360, 'angle': [0, 6.2832]}, 'sensors')
+    front = sensor_from({'kind': 'laser', 'beams': 181, 'angle': [-1.0, 1.0]}, 'sensors')
+    one = sensor_from({'kind': 'laser', 'beams': 1, 'angle': [0.5, 0.5]}, 'sensors')
 
     assert whole.increment == math.tau / 360
     assert np.isclose(front.angle[0] + 180 * front.increment, 1.0, rtol=0, atol=1e-12)
@@ -103,7 +103,7 @@ def test_the_last_beam_of_a_full_turn_is_not_the_first():
 )
 def test_bad_sensors_are_refused_by_field(entry, error, field):
     with pytest.raises(error) as refused:
-        sensor_from(entry)
+        sensor_from(entry, 'sensors')
 
     assert type(refused.value) is error
     assert refused.value.field == field
@@ -111,12 +111,12 @@ def test_bad_sensors_are_refused_by_field(entry, error, field):
 
 def test_a_misspelt_word_is_answered_with_the_nearest():
     with pytest.raises(BadProperty, match="nearest is 'laser'"):
-        sensor_from({'kind': 'lasr'})
+        sensor_from({'kind': 'lasr'}, 'sensors')
     with pytest.raises(UnknownProperty, match="nearest is 'beams'"):
-        sensor_from({'kind': 'laser', 'bems': 3})
+        sensor_from({'kind': 'laser', 'bems': 3}, 'sensors')
 
 
 def test_a_sensor_that_is_made_is_taken_as_it_is():
     laser = Laser(beams=3)
 
-    assert sensor_from(laser) is laser
+    assert sensor_from(laser, 'sensors') is laser
