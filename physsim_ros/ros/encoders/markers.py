@@ -23,7 +23,6 @@ from physsim_ros.appearance import (
     symbol_sizes,
 )
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.transform import rotated_each
@@ -244,7 +243,7 @@ class _JointColumns:
         self._points = tuple(np.array(points, np.intp).T)
         self._color_offsets = (np.array(starts, np.intp) + _COLORED) // 4
         self._sliders = np.array(
-            [row for row, joint in enumerate(scene.joints) if joint.kind is JointKind.SLIDER],
+            [row for row, joint in enumerate(scene.joints) if joint.kind.schema.has_axis],
             np.intp,
         )
 

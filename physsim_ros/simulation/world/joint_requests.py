@@ -129,7 +129,7 @@ def drawn_points(joint: Joint, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
     if joint.kind.points == 1:
         return ((x, y),)
     pose_b = ORIGIN if joint.b == WORLD else poses[joint.b]
-    if joint.kind is JointKind.SLIDER:
+    if joint.kind.schema.has_axis:
         ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
         return (x, y), (x + ux, y + uy)
     return (x, y), local_to_world((seat.bx, seat.by), pose_b)
@@ -185,7 +185,7 @@ def _seat(
     """Return the seat of a joint that is drawn with points of the world [m]."""
     ux = uy = 0.0
     at_b = points[-1]
-    if kind is JointKind.SLIDER:
+    if kind.schema.has_axis:
         (x1, y1), (x2, y2) = points
         length = math.dist(*points)
         ux, uy = rotated(((x2 - x1) / length, (y2 - y1) / length), -pose_b[2])
@@ -212,7 +212,7 @@ def _phase(space: Space, a: str, b: str, properties: JointProperties) -> float:
 def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
     """Return whether a joint is where points of the world would draw it [m]."""
     drawn = _drawn(space, joint)
-    if joint.kind is JointKind.SLIDER:
+    if joint.kind.schema.has_axis:
         # Its second point only gives the direction of its axis.
         x, y = points[0]
         length = math.dist(*points)
