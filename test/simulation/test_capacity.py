@@ -137,6 +137,18 @@ def test_a_state_of_too_many_bodies_is_refused() -> None:
     world.apply(Restore(state=replace(state, settings=replace(FEW, max_bodies=3))))
 
 
+def test_a_world_that_cannot_begin_keeps_its_past() -> None:
+    simulation = Simulation(settings=FEW)
+    for name in ('a/0', 'b/0'):
+        simulation.perform(Spawn(name=name, shape=DISC))
+        simulation.advance_frame()
+    state = replace(simulation.save(), settings=replace(FEW, max_bodies=1))
+    with pytest.raises(WorldFull):
+        simulation.begin(state)
+    assert simulation.step == 8
+    assert simulation.undo() == 'undid spawn b/0, back at 0.017 s'
+
+
 def test_convex_pieces_are_counted() -> None:
     world = World(settings=WorldSettings(max_shapes=7))
     discs = Compound(element=DISC, centers=((0.0, 0.0), (2.0, 0.0), (4.0, 0.0)))

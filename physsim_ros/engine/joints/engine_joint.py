@@ -73,8 +73,8 @@ class EngineJoint:
         Return the linear impulse on the second body in the last step, world axes [N s].
 
         Chipmunk keeps the impulse of a pivot as a vector, that of a rod, a rope, a spring or a
-        limit as a number along the line from one anchor to the other. Of a slider the anchors are
-        put anew in each step, so that its lines are taken from its axis instead.
+        limit as a number along the line from one anchor to the other. Of a joint with an axis the
+        anchors are put anew in each step, so that its lines are taken from its axis instead.
         """
         total = Vec2d.zero()
         for constraint in self.constraints:
@@ -82,8 +82,8 @@ class EngineJoint:
             if isinstance(constraint, pymunk.PivotJoint):
                 total += Vec2d(x, *y)
             elif isinstance(constraint, _Axial):
-                of_slider = self.joint.kind is JointKind.SLIDER
-                total += (_of_slider(self, constraint) if of_slider else _between(constraint)) * x
+                has_axis = self.joint.kind.schema.has_axis
+                total += (_by_axis(self, constraint) if has_axis else _between(constraint)) * x
         return total
 
 
@@ -93,8 +93,8 @@ def _between(constraint: _Axial) -> Vec2d:
     return (constraint.b.local_to_world(constraint.anchor_b) - start).normalized()
 
 
-def _of_slider(joint: EngineJoint, constraint: _Axial) -> Vec2d:
-    """Return the unit vector along which a constraint of a slider acts on the second body."""
+def _by_axis(joint: EngineJoint, constraint: _Axial) -> Vec2d:
+    """Return the unit vector along which a constraint about an axis acts on the second body."""
     ends, seat = joint.ends, joint.joint.seat
     u = Vec2d(seat.ux, seat.uy).rotated(ends.b.angle)
     # Both constraints have the bodies of the joint the other way round.
