@@ -55,7 +55,16 @@ def test_a_teacher_freezes_a_pupil_and_sees_who_did_what(pages: tuple[Sheet, She
     teacher, pupil = pages
     call(pupil, 'Anna')
     pupil.drag(*circle(0.0, 4.0, 0.8))
-    teacher.page.get_by_role('status').get_by_text('Anna: Circle added').wait_for()
+    status = teacher.page.get_by_role('status')
+    status.get_by_text('Anna: Circle added').wait_for()
+    # Of a long chain others get the first answers and the number of the rest; then each again.
+    pupil.press('Chain')
+    pupil.drag((-4.0, 3.0), (-4.0, 7.0))
+    status.get_by_text('Anna: Chain of 13 links added').wait_for()
+    pupil.press('Circle')
+    pupil.drag((4.0, 5.0), (4.7, 5.0))
+    status.get_by_text('Anna: Circle added').wait_for()
+    pupil.press('Pen')
     teacher.press('People')
     teacher.page.get_by_role('listitem').get_by_text('Anna').wait_for()
     teacher.page.get_by_role('img', name='QR code').wait_for()

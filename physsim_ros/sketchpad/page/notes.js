@@ -8,6 +8,7 @@ import {createElement, elementOf, textButton} from './dom.js';
 const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
 /** Answers that are not shown: the clock and the hand show the same. */
 const SILENT = /^at [\d.]+ s$|^grabbed |^let go of | holds no body$|^the world as text$/;
+const REST = /^and \d+ more answers$/; // of a frame, to a page that did not ask
 const SHOWN = 2500, REFUSED = 5000, READ = 6000, OFFERED = 10000; // ms: an answer, a refusal, a note, a button
 
 export class Notes {
@@ -37,10 +38,10 @@ export class Notes {
     const {request, ok, code, message, topic} = answer, own = request !== '';
     // A dialog asks about a name that is taken where a world is saved.
     if (SILENT.test(message) || own && code === 'exists' && topic === '~/save_world' || !own && performance.now() < this.until) return;
-    const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0);
+    const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0), rest = REST.test(message);
     if (several > 1) this.parts = {of, left: several};
-    else if (this.parts.left && this.parts.of === of) {
-      this.parts.left -= 1;
+    else if (this.parts.left && (rest || this.parts.of === of)) {
+      this.parts.left = rest ? 0 : this.parts.left - 1;
       if (ok) return;
     }
     const who = own ? '' : this.app.classroom.nameOf(answer.page);
