@@ -5,15 +5,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.settings import WorldSettings
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class StepContext:
+class StepContext(NamedTuple):
     """
     One step of the pipeline.
 

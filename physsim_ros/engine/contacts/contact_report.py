@@ -47,6 +47,7 @@ _F = batch.ArbiterFields
 _PAIRS_AND_IMPULSES = _F.BODY_A_ID | _F.BODY_B_ID | _F.TOTAL_IMPULSE
 _MANIFOLDS = _F.BODY_A_ID | _F.NORMAL | _F.CONTACT_COUNT
 _MANIFOLDS |= _F.POINT_A_1 | _F.POINT_B_1 | _F.POINT_A_2 | _F.POINT_B_2
+_NO_IMPULSES, _NO_SIGNS, _NO_SLEEPING = np.empty((0, 2)), np.empty((0, 1)), SleepingPairs()
 # Greatest count of steps whose parted pairs are listed by step before they are merged.
 _MOST_STEPS = 16
 
@@ -64,14 +65,14 @@ class ContactReport:
         # The pairs of the last step, in the engine's order, sleeping ones last: ids, the lesser
         # one first; sums of impulses in the frame; impulses of the step [N s].
         self._ids: Ids = NO_PAIRS
-        self._sums: Floats = np.empty((0, 2))
-        self._impulses: Floats = np.empty((0, 2))
+        self._sums: Floats = _NO_IMPULSES
+        self._impulses: Floats = _NO_IMPULSES
         # Those of them that are awake as the engine lists them, and the signs of their impulses.
         self._listed: Ids = NO_PAIRS
-        self._signs: Floats = np.empty((0, 1))
+        self._signs: Floats = _NO_SIGNS
         # Manifolds of the pairs, (5, m), where another space has made the last step.
         self._copied_manifolds: Floats | None = None
-        self._sleeping = SleepingPairs()
+        self._sleeping = _NO_SLEEPING
         # The table at the step before and how often its slots had changed, by bodies that fall
         # asleep or wake; None where the contacts of that step were not read.
         self._slots: tuple[BodyTable, int] | None = None
@@ -125,7 +126,7 @@ class ContactReport:
     def _find_sleeping(self, table: BodyTable, listed: Ids) -> SleepingPairs:
         """Return the pairs of the step before that sleep now."""
         if not table.asleep.any():
-            return SleepingPairs()
+            return _NO_SLEEPING
         if self._slots is None:
             return read_sleeping_pairs(table, np.flatnonzero(table.asleep))
         rows, asleep = table.rows_of(self._ids), np.append(table.asleep, False)
@@ -207,16 +208,16 @@ class ContactReport:
 
     def skip_step(self) -> None:
         """Drop all contacts: those of the step that has just been made are not read."""
-        self._sleeping, self._slots = SleepingPairs(), None
-        self._ids, self._sums = NO_PAIRS, np.empty((0, 2))
-        self._impulses = self._sums
-        self._listed, self._signs = NO_PAIRS, np.empty((0, 1))
+        self._sleeping, self._slots = _NO_SLEEPING, None
+        self._ids = self._listed = NO_PAIRS
+        self._sums = self._impulses = _NO_IMPULSES
+        self._signs = _NO_SIGNS
         self.clear()
 
     def clear(self) -> None:
         """Drop the sums since the last call of `take_contacts`."""
         self._parted, self._begun = [], []
-        self._sums = np.zeros_like(self._sums)
+        self._sums = np.zeros(self._sums.shape)
         self._steps = 0
         self._last.drop_first_touches()
 

@@ -33,7 +33,7 @@ def keep_flying_awake(context: StepContext) -> None:
         return
     speeds = table.sizes[:, 3:]
     slow = speeds < IDLE_SPEED
-    for row in np.flatnonzero(table.free & slow[:, 0] & slow[:, 1] & slow[:, 2]).tolist():
+    for row in (table.free & slow[:, 0] & slow[:, 1] & slow[:, 2]).nonzero()[0].tolist():
         if speeds[row].any():
             # Chipmunk begins to count idle time anew.
             table.bodies[row].pm_body.activate()

@@ -31,7 +31,7 @@ class CdrWriter:
     :param start: bytes to begin with; none, or a multiple of 8 bytes
 
     :ivar data: the bytes so far
-    :ivar stamps: offset of the stamp of each header [bytes]
+    :ivar stamps: offset of each stamp [bytes]
     :ivar poses: offset of each pose [bytes]
     :ivar blocks: offset [bytes], count and width of each block of doubles
     """
@@ -62,11 +62,15 @@ class CdrWriter:
         self.align(4)
         self.data += _string(text)
 
-    def header(self, frame_id: str) -> None:
-        """Write a std_msgs/Header with stamp 0."""
+    def stamp(self) -> None:
+        """Write a builtin_interfaces/Time of 0."""
         self.align(4)
         self.stamps.append(len(self.data))
         self.ints(0, 0)
+
+    def header(self, frame_id: str) -> None:
+        """Write a std_msgs/Header with stamp 0."""
+        self.stamp()
         self.text(frame_id)
 
     def pose(self, count: int = 1) -> None:

@@ -6,8 +6,7 @@
 from __future__ import annotations
 
 from physsim_ros.model.snapshot import Frame
-from rclpy.time import Time
-from rosgraph_msgs.msg import Clock
+from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
 
 
 class ClockEncoder:
@@ -20,9 +19,12 @@ class ClockEncoder:
 
     def __init__(self) -> None:
         self._began = False
+        writer = CdrWriter(START)
+        writer.stamp()
+        self._template = MessageTemplate(writer)
 
-    def encode(self, frame: Frame) -> Clock | None:
-        """Return the message of a frame; None before the first step."""
+    def encode(self, frame: Frame) -> bytes | None:
+        """Return the serialised message of a frame; None before the first step."""
         stamp = frame.snapshot.stamp
         self._began = self._began or stamp > 0
-        return Clock(clock=Time(nanoseconds=max(1, stamp)).to_msg()) if self._began else None
+        return self._template.stamped(max(1, stamp)) if self._began else None
