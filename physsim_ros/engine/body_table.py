@@ -167,9 +167,9 @@ class BodyTable:
         for row, old, new in zip(rows.tolist(), before, poses.tolist(), strict=True):
             if new != old:
                 # Pymunk's own attributes check and convert each value: ten times the cost.
-                pm_body = self.bodies[row].pm_body._body  # noqa: SLF001
-                lib.cpBodySetPosition(pm_body, new[:2])
-                lib.cpBodySetAngle(pm_body, new[2])
+                pm_body, (x, y, yaw) = self.bodies[row].pm_body._body, new  # noqa: SLF001
+                lib.cpBodySetPosition(pm_body, (x, y))
+                lib.cpBodySetAngle(pm_body, yaw)
         state[rows, :3] = poses
         self._sizes = self._all_within = None
 
