@@ -205,13 +205,14 @@ def test_a_sleeping_robot_is_woken_up_by_a_command():
     assert world.snapshot().twists[0, 0] == pytest.approx(0.2, abs=1e-9)
 
 
-def test_a_robot_that_creeps_does_not_fall_asleep():
+@pytest.mark.parametrize(('velocity', 'axis'), [((0.001, 0.0, 0.0), 0), ((0.0, 0.0, 0.02), 2)])
+def test_a_robot_that_creeps_or_turns_slowly_does_not_fall_asleep(velocity, axis):
     world = _world()
     _spawn(world, 'a/0', robot={'drive': {**DRIVE, 'timeout': 0}})
-    world.apply(DriveRobot(name='a/0', velocity=(0.001, 0.0, 0.0)))
+    world.apply(DriveRobot(name='a/0', velocity=velocity))
     world.step(480)
 
-    assert world.snapshot().poses[0, 0] == pytest.approx(0.002, rel=0.01)
+    assert world.snapshot().poses[0, axis] == pytest.approx(2.0 * velocity[axis], rel=0.01)
 
 
 def test_motion_under_way_is_saved_and_loaded_to_the_bit(tmp_path):

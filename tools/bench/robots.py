@@ -32,6 +32,7 @@ from physsim_ros.testing import own_context, PhysSim
 from physsim_ros.testing.domain import own_domain
 import pytest
 
+from .joints import median_step
 from .outside import cpu_seconds, Remote
 from .startup import executable
 
@@ -175,5 +176,7 @@ def table() -> None:
         else:
             cells += ['  skipped: IRSIM_PYTHON names no Python that has ir-sim']
         print(f'{count:6} {" ".join(cells)}', flush=True)
+    for count in (*COUNTS, MANY):
+        print(f'{count:6} a step, median: {median_step(scene(count)):.3f} ms', flush=True)
     wall, cpu = in_node(MANY)
     print(f'{MANY:6} in the whole node: {wall:.1f} by the wall, {cpu:.1f} by its CPU', flush=True)

@@ -26,7 +26,7 @@ is closed by a velocity becomes energy where joints and contacts contradict each
    Ratcliff, 2007). This is how a straight chain stops what falls on it: its rows have no
    velocity, only a gap of second order. A gap thus never becomes energy.
 
-**Cost.** 0.2 to 0.5 ms a step for one machine; a factorisation of 100 rows takes 10 us.
+**Cost.** 0.2 to 0.4 ms a step for one machine; a factorisation of 100 rows takes 10 us.
 
 Without it laws 14 to 16, 20, 22, 23, 33 and 34 fail. The engine's impulses are the first guess.
 Impulses of springs and motors, and contacts between bodies without joints, stay the engine's.
