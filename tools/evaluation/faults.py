@@ -16,8 +16,11 @@ import math
 import numpy as np
 
 from .figures import Figure
-from .hands import Hand
+from .hands import Hand, turning
 from .outlines import Floats, Random
+
+# The greatest sum of turns that ten samples show [rad]: that of an L is 9.4.
+_MOST_TURNING = 10.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -116,6 +119,11 @@ def _unequal_arms(figure: Figure, rng: Random) -> Figure | None:
     return replace(figure, way=figure.way * rng.uniform(0.6, 1.4, (len(figure.way), 1)))
 
 
+def _few_turns_only(figure: Figure, _rng: Random) -> Figure | None:
+    """Return a figure whose turns ten samples show; they show none of a scribble's or a coil's."""
+    return figure if turning(figure.way) < _MOST_TURNING else None
+
+
 def _sharp_only(figure: Figure, _rng: Random) -> Figure | None:
     return None if figure.smooth else figure
 
@@ -133,7 +141,7 @@ FAULTS: dict[str, Fault] = {
     'a pen that rests': Fault(samples=_resting),
     'a spike': Fault(hand=all_arrive, samples=_spike),
     'a stale first sample': Fault(hand=all_arrive, samples=_stale),
-    '10 samples': Fault(hand=all_arrive, samples=_resampled(10)),
+    '10 samples': Fault(figure=_few_turns_only, hand=all_arrive, samples=_resampled(10)),
     '10,000 samples': Fault(hand=all_arrive, samples=_resampled(10_000)),
     'tremor of 2 %': Fault(hand=lambda hand, rng: replace(hand, tremor=rng.uniform(0.015, 0.02))),
     'gap to 11.5 %': Fault(

@@ -177,15 +177,16 @@ def arrow(rng: Random) -> Figure:
     along, across = length * math.cos(opening), length * math.sin(opening)
     tip, tail = np.array([0.5, 0.0]), np.array([-0.5, rng.normal(0.0, 0.03)])
     side = rng.choice([-1.0, 1.0])
-    # Barbs of different lengths and heights.
-    one = tip + np.array((-along, side * across)) * rng.uniform(0.7, 1.3, 2)
-    other = tip + np.array((-along, -side * across)) * rng.uniform(0.7, 1.3, 2)
-    again = tip + rng.normal(0.0, 0.03, 2)
-    neck = tip - (along, 0.0)
     bow = rng.normal(0.0, 0.07) if rng.random() < 0.5 else 0.0
     share = np.linspace(0.0, 1.0, 12, endpoint=False)
     shaft = tail + share[:, None] * (tip - tail)
     shaft[:, 1] += 4.0 * bow * share * (1.0 - share)
+    # Barbs of different lengths and heights, about the end of the shaft as it is bowed.
+    barbs = np.array([(-along, side * across), (-along, -side * across)])
+    barbs *= rng.uniform(0.7, 1.3, (2, 2))
+    one, other = tip + head_along(bow, barbs)
+    again = tip + rng.normal(0.0, 0.03, 2)
+    neck = tip + head_along(bow, np.array((-along, 0.0)))
     heads = (
         (tip, one, again, other),
         (tip, one, again, other),
@@ -201,6 +202,14 @@ def arrow(rng: Random) -> Figure:
     else:
         way = np.vstack((shaft, head))
     return Figure(kind='arrow', way=_turned(way, rng.uniform(0, 7)))
+
+
+def head_along(bow: float, barbs: Floats) -> Floats:
+    """Return the barbs of a straight arrow, (..., 2), turned for a shaft that is bowed."""
+    # The slope of a parabola at its end. Some of it the hand does not follow.
+    angle = -0.7 * math.atan(4.0 * bow)
+    cos, sin = math.cos(angle), math.sin(angle)
+    return np.asarray(barbs @ np.array([(cos, sin), (-sin, cos)]))
 
 
 def oval(rng: Random) -> Figure:

@@ -22,6 +22,12 @@ from numpy.typing import NDArray
 
 from .figures import Figure, Floats, Random
 
+# The greatest distance of a way from the samples that show it, in shares of the size, beside what
+# the hand trembles: a circle of eight samples has 0.03.
+_SHOWN = 0.03
+# The greatest number of times that somebody draws a figure again, each time more slowly.
+_ATTEMPTS = 6
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hand:
@@ -76,7 +82,7 @@ class Hand:
 
 def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
     """Return somebody of a half of the people: no hand of one half has the habits of the other."""
-    corners = max(_turning(figure.way) / (math.pi / 2) if figure.smooth else len(figure.way), 3)
+    corners = max(turning(figure.way) / (math.pi / 2) if figure.smooth else len(figure.way), 3)
     # Whoever draws something thin takes more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
     # Seconds a corner. A pen in a hurry cuts corners.
@@ -118,7 +124,7 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
 
 def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
     """
-    Return the samples of a figure that somebody draws.
+    Return the samples of a figure that somebody draws, more slowly if they do not show it.
 
     :return: (n, 3) float64: x, y [m], time [s]
     """
@@ -128,6 +134,17 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
     length = float(np.hypot(*np.diff(way, axis=0).T).sum())
     way = _smoothed(way, somebody.rounding / length * len(way))
     way = _with_hooks(way, somebody, rng)
+    samples = _sampled(way, somebody, rng)
+    for _ in range(_ATTEMPTS):
+        if _show(samples, way * somebody.size + somebody.place, somebody):
+            break
+        somebody = replace(somebody, duration=1.5 * somebody.duration)
+        samples = _sampled(way, somebody, rng)
+    return samples
+
+
+def _sampled(way: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Return the samples that arrive of a way of the pen, (n, 3) float64: x, y [m], time [s]."""
     here, times = _paced(way, somebody, rng)
     here = here + _wandering(times, somebody, rng)
     here = here * somebody.size + somebody.place
@@ -135,6 +152,24 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
         pixel = somebody.pixel * somebody.size
         here = np.round(here / pixel) * pixel
     return _received(np.column_stack((here, times)), somebody, rng)
+
+
+def _show(samples: Floats, way: Floats, somebody: Hand) -> bool:
+    """
+    Return whether the line through samples shows the way: who sees a polygon drew no circle.
+
+    The long first step of a finger does not count.
+    """
+    start, end = samples[:-1, :2], samples[1:, :2]
+    along = end - start
+    away = way[:, None] - start
+    share = np.einsum('ijk,jk->ij', away, along) / np.maximum((along**2).sum(axis=1), 1e-12)
+    off = np.hypot(*(away - np.clip(share, 0.0, 1.0)[..., None] * along).transpose(2, 0, 1))
+    off = off.min(axis=1)
+    begun = np.hypot(*(way - way[0]).T) > somebody.first_step * somebody.size
+    late = np.maximum.accumulate(begun)
+    trembling = somebody.drift + somebody.tremor + somebody.noise
+    return bool(off[late].max(initial=0.0) <= (_SHOWN + 3.0 * trembling) * somebody.size)
 
 
 def stroke(figure: Figure, rng: Random) -> Floats:
@@ -148,7 +183,7 @@ def _habit(rng: Random, low: float, high: float, half: str) -> float:
     return float(low + (high - low) * (band + rng.random()) / 8)
 
 
-def _turning(way: Floats) -> float:
+def turning(way: Floats) -> float:
     """Return the sum of the turns of a way [rad]."""
     steps = np.diff(way, axis=0)
     return float(np.abs(np.diff(np.unwrap(np.arctan2(steps[:, 1], steps[:, 0])))).sum())

@@ -216,7 +216,7 @@ def _rotated(way: Floats, angle: float) -> Floats:
 
 
 def _arrow(rng: Random) -> list[Floats]:
-    """Return a shaft that ends short of its head, or beyond it, and the head, in any order."""
+    """Return a shaft, often bowed, that ends short of its head or beyond it, and the head."""
     length, opening = rng.uniform(0.18, 0.4), rng.uniform(0.4, 0.9)
     gap = rng.uniform(0.03, 0.2) if rng.random() < 0.6 else rng.uniform(-0.1, 0.03)
     tip = np.array((0.5, 0.0)) + rng.normal(0.0, 0.02, 2)
@@ -224,13 +224,17 @@ def _arrow(rng: Random) -> list[Floats]:
         [(-math.cos(opening), math.sin(opening)), (-math.cos(opening), -math.sin(opening))]
     )
     barbs = tip + length * rng.uniform(0.75, 1.25, (2, 1)) * barbs
-    shaft = _line((-0.5, 0.0), (0.5 - gap, float(rng.normal(0.0, 0.02))))
-    return [shaft, np.array((barbs[0], tip, barbs[1]))]
+    bow = rng.normal(0.0, 0.07) if rng.random() < 0.5 else 0.0
+    share = np.linspace(0.0, 1.0, 12)
+    x, y = (1.0 - gap) * share - 0.5, share * rng.normal(0.0, 0.02)
+    shaft = np.column_stack((x, y + 4.0 * bow * share * (1.0 - share)))
+    head = tip + figures.head_along(bow, np.array((barbs[0], tip, barbs[1])) - tip)
+    return [shaft, head]
 
 
 def _gravity_arrow(rng: Random) -> Thing:
     ways = _placed_at_random(rng, *_arrow(rng))
-    shaft = ways[0][1] - ways[0][0]
+    shaft = ways[0][-1] - ways[0][0]
 
     def right(snapshot: Snapshot) -> bool:
         x, y = snapshot.scene.settings.gravity
@@ -247,7 +251,7 @@ def _gravity_arrow(rng: Random) -> Thing:
 
 def _velocity_arrow(rng: Random) -> Thing:
     ways = _placed_at_random(rng, *_arrow(rng))
-    tail, tip = ways[0]
+    tail, tip = ways[0][[0, -1]]
     radius = float(np.hypot(*(tip - tail))) * rng.uniform(0.2, 0.5)
     body = Spawn(name='a/0', shape=Disc(radius=radius), pose=(*tail.tolist(), 0.0))
 
