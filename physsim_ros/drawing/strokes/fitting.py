@@ -148,10 +148,19 @@ def simplified(points: Floats, bends: Floats) -> Floats | None:
     """
     size = size_of(points)
     path = smoothed(points, SMOOTHING, closed=False)
-    off = np.min([_off(path, *side) for side in itertools.pairwise(bends)], axis=0)
+    off = np.min([segment_distances(path, *side) for side in itertools.pairwise(bends)], axis=0)
     if math.sqrt(float((off**2).mean())) <= CURVED * size:
         return None
     return _traced(path, FINE * size)
+
+
+def segment_distances(points: Floats, start: Floats, end: Floats) -> Floats:
+    """Return the distances of points from a segment, (n,) float64 [m]."""
+    along = end - start
+    share = np.clip(dots(points - start, along) / max(float(dots(along, along)), 1e-300), 0.0, 1.0)
+    away = points - start - share[:, None] * along
+    result: Floats = norms(away)
+    return result
 
 
 def traced(outline: Floats) -> Floats:
@@ -169,18 +178,9 @@ def _traced(path: Floats, tolerance: float) -> Floats:
     kept, parts = {0, len(path) - 1}, [(0, len(path) - 1)]
     while parts:
         first, last = parts.pop()
-        off = _off(path[slice(first, last + 1)], path[first], path[last])
+        off = segment_distances(path[slice(first, last + 1)], path[first], path[last])
         furthest = first + int(off.argmax())
         if off.max() > tolerance:
             kept.add(furthest)
             parts += [(first, furthest), (furthest, last)]
     return path[sorted(kept)]
-
-
-def _off(points: Floats, start: Floats, end: Floats) -> Floats:
-    """Return the distances of points from a segment, (n,) float64 [m]."""
-    along = end - start
-    share = np.clip(dots(points - start, along) / max(float(dots(along, along)), 1e-300), 0.0, 1.0)
-    away = points - start - share[:, None] * along
-    result: Floats = norms(away)
-    return result

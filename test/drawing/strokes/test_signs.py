@@ -62,6 +62,22 @@ def test_an_arrow_in_the_open_turns_gravity(world: World, angle: float) -> None:
     assert (0.0 in (x, y)) == (angle in {-1.5, 3.1})
 
 
+@pytest.mark.parametrize('head_first', [False, True])
+def test_a_bowed_arrow_whose_head_is_a_closed_triangle_turns_gravity(
+    world: World, head_first: bool
+) -> None:
+    share = np.linspace(0.0, 1.0, 20)
+    shaft = np.column_stack((2.0 * share, share * (1.0 - share)))
+    # From the end of the shaft to one corner, the tip, the other corner, and back.
+    head = [(2.11, 0.22), (2.36, -0.18), (1.89, -0.22), (2.0, 0.0)]
+    way = np.vstack((shaft, head))
+
+    reading = draw(world, way[::-1] if head_first else way)
+
+    assert reading.meaning == 'gravity'
+    assert reading.confidence > 0.9
+
+
 def test_an_arrow_upon_an_anchored_body_is_refused(world: World) -> None:
     spawn(world, 'a/0', Box(width=2.0, height=2.0), anchored=True)
 

@@ -14,6 +14,7 @@ import numpy as np
 from physsim_ros.drawing.strokes import regularisation
 from physsim_ros.drawing.strokes.corner_detection import ARM
 from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.fitting import segment_distances
 from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
 from physsim_ros.drawing.strokes.meanings import (
     Context,
@@ -22,7 +23,7 @@ from physsim_ros.drawing.strokes.meanings import (
     MISPLACED,
     Outcome,
 )
-from physsim_ros.drawing.strokes.polyline import path_length, point_of, smoothed, turns
+from physsim_ros.drawing.strokes.polyline import point_of, smoothed, turns
 from physsim_ros.drawing.strokes.signs.cross import absence as no_x
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
@@ -32,8 +33,13 @@ from physsim_ros.model.transform import cross, dots, norms
 PRIMITIVE = 'arrow'
 # The least gap between the ends of an arrow, in shares of its length.
 _LEAST_GAP = 0.1
-# The greatest distance of the pen from the tip of an arrow at which it is there, in lengths.
-_AT_TIP = 0.1
+# The part of a shaft that shows how it is bowed, from its tail on, and the part of an arrow in
+# which its head is, before its tip; in shares of the distance between both.
+_SHAFT, _HEAD = 0.6, 0.55
+# The length of the shaft behind its head that still counts to the head, in lengths of that.
+_NECK = 0.2
+# The shares of a barb at which the pen passes.
+_ALONG = np.linspace(0.15, 1.0, 8)[:, None]
 
 
 def hypothesis(features: Features) -> Hypothesis:
@@ -49,45 +55,68 @@ def hypothesis(features: Features) -> Hypothesis:
 
 
 def _sharpness(points: Floats) -> float:
-    """Return the weight of two sharp turns, 0 .. 1: of the tip and of a barb, in any order."""
+    """Return the weight of a sharp turn, 0 .. 1: that of the tip or of a barb."""
     turn = np.abs(turns(smoothed(points, 1.0, closed=False), ARM, closed=False))
-    first = int(turn.argmax())
-    apart = np.abs(np.arange(len(turn)) - first) > ARM
-    return rises(float(turn[first]), 1.6, 0.1) * rises(float(turn[apart].max()), 1.0, 0.1)
+    return rises(float(turn.max()), 1.3, 0.08)
 
 
 def _arrow_from_tail(points: Floats) -> Hypothesis:
-    """Return the hypothesis of an arrow whose tail is the first point."""
+    """
+    Return the hypothesis of an arrow whose tail is the first point.
+
+    The order in which shaft, barbs and the side between these are drawn does not matter: the pen
+    goes along all of both barbs, and nowhere but along a triangle and its axis.
+    """
     tail = points[0]
     tip = points[int(((points - tail) ** 2).sum(axis=1).argmax())]
-    frame = _in_frame(points, tail, tip)
-    x, y = frame.T
-    # The shaft ends at the point at which the pen turns back or aside.
-    ahead = x[4:] - x[:-4]
-    over = (ahead < 0.55 * np.median(ahead[:40])) & (x[:-4] > 0.4)
-    end = int(over.argmax()) if over.any() else len(points) - 1
-    # The head is symmetric about the last half of the shaft, which may be bowed.
-    head = _in_frame(points[end:], points[end // 2], tip) - (1.0, 0.0)
-    head *= float(norms(tip - points[end // 2]) / norms(tip - tail))
-    left, right = int(head[:, 1].argmax()), int(head[:, 1].argmin())
-    up, down = float(head[left, 1]), -float(head[right, 1])
-    path = path_length(head)
-    # The pen leaves the tip again, unlike at the end of a zigzag.
-    at_tip = int((np.hypot(x - 1.0, y) < _AT_TIP).argmax())
-    after = path_length(frame[at_tip:])
+    frame, bow = _unbowed(_in_frame(points, tail, tip))
+    near = frame[int((frame[:, 0] > 1.0 - _HEAD).argmax()) :] - (1.0, 0.0)
+    left, right = near[int(near[:, 1].argmax())], near[int(near[:, 1].argmin())]
+    shorter, longer = sorted((float(norms(left)), float(norms(right))))
+    # The angles of both barbs with the shaft.
+    less, more = sorted(math.atan2(side * y, -x) for side, (x, y) in ((1, left), (-1, right)))
+    neck = np.array(((1.0 + _NECK) * min(left[0], right[0], 0.0), 0.0))
+    head = near[near[:, 0] >= neck[0]]
+    middle = np.zeros(2)
+    sides = (middle, left), (middle, right), (left, right), (middle, neck)
+    off = np.min([segment_distances(head, *side) for side in sides], axis=0)
+    missed = [norms((barb * _ALONG)[:, None] - head).min(axis=1).max() for barb in (left, right)]
+    steps = np.diff(head, axis=0)
+    shaft = frame[frame[:, 0] < 1.0 + neck[0], 1]
+    size = max(longer, 1e-12)
     factors = (
-        falls(float(np.abs(y[:end]).max(initial=0.0)), 0.2, 0.015),
-        rises(min(up, down) / max(up, down, 1e-12), 0.2, 0.03),
-        rises(up + down, 0.09, 0.012),
-        falls(up + down, 0.85, 0.04),
-        rises(float(head[:, 0].min()), -0.58, 0.025),
-        falls(float(max(head[left, 0], head[right, 0])), -0.015, 0.012),
-        rises(path, 0.22, 0.02),
-        rises(after, 1.8 * _AT_TIP, 0.015),
-        falls(path, 2.6, 0.12),
+        falls(bow, 0.22, 0.012),
+        falls(math.sqrt(float((shaft**2).sum()) / max(len(shaft), 1)), 0.06, 0.005),
+        # The pen does not go beyond the tail.
+        rises(float(frame[:, 0].min()), -0.12, 0.01),
+        rises(less, 0.12, 0.02),
+        rises(less / max(more, 1e-12), 0.2, 0.03),
+        falls(more, 1.3, 0.05),
+        rises(shorter / size, 0.25, 0.035),
+        rises(longer, 0.1, 0.006),
+        falls(longer, 0.53, 0.02),
+        falls(math.sqrt(float((off**2).mean())) / size, 0.125, 0.008),
+        falls(float(max(missed)) / size, 0.36, 0.02),
+        # It goes back, and farther than along one barb.
+        rises(float(np.maximum(-steps[:, 0], 0.0).sum()) / size, 0.35, 0.04),
+        rises(float(norms(steps).sum()) / size, 1.6, 0.08),
     )
     weight = math.prod(factors)
     return Hypothesis(primitive=PRIMITIVE, weight=weight, points=np.array((tail, tip)))
+
+
+def _unbowed(frame: Floats) -> tuple[Floats, float]:
+    """
+    Return an arrow whose shaft is straightened, and the height of its bow [lengths].
+
+    :param frame: (n, 2) float64: the arrow from (0, 0) to (1, 0), its shaft a parabola
+    """
+    x, y = frame.T
+    parabola = x * (1.0 - x)
+    shaft = slice(0, int((x > _SHAFT).argmax()))
+    fitted = parabola[shaft]
+    bend = float((fitted * y[shaft]).sum()) / max(float((fitted**2).sum()), 1e-300)
+    return np.column_stack((x, y - bend * parabola)), abs(bend) / 4
 
 
 def _in_frame(points: Floats, origin: Floats, one: Floats) -> Floats:

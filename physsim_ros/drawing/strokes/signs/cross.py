@@ -61,7 +61,7 @@ def absence(features: Features) -> float:
     The second line of an x looks like the head of an arrow, but the barbs of an arrow do not go on
     beyond its shaft.
     """
-    return 1.0 - hypothesis(features).weight
+    return falls(hypothesis(features).weight, 0.5, 0.1)
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
