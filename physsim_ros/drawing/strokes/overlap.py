@@ -64,6 +64,15 @@ def share_on(crossed: Crossed, ends: Iterable[End]) -> float:
     return float(np.any(hits, axis=0).mean()) if hits else 0.0
 
 
+def middle_share_on(crossed: Crossed, ends: Iterable[End]) -> float:
+    """Return the share of the middle half of a stroke on the bodies at its ends, 0 .. 1."""
+    middle = {
+        name: hits[slice(len(hits) // 4, len(hits) - len(hits) // 4)]
+        for name, hits in crossed.items()
+    }
+    return share_on(middle, ends)
+
+
 def crossed_bodies(points: Floats, scene: SceneQuery) -> Crossed:
     """Return the bodies that a stroke crosses, each with the points that lie on it."""
     low, high = points.min(axis=0), points.max(axis=0)

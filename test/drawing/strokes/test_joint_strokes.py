@@ -72,6 +72,17 @@ def test_a_zigzag_from_body_to_body_is_a_spring(world: World, teeth: int) -> Non
     assert (join.kind, join.a, join.b) == (JointKind.SPRING, 'b/0', 'a/0')
 
 
+def test_a_dense_spring_that_covers_the_bodies_at_its_ends_deletes_neither(world: World) -> None:
+    spawn(world, 'a/0', Disc(radius=0.25), (0.0, 2.0, 0.0))
+    spawn(world, 'b/0', Disc(radius=0.25), (0.0, 0.0, 0.0))
+    at = np.arange(19)
+    way = np.column_stack((0.35 * np.where(at % 2, 1.0, -1.0), 2.2 * at / 18 - 0.1))
+
+    reading = draw(world, [(0.0, -0.1), *map(tuple, way), (0.0, 2.1)])
+
+    assert reading.meaning == 'spring'
+
+
 def test_a_circle_within_a_body_is_an_axle_to_the_background(world: World) -> None:
     spawn(world, 'plank/0', Box(width=4.0, height=0.6))
 

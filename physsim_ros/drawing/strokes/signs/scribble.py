@@ -24,6 +24,9 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Delete
 
 PRIMITIVE = 'scribble'
+# The greatest share of the middle half of a spring that lies on the bodies at its ends: a scribble
+# over two bodies side by side has 0.3 and more.
+_MIDDLE_ON_ENDS = 0.15
 
 
 def hypothesis(features: Features) -> Hypothesis:
@@ -43,9 +46,11 @@ def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interp
     crossed = overlap.crossed_bodies(context.drawn.points, context.scene)
     covered = overlap.covered_bodies(context.drawn.points, crossed, context.scene)
     spring = 0.0
-    # The ends of a deletion may lie on two bodies too, but then it covers a body.
-    if ends is not None and ends[1].body != WORLD and not covered:
-        spring = 1.0 - overlap.share_on(crossed, ends)
+    # The ends of a deletion may lie on two bodies too, but then its middle also lies on bodies.
+    if ends is not None and ends[1].body != WORLD:
+        others = set(covered) - {end.body for end in ends}
+        middle = 1.0 if others else overlap.middle_share_on(crossed, ends)
+        spring = falls(middle, _MIDDLE_ON_ENDS, 0.03)
     yield Interpretation(
         meaning='spring',
         weight=hypothesis.weight * spring,
