@@ -314,6 +314,23 @@ def test_a_line_of_which_most_lies_beside_the_circle_it_goes_through_is_a_mark()
     assert [kind for _, kind in desk.bodies] == ['Disc']
 
 
+def test_a_line_across_a_circle_that_begins_within_is_a_mark() -> None:
+    desk = Desk()
+    desk.draw(circle(0.0, 0.0, 1.0))
+
+    assert desk.draw([(-0.9, 0.1), (1.6, 0.0)]).meaning == 'mark'
+    assert desk.scene.joints == ()
+
+
+def test_an_arrow_from_a_body_may_have_its_head_first() -> None:
+    desk = Desk()
+    desk.spawn(spawning('a/0', Disc(radius=0.5)))
+    desk.draw([(1.5, 0.5), (2.0, 0.0), (1.5, -0.5)])
+
+    assert desk.draw([(0.0, 0.0), (1.95, 0.0)]).meaning == 'velocity'
+    assert [name for name, _ in desk.bodies] == ['a/0']
+
+
 def test_a_rod_from_the_middle_of_a_disc_is_no_mark() -> None:
     desk = Desk()
     desk.draw(circle(0.0, 0.0, 0.5))

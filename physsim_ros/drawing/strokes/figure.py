@@ -14,6 +14,7 @@ Law: a figure changes nothing in the world.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 import itertools
 
@@ -35,7 +36,7 @@ from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.requests import Join, Request
+from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.transform import norms
 
 # The greatest number of strokes of one figure.
@@ -66,7 +67,7 @@ class Figure:
     :param scene: over which the first one was drawn
     :param guesses: its possible meanings, the likeliest first
     :param chosen: index of the guess that was taken; None where it was not recognised
-    :param requests: of that reading
+    :param requests: of that reading; () where the world cannot have it
     :param gestures: numbers of the gestures with which these were submitted
     """
 
@@ -96,13 +97,15 @@ class Figure:
         :param drawn: its strokes as one
         """
         guesses = guess_meanings(drawn, scene, settings)
+        likely = is_likely(guesses, settings)
         return cls(
             strokes=strokes,
             began=began,
             ended=ended,
             scene=scene,
             guesses=guesses,
-            chosen=0 if is_likely(guesses, settings) else None,
+            chosen=0 if likely else None,
+            requests=_requests_of(guesses[0]) if likely else (),
         )
 
     @property
@@ -147,7 +150,13 @@ def likeliest_group(
     if not last.is_line:
         return None
     for group in _groups(figures, last, settings):
-        joints = [_leaves_its_bodies(figure) for figure in group]
+        walls = {
+            each.name
+            for figure in group
+            for each in figure.requests
+            if isinstance(each, Spawn) and figure.meaning == 'wall'
+        }
+        joints = [_leaves_its_bodies(figure, walls) for figure in group]
         if all(joints):
             # Rods from body to body to body are a truss, no polygon.
             continue
@@ -162,7 +171,7 @@ def likeliest_group(
         )
         if whole.chosen is None or whole.meaning in _SINGLE:
             continue
-        if not _can_be_built(whole.guesses[0]):
+        if not whole.requests:
             # Two walls that cross are no x in the open.
             continue
         if whole.meaning in CLOSED or not any(joints):
@@ -196,12 +205,12 @@ def marks_inside(
     return tuple(gestures)
 
 
-def _can_be_built(guess: Guess) -> bool:
+def _requests_of(guess: Guess) -> tuple[Request, ...]:
+    """Return the requests of a guess; none where the world cannot have it."""
     try:
-        guess.build()
+        return guess.build().requests
     except Refusal:
-        return False
-    return True
+        return ()
 
 
 def _groups(
@@ -226,16 +235,17 @@ def _follows(figure: Figure, later: Figure, settings: DrawingSettings) -> bool:
     return 0.0 < settings.regroup >= later.began - figure.ended
 
 
-def _leaves_its_bodies(figure: Figure) -> bool:
-    """Return whether a figure is a joint of two bodies that also lies beside them."""
-    if not figure.requests:
-        # The requests of the new stroke are not made yet.
-        return figure.is_line and not figure.is_open
+def _leaves_its_bodies(figure: Figure, walls: AbstractSet[str]) -> bool:
+    """
+    Return whether a figure is a joint of two bodies that also lies beside them.
+
+    :param walls: names of bodies that are no ends of joints: other strokes of the same figure
+    """
     points, scene = np.vstack([_few_points(stroke) for stroke in figure.strokes]), figure.scene
     return any(
         float((scene.covers(each.a, points) | scene.covers(each.b, points)).mean()) < _ON_SOLID
         for each in figure.requests
-        if isinstance(each, Join) and each.b not in {'', WORLD}
+        if isinstance(each, Join) and not {each.a, each.b} & {'', WORLD, *walls}
     )
 
 
