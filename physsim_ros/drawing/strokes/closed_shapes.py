@@ -38,9 +38,6 @@ from physsim_ros.model.transform import norms, Point
 
 # The name of a form whose meaning is a polygon.
 OVAL = 'oval'
-# The greatest gap of a closed outline, in shares of its length: 99 of 100 people leave less than
-# 11.5 %, and a question mark has 17 %.
-_GAP = 0.147
 # The greatest distance of an outline from a rectangle (rms), in shares of its size: that of an
 # octagon is 0.024 and more; and that in shares of the error of an ellipse, 0.5 for an oval.
 _SQUARE, _SQUARER = 0.0222, 0.27
@@ -67,7 +64,7 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
     :param plain: weight of the stroke being no sign
     """
     stroke = features.stroke
-    closed = plain * falls(stroke.gap, _GAP, 0.006) * features.swings.absence
+    closed = plain * features.closure * features.swings.absence
     if stroke.outline is None or closed < LEAST:
         return
     shapes = list(_shapes(stroke.outline, stroke.gap))

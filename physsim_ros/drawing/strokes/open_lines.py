@@ -60,7 +60,7 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
         each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
         for each in features.crossings
     )
-    weight = plain * calm * rises(stroke.gap, 0.147, 0.006) * falls(loops, 0.5, 0.2)
+    weight = plain * calm * (1.0 - features.closure) * falls(loops, 0.5, 0.2)
     if weight >= LEAST:
         yield Hypothesis(primitive=LINE, weight=weight, points=bends_of(points))
 
