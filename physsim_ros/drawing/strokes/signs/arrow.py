@@ -70,7 +70,7 @@ def _arrow_from_tail(points: Floats) -> Hypothesis:
     tail = points[0]
     tip = points[int(((points - tail) ** 2).sum(axis=1).argmax())]
     frame, bow = _unbowed(_in_frame(points, tail, tip))
-    near = frame[int((frame[:, 0] > 1.0 - _HEAD).argmax()) :] - (1.0, 0.0)
+    near = frame[np.maximum.accumulate(frame[:, 0]) > 1.0 - _HEAD] - (1.0, 0.0)
     left, right = near[int(near[:, 1].argmax())], near[int(near[:, 1].argmin())]
     shorter, longer = sorted((float(norms(left)), float(norms(right))))
     # The angles of both barbs with the shaft.
