@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from physsim_ros.model.texts import abbreviated, message_text, nearest_name
-from physsim_ros.model.transform import Point
 
 
 class PhysSimError(Exception):
@@ -219,7 +218,7 @@ def no_joint(name: str, known: Iterable[str], field: str) -> UnknownJoint:
     return UnknownJoint(f'there is no joint {name!r}{nearest_name(name, known)}', field=field)
 
 
-def nothing_at(point: Point, field: str) -> NothingThere:
+def nothing_at(point: tuple[float, float], field: str) -> NothingThere:
     """Return the refusal of a point in no body [m], of a field of the request."""
     x, y = point
     return NothingThere(f'there is no body at ({x:g}, {y:g})', field=field)
