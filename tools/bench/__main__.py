@@ -1,7 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""`make bench`; `make bench ARGS='300 1000'` chooses the counts of bodies."""
+"""
+`make bench`: times, beside those of the bare engine.
+
+`make bench ARGS='300 1000'` chooses the counts of bodies, `ARGS='robots joints'` the tables.
+"""
 
 import gc
 import sys
@@ -28,19 +32,39 @@ from . import (
 # As the node does: what has been imported stays, and the collector need not look at it.
 gc.collect()
 gc.freeze()
-frames.table([int(word) for word in sys.argv[1:]] or [100, 300, 1000])
-fixture.table()
-outside.table()
-resting.table()
-capacity.table()
-crowd.table()
-joints.table()
-sensors.table()
-robots.table()
-rewinding.table()
-pages.table()
-classroom.table()
-chromium_page.table()
-picture.table()
-recording_page.table()
-startup.table()
+_TABLES = {
+    module.__name__.rpartition('.')[2]: module.table
+    for module in (
+        fixture,
+        outside,
+        resting,
+        capacity,
+        crowd,
+        joints,
+        sensors,
+        robots,
+        rewinding,
+        pages,
+        classroom,
+        chromium_page,
+        picture,
+        recording_page,
+        startup,
+    )
+}
+
+
+def main(words: list[str]) -> None:
+    """Print the tables of some names and counts; without names, all."""
+    counts = [int(word) for word in words if word.isdecimal()]
+    names = [word for word in words if not word.isdecimal()]
+    if unknown := set(names) - {'frames', *_TABLES}:
+        sys.exit(f'no table {", ".join(unknown)}; there are frames, {", ".join(_TABLES)}')
+    if not names or 'frames' in names:
+        frames.table(counts or [100, 300, 1000])
+    for name, table in _TABLES.items():
+        if not names or name in names:
+            table()
+
+
+main(sys.argv[1:])
