@@ -13,6 +13,7 @@ from collections.abc import Generator, Iterator
 from contextlib import contextmanager, ExitStack
 import faulthandler
 import os
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import pytest
@@ -40,6 +41,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     # A test's own stderr is captured, and lost with its process.
     config.stash[STDERR] = os.dup(2)
+    # Worlds that a node keeps by itself are not to lie among those of the person who runs tests.
+    data = TemporaryDirectory(prefix='physsim_test_')
+    config.add_cleanup(data.cleanup)
+    os.environ['XDG_DATA_HOME'] = data.name
 
 
 @contextmanager
