@@ -142,7 +142,9 @@ class ImpactPropagation:
         rows = np.where(table.columns.dynamic[rows[:, :1]], rows, rows[:, ::-1])
         found: dict[int, dict[Any, float]] = {}
         for (one, other), impact in zip(rows.tolist(), impacts.tolist(), strict=True):
-            found.setdefault(one, {})[self._pm_body(table, other)._body] = impact
+            others, body = found.setdefault(one, {}), self._pm_body(table, other)._body
+            # Pieces of two bodies may touch in several contacts, listed in no order.
+            others[body] = min(impact, others.get(body, impact))
         for one, others in found.items():
             pm_body = self._pm_body(table, one)
 
