@@ -41,7 +41,14 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import no_body, NotRecognised
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
-from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, Snapshot
+from physsim_ros.model.snapshot import (
+    Answer,
+    Line,
+    NO_PREVIEW,
+    Preview,
+    request_count,
+    Snapshot,
+)
 from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
@@ -285,7 +292,7 @@ def submit_reading(
 
 def reading_answer(reading: Reading, *, topic: str) -> Answer:
     """Return the answer that reports a reading; the answers to its requests follow."""
-    values = (*reading.values, ('requests', str(len(reading.requests))))
+    values = (*reading.values, request_count(len(reading.requests)))
     return Answer(topic=topic, subject=reading.subject, message=reading.message, values=values)
 
 

@@ -213,6 +213,11 @@ NO_CONTACTS = Contacts(
 )
 
 
+def request_count(count: int) -> tuple[str, str]:
+    """Return the value of an answer that says how many answers to requests follow it."""
+    return 'requests', str(count)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Answer:
     """

@@ -155,7 +155,7 @@ class Sheet:
 
         :param bodies: number of bodies at the beginning
         """
-        # What it is told at first changes its bars, and so the place of the world.
+        # The first messages change its bars, and so the place of the world.
         self.wait('heard.people && Object.keys(physsim.bodies).length > 0')
         before = self.page.evaluate('heard.shown.length')
         self.press('Pause')
@@ -254,7 +254,7 @@ class Sheet:
         return name
 
     def state(self) -> str:
-        """Return what the page shows and was told."""
+        """Return the state of the page, and its latest notes and refusals."""
         sync_api = pytest.importorskip('playwright.sync_api')
         try:
             return f'{self.page.evaluate(STATE)}\n{self.errors}'

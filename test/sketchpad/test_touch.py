@@ -85,7 +85,7 @@ def test_a_finger_beside_a_body_means_that_body(chromium: Any, address: str) -> 
     sheet.page.touchscreen.tap(x, y - 8)
     sheet.page.get_by_role('status').get_by_text('ball/0 anchored').wait_for()
     sheet.press('Undo')
-    # What is anchored is carried, and moves when it is let go.
+    # An anchored body is carried, and moves when it is let go.
     sheet.wait('heard.shown.includes("~/undo")')
     sheet.press('Hand')
     fingers = Fingers(sheet)

@@ -41,6 +41,7 @@ from physsim_ros.model.requests import (
     Request,
 )
 from physsim_ros.model.shapes import MOST_POINTS
+from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.transform import Point
 
 
@@ -81,7 +82,7 @@ class ClickResult:
     @property
     def values(self) -> tuple[tuple[str, str], ...]:
         """Return the number of requests that the message is about, as a pair of key and value."""
-        return (('requests', str(len(self.requests))),) if self.requests else ()
+        return (request_count(len(self.requests)),) if self.requests else ()
 
 
 def circle(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:

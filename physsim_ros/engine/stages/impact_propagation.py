@@ -143,7 +143,8 @@ class ImpactPropagation:
         found: dict[int, dict[Any, float]] = {}
         for (one, other), impact in zip(rows.tolist(), impacts.tolist(), strict=True):
             others, body = found.setdefault(one, {}), self._pm_body(table, other)._body
-            # Pieces of two bodies may touch in several contacts, listed in no order.
+            # Two bodies may touch in several contacts, which the engine lists by their addresses:
+            # the least impact counts for all of them.
             others[body] = min(impact, others.get(body, impact))
         for one, others in found.items():
             pm_body = self._pm_body(table, one)

@@ -35,7 +35,7 @@ _INSIDE = 10
 # than this many times the pieces of the requests since the last count [1]. A count takes 3 µs for
 # each piece and overlap, a request a third of a millisecond more.
 _PIECE = 100
-# What the limits in the settings count.
+# The counts that the settings limit.
 _COUNTED = {'max_bodies': 'bodies', 'max_shapes': 'convex pieces', 'max_joints': 'joints'}
 
 

@@ -27,6 +27,7 @@ from physsim_ros.model.requests import (
     Unjoin,
     unset_in,
 )
+from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, REST, Twist
 from physsim_ros.simulation.world.joint_requests import drawn_points
@@ -104,7 +105,7 @@ def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: 
     """Add bodies like others, with the joints among them, at rest, at a distance [m]."""
     requests = page.drawing.copy_machine(names, by, page.world.current_snapshot())
     page.check_locked(requests)
-    page.tell(origin, f'copied {counted(len(names), "body")}', (('requests', str(len(requests))),))
+    page.tell(origin, f'copied {counted(len(names), "body")}', (request_count(len(requests)),))
     page.submit(origin, requests)
 
 
