@@ -41,7 +41,8 @@ from visualization_msgs.msg import Marker
 
 from .journey import clock_of
 from ..client import Client
-from ..simulation.histories import history_of_node, NodePlayer, play, SETTINGS
+from ..simulation.histories import history_of_node, NodePlayer, play
+from ..simulation.random_history import SETTINGS
 
 SEEDS = range(700, 708)
 TOPICS = {Anchor: '~/anchor', Release: '~/release', Pin: '~/pin', Axle: '~/axle'}

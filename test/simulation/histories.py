@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Random histories of a simulation, and the oracle that says what each of them must have shown.
+The player of random histories, with the oracle that says what each of them must have shown.
 
-A history is a list of operations, made of a seed: requests, speeds, seeks, undo, redo, resets,
-courses, limits, saved worlds. The oracle keeps a plain list of requests, each with its step, for
-the line of events that is in force, for each course that was left, and for what can be redone. At
-the end it plays every list from nothing, one step at a time and forward only. That is what each
-frame must have shown, however its moment was reached.
+A history is a list of operations, which `random_history` makes of a seed. The oracle keeps a plain
+list of requests, each with its step, for the line of events that is in force, for each course that
+was left, and for what can be redone. At the end it plays every list from nothing, one step at a
+time and forward only. That is what each frame must have shown, however its moment was reached.
 
     python -m test.simulation.histories 17           # the history of seed 17
     python -m test.simulation.histories 1000 2000    # those of all seeds from one to another
@@ -20,259 +19,34 @@ A history that differs is shrunk, and printed as a program.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 import hashlib
 import itertools
-import random
 import sys
 import time
-from typing import Any
 
 import numpy as np
 from physsim_ros.files import load_mapping, state_from, text_of
 from physsim_ros.files.world_schema import LIMITS
-from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import OutOfHistory, Refusal
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import (
-    Anchor,
-    Axle,
-    ChangeBody,
-    Command,
-    Configure,
-    Delete,
-    DeleteAll,
-    DeleteBodies,
-    DriveRobot,
-    Grab,
-    HandRequest,
-    Join,
-    LetGo,
-    MoveBodies,
-    MoveHand,
-    Pin,
-    Release,
-    Request,
-    Restore,
-    Spawn,
-    Unjoin,
-    UnjoinAll,
-)
-from physsim_ros.model.robots import Robot
+from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
+from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand, Request, Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.simulation.past.history_memory import HistoryMemory
 from physsim_ros.simulation.past.past import Past
+from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
+
+from .random_history import history_of, Operation, SETTINGS, shipped_world
 
 # Processor time of one history that is worth a word [s].
 LONGEST = 60.0
-# A call of `Player`: the name of a method and its arguments.
-Operation = tuple[Any, ...]
-
-SETTINGS = WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0))
-RATES = ((240.0, 60.0), (240.0, 60.0), (480.0, 30.0), (60.0, 60.0), (1000.0, 50.0))
-SHAPES = (
-    Disc(radius=0.3),
-    Disc(radius=0.05),
-    Box(width=0.8, height=0.4),
-    Polygon(outline=((0.0, 0.0), (1.0, 0.0), (0.2, 0.3), (0.0, 1.0))),
-    Compound(element=Box(width=0.3, height=0.3), centers=((-0.3, 0.0), (0.0, 0.0), (0.0, 0.3))),
-    Chain(points=((-1.0, 0.0), (0.0, 0.2), (1.0, 0.0)), thickness=0.1),
-)
-NAMES = tuple(f'a/{number}' for number in range(4))
-JOINTS = ('j/0', 'j/1')
-# Each kind of drive, some with odometry that errs.
-ROBOTS = tuple(
-    Robot.from_mapping(each)
-    for each in (
-        {'drive': {'kind': 'differential', 'track': 0.2, 'timeout': 0.1}},
-        {'drive': {'kind': 'differential', 'track': 0.2}, 'odometry': {'slip': [0.1, 0.2]}},
-        {'drive': {'kind': 'omni', 'max_speed': 2.0}},
-        {'drive': {'kind': 'car', 'wheelbase': 0.3}, 'odometry': {'slip': [0.01, 0.02]}},
-    )
-)
 
 
 class Difference(AssertionError):
     """A history has shown something else than it must have."""
-
-
-# Making histories
-
-
-def history_of(seed: int) -> list[Operation]:
-    """Return the operations of a seed."""
-    rng = random.Random(seed)
-    physics, publish = rng.choice(RATES)
-    operations: list[Operation] = [
-        ('begin', physics, publish, rng.choice((0.1, 0.17, 0.5, 1.0, 3.0)), rng.random() < 0.5)
-    ]
-    spawns = (replace(spawn_of(rng), name=name, lifetime=0.0) for name in NAMES)
-    operations += [('ask', spawn) for spawn in spawns if rng.random() < 0.8]
-    if rng.random() < 0.4:
-        operations += [('ask', request) for request in robots_of(rng)]
-    if rng.random() < 0.5:
-        # The state that a reset returns to.
-        operations += [('save',), ('load',)]
-    for _ in range(rng.randint(8, 50)):
-        operations.append(operation_of(rng))
-    return operations
-
-
-def operation_of(rng: random.Random) -> Operation:
-    makers: list[tuple[int, Callable[[], Operation]]] = [
-        (6, lambda: ('ask', request_of(rng))),
-        (6, lambda: ('ask_running', request_of(rng))),
-        (8, lambda: ('run', rng.choice((1.0, 1.0, 1.0, 4.0, 0.3, -1.0, -4.0, -0.3, -64.0)),
-                     rng.randint(1, 40))),
-        (6, lambda: ('seek', round(rng.random(), 3))),
-        (6, lambda: ('undo',)),
-        (5, lambda: ('redo',)),
-        (3, lambda: ('reset',)),
-        (4, lambda: ('course', rng.randint(0, 7))),
-        (1, lambda: ('limit_memory', rng.choice((1.0, 2.0, 16.0, 256.0)))),
-        (1, lambda: ('limit_history', rng.choice((0.5, 1.0, 5.0, 600.0)))),
-        (2, lambda: ('save',)),
-        (1, lambda: ('load',)),
-        (2, lambda: ('drag', rng.choice(NAMES), point_of(rng), rng.randint(1, 10),
-                     rng.random() < 0.5)),
-    ]  # fmt: skip
-    weights = [weight for weight, _ in makers]
-    return rng.choices([make for _, make in makers], weights)[0]()
-
-
-def number_of(rng: random.Random, most: float = 3.0) -> float:
-    return round(rng.uniform(-most, most), 2)
-
-
-def point_of(rng: random.Random) -> tuple[float, float]:
-    return number_of(rng), round(number_of(rng) + 3.0, 2)
-
-
-def spawn_of(rng: random.Random) -> Spawn:
-    anchored = rng.random() < 0.2
-    wild = rng.random() < 0.1
-    speed = 300.0 if wild else 3.0
-    said: dict[str, Any] = {'anchored': anchored or None}
-    if not anchored and rng.random() < 0.5:
-        said |= {'velocity': (number_of(rng, speed), number_of(rng, speed))}
-        said |= {'spin': number_of(rng, speed)}
-    match rng.randint(0, 8):
-        case 0:
-            said['mass'] = rng.choice((0.1, 1.0, 1e3 if wild else 3.0))
-        case 1:
-            said['density'] = rng.choice((0.1, 2.0, 1e3 if wild else 3.0))
-        case 2:
-            said |= {'friction': 0.1, 'elasticity': 0.9}
-        case 3:
-            said |= {'sensor': True, 'group': rng.randint(0, 1), 'label': 'gate'}
-        case 4 if not anchored:
-            said |= {'kinematic': True}
-        case 5 if not anchored:
-            said |= {'robot': rng.choice(ROBOTS)}
-        case 6:
-            said |= {'sensor': True, 'surface_velocity': (number_of(rng), number_of(rng))}
-    return Spawn(
-        name=rng.choice(NAMES),
-        shape=rng.choice(SHAPES),
-        pose=(*point_of(rng), number_of(rng)),
-        lifetime=rng.choice((0.0,) * 8 + (0.013, 0.4)),
-        color=rng.choice((None, None, (0.1, 0.2, 0.3, 0.4))),
-        properties=Properties(**said),
-    )
-
-
-def robots_of(rng: random.Random) -> Iterator[Request]:
-    """Yield the requests for two robots in a world that is seen from above."""
-    yield Configure(changes={'gravity': (0.0, 0.0), 'floor_friction': 0.4})
-    for name in NAMES[:2]:
-        spawn = Spawn(name=name, shape=Disc(radius=0.2), pose=(*point_of(rng), number_of(rng)))
-        yield replace(spawn, properties=Properties(robot=rng.choice(ROBOTS)))
-        yield DriveRobot(name=name, velocity=(1.0, number_of(rng), number_of(rng)))
-
-
-def change_of(rng: random.Random) -> dict[str, Any]:
-    return rng.choice(
-        [
-            {'gravity': (number_of(rng), number_of(rng, 10.0))},
-            {'damping': rng.choice((0.0, 0.2, 0.9))},
-            {'iterations': rng.choice((1, 3, 25))},
-            {'bounds': rng.choice((None, (-4.0, 0.0, 4.0, 9.0)))},
-            {'floor_friction': rng.choice((0.0, 0.4)), 'gravity': (0.0, 0.0)},
-            {'seed': rng.randint(0, 9), 'drag_force': rng.choice((0.5, 100.0))},
-            {'density': rng.choice((0.5, 2.0))},
-            {'friction': rng.choice((0.1, 0.9)), 'elasticity': rng.choice((0.0, 0.9))},
-            {'command_timeout': rng.choice((0.0, 0.01, 0.25))},
-            {'max_bodies': rng.choice((3, 1000))},
-        ]
-    )
-
-
-def command_of(rng: random.Random) -> Command:
-    rows = {
-        key: ((number_of(rng), number_of(rng), number_of(rng)),)
-        for key in rng.sample(('poses', 'twists', 'wrenches'), rng.randint(1, 2))
-    }
-    return Command(names=(rng.choice(NAMES),), **rows)
-
-
-def drive_of(rng: random.Random) -> DriveRobot:
-    velocity = (number_of(rng), number_of(rng), number_of(rng))
-    return DriveRobot(name=rng.choice(NAMES), velocity=velocity)
-
-
-def join_of(rng: random.Random) -> Join:
-    kind = rng.choice(list(JointKind))
-    first, second = rng.sample(NAMES, 2)
-    return Join(
-        name=rng.choice(JOINTS),
-        kind=kind,
-        points=tuple(point_of(rng) for _ in range(kind.points)),
-        a=first,
-        b=rng.choice((second, 'world')),
-        properties=JointProperties(break_force=rng.choice((None, None, 30.0))),
-    )
-
-
-def request_of(rng: random.Random) -> Request:
-    """Return a request of any kind; names are few, so that requests meet."""
-    properties = rng.choice(
-        (
-            {},
-            {'density': 3.0},
-            {'mass': 2.0},
-            {'friction': 0.1, 'elasticity': 0.0},
-            {'velocity': (1.0, 2.0)},
-            {'anchored': True},
-            {'anchored': False},
-            {'kinematic': True},
-            {'robot': rng.choice(ROBOTS)},
-        )
-    )
-    makers: list[tuple[int, Callable[[], Request]]] = [
-        (16, lambda: spawn_of(rng)),
-        (12, lambda: command_of(rng)),
-        (6, lambda: Configure(changes=change_of(rng))),
-        (8, lambda: join_of(rng)),
-        (6, lambda: drive_of(rng)),
-        (2, lambda: Delete(name=rng.choice(NAMES))),
-        (1, lambda: DeleteBodies(names=tuple(rng.sample(NAMES, 2)))),
-        (1, UnjoinAll),
-        (1, DeleteAll),
-        (1, lambda: Anchor(point=(0.0, 0.0), frame=rng.choice(NAMES))),
-        (2, lambda: Release(point=(0.0, 0.0), frame=rng.choice(NAMES))),
-        (2, lambda: Pin(point=(0.0, 0.0), frame=rng.choice(NAMES))),
-        (2, lambda: Axle(point=(0.0, 0.0), frame=rng.choice(NAMES))),
-        (2, lambda: Unjoin(name=rng.choice(JOINTS))),
-        (6, lambda: ChangeBody(name=rng.choice(NAMES), properties=Properties(**properties))),
-        (3, lambda: MoveBodies(names=(rng.choice(NAMES),), by=(number_of(rng), 1.0))),
-    ]
-    weights = [weight for weight, _ in makers]
-    return rng.choices([make for _, make in makers], weights)[0]()
 
 
 # The oracle
@@ -285,6 +59,7 @@ class Made:
     step: int
     request: Request
     gesture: int
+    author: str
     shown: bool = False
 
 
@@ -366,15 +141,25 @@ class Player:
         self.line = Line(1, WorldState(settings=self.sim.world.settings))
         self.courses = 1
 
-    def ask(self, request: Request) -> None:
+    def load_shipped(self, world: str) -> None:
+        """Load a world that ships with the package."""
+        self.ask(Restore(state=shipped_world(world, self.rate)))
+
+    def ask(self, request: Request, author: str = '') -> None:
         """Submit a request to the world that stands, and show it."""
-        self._submit(request)
+        self._submit(request, author)
         self.look(self.sim.apply_requests())
 
-    def ask_running(self, request: Request) -> None:
+    def ask_running(self, request: Request, author: str = '') -> None:
         """Submit a request, and make a frame with it."""
-        self._submit(request)
+        self._submit(request, author)
         self.look(self.sim.advance_frame())
+
+    def ask_at_once(self, requests: Sequence[Request], joined: bool, author: str) -> None:
+        """Submit requests, perhaps as one gesture, and show them together."""
+        for number, request in enumerate(requests):
+            self._submit(request, author, joined=joined and number > 0)
+        self.look(self.sim.apply_requests())
 
     def run(self, speed: float, frames: int) -> None:
         self.sim.speed = speed
@@ -384,12 +169,41 @@ class Player:
                 self.look(frame)
         self.sim.speed = 0.0
 
+    def run_overdue(self, speed: float, calls: int) -> None:
+        """Run in calls that have too little time, so that a replay goes on in the next one."""
+        self.sim.speed = speed
+        self._call_overdue(calls)
+        self.sim.speed = 0.0
+
     def seek(self, share: float) -> None:
-        oldest, newest = (round(each * self.rate) for each in self._span())
-        step = round(oldest + share * (newest - oldest))
-        self._seek(round(step * 1e9 / self.rate))
+        step = self._step_at(share)
+        self._seek(self._stamp(step))
         self.look(self.sim.apply_requests())
         self._check(self.sim.step == step, f'a seek to step {step} came to {self.sim.step}')
+
+    def seek_overdue(self, share: float, calls: int) -> None:
+        """Seek in calls that have too little time; the next operation may find it under way."""
+        step = self._step_at(share)
+        self.sim.requests.submit_seek(self._stamp(step), topic='~/fuzz')
+        while len(self.sim.requests):
+            # Another seek may be under way.
+            self._call_overdue(1)
+        self._call_overdue(calls)
+        self._check(self.sim.step == step, f'a seek to step {step} is at {self.sim.step}')
+
+    def _step_at(self, share: float) -> int:
+        """Return the step at a share of the past."""
+        oldest, newest = (round(each * self.rate) for each in self._span())
+        return round(oldest + share * (newest - oldest))
+
+    def _stamp(self, step: int) -> int:
+        return round(step * 1e9 / self.rate)
+
+    def _call_overdue(self, calls: int) -> None:
+        for _ in range(calls):
+            self.now += round(1e9 * self.frame_steps / self.rate)
+            for frame in self.sim.advance(self.now, is_overdue=lambda: True):
+                self.look(frame)
 
     def undo(self) -> None:
         before, words = self._position(), self.sim.status.undo
@@ -427,6 +241,61 @@ class Player:
         self.line = line
         self._arrive(line.moment)
 
+    def take_back(self, author: str) -> None:
+        """Take back what a person has done last; what others have done since is done again."""
+        before = self._position()
+        theirs = [each.gesture for each in before.made if each.author == author]
+        try:
+            self.sim.take_back(author)
+        except InPast:
+            self._check(before.moment != (before.head, len(before.made)), 'the past is not shown')
+        except OutOfHistory:
+            self._check(self.dropped or not theirs, f'nothing by {author} is taken back')
+        except NotAlone:
+            self._arrive(before.moment)
+        else:
+            later = self._cut(before, theirs[-1])
+            self._arrive(before.moment)
+            self._check_done_again(later)
+            self.undone = [(before, None)]
+
+    def amend(self, back: int, requests: Sequence[Request]) -> None:
+        """Have other requests instead of those of an earlier gesture, up to this moment."""
+        before = self._position()
+        gestures = list(dict.fromkeys(each.gesture for each in before.made[: before.moment[1]]))
+        if self.dropped or not gestures:
+            return
+        gesture = gestures[-min(back, len(gestures))]
+        self.sim.requests.submit(Amend((gesture,), tuple(requests)), topic='~/fuzz')
+        frame = self.sim.apply_requests()
+        later = self._cut(before, gesture)
+        self.submitted += requests
+        self.look(frame)
+        self._check_done_again(later)
+        self.undone.clear()
+
+    def _cut(self, before: Line, gesture: int) -> list[Made]:
+        """End the line before a gesture; return the later requests, which are asked again."""
+        (step, serial), made = before.moment, before.made
+        first = next(n for n, each in enumerate(made) if each.gesture == gesture)
+        opening = made[first]
+        self.line = Line(before.course, before.state, made[:first], step)
+        later = [
+            each
+            for each in made[first:serial]
+            if (each.gesture, each.author) != (gesture, opening.author)
+        ]
+        self.submitted += [each.request for each in later]
+        return later
+
+    def _check_done_again(self, later: list[Made]) -> None:
+        """Check that later requests were done again in their order, each at its step."""
+        asked = iter([(each.step, id(each.request)) for each in later])
+        known = {id(each.request) for each in later}
+        again = [each for each in self.line.made if id(each.request) in known]
+        in_order = all((each.step, id(each.request)) in asked for each in again)
+        self._check(in_order, 'requests are done again in another order or at another step')
+
     def reset(self) -> None:
         before = self._position()
         self._perform('reset')
@@ -457,6 +326,10 @@ class Player:
         oldest = round(self._span()[0] * self.rate)
         step = max(oldest, min(step, self.line.head))
         self._arrive((step, self.line.serial_shown(step)))
+
+    def report_contacts(self, reports: bool) -> None:
+        self.sim.reports_contacts = reports
+        self.look(self.sim.apply_requests())
 
     def limit_memory(self, megabytes: float) -> None:
         self.dropped |= megabytes < 16.0
@@ -525,9 +398,9 @@ class Player:
 
     # How the simulation is asked, which is otherwise over topics and on a page
 
-    def _submit(self, request: Request) -> None:
+    def _submit(self, request: Request, author: str = '', *, joined: bool = False) -> None:
         self.submitted.append(request)
-        self.sim.requests.submit(request, topic='~/fuzz')
+        self.sim.requests.submit(request, topic='~/fuzz', author=author, joined=joined)
 
     def _perform(self, action: str) -> None:
         """Undo, redo or reset."""
@@ -555,6 +428,9 @@ class Player:
         if not self.dropped:
             self._check(step == moment[0], f'step {step} instead of {moment[0]}')
         self._check(self.sim.status.course == self.line.course, 'another course')
+        for each in self.line.made[: moment[1]]:
+            # An undo shows a step with the requests before the gesture, though none was shown.
+            each.shown |= each.step == step
         self.look(self.sim.apply_requests())
         self._check(digest == self.sim.world.digest(), 'a frame has changed the world')
 
@@ -588,7 +464,9 @@ class Player:
             self.line = Line(frame.course, line.state, kept, logged[-1].step)
         else:
             self._check(dropped + common == len(line.made), 'requests are lost')
-        fresh = [Made(each.step, each.request, each.gesture) for each in logged[common:]]
+        fresh = [
+            Made(each.step, each.request, each.gesture, each.author) for each in logged[common:]
+        ]
         for each in fresh:
             self._check(self._was_asked(each.request), 'nobody has asked for this')
         self.submitted.clear()
@@ -689,11 +567,11 @@ class NodePlayer(Player, ABC):
         assert (simulation.physics_rate, simulation.frame_steps) == (physics, physics / publish)
         return simulation
 
-    def _submit(self, request: Request) -> None:
+    def _submit(self, request: Request, author: str = '', *, joined: bool = False) -> None:
         if self.send(request):
             self.sent += 1
         else:
-            super()._submit(request)
+            super()._submit(request, author, joined=joined)
 
     def _was_asked(self, _: Request) -> bool:
         # A message has another rounding, and may ask by another request.

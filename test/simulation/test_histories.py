@@ -20,17 +20,8 @@ from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
 import pytest
 
-from .histories import (
-    check,
-    Difference,
-    difference_of,
-    history_of,
-    play,
-    ROBOTS,
-    script,
-    SHAPES,
-    shrunk,
-)
+from .histories import check, Difference, difference_of, play, script, shrunk
+from .random_history import history_of, ROBOTS, SHAPES
 
 SEEDS = range(int(os.environ.get('HISTORIES', '20')))
 

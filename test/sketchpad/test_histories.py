@@ -24,7 +24,8 @@ from physsim_ros.testing import own_context, PhysSim
 import pytest
 
 from .browser import Browser
-from ..simulation.histories import history_of_node, NodePlayer, play, SETTINGS
+from ..simulation.histories import history_of_node, NodePlayer, play
+from ..simulation.random_history import SETTINGS
 
 SEEDS = range(800, 808)
 
@@ -76,6 +77,7 @@ class PagePlayer(NodePlayer):
         if message is None:
             return False
         self.page.ask(message[0], **message[1])
+        self.look(None)
         return True
 
     def _seek(self, stamp: int) -> None:
