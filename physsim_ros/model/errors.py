@@ -191,6 +191,18 @@ class Frozen(Refusal):
     code = 'frozen'
 
 
+class ViewOnly(Refusal):
+    """A page only shows the world."""
+
+    code = 'view_only'
+
+
+class TeacherOnly(Refusal):
+    """A page is not a teacher's."""
+
+    code = 'teacher_only'
+
+
 class Running(Refusal):
     """Time is running, where it must be paused."""
 

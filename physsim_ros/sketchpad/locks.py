@@ -10,19 +10,34 @@ from fnmatch import fnmatchcase
 
 from physsim_ros.drawing import SceneQuery
 from physsim_ros.model import requests
+from physsim_ros.model.errors import Frozen
+from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.world_control import WorldControl
 
 # Requests that concern every body of the world.
 _OF_ALL = (requests.DeleteAll, requests.UnjoinAll, requests.Restore)
 
 
-def is_locked(name: str, patterns: Iterable[str]) -> bool:
-    """Return whether a body is among those of patterns, as in a shell."""
-    return any(fnmatchcase(name, pattern) for pattern in patterns)
+def check_locked(role: Role, wanted: Iterable[Request], world: WorldControl) -> None:
+    """
+    Refuse requests that concern locked bodies, but for a teacher.
+
+    :raises Frozen: one of them does
+    """
+    patterns = world.locked_bodies()
+    if not patterns or role is Role.TEACH:
+        return
+    snapshot = world.current_snapshot()
+    for request in wanted:
+        for name in _bodies_of(request, snapshot):
+            if any(fnmatchcase(name, pattern) for pattern in patterns):
+                raise Frozen(f'{shown_name(name)} is locked by a teacher', field='name')
 
 
-def bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
+def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
     """
     Return the bodies that a request concerns, by name.
 

@@ -4,8 +4,8 @@
 """
 Messages of pages: untrusted text becomes a kind and its checked arguments; answers to them.
 
-Laws: text that is not JSON, not Unicode or nested too deeply is refused here; every field is
-checked on the server's thread, before the world's thread receives the message.
+Laws: text that is not JSON, not Unicode or nested too deeply is refused here; the role of the page
+and every field are checked on the server's thread, before the world's thread receives the message.
 
 The decorator `message` declares a kind at the function that carries it out; `messages` has these
 functions.
@@ -20,6 +20,8 @@ from typing import Any, NamedTuple, TypeVar
 from physsim_ros.model.checks import check_key, shown
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.sketchpad.access import Role
+from physsim_ros.sketchpad.rights import check_right, Right
 
 # Levels of nested lists and mappings; a stroke has three, a body five.
 DEEPEST = 8
@@ -45,12 +47,14 @@ class Kind(NamedTuple):
     A kind of message.
 
     :ivar topic: that its answers name
+    :ivar right: that a page needs to send it
     :ivar fields: checks by the name of the field
     :ivar handle: carries it out on the world's thread, with the page's session, the origin of the
         message and the checked fields
     """
 
     topic: str
+    right: Right
     fields: Mapping[str, Read | Optional]
     handle: Callable[..., object]
 
@@ -93,44 +97,49 @@ KINDS: dict[str, Kind] = {}
 
 
 def message(
-    type_: str, topic: str, /, **fields: Read | Optional
+    type_: str, topic: str, right: Right = Right.CHANGE, /, **fields: Read | Optional
 ) -> Callable[[_Handler], _Handler]:
     """
     Declare a kind of message at the function that carries it out.
 
     :param type_: that messages name
     :param topic: that its answers name
+    :param right: that a page needs to send it
     :param fields: checks by the name of the field
     """
 
     def declare(handle: _Handler) -> _Handler:
-        KINDS[type_] = Kind(topic, fields, handle)
+        KINDS[type_] = Kind(topic, right, fields, handle)
         return handle
 
     return declare
 
 
-def read_message(text: str) -> tuple[str, Message | Refusal]:
+def read_message(text: str, role: Role) -> tuple[str, Message | Refusal]:
     """
     Return the identifier of a message ('' if it cannot be read), and the message or its refusal.
 
-    The refusal names an unknown type, an unknown field, or a field whose value is out of range.
+    The refusal names an unknown type, an unknown field, or a field whose value is out of range;
+    or the page has not the right to the message.
+
+    :param role: of the page
     """
     request = ''
     try:
         fields = _mapping_from(text)
         request = _request_from(fields.pop('id', ''))
-        return request, _checked(request, fields.pop('type', None), fields)
+        return request, _checked(request, fields.pop('type', None), fields, role)
     except Refusal as refusal:
         return request, refusal
 
 
-def _checked(request: str, type_: object, fields: dict[str, Any]) -> Message:
+def _checked(request: str, type_: object, fields: dict[str, Any], role: Role) -> Message:
     if not isinstance(type_, str):
         raise Malformed('the message has no type', field='type')
     kind = KINDS.get(type_)
     if kind is None:
         raise Malformed(f'there is no message {shown(type_)}', field='type')
+    check_right(kind.right, role)
     for name in fields:
         check_key(name, [*kind.fields])
     arguments = {}

@@ -18,24 +18,22 @@ from physsim_ros.drawing import DrawingSession
 from physsim_ros.files import OwnWorlds
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
-from physsim_ros.model.errors import Busy, Frozen, PhysSimError, Refusal
-from physsim_ros.model.names import shown_name
+from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
-from physsim_ros.sketchpad.locks import bodies_of, is_locked
+from physsim_ros.sketchpad.locks import check_locked
 from physsim_ros.sketchpad.message import answer_content, Content, KINDS, Message, Origin
+from physsim_ros.sketchpad.rights import check_right
 from physsim_ros.sketchpad.touches import touches_content
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
 # 5 s.
 HAND_PERIOD = 2.0
-# Kinds of messages that pages may send while they are frozen: what changes no world.
-WHILE_FROZEN = ('watch', 'follow', 'person', 'share', 'let_go', 'drop', 'draw_with')
 
 
 class PageSession:
@@ -97,7 +95,7 @@ class PageSession:
         kind = KINDS[message.kind]
         origin = Origin(self.number, message.request, kind.topic)
         try:
-            self._check_frozen(message.kind)
+            check_right(kind.right, self.role, frozen=self.world.is_frozen)
             kind.handle(self, origin, **message.arguments)
         except Refusal as refusal:
             self.refuse(origin, refusal)
@@ -130,25 +128,30 @@ class PageSession:
     # Requests
 
     def submit(
-        self, origin: Origin, requests: Iterable[Request], *, gesture: int | None = None
+        self,
+        origin: Origin,
+        requests: Iterable[Request],
+        *,
+        message: str = '',
+        values: tuple[tuple[str, str], ...] = (),
+        gesture: int | None = None,
     ) -> int:
         """
         Submit requests that are undone together, and return the number of their gesture.
 
+        :param message: that is answered first; '' is none
+        :param values: of that answer; `requests` of the answers after it belong to it
         :param gesture: number of an earlier gesture that they are in, too
         :raises Frozen: one of them concerns a locked body; none is submitted
         """
         requests = tuple(requests)
         self.check_locked(requests)
         queue = self.world.simulation.requests
+        topic, asker = origin.topic, origin.asker
+        if message:
+            queue.tell(Answer(topic=topic, message=message, values=values, asker=asker))
         for request in requests:
-            queue.submit(
-                request,
-                topic=origin.topic,
-                gesture=gesture,
-                asker=origin.asker,
-                author=self.person,
-            )
+            queue.submit(request, topic=topic, gesture=gesture, asker=asker, author=self.person)
             gesture = queue.gesture if gesture is None else gesture
         return gesture or 0
 
@@ -158,35 +161,16 @@ class PageSession:
 
         :raises Frozen: it grabs a locked body
         """
-        self.check_locked((request,))
+        self.submit(origin, (request,))
         self._hand_used = None if isinstance(request, LetGo) else time.monotonic()
-        queue = self.world.simulation.requests
-        queue.submit(request, topic=origin.topic, asker=origin.asker, author=self.person)
 
     def check_locked(self, requests: Iterable[Request]) -> None:
         """
-        Refuse requests that concern locked bodies, but for a teacher.
+        Refuse what concerns locked bodies and is not submitted by `submit`, but for a teacher.
 
-        :raises Frozen: one of them does
+        :raises Frozen: a request concerns one
         """
-        patterns = self.world.locked_bodies()
-        if not patterns or self.role is Role.TEACH:
-            return
-        snapshot = self.world.current_snapshot()
-        for request in requests:
-            for name in bodies_of(request, snapshot):
-                if is_locked(name, patterns):
-                    raise Frozen(f'{shown_name(name)} is locked by a teacher', field='name')
-
-    def _check_frozen(self, kind: str) -> None:
-        """
-        Refuse what changes the world while pages are frozen, but for a teacher.
-
-        :param kind: of a message
-        :raises Frozen: it is refused
-        """
-        if self.role is Role.DRAW and kind not in WHILE_FROZEN and self.world.is_frozen:
-            raise Frozen('a teacher has frozen this world')
+        check_locked(self.role, requests, self.world)
 
     def with_material(self, requests: Iterable[Request]) -> tuple[Request, ...]:
         """Return the requests of a drawing, with the page's material for the bodies they add."""
@@ -208,15 +192,6 @@ class PageSession:
         """Queue the refusal of a message."""
         queue = self.world.simulation.requests
         queue.refuse(refusal, topic=origin.topic, subject='', asker=origin.asker)
-
-    def tell(self, origin: Origin, message: str, values: tuple[tuple[str, str], ...] = ()) -> None:
-        """
-        Queue the answer to a message.
-
-        :param values: of the answer; `requests` of them are answered after it, and are one doing
-        """
-        answer = Answer(topic=origin.topic, message=message, values=values, asker=origin.asker)
-        self.world.simulation.requests.tell(answer)
 
     def answer_page(self, origin: Origin, message: str, **details: Any) -> None:
         """

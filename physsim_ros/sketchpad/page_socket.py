@@ -22,12 +22,8 @@ from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened
 from physsim_ros.sketchpad.message import answer_content, message, Optional
 from physsim_ros.sketchpad.messages import fields, read_message
 from physsim_ros.sketchpad.open_pages import OpenPage
+from physsim_ros.sketchpad.rights import Right
 from physsim_ros.sketchpad.scene_codec import compact
-
-# Types of the messages that a page may send which only shows the world.
-OF_VIEWERS = ('show', 'watch', 'follow')
-# Types of the messages that a teacher's page alone may send.
-OF_TEACHERS = ('freeze', 'lock', 'clear_of')
 
 
 class PageSocket(GuardedSocket):
@@ -66,22 +62,19 @@ class PageSocket(GuardedSocket):
 
     def on_message(self, message: str | bytes) -> None:
         """Check a message and hand it to the world's thread."""
-        if self._page is None or not self.take_token():
+        if self._page is None or self.role is None or not self.take_token():
             return
         # Binary messages are no JSON either.
-        request, checked = read_message(message if isinstance(message, str) else '')
+        text = message if isinstance(message, str) else ''
+        request, checked = read_message(text, self.role)
         if isinstance(checked, Refusal):
-            self._answer(request, Answer.refused(checked, topic=''))
+            self._refuse(request, checked)
         elif checked.kind == 'show':
             self._feed.show_parts(self._page, *_show(**checked.arguments))
-        elif self.role is Role.VIEW and checked.kind not in OF_VIEWERS:
-            self._refuse(request, 'view_only', 'this page only shows the world')
-        elif self.role is not Role.TEACH and checked.kind in OF_TEACHERS:
-            self._refuse(request, 'teacher_only', 'this is for teachers')
         elif checked.kind == 'here':
             self._feed.cursors.move(self._page.number, _here(**checked.arguments))
         elif not self._inbox.put(self._page.number, checked):
-            self._refuse(request, Busy.code, 'the world is too busy; nothing was done')
+            self._refuse(request, Busy('the world is too busy; nothing was done'))
 
     def on_close(self) -> None:
         """Forget the page."""
@@ -91,12 +84,10 @@ class PageSocket(GuardedSocket):
             # Nothing comes after it, even where tornado has buffered messages.
             self._inbox.put(page.number, Closed())
 
-    def _refuse(self, request: str, code: str, reason: str) -> None:
+    def _refuse(self, request: str, refusal: Refusal) -> None:
         """Refuse a message, which does not reach the world."""
-        self._answer(request, Answer(topic='', message=reason, code=code))
-
-    def _answer(self, request: str, answer: Answer) -> None:
         if self._page is not None:
+            answer = Answer.refused(refusal, topic='')
             self._page.send(compact(answer_content(answer, request)))
 
 
@@ -104,6 +95,7 @@ class PageSocket(GuardedSocket):
 @message(
     'show',
     '',
+    Right.LOOK,
     velocities=Optional(flag),
     contacts=Optional(flag),
     forces=Optional(flag),
@@ -121,7 +113,7 @@ def _show(
     return parts, laser
 
 
-@message('here', '', point=fields.point)
+@message('here', '', Right.DRAW, point=fields.point)
 def _here(*, point: Point) -> Point:
     """Return where the cursor of a page is [m]."""
     return point

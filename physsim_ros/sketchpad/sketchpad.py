@@ -18,6 +18,7 @@ from typing import Any
 
 from physsim_ros.files import OwnWorlds, state_from, text_of
 from physsim_ros.model.errors import Busy, Frozen
+from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad.access import Role
@@ -26,9 +27,11 @@ from physsim_ros.sketchpad.body_past import BodyPasts
 from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.last_contacts import LastContacts
+from physsim_ros.sketchpad.locks import check_locked
 from physsim_ros.sketchpad.message import Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession
 from physsim_ros.sketchpad.recording_handlers import Recordings
+from physsim_ros.sketchpad.rights import check_right, Right
 from physsim_ros.sketchpad.server import Server
 from physsim_ros.sketchpad.timeline_report import timeline_content, TimelineReport
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -192,8 +195,6 @@ class Sketchpad:
 
         def load() -> str:
             content = upload.take()
-            if self._world.is_frozen and upload.role is not Role.TEACH:
-                raise Frozen('a teacher has frozen this world')
             if content is None:
                 raise Busy('an upload has waited too long; nothing was done')
             settings, rate = simulation.settings, simulation.physics_rate
@@ -205,8 +206,10 @@ class Sketchpad:
             return [answer]
 
         try:
+            check_right(Right.CHANGE, upload.role, frozen=self._world.is_frozen)
+            check_locked(upload.role, (DeleteAll(),), self._world)
             self._world.submit_call(answers, Wait.FOR_SEEK)
-        except Busy as refusal:
+        except (Busy, Frozen) as refusal:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
             simulation.requests.refuse(refusal, topic=origin.topic, subject='')
 

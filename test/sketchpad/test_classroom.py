@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 from physsim_ros.sketchpad import Role
@@ -33,6 +34,13 @@ def spawn(page: Page, name: str, x: float) -> dict[str, Any]:
     return page.ask('spawn', body=BALL | {'name': name, 'at': [x, 5.0]})
 
 
+def upload_code(browser: Browser) -> str:
+    """Replace the world by an empty one as a pupil, and return the code of the answer."""
+    headers = {'Origin': browser.base}
+    response = browser.fetch('/world', method='POST', body='format: 1', headers=headers)
+    return str(json.loads(response.body)['code'])
+
+
 def people(page: Page) -> list[tuple[str, str]]:
     """Return name and role of each person, as a page knows them."""
     last = page.of_type('class')[-1:]
@@ -55,10 +63,9 @@ def test_a_teacher_freezes_the_pages_of_pupils_and_not_the_own(browser: Browser)
         ('grab', {'point': [0, 0]}),
     ):
         assert pupil.ask(kind, **fields)['code'] == 'frozen', kind
-    upload = browser.fetch(
-        '/world', method='POST', body='format: 1', headers={'Origin': browser.base}
-    )
-    assert b'frozen' in upload.body
+    for kind in ('drop', 'share'):
+        assert pupil.ask(kind)['ok'], kind
+    assert upload_code(browser) == 'frozen'
     assert browser.physsim.names == ()
     assert spawn(boss, 'a/0', 0.0)['ok']
     assert boss.ask('freeze', frozen=False)['ok']
@@ -91,7 +98,9 @@ def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
     for name, x in (('a/0', 0.0), ('b/0', 4.0)):
         spawn(pupil, name, x)
     assert boss.ask('lock', names=['a/*'])['ok']
+    pupil.ask('click', tool='chain', point=[4, 5])
     refused = (
+        ('click', {'tool': 'chain', 'point': [0, 5]}),
         ('change', {'name': 'a/0', 'properties': {'mass': 2}}),
         ('move_bodies', {'names': ['b/0', 'a/0'], 'by': [1, 0]}),
         ('delete', {'names': ['a/0']}),
@@ -102,7 +111,11 @@ def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
         ('open', {'name': 'demo'}),
     )
     for kind, fields in refused:
-        assert pupil.ask(kind, **fields)['code'] == 'frozen', (kind, fields)
+        id_ = pupil.send(kind, **fields)
+        pupil.until(lambda id_=id_: pupil.answers(id_))
+        # Nothing is told before it.
+        assert [each['code'] for each in pupil.answers(id_)] == ['frozen'], (kind, fields)
+    assert upload_code(browser) == 'frozen'
     # A scribble over it.
     zigzag = [[-0.6 + 0.1 * n, 5.5 if n % 2 else 4.5, 0.05 * n] for n in range(13)]
     pupil.ask('stroke', points=zigzag)

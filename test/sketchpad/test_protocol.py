@@ -9,6 +9,7 @@ import inspect
 import json
 import math
 from pathlib import Path
+import re
 import threading
 import time
 from typing import Any
@@ -24,6 +25,7 @@ from physsim_ros.sketchpad.inbox import Upload
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
 from physsim_ros.sketchpad.page_handlers import PAGE
+from physsim_ros.sketchpad.rights import Right
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.parameter import Parameter
@@ -50,6 +52,14 @@ def test_a_kind_of_message_has_the_fields_of_its_function_and_is_documented() ->
         # Those of `draw_with` are properties of bodies.
         assert kind.fields.keys() == parameters or parameters == {'color', 'properties'}, name
         assert f'`{name}`' in documented
+    for right, who in (
+        (Right.LOOK, 'every page'),
+        (Right.DRAW, 'a page that draws, frozen or not'),
+        (Right.TEACH, "a teacher's page"),
+    ):
+        (names,) = re.findall(rf'^\| {who} \| (.*) \|$', documented, re.MULTILINE)
+        of_right = {name for name, kind in KINDS.items() if kind.right is right}
+        assert {*re.findall('`(.*?)`', names)} == of_right
 
 
 def test_a_page_gets_the_poses_of_the_world(browser: Browser) -> None:

@@ -34,6 +34,7 @@ from physsim_ros.simulation.world.joint_requests import drawn_points
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.rights import Right
 from physsim_ros.sketchpad.touches import MOST_FOLLOWED
 
 
@@ -104,9 +105,8 @@ def copy(page: PageSession, origin: Origin, name: str, to: Point) -> None:
 def copy_machine(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
     """Add bodies like others, with the joints among them, at rest, at a distance [m]."""
     requests = page.drawing.copy_machine(names, by, page.world.current_snapshot())
-    page.check_locked(requests)
-    page.tell(origin, f'copied {counted(len(names), "body")}', (request_count(len(requests)),))
-    page.submit(origin, requests)
+    message = f'copied {counted(len(names), "body")}'
+    page.submit(origin, requests, message=message, values=(request_count(len(requests)),))
 
 
 @message('delete', '~/spawn', names=fields.names)
@@ -115,13 +115,13 @@ def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     page.submit(origin, (DeleteBodies(names=names),))
 
 
-@message('watch', 'page', name=fields.text)
+@message('watch', 'page', Right.LOOK, name=fields.text)
 def watch(page: PageSession, origin: Origin, name: str) -> None:
     """Send the page the past of a body, as far as it was shown; '' is no body."""
     page.pasts.ask(page.number, name, origin.request)
 
 
-@message('follow', 'page', names=_followed)
+@message('follow', 'page', Right.LOOK, names=_followed)
 def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
     """Tell the page from now on when other bodies begin to touch these; none is no body."""
     page.followed = names

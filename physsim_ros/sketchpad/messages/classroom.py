@@ -14,6 +14,7 @@ from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.rights import Right
 
 
 def _patterns(value: object, name: str) -> tuple[str, ...]:
@@ -24,7 +25,7 @@ def _patterns(value: object, name: str) -> tuple[str, ...]:
     return patterns
 
 
-@message('person', 'page', name=fields.person)
+@message('person', 'page', Right.DRAW, name=fields.person)
 def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     """Choose the name of the person at this page."""
     page.person = name
@@ -38,24 +39,21 @@ def take_back(page: PageSession, origin: Origin) -> None:
     page.perform(origin, action, Wait.BEHIND_REQUESTS)
 
 
-# A teacher's: `page_socket` refuses them to others
-
-
-@message('freeze', 'page', frozen=flag)
+@message('freeze', 'page', Right.TEACH, frozen=flag)
 def freeze(page: PageSession, origin: Origin, *, frozen: bool) -> None:
     """Freeze the pages of pupils, or free them."""
     page.world.set_parameter('sketchpad_frozen', frozen)
     page.answer_page(origin, f'the pages are {"frozen" if frozen else "no longer frozen"}')
 
 
-@message('lock', 'page', names=_patterns)
+@message('lock', 'page', Right.TEACH, names=_patterns)
 def lock(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     """Lock bodies, so that pages of pupils do not change them, in place of those before."""
     page.world.set_parameter('sketchpad_locked', ','.join(names))
     page.answer_page(origin, f'locked {", ".join(names)}' if names else 'no body is locked')
 
 
-@message('clear_of', '~/command', person=fields.person)
+@message('clear_of', '~/command', Right.TEACH, person=fields.person)
 def clear_of(page: PageSession, origin: Origin, person: str) -> None:
     """Delete the bodies and joints that a person has added, as far as the history reaches."""
     # Requests may wait that add some.

@@ -23,6 +23,7 @@ from physsim_ros.model.transform import Point
 from physsim_ros.sketchpad.message import message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.rights import Right
 
 
 def _samples(value: object, name: str) -> Floats:
@@ -144,13 +145,11 @@ def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
     """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
     page.drawing.tool = tool
     result = page.drawing.click(point, '', page.world.current_snapshot())
-    page.check_locked(result.requests)
-    if result.message:
-        page.tell(origin, result.message, result.values)
-    page.submit(origin, page.with_material(result.requests))
+    requests = page.with_material(result.requests)
+    page.submit(origin, requests, message=result.message, values=result.values)
 
 
-@message('drop', 'page')
+@message('drop', 'page', Right.DRAW)
 def drop(page: PageSession, origin: Origin) -> None:
     """Drop the unfinished gesture."""
     # A change of the tool drops it.
@@ -162,6 +161,7 @@ def drop(page: PageSession, origin: Origin) -> None:
 @message(
     'draw_with',
     'page',
+    Right.DRAW,
     density=Optional(_property),
     friction=Optional(_property),
     elasticity=Optional(_property),
@@ -196,7 +196,7 @@ def move(page: PageSession, origin: Origin, point: Point, yaw: float | None = No
     page.use_hand(origin, MoveHand(hand=page.hand, point=point, yaw=yaw))
 
 
-@message('let_go', '~/drag/feedback')
+@message('let_go', '~/drag/feedback', Right.DRAW)
 def let_go(page: PageSession, origin: Origin) -> None:
     """Let go of the body that the hand holds."""
     page.use_hand(origin, LetGo(hand=page.hand))

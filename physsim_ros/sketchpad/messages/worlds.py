@@ -17,6 +17,7 @@ from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad.message import message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.rights import Right
 
 # Names of the services that a page may call.
 ACTIONS = (
@@ -164,7 +165,7 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
     page.perform(origin, manage)
 
 
-@message('share', '~/save_world')
+@message('share', '~/save_world', Right.DRAW)
 def share(page: PageSession, origin: Origin) -> None:
     """Send this page the world as the text of a world file."""
 
