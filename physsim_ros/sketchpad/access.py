@@ -8,7 +8,7 @@ Laws: nothing but the login is served to a request without a valid cookie. A req
 host by a foreign domain is refused (DNS rebinding), and so is a socket or an upload that another
 origin opens. No page of this server runs a script, or calls a host, that is not its own. A page
 that was logged in is still logged in after a restart of the node, by the key that signs cookies;
-tokens are not kept.
+tokens are not kept. The key of a person is signed for this run alone, and gives no right.
 """
 
 from __future__ import annotations
@@ -69,6 +69,7 @@ class Access:
     def __init__(self, address: str, port: int) -> None:
         self.cookie = f'physsim_{port}'
         self._key = cookie_key()
+        self._run_key = secrets.token_bytes(_KEY_BYTES)
         self.tokens = {role: secrets.token_urlsafe(_TOKEN_BYTES) for role in Role}
         name = socket.gethostname().lower()
         # The names of this machine, as its owner types them; no foreign domain has them.
@@ -91,6 +92,15 @@ class Access:
         """Return the role of a cookie's value; None where it is forged, or too old."""
         role = decode_signed_value(self._key, self.cookie, value, max_age_days=_COOKIE_AGE)
         return None if role is None else Role(role.decode())
+
+    def person_key(self, person: int) -> str:
+        """Return the key with which a page is the person of a number again, signed."""
+        return create_signed_value(self._run_key, 'person', str(person)).decode()
+
+    def person_of(self, key: bytes) -> int | None:
+        """Return the number of the person of a key; None where it is forged, or of another run."""
+        person = decode_signed_value(self._run_key, 'person', key)
+        return None if person is None else int(person)
 
     def allows_host(self, host: str) -> bool:
         """Tell whether a Host header names this machine: by an address, or by its own name."""

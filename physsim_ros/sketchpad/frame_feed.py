@@ -57,13 +57,14 @@ class FrameFeed:
         self._ghost_frame = b''
         self._scene_due = 0.0
 
-    def add_page(self, socket: WebSocketHandler, address: str) -> OpenPage:
+    def add_page(self, socket: WebSocketHandler, address: str, person: int | None) -> OpenPage:
         """
         Begin to send frames to the page of a socket.
 
         :param address: of the machine that it is open on
+        :param person: number of the person at it; None for a new one
         """
-        page = self.pages.add(socket, address, self.update_page)
+        page = self.pages.add(socket, address, person, self.update_page)
         self.send_frame()
         self.update_page(page)
         return page

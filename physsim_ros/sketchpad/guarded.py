@@ -34,8 +34,8 @@ TYPES = {
 # Rate of the messages of a socket in the long run [1/s], and messages at once. A pen and a hand
 # send one message each frame of the page, at 60 to 144 Hz.
 RATE, BURST = 200.0, 400.0
-# Codes of closing, RFC 6455, section 7.4.1.
-POLICY_VIOLATION, TOO_BIG = 1008, 1009
+# Codes of closing, RFC 6455, section 7.4.1; the last one is this server's own.
+POLICY_VIOLATION, TOO_BIG, REPLACED = 1008, 1009, 4000
 
 # A refusal as a browser shows it. The page's own style is behind the cookie, and the policy allows
 # nothing inline.

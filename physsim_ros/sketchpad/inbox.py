@@ -28,9 +28,17 @@ UPLOADERS = 0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Opened:
-    """A page has been opened."""
+    """
+    A page has been opened.
+
+    :ivar role: its rights
+    :ivar person: number of the person at it
+    :ivar key: with which a page is that person again
+    """
 
     role: Role
+    person: int
+    key: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.frame_codec import Show
-from physsim_ros.sketchpad.guarded import POLICY_VIOLATION, TOO_BIG
+from physsim_ros.sketchpad.guarded import POLICY_VIOLATION, REPLACED, TOO_BIG
 from physsim_ros.sketchpad.message import answer_content, asker_of
 from physsim_ros.sketchpad.scene_codec import compact
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
@@ -38,6 +38,7 @@ class OpenPage:
 
     :param socket: of the page
     :param number: of the page, never used again
+    :param person: number of the person at it: that of the first page of this person
     :param address: of the machine that it is open on
     :param on_read: called with the page when it has read all that it was sent
 
@@ -52,10 +53,12 @@ class OpenPage:
         self,
         socket: WebSocketHandler,
         number: int,
+        person: int,
         address: str,
         on_read: Callable[[OpenPage], None],
     ) -> None:
         self.number = number
+        self.person = person
         self.address = address
         self.show = Show.POSES
         self.robot = ''
@@ -74,7 +77,7 @@ class OpenPage:
         """Send a message; a page that has left too much unread is closed instead."""
         size = len(text)
         if self._unread + size > MOST_UNREAD:
-            self._socket.close(TOO_BIG, 'too much left unread')
+            self.close(TOO_BIG, 'too much left unread')
         else:
             self._write(text, counting=size)
 
@@ -83,8 +86,9 @@ class OpenPage:
         self._write(part, counting=0)
 
     def close(self, code: int, reason: str) -> None:
-        """Close the page."""
+        """Close the page, which is forgotten at once: it may be out of reach."""
         self._socket.close(code, reason)
+        self._socket.on_close()
 
     def _write(self, message: str | bytes, *, counting: int) -> None:
         try:
@@ -138,18 +142,25 @@ class OpenPages:
         return [page for page in self if page.address == crowded][-1]
 
     def add(
-        self, socket: WebSocketHandler, address: str, on_read: Callable[[OpenPage], None]
+        self,
+        socket: WebSocketHandler,
+        address: str,
+        person: int | None,
+        on_read: Callable[[OpenPage], None],
     ) -> OpenPage:
         """
-        Add the page of a socket, if need be in place of another.
+        Add the page of a socket, in place of the one of its person, or if need be of another.
 
         :param address: for which there is room
+        :param person: number of the person at it; None for a new one
         """
+        for page in self:
+            if page.person == person:
+                page.close(REPLACED, 'this page is open again')
         if len(self) >= MOST_PAGES and (surplus := self._surplus(address)) is not None:
             surplus.close(POLICY_VIOLATION, 'too many pages of one address')
-            self.remove(surplus)
         self._last_number += 1
-        page = OpenPage(socket, self._last_number, address, on_read)
+        page = OpenPage(socket, self._last_number, person or self._last_number, address, on_read)
         self._pages[page.number] = page
         return page
 

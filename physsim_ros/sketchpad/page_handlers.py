@@ -19,8 +19,11 @@ from tornado.web import HTTPError, StaticFileHandler
 _SCALE, _QUIET = 8, 4
 # The files that a browser runs.
 PAGE = Path(__file__).with_name('page')
-# Descriptions, types of editors, and lines that are comments, but for the licence.
-_COMMENTS = re.compile(rb'/\*\*.*?\*/|^[ \t]*//(?! SPDX)[^\n]*', re.DOTALL | re.MULTILINE)
+# What a browser does not need: descriptions, types of editors, lines that are comments, but for
+# the licence; and indentation, since no text of a script has several lines.
+_FOR_READERS = re.compile(
+    rb'/\*\*.*?\*/|^[ \t]*//(?! SPDX)[^\n]*|^[ \t]+', re.DOTALL | re.MULTILINE
+)
 
 
 class _CookieSetting(Guarded):
@@ -126,7 +129,7 @@ class Files(Guarded, StaticFileHandler):
 
 
 class PageFiles(Files):
-    """The files of the page; scripts without comments, in the same lines."""
+    """The files of the page; scripts without comments and indentation, in the same lines."""
 
     @classmethod
     def get_content(
@@ -135,7 +138,7 @@ class PageFiles(Files):
         """Yield a part of a file."""
         content = Path(abspath).read_bytes()
         if abspath.endswith('.js'):
-            content = _COMMENTS.sub(lambda found: b'\n' * found[0].count(b'\n'), content)
+            content = _FOR_READERS.sub(lambda found: b'\n' * found[0].count(b'\n'), content)
         yield content[start:end]
 
     def get_content_size(self) -> int:

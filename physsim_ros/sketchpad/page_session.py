@@ -34,6 +34,8 @@ from physsim_ros.sketchpad.world_control import WorldControl
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
 # 5 s.
 HAND_PERIOD = 2.0
+# Beginning of the names of people who have chosen none; their numbers follow.
+UNNAMED = 'Page '
 
 
 class PageSession:
@@ -41,6 +43,7 @@ class PageSession:
     The session of one page.
 
     :param number: of the page
+    :param person: number of the person at it
     :param role: its rights
     :param world: that it draws in
     :param send: sends a message to the page
@@ -50,6 +53,7 @@ class PageSession:
     :param list_worlds: sends all pages the list of worlds
 
     :ivar person: name of the person at it, whose doings its requests are
+    :ivar unnamed: name of that person before one is chosen
     :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world
     :ivar driven: name of the robot that it drives, '' is none; and the gesture of that
@@ -61,6 +65,7 @@ class PageSession:
     def __init__(
         self,
         number: int,
+        person: int,
         role: Role,
         world: WorldControl,
         *,
@@ -72,7 +77,7 @@ class PageSession:
     ) -> None:
         self.number = number
         self.role = role
-        self.person = f'Page {number}'
+        self.person = self.unnamed = f'{UNNAMED}{person}'
         self.world = world
         self.send = send
         self.pasts = pasts

@@ -57,8 +57,12 @@ class PageSocket(GuardedSocket):
         self.set_nodelay(True)
         if self.role is None or 'view' in self.request.arguments:
             self.role = Role.VIEW
-        self._page = self._feed.add_page(self, self.address)
-        self._inbox.put(self._page.number, Opened(role=self.role))
+        # One that connects again sends the key of its person.
+        key = self.request.arguments.get('person', [b''])[-1]
+        self._page = self._feed.add_page(self, self.address, self.access.person_of(key))
+        person = self._page.person
+        opened = Opened(role=self.role, person=person, key=self.access.person_key(person))
+        self._inbox.put(self._page.number, opened)
 
     def on_message(self, message: str | bytes) -> None:
         """Check a message and hand it to the world's thread."""
@@ -77,7 +81,7 @@ class PageSocket(GuardedSocket):
             self._refuse(request, Busy('the world is too busy; nothing was done'))
 
     def on_close(self) -> None:
-        """Forget the page."""
+        """Forget the page; it may be forgotten already."""
         if self._page is not None:
             page, self._page = self._page, None
             self._feed.pages.remove(page)

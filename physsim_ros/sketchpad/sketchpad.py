@@ -105,8 +105,8 @@ class Sketchpad:
         """Carry out messages until a steady time [s]."""
         while (entry := self._inbox.take()) is not None:
             match entry:
-                case page, Opened(role=role):
-                    self._open(page, role)
+                case page, Opened() as opened:
+                    self._open(page, opened)
                 case page, Closed():
                     if (session := self._sessions.pop(page, None)) is not None:
                         session.close()
@@ -213,11 +213,13 @@ class Sketchpad:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
             simulation.requests.refuse(refusal, topic=origin.topic, subject='')
 
-    def _open(self, number: int, role: Role) -> None:
+    def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""
+        role = opened.role
         send = partial(self._server.send, page=number)
         self._sessions[number] = PageSession(
             number,
+            opened.person,
             role,
             self._world,
             send=send,
@@ -232,6 +234,7 @@ class Sketchpad:
             {
                 'type': 'welcome',
                 'client': str(number),
+                'person': opened.key,
                 'version': VERSION,
                 'physics_rate': simulation.physics_rate,
                 'frame_id': self._world.values['frame_id'],

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 import json
 from typing import Any
+from urllib.parse import quote
 
 from physsim_ros.sketchpad import Role
+from physsim_ros.sketchpad.access import Access
 import pytest
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
@@ -174,6 +176,33 @@ def test_each_undoes_what_is_its_own_and_a_teacher_clears_what_one_drew(browser:
     assert browser.physsim.names == ('a/0', 'b/0', 'b/1')
     assert ben.ask('drop')['ok']
     assert boss.ask('take_back')['code'] == 'out_of_history'
+
+
+def test_a_page_that_comes_again_with_its_key_is_the_same_person(browser: Browser) -> None:
+    anna, ben = browser.open_page(), browser.open_page()
+    assert spawn(anna, 'a/0', 0.0)['ok']
+    assert anna.ask('grab', point=[0, 5])['ok']
+    assert spawn(anna, 'a/1', 3.0)['ok']
+    key = quote(anna.of_type('welcome')[0]['person'])
+    # Anna's connection is lost, which the server does not know yet.
+    again = browser.open_page(f'/ws?person={key}')
+    ben.until(lambda: sorted(people(ben)) == [('Page 1', 'draw'), ('Page 2', 'draw')])
+    anna.until(lambda: anna.closed)
+    assert anna.socket.close_code == 4000
+    assert not browser.physsim.node.simulation.world.snapshot().grips
+    assert again.ask('take_back')['ok']
+    assert browser.physsim.names == ('a/0',)
+    again.close()
+    # Keys of another run, or of nobody.
+    for other in (Access('127.0.0.1', 1).person_key(1), '', '1', '%ff', 'x' * 9000, '2|1:0|'):
+        page = browser.open_page(f'/ws?person={quote(other)}')
+        page.until(lambda page=page: page.of_type('class'))
+        assert ('Page 1', 'draw') not in people(page)
+        assert page.ask('person', name='Page 1')['code'] == 'bad_property'
+        page.close()
+    last = browser.open_page(f'/ws?view&person={key}')
+    ben.until(lambda: people(ben) == [('Page 2', 'draw')])
+    assert last.ask('take_back')['code'] == 'view_only'
 
 
 def test_an_undo_of_what_another_person_has_used_since_is_refused(browser: Browser) -> None:

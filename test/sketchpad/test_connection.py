@@ -27,6 +27,7 @@ def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str
     sheet.page.route_web_socket('**/ws*', pass_on)
     sheet.page.goto(address)
     sheet.begin()
+    people = sheet.page.evaluate('heard.people')
     cut = True
     sockets[0].close()
     sheet.page.get_by_role('alert').wait_for(state='visible')
@@ -36,6 +37,10 @@ def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str
     sheet.press('Circle')
     sheet.drag((1.0, 6.0), (1.5, 6.0))
     sheet.wait_for_new(before)
+    assert sheet.page.evaluate('heard.people') == people
+    sheet.page.reload()
+    sheet.wait('heard.people')
+    assert sheet.page.evaluate('heard.people') == people
     sheet.close()
 
 

@@ -13,7 +13,7 @@ from physsim_ros.model.requests import DeleteBodies, Unjoin
 from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.page_session import PageSession, UNNAMED
 from physsim_ros.sketchpad.rights import Right
 
 
@@ -28,6 +28,8 @@ def _patterns(value: object, name: str) -> tuple[str, ...]:
 @message('person', 'page', Right.DRAW, name=fields.person)
 def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     """Choose the name of the person at this page."""
+    if name.startswith(UNNAMED) and name != page.unnamed:
+        raise BadProperty(f'{name} may be another person, who has no name', field='name')
     page.person = name
     page.answer_page(origin, f'you are {name}')
 

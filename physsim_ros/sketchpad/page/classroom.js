@@ -10,6 +10,7 @@ const LONGEST = 24; // characters
 const PERIOD = 100; // ms between messages of the cursor
 const SHOWN = 10000; // ms: a cursor that rests
 const TITLE = 'People';
+const GOLDEN = 137; // degrees between the colours of Page 1 and Page 2: the golden angle
 
 export class Classroom {
   /** @param {App} app */
@@ -81,7 +82,7 @@ export class Classroom {
   #showPeople() {
     const {app, state, teacher} = this, {connection} = app;
     const own = state.people.find(({page}) => page === this.page)?.name ?? '';
-    const input = createElement('input', {value: own, required: true, maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': 'Your name'});
+    const input = createElement('input', {value: localStorage.getItem(NAME) ?? '', placeholder: own, required: true, maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': 'Your name'});
     const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
       event.preventDefault();
       localStorage.setItem(NAME, input.value.trim());
@@ -151,5 +152,5 @@ function dot(name) {
 export function colorOf(name) {
   let hash = 0;
   for (const character of name) hash = (hash * 31 + (character.codePointAt(0) ?? 0)) % 360;
-  return `hsl(${hash} 65% 34%)`;
+  return `hsl(${hash * GOLDEN} 65% 34%)`;
 }

@@ -5,6 +5,8 @@ import {decodeFrame} from './frame_codec.js';
 
 /** @import {Answer} from './types.js' */
 
+const PERSON = 'physsim-person'; // key with which this tab is the same person again
+const REPLACED = 4000; // code of closing: another tab came with that key
 const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
 
 export class Connection {
@@ -19,6 +21,7 @@ export class Connection {
     this.socket = null;
     /** That has come before its first frame. @type {?{epoch: number}} */
     this.scene = null;
+    this.on('welcome', ({person}) => sessionStorage.setItem(PERSON, person));
   }
 
   /**
@@ -30,12 +33,16 @@ export class Connection {
   }
 
   connect() {
-    const address = `${location.protocol.replace('http', 'ws')}//${location.host}/ws`;
-    this.socket = new WebSocket(address + location.search);
+    const query = new URLSearchParams(location.search);
+    query.set('person', sessionStorage.getItem(PERSON) ?? '');
+    this.socket = new WebSocket(`${location.protocol.replace('http', 'ws')}//${location.host}/ws?${query}`);
     this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => this.#emit('open', null);
     this.socket.onmessage = ({data}) => this.#receive(data);
-    this.socket.onclose = () => this.#retry();
+    this.socket.onclose = ({code}) => {
+      if (code === REPLACED) sessionStorage.removeItem(PERSON);
+      this.#retry();
+    };
   }
 
   /**
