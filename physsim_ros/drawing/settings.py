@@ -6,15 +6,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import ClassVar
 
-from physsim_ros.model.checks import Checks, velocity, Within
-from physsim_ros.model.colors import Color
+from physsim_ros.model.checks import Checked, Checks, velocity, Within
+from physsim_ros.model.colors import check_color, Color
 from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.transform import Point
 
+# Ranges of the scalar settings.
+DRAWING_RANGES = {
+    'snap': Within(0.0, 10.0, 'm'),
+    'sketch_confidence': Within(0.0, 1.0),
+    'regroup': Within(0.0, 10.0, 's'),
+    'beautify': Within(0.0, 0.5),
+    'wall_thickness': Within(SMALLEST, 10.0, 'm'),
+}
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DrawingSettings:
+class DrawingSettings(Checked):
     """
     The settings of drawing; each is the ROS parameter of the same name.
 
@@ -34,6 +44,12 @@ class DrawingSettings:
     :raises BadProperty: a value is out of range
     """
 
+    CHECKS: ClassVar[Checks] = {
+        'draw_velocity': velocity,
+        'draw_color': check_color,
+        **DRAWING_RANGES,
+    }
+
     snap: float = 0.15
     sketch_confidence: float = 0.6
     regroup: float = 0.8
@@ -41,18 +57,3 @@ class DrawingSettings:
     wall_thickness: float = 0.1
     draw_velocity: Point = (0.0, 0.0)
     draw_color: Color | None = None
-
-    def __post_init__(self) -> None:
-        for name, check in _CHECKS.items():
-            object.__setattr__(self, name, check(getattr(self, name), name))
-
-
-# Ranges of the scalar settings.
-DRAWING_RANGES = {
-    'snap': Within(0.0, 10.0, 'm'),
-    'sketch_confidence': Within(0.0, 1.0),
-    'regroup': Within(0.0, 10.0, 's'),
-    'beautify': Within(0.0, 0.5),
-    'wall_thickness': Within(SMALLEST, 10.0, 'm'),
-}
-_CHECKS: Checks = {'draw_velocity': velocity, **DRAWING_RANGES}

@@ -12,8 +12,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 import math
+from numbers import Real
 import reprlib
-from typing import Any, ClassVar, Generic, Self, TypeVar
+from types import UnionType
+from typing import Any, ClassVar, Generic, get_args, Self, TypeVar
 
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.everyday_words import property_meant
@@ -66,7 +68,8 @@ def number(value: object, name: str) -> float:
     :raises BadProperty: it is not a number
     :raises Malformed: it is not finite
     """
-    if isinstance(value, bool) or not isinstance(value, int | float):
+    # Those of NumPy are `Real`, too.
+    if isinstance(value, bool) or not isinstance(value, int | float | Real):
         raise BadProperty(f'{name} must be a number, not {shown(value)}', field=name)
     try:
         result = float(value)
@@ -198,41 +201,96 @@ def known_mapping(value: object, name: str, known: list[str]) -> dict[Any, Any]:
     return value
 
 
-def check_finite(values: tuple[float, ...], count: int, name: str) -> None:
+def text(value: object, name: str) -> str:
     """
-    Refuse values that are not the right count of finite numbers.
+    Return a text.
 
-    :raises Malformed: they are not
+    :param name: of the field, for the refusal
+    :raises Malformed: it is something else
     """
-    if isinstance(values, str) or len(values) != count:
+    if not isinstance(value, str):
+        raise Malformed(f'{name} must be text, not {shown(value)}', field=name)
+    return value
+
+
+@dataclass(frozen=True, slots=True)
+class OfClass:
+    """
+    A check that a value is of a class, or of one of several.
+
+    :param classes: a class, or a union of classes
+    """
+
+    classes: type | UnionType
+
+    def __call__(self, value: object, name: str) -> object:
+        """
+        Return the value.
+
+        :raises Malformed: it is of another class
+        """
+        if not isinstance(value, self.classes):
+            known = ', '.join(each.__name__ for each in get_args(self.classes) or (self.classes,))
+            raise Malformed(f'{name} must be of class {known}, not {shown(value)}', field=name)
+        return value
+
+
+def check_finite(values: Any, count: int, name: str) -> tuple[float, ...]:
+    """
+    Return the right count of finite numbers.
+
+    :param values: a tuple, a list or an array
+    :raises Malformed: they are something else
+    """
+    try:
+        row = tuple(values)
+        finite = all(map(math.isfinite, row))
+    except (TypeError, OverflowError):
+        row, finite = (), False
+    if len(row) != count:
         raise Malformed(f'{name} needs {count} numbers, not {shown(values)}', field=name)
-    if not all(map(math.isfinite, values)):
+    if not finite:
         raise Malformed(f'{name} is not finite', field=name)
+    return tuple(map(float, row))
 
 
-def check_point(point: Point, name: str) -> None:
+def check_point(point: Any, name: str) -> Point:
     """
-    Refuse a point that is not finite or too far away.
+    Return a point that is finite and not too far away.
 
-    :raises Malformed: it is not finite
+    :raises Malformed: it is no pair of finite numbers
     :raises BadProperty: it is too far away
     """
-    check_finite(point, 2, name)
-    if max(map(abs, point)) > FARTHEST:
+    x, y = check_finite(point, 2, name)
+    if max(abs(x), abs(y)) > FARTHEST:
         raise BadProperty(f'{name} is further away than {FARTHEST:g} m', field=name)
+    return x, y
 
 
-def check_pose(pose: Pose, name: str) -> None:
+def check_yaw(yaw: Any, name: str) -> float:
     """
-    Refuse a pose that is not finite or too far away.
+    Return an angle that is finite and not too large.
 
-    :raises Malformed: it is not finite
+    :param name: of the pose, for the refusal
+    :raises Malformed: it is no finite number
+    :raises BadProperty: it is too large
+    """
+    (angle,) = check_finite((yaw,), 1, name)
+    if abs(angle) > FARTHEST:
+        raise BadProperty(f'the yaw of {name} is too large', field=name)
+    return angle
+
+
+def check_pose(pose: Any, name: str) -> Pose:
+    """
+    Return a pose that is finite and not too far away.
+
+    :raises Malformed: it is not three finite numbers
     :raises BadProperty: it is too far away
     """
-    check_finite(pose, 3, name)
-    check_point(pose[:2], name)
-    if abs(pose[2]) > FARTHEST:
-        raise BadProperty(f'the yaw of {name} is too large', field=name)
+    x, y, yaw = check_finite(pose, 3, name)
+    check_point((x, y), name)
+    return x, y, check_yaw(yaw, name)
 
 
 def check_key(key: object, known: list[str]) -> None:
@@ -256,16 +314,19 @@ class Checked:
     """
     The base of values whose fields are checked.
 
-    :cvar CHECKS: check of each field, in their order; a field that is None is not checked
+    :cvar CHECKS: check of each field, in their order; None is not checked where it is the default
     :raises Refusal: a check raised it
     """
 
     CHECKS: ClassVar[Checks] = {}
 
     def __post_init__(self) -> None:
-        for name, value in self.explicit().items():
+        for name, check in self.CHECKS.items():
+            value = getattr(self, name)
+            if value is None and self.__dataclass_fields__[name].default is None:
+                continue
             # Frozen for everyone but its own constructor.
-            object.__setattr__(self, name, self.CHECKS[name](value, name))
+            object.__setattr__(self, name, check(value, name))
 
     def explicit(self) -> dict[str, Any]:
         """Return the fields that are set, by name, in the order of the checks."""

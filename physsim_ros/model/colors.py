@@ -11,6 +11,7 @@ on white and on black, for colour-blind people too.
 from __future__ import annotations
 
 import re
+from typing import Any
 import zlib
 
 from physsim_ros.model.checks import check_finite, shown
@@ -40,17 +41,17 @@ def color_from(text: str) -> Color:
     return red, green, blue, alpha
 
 
-def check_color(color: Color) -> Color:
+def check_color(color: Any, name: str) -> Color:
     """
-    Return the colour, its channels as plain floats.
+    Return a colour, its channels as plain floats.
 
+    :param name: of the field, for the refusal
     :raises Malformed: it has not four channels, or one is not finite
     :raises BadProperty: a channel lies outside 0 .. 1
     """
-    check_finite(color, 4, 'color')
-    if not all(0.0 <= channel <= 1.0 for channel in color):
-        raise BadProperty('each channel of color must lie in 0 .. 1', field='color')
-    red, green, blue, alpha = map(float, color)
+    red, green, blue, alpha = channels = check_finite(color, 4, name)
+    if not all(0.0 <= channel <= 1.0 for channel in channels):
+        raise BadProperty(f'each channel of {name} must lie in 0 .. 1', field=name)
     return red, green, blue, alpha
 
 

@@ -10,9 +10,18 @@ Its question is answered by one figure, which is measured in the world.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, ClassVar, Self
 
-from physsim_ros.model.checks import Checks, HEAVIEST, known_mapping, number, shown, Whole, Within
+from physsim_ros.model.checks import (
+    Checked,
+    Checks,
+    HEAVIEST,
+    known_mapping,
+    number,
+    shown,
+    Whole,
+    Within,
+)
 from physsim_ros.model.errors import BadProperty, Malformed
 
 # Greatest length of a text [characters]: a page of a book.
@@ -37,7 +46,7 @@ def _text(longest: int) -> Any:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lesson:
+class Lesson(Checked):
     """
     A task that belongs to a world.
 
@@ -54,6 +63,18 @@ class Lesson:
     :raises Malformed: a number is not finite
     """
 
+    CHECKS: ClassVar[Checks] = {
+        'number': Whole(1, 10_000),
+        'title': _text(LONGEST_TITLE),
+        'question': _text(LONGEST_TEXT),
+        'hint': _text(LONGEST_TEXT),
+        'measure': _text(LONGEST_TEXT),
+        'unit': _text(LONGEST_UNIT),
+        'figure': number,
+        'within': Within(0.0, HEAVIEST),
+        'answer': _text(LONGEST_TEXT),
+    }
+
     number: int
     title: str
     question: str
@@ -64,36 +85,19 @@ class Lesson:
     within: float
     answer: str
 
-    def __post_init__(self) -> None:
-        for name, check in _CHECKS.items():
-            object.__setattr__(self, name, check(getattr(self, name), name))
-
-    @staticmethod
-    def from_entry(value: object) -> Lesson:
+    @classmethod
+    def from_entry(cls, value: object) -> Self:
         """
         Return the lesson of a world file's entry.
 
         :raises Refusal: a key is unknown or missing, or a value is out of range
         """
-        entry = known_mapping(value, 'lesson', [*_CHECKS])
-        for name in _CHECKS:
+        entry = known_mapping(value, 'lesson', [*cls.CHECKS])
+        for name in cls.CHECKS:
             if name not in entry:
                 raise Malformed(f'a lesson needs {name}', field='lesson')
-        return Lesson(**entry)
+        return cls(**entry)
 
     def entry(self) -> dict[str, object]:
         """Return the entry of a world file."""
         return {each.name: getattr(self, each.name) for each in fields(self)}
-
-
-_CHECKS: Checks = {
-    'number': Whole(1, 10_000),
-    'title': _text(LONGEST_TITLE),
-    'question': _text(LONGEST_TEXT),
-    'hint': _text(LONGEST_TEXT),
-    'measure': _text(LONGEST_TEXT),
-    'unit': _text(LONGEST_UNIT),
-    'figure': number,
-    'within': Within(0.0, HEAVIEST),
-    'answer': _text(LONGEST_TEXT),
-}

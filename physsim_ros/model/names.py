@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from physsim_ros.model.checks import text
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.texts import abbreviated, is_printable, LONGEST_WORD
 
@@ -25,56 +26,62 @@ JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX = 'joint:', 'lines:', 'anchor:'
 WALLS, HANDS = 'physsim:bounds', 'physsim:hands'
 
 
-def check_name(name: str) -> None:
+def check_name(value: object, field: str = 'name') -> str:
     """
-    Refuse a name that is not `<namespace>/<id>`, the id a 32-bit whole number.
+    Return a name that is `<namespace>/<id>`, the id a 32-bit whole number.
 
+    :param field: for the refusal
     :raises Malformed: it is not, or is too long, or has an unprintable character
     """
+    name = text(value, field)
     namespace, id_ = split_name(name)
     if not namespace:
         raise Malformed(
-            f'{name!r} is not a name: <namespace>/<id>, the id a whole number', field='name'
+            f'{name!r} is not a name: <namespace>/<id>, the id a whole number', field=field
         )
     if len(name) > LONGEST_NAME:
-        raise Malformed(f'a name has at most {LONGEST_NAME} characters', field='name')
+        raise Malformed(f'a name has at most {LONGEST_NAME} characters', field=field)
     if not is_printable(name):
-        raise Malformed(f'{name!r} contains a character that cannot be printed', field='name')
+        raise Malformed(f'{name!r} contains a character that cannot be printed', field=field)
     if REPLACEMENT in name:
-        raise Malformed(f'{name!r} is not UTF-8', field='name')
+        raise Malformed(f'{name!r} is not UTF-8', field=field)
     if not -(2**31) <= id_ < 2**31:
-        raise Malformed(f'the id of {name!r} does not fit into 32 bits', field='name')
+        raise Malformed(f'the id of {name!r} does not fit into 32 bits', field=field)
+    return name
 
 
-def check_body_name(name: str) -> None:
+def check_body_name(value: object, field: str = 'name') -> str:
     """
-    Refuse a name that no body can have.
+    Return a name that a body can have.
 
+    :param field: for the refusal
     :raises Malformed: it is not `<namespace>/<id>`, or its prefix is that of other markers,
         or it would make the name of a contact ambiguous
     """
-    check_name(name)
+    name = check_name(value, field)
     if name.startswith((JOINT_PREFIX, LINES_PREFIX, CROSS_PREFIX, WALLS, HANDS)):
-        raise Malformed(f'{name!r} is no body in the picture', field='name')
+        raise Malformed(f'{name!r} is no body in the picture', field=field)
     if PAIR_SEPARATOR in name:
         raise Malformed(
             f'{name!r} holds a {PAIR_SEPARATOR}, which separates the names of a contact',
-            field='name',
+            field=field,
         )
+    return name
 
 
-def check_hand_name(name: str) -> None:
+def check_hand_name(value: object, field: str) -> str:
     """
-    Refuse a name that no hand can have.
+    Return a name that a hand can have.
 
+    :param field: for the refusal
     :raises Malformed: it is empty or too long, or has an unprintable character
     """
+    name = text(value, field)
     if not 0 < len(name) <= LONGEST_NAME:
-        raise Malformed(
-            f'the name of a hand has 1 to {LONGEST_NAME} characters', field='client_id'
-        )
+        raise Malformed(f'the name of a hand has 1 to {LONGEST_NAME} characters', field=field)
     if not is_printable(name):
-        raise Malformed(f'{name!r} contains a character that cannot be printed', field='client_id')
+        raise Malformed(f'{name!r} contains a character that cannot be printed', field=field)
+    return name
 
 
 def shown_name(name: str) -> str:

@@ -4,19 +4,19 @@
 """
 Requests: everything that can be asked of a world, as frozen values.
 
-A constructor checks the values of its request alone; the world checks them against its bodies when
-it applies the request. Poses are (x, y, yaw) in metres and radians, in the world or, where `frame`
-names a body, relative to that body as it is when the request is applied. Bodies come first, then
-robots, joints, hands and the world. A new request is a class here, a member of `Request`, and a
-line in the table of handlers in `simulation.world.world`.
+A constructor checks types and values of its request alone; the world checks them against its
+bodies when it applies the request. Poses are (x, y, yaw) in metres and radians, in the world or,
+where `frame` names a body, relative to that body as it is when the request is applied. Bodies come
+first, then robots, joints, hands and the world. A new request is a class here, a member of
+`Request`, and a line in the table of handlers in `simulation.world.world`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, greatest
@@ -27,11 +27,16 @@ from physsim_ros.model.checks import (
     check_key,
     check_point,
     check_pose,
+    check_yaw,
+    Checked,
+    Checks,
     FARTHEST,
     FASTEST,
     HEAVIEST,
     LONGEST,
+    OfClass,
     shown,
+    text,
 )
 from physsim_ros.model.colors import check_color, Color
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
@@ -55,8 +60,61 @@ def _no_rows() -> Floats:
     return _NO_ROWS
 
 
+# Checks of fields that only requests have.
+
+
+def _as_field(field: str, check: Callable[[Any, str], Any]) -> Callable[[object, str], Any]:
+    """Return a check that names another field in its refusal: that of the message."""
+    return lambda value, _: check(value, field)
+
+
+def _texts(value: object, name: str) -> tuple[str, ...]:
+    if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
+        raise Malformed(f'{name} must be a list of texts, not {shown(value)}', field=name)
+    return tuple(value)
+
+
+def _names(value: object, name: str) -> tuple[str, ...]:
+    names = _texts(value, name)
+    if not names:
+        raise Malformed('no body is named', field=name)
+    if len(set(names)) != len(names):
+        raise Malformed('a body is named twice', field=name)
+    return names
+
+
+def _points(value: object, name: str) -> tuple[Point, ...]:
+    if not isinstance(value, Iterable):
+        raise Malformed(f'{name} must be a list of points, not {shown(value)}', field=name)
+    return tuple(check_point(point, name) for point in value)
+
+
+def _lifetime(value: object, name: str) -> float:
+    (seconds,) = check_finite((value,), 1, name)
+    if not 0.0 <= seconds <= LONGEST:
+        raise BadProperty(
+            f'{name} is {seconds:g}; it must lie between 0 and {LONGEST:g} s', field=name
+        )
+    return seconds
+
+
+def _driven(value: object, name: str) -> Twist:
+    vx, vy, turn = check_finite(value, 3, name)
+    if max(abs(vx), abs(vy), abs(turn)) > FASTEST:
+        raise BadProperty(f'{name} is faster than {FASTEST:g} m/s or rad/s', field=name)
+    return vx, vy, turn
+
+
+def _changes(value: object, name: str) -> dict[str, Any]:
+    if not isinstance(value, Mapping):
+        raise Malformed(f'{name} must be a mapping, not {shown(value)}', field=name)
+    for setting in value:
+        check_setting(setting)
+    return dict(value)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Spawn:
+class Spawn(Checked):
     """
     Add a body, or change the body of that name in place.
 
@@ -75,6 +133,16 @@ class Spawn:
     :raises BadProperty: a pose, colour or lifetime is out of range
     """
 
+    CHECKS: ClassVar[Checks] = {
+        'name': check_body_name,
+        'shape': OfClass(Shape),
+        'pose': check_pose,
+        'frame': text,
+        'color': check_color,
+        'lifetime': _lifetime,
+        'properties': OfClass(Properties),
+    }
+
     name: str
     shape: Shape
     pose: Pose = ORIGIN
@@ -83,21 +151,9 @@ class Spawn:
     lifetime: float = 0.0
     properties: Properties = field(default_factory=Properties)
 
-    def __post_init__(self) -> None:
-        check_body_name(self.name)
-        check_pose(self.pose, 'pose')
-        if self.color is not None:
-            object.__setattr__(self, 'color', check_color(self.color))
-        check_finite((self.lifetime,), 1, 'lifetime')
-        if not 0.0 <= self.lifetime <= LONGEST:
-            raise BadProperty(
-                f'lifetime is {self.lifetime:g}; it must lie between 0 and {LONGEST:g} s',
-                field='lifetime',
-            )
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ChangeBody:
+class ChangeBody(Checked):
     """
     Change the properties of a body that are named here; everything else is kept.
 
@@ -110,21 +166,23 @@ class ChangeBody:
     :raises BadProperty: a pose or colour is out of range
     """
 
+    CHECKS: ClassVar[Checks] = {
+        'name': text,
+        'properties': OfClass(Properties),
+        'color': check_color,
+        'pose': check_pose,
+        'frame': text,
+    }
+
     name: str
     properties: Properties = field(default_factory=Properties)
     color: Color | None = None
     pose: Pose | None = None
     frame: str = ''
 
-    def __post_init__(self) -> None:
-        if self.pose is not None:
-            check_pose(self.pose, 'pose')
-        if self.color is not None:
-            object.__setattr__(self, 'color', check_color(self.color))
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MoveBodies:
+class MoveBodies(Checked):
     """
     Move bodies by one vector; velocities are kept. If one is refused, none is moved.
 
@@ -134,23 +192,20 @@ class MoveBodies:
     :raises BadProperty: the vector is too long
     """
 
+    CHECKS: ClassVar[Checks] = {'names': _names, 'by': check_point}
+
     names: tuple[str, ...]
     by: Point
 
-    def __post_init__(self) -> None:
-        _check_names(self.names)
-        check_point(self.by, 'by')
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AtPoint:
+class AtPoint(Checked):
     """A request for the topmost bodies, or joints, at a point [m]."""
+
+    CHECKS: ClassVar[Checks] = {'point': check_point, 'frame': text}
 
     point: Point
     frame: str = ''
-
-    def __post_init__(self) -> None:
-        check_point(self.point, 'point')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -164,14 +219,16 @@ class Release(AtPoint):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Delete:
+class Delete(Checked):
     """Remove the body of that name, and its joints."""
+
+    CHECKS: ClassVar[Checks] = {'name': text}
 
     name: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DeleteBodies:
+class DeleteBodies(Checked):
     """
     Remove several bodies, and their joints. If one does not exist, none is removed.
 
@@ -179,32 +236,26 @@ class DeleteBodies:
     :raises Malformed: no body is named, or one is named twice
     """
 
-    names: tuple[str, ...]
+    CHECKS: ClassVar[Checks] = {'names': _names}
 
-    def __post_init__(self) -> None:
-        _check_names(self.names)
+    names: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DeleteAll:
+class DeleteAll(Checked):
     """
     Remove all bodies, or all of a namespace, and their joints.
 
     :param namespace: of their names, the part before the last slash; None is every body
     """
 
+    CHECKS: ClassVar[Checks] = {'namespace': text}
+
     namespace: str | None = None
 
 
-def _check_names(names: tuple[str, ...]) -> None:
-    if not names:
-        raise Malformed('no body is named', field='names')
-    if len(set(names)) != len(names):
-        raise Malformed('a body is named twice', field='names')
-
-
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Command:
+class Command(Checked):
     """
     Set poses, twists or wrenches of named bodies; if one is refused, nothing is set.
 
@@ -220,6 +271,8 @@ class Command:
     :raises BadProperty: a value is out of range
     """
 
+    CHECKS: ClassVar[Checks] = {'names': _as_field('joint_names', _names), 'frame': text}
+
     names: tuple[str, ...]
     poses: Floats = field(default_factory=_no_rows)
     twists: Floats = field(default_factory=_no_rows)
@@ -227,10 +280,7 @@ class Command:
     frame: str = ''
 
     def __post_init__(self) -> None:
-        if not self.names:
-            raise Malformed('the command names no body', field='joint_names')
-        if len(set(self.names)) != len(self.names):
-            raise Malformed('the command names a body twice', field='joint_names')
+        Checked.__post_init__(self)
         for array, name in (('poses', 'transforms'), ('twists', 'twist'), ('wrenches', 'wrench')):
             rows = _checked_rows(getattr(self, array), len(self.names), name)
             object.__setattr__(self, array, rows)
@@ -277,13 +327,18 @@ def _checked_rows(values: Any, count: int, name: str) -> Floats:
     :param name: of the field, for the refusal
     :raises Malformed: they are something else
     """
-    if len(values) == 0:
+    try:
+        given = np.asarray(values)
+    except ValueError as error:
+        # Rows of different lengths.
+        raise Malformed(f'each {name} needs 3 numbers', field=name) from error
+    if given.ndim and not len(given):
         return _NO_ROWS
-    if len(values) != count:
-        raise Malformed(f'{name} has {len(values)} entries for {count} bodies', field=name)
-    if any(len(row) != 3 for row in values):
+    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in 'fiu':
         raise Malformed(f'each {name} needs 3 numbers', field=name)
-    rows = np.array(values, dtype=np.float64)
+    if len(given) != count:
+        raise Malformed(f'{name} has {len(given)} entries for {count} bodies', field=name)
+    rows = np.array(given, dtype=np.float64)
     if not np.isfinite(rows).all():
         raise Malformed(f'{name} is not finite', field=name)
     rows.flags.writeable = False
@@ -291,7 +346,7 @@ def _checked_rows(values: Any, count: int, name: str) -> Floats:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DriveRobot:
+class DriveRobot(Checked):
     """
     Drive at a velocity, until the next command or the timeout of the drive.
 
@@ -303,20 +358,14 @@ class DriveRobot:
     :raises BadProperty: it is faster than anything may be
     """
 
+    CHECKS: ClassVar[Checks] = {'name': text, 'velocity': _driven}
+
     name: str
     velocity: Twist
 
-    def __post_init__(self) -> None:
-        check_finite(self.velocity, 3, 'velocity')
-        object.__setattr__(self, 'velocity', tuple(map(float, self.velocity)))
-        if max(map(abs, self.velocity)) > FASTEST:
-            raise BadProperty(
-                f'velocity is faster than {FASTEST:g} m/s or rad/s', field='velocity'
-            )
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Join:
+class Join(Checked):
     """
     Join two bodies, or a body and the background; or change the joint of that name in place.
 
@@ -339,6 +388,17 @@ class Join:
     :raises UnknownProperty: the kind of joint does not have a property
     """
 
+    CHECKS: ClassVar[Checks] = {
+        'name': check_name,
+        'kind': lambda value, name: kind_from(text(value, name)),
+        'points': _points,
+        'frame': text,
+        'a': text,
+        'b': text,
+        'properties': OfClass(JointProperties),
+        'unset': _texts,
+    }
+
     name: str
     kind: JointKind
     points: tuple[Point, ...]
@@ -349,16 +409,13 @@ class Join:
     unset: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        check_name(self.name)
-        object.__setattr__(self, 'kind', kind_from(self.kind))
+        Checked.__post_init__(self)
         count = self.kind.points
         if len(self.points) != count:
             raise Malformed(
                 f'a {self.kind} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
                 field='points',
             )
-        for point in self.points:
-            check_point(point, 'points')
         if self.a == WORLD:
             raise BadProperty('a is a body; the background can only be b', field='a')
         if self.a and self.a == self.b:
@@ -380,19 +437,23 @@ class Axle(AtPoint):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Unjoin:
+class Unjoin(Checked):
     """Remove the joint of that name."""
+
+    CHECKS: ClassVar[Checks] = {'name': text}
 
     name: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class UnjoinAll:
+class UnjoinAll(Checked):
     """
     Remove all joints, or all of a namespace.
 
     :param namespace: of their names, the part before the last slash; None is every joint
     """
+
+    CHECKS: ClassVar[Checks] = {'namespace': text}
 
     namespace: str | None = None
 
@@ -454,7 +515,7 @@ def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class OfHand:
+class OfHand(Checked):
     """
     A request of a hand.
 
@@ -462,10 +523,9 @@ class OfHand:
     :raises Malformed: the name is empty, too long or unprintable
     """
 
-    hand: str
+    CHECKS: ClassVar[Checks] = {'hand': _as_field('client_id', check_hand_name)}
 
-    def __post_init__(self) -> None:
-        check_hand_name(self.hand)
+    hand: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -477,12 +537,14 @@ class Grab(OfHand):
     :param frame: of the point: '' for the world, or a body's name
     """
 
+    CHECKS: ClassVar[Checks] = {
+        **OfHand.CHECKS,
+        'point': _as_field('mouse_point', check_point),
+        'frame': text,
+    }
+
     point: Point
     frame: str = ''
-
-    def __post_init__(self) -> None:
-        OfHand.__post_init__(self)
-        check_point(self.point, 'mouse_point')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -500,13 +562,16 @@ class MoveHand(OfHand):
     :param frame: of the point and yaw: '' for the world, or a body's name
     """
 
+    CHECKS: ClassVar[Checks] = {
+        **OfHand.CHECKS,
+        'point': _as_field('mouse_point', check_point),
+        'yaw': _as_field('mouse_point', check_yaw),
+        'frame': text,
+    }
+
     point: Point
     yaw: float | None = None
     frame: str = ''
-
-    def __post_init__(self) -> None:
-        OfHand.__post_init__(self)
-        check_pose((*self.point, self.yaw or 0.0), 'mouse_point')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -525,24 +590,23 @@ class LetGo(OfHand):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Configure:
+class Configure(Checked):
     """
     Change settings of the world.
 
     :param changes: new values by the field of WorldSettings
     """
 
-    changes: Mapping[str, Any]
+    CHECKS: ClassVar[Checks] = {'changes': _changes}
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, 'changes', dict(self.changes))
-        for name in self.changes:
-            check_setting(name)
+    changes: Mapping[str, Any]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Restore:
+class Restore(Checked):
     """Replace all bodies, joints and settings by those of a saved state."""
+
+    CHECKS: ClassVar[Checks] = {'state': OfClass(WorldState)}
 
     state: WorldState
 

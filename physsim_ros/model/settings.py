@@ -7,8 +7,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 import math
+from typing import ClassVar
 
-from physsim_ros.model.checks import Checks, HEAVIEST, LIGHTEST, pair, shown, Whole, Within
+from physsim_ros.model.checks import (
+    Checked,
+    Checks,
+    HEAVIEST,
+    LIGHTEST,
+    pair,
+    shown,
+    Whole,
+    Within,
+)
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import Point
@@ -29,53 +39,6 @@ MOST_HANDS = 64
 MOST_SAMPLES = 10_000
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class WorldSettings:
-    """
-    The settings of a world.
-
-    :param gravity: [m/s²]
-    :param damping: share of velocity lost each second, 0 .. 1
-    :param iterations: of the engine's solver in a step
-    :param bounds: xmin, ymin, xmax, ymax of the walls around the world [m]; None is no walls
-    :param density: of bodies by default [kg/m²]
-    :param friction: coefficient of bodies by default
-    :param elasticity: coefficient of restitution of bodies by default
-    :param floor_friction: coefficient of friction between bodies and the floor of a world that is
-        seen from above; 0 is a world that is seen from the side
-    :param seed: of all noise
-    :param command_timeout: simulation time for which a wrench acts [s]; 0 is no limit
-    :param drag_force: greatest force of a hand, in weights of the body
-    :param max_bodies: greatest number of bodies
-    :param max_shapes: greatest number of their convex pieces
-    :param max_overlaps: greatest number of pairs of pieces that overlap at once by a request
-    :param max_joints: greatest number of joints, of which `MOST_JOINTS_ON_BODY` on one body
-    :raises Malformed: a number is not finite or an array has the wrong length
-    :raises BadProperty: a value is out of range
-    """
-
-    gravity: tuple[float, float] = (0.0, -9.81)
-    damping: float = 0.0
-    iterations: int = 10
-    bounds: Bounds | None = None
-    density: float = 1.0
-    friction: float = 0.5
-    elasticity: float = 0.5
-    # Not part of the text, so that digests of worlds without a floor are those of ever.
-    floor_friction: float = field(default=0.0, repr=False)
-    seed: int = field(default=0, repr=False)
-    command_timeout: float = 0.5
-    drag_force: float = 10.0
-    max_bodies: int = 20000
-    max_shapes: int = 50000
-    max_overlaps: int = 20000
-    max_joints: int = 20000
-
-    def __post_init__(self) -> None:
-        for name, check in _CHECKS.items():
-            object.__setattr__(self, name, check(getattr(self, name), name))
-
-
 def _gravity(value: object, name: str) -> Point:
     gravity = pair(value, name)
     if math.hypot(*gravity) > STRONGEST:
@@ -83,9 +46,7 @@ def _gravity(value: object, name: str) -> Point:
     return gravity
 
 
-def _bounds(value: object, name: str) -> Bounds | None:
-    if value is None:
-        return None
+def _bounds(value: object, name: str) -> Bounds:
     if not isinstance(value, list | tuple):
         raise BadProperty(f'{name} must be a list of four numbers, not {shown(value)}', field=name)
     if len(value) != 4:
@@ -115,7 +76,51 @@ RANGES: dict[str, Within | Whole] = {
     'max_overlaps': Whole(0, 10_000_000),
     'max_joints': Whole(0, 1_000_000),
 }
-_CHECKS: Checks = {'gravity': _gravity, 'bounds': _bounds, **RANGES}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WorldSettings(Checked):
+    """
+    The settings of a world.
+
+    :param gravity: [m/s²]
+    :param damping: share of velocity lost each second, 0 .. 1
+    :param iterations: of the engine's solver in a step
+    :param bounds: xmin, ymin, xmax, ymax of the walls around the world [m]; None is no walls
+    :param density: of bodies by default [kg/m²]
+    :param friction: coefficient of bodies by default
+    :param elasticity: coefficient of restitution of bodies by default
+    :param floor_friction: coefficient of friction between bodies and the floor of a world that is
+        seen from above; 0 is a world that is seen from the side
+    :param seed: of all noise
+    :param command_timeout: simulation time for which a wrench acts [s]; 0 is no limit
+    :param drag_force: greatest force of a hand, in weights of the body
+    :param max_bodies: greatest number of bodies
+    :param max_shapes: greatest number of their convex pieces
+    :param max_overlaps: greatest number of pairs of pieces that overlap at once by a request
+    :param max_joints: greatest number of joints, of which `MOST_JOINTS_ON_BODY` on one body
+    :raises Malformed: a number is not finite or an array has the wrong length
+    :raises BadProperty: a value is out of range
+    """
+
+    CHECKS: ClassVar[Checks] = {'gravity': _gravity, 'bounds': _bounds, **RANGES}
+
+    gravity: tuple[float, float] = (0.0, -9.81)
+    damping: float = 0.0
+    iterations: int = 10
+    bounds: Bounds | None = None
+    density: float = 1.0
+    friction: float = 0.5
+    elasticity: float = 0.5
+    # Not part of the text, so that digests of worlds without a floor are those of ever.
+    floor_friction: float = field(default=0.0, repr=False)
+    seed: int = field(default=0, repr=False)
+    command_timeout: float = 0.5
+    drag_force: float = 10.0
+    max_bodies: int = 20000
+    max_shapes: int = 50000
+    max_overlaps: int = 20000
+    max_joints: int = 20000
 
 
 def check_setting(name: str) -> None:
@@ -124,5 +129,5 @@ def check_setting(name: str) -> None:
 
     :raises BadProperty: it is not
     """
-    if name not in _CHECKS:
+    if name not in WorldSettings.CHECKS:
         raise BadProperty(f'the world has no setting {name!r}', field=name)

@@ -6,23 +6,41 @@
 from dataclasses import fields, FrozenInstanceError
 import math
 import re
-from typing import Any
+from typing import Any, get_args
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import check_point, check_pose, FARTHEST, FASTEST, HEAVIEST, LONGEST
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
+    Axle,
+    ChangeBody,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    DeleteBodies,
+    DriveRobot,
+    Grab,
+    GrabToPlace,
     Join,
+    KeepHand,
+    LetGo,
+    MoveBodies,
+    MoveHand,
+    Pin,
+    PlaceHand,
     Release,
+    Request,
+    Restore,
     Spawn,
+    Unjoin,
+    UnjoinAll,
 )
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 import pytest
 
@@ -63,6 +81,76 @@ def test_a_pose_that_is_not_finite_is_malformed(value: float, place: int) -> Non
 def test_a_pose_has_three_numbers(pose: tuple[float, ...]) -> None:
     with pytest.raises(Malformed, match=re.escape(f'pose needs 3 numbers, not {pose!r}')):
         Spawn(name='a/0', shape=DISC, pose=pose)
+
+
+def arguments() -> dict[type[Request], dict[str, Any]]:
+    """Return for each kind of request what its constructor needs."""
+    hand, at = {'hand': 'mouse'}, {'point': (0.0, 0.0)}
+    name, names = {'name': 'a/0'}, {'names': ('a/0',)}
+    return {
+        Spawn: {**name, 'shape': DISC},
+        ChangeBody: name,
+        MoveBodies: {**names, 'by': (0.0, 0.0)},
+        Command: names,
+        Anchor: at,
+        Release: at,
+        Delete: name,
+        DeleteBodies: names,
+        DeleteAll: {},
+        Join: {**name, 'kind': JointKind.ROD, 'points': ((0.0, 0.0), (1.0, 0.0))},
+        Unjoin: name,
+        UnjoinAll: {},
+        Pin: at,
+        Axle: at,
+        Grab: {**hand, **at},
+        GrabToPlace: {**hand, **at},
+        MoveHand: {**hand, **at},
+        PlaceHand: {**hand, **at},
+        KeepHand: hand,
+        LetGo: hand,
+        DriveRobot: {**name, 'velocity': REST},
+        Configure: {'changes': {}},
+        Restore: {'state': WorldState(settings=WorldSettings())},
+    }
+
+
+def field_of(kind: type[Request], name: str) -> str:
+    """Return the field that a refusal names, which is that of the message."""
+    if kind is Command:
+        arrays = {'poses': 'transforms', 'twists': 'twist', 'wrenches': 'wrench'}
+        return {'names': 'joint_names', **arrays}.get(name, name)
+    if issubclass(kind, Grab | MoveHand) and name in {'point', 'yaw'}:
+        return 'mouse_point'
+    return 'client_id' if name == 'hand' else name
+
+
+@pytest.mark.parametrize('kind', get_args(Request))
+def test_a_field_of_another_type_is_malformed(kind: type[Request]) -> None:
+    known = arguments()[kind]
+    kind(**known)
+    for each in fields(kind):
+        for wrong in (object(), None):
+            if wrong is None and each.default is None:
+                continue
+            with pytest.raises(Malformed) as refused:
+                kind(**{**known, each.name: wrong})
+            assert refused.value.field == field_of(kind, each.name)
+
+
+def test_the_refusal_of_a_type_names_the_types_that_there_are() -> None:
+    with pytest.raises(Malformed, match='shape must be of class Disc, Box, Polygon'):
+        Spawn(name='a/0', shape='disc')
+    with pytest.raises(Malformed, match='names must be a list of texts'):
+        DeleteBodies(names='a/0')
+    with pytest.raises(Malformed, match='each transforms needs 3 numbers'):
+        Command(names=('a/0',), poses=(('1', '2', '3'),))
+
+
+def test_a_point_or_pose_may_be_a_list_or_an_array() -> None:
+    move = MoveBodies(names=['a/0'], by=np.array([1, 2]))
+
+    assert repr(move) == "MoveBodies(names=('a/0',), by=(1.0, 2.0))"
+    assert Spawn(name='a/0', shape=DISC, pose=[0, 1, np.float32(0.5)]).pose == (0.0, 1.0, 0.5)
 
 
 def test_a_kind_of_joint_may_be_its_word() -> None:

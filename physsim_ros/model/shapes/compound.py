@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar, Self
 
-from physsim_ros.model.checks import known_mapping, point_list
+from physsim_ros.model.checks import known_mapping, OfClass, point_list
 from physsim_ros.model.errors import BadOutline, BadProperty
 from physsim_ros.model.shapes.box import Box
 from physsim_ros.model.shapes.disc import Disc
@@ -25,7 +25,7 @@ class Compound:
     :param element: the disc or box
     :param centers: its positions [m]
     :raises BadOutline: no centre, or too many
-    :raises Malformed: a coordinate is not finite
+    :raises Malformed: a coordinate is not finite, or the element is something else
     """
 
     KEY: ClassVar = 'compound'
@@ -35,6 +35,7 @@ class Compound:
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
+        OfClass(Disc | Box)(self.element, 'element')
         centers = as_tuples(checked_points(self.centers, 'centers'))
         if not centers:
             raise BadOutline('a compound needs at least one element', field='centers')

@@ -15,6 +15,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.checks import number
 from physsim_ros.model.errors import BadOutline, BadSize, Malformed
 from physsim_ros.model.transform import Point
 
@@ -30,22 +31,22 @@ MOST_POINTS = 1000
 COINCIDENT = 1e-6
 
 
-def checked_length(value: float, name: str) -> float:
+def checked_length(value: object, name: str) -> float:
     """
     Return a length as a float [m].
 
     :param name: of the field, for the refusal
     :raises BadSize: it is out of range
+    :raises BadProperty: it is not a number
     :raises Malformed: it is not finite
     """
-    if not math.isfinite(value):
-        raise Malformed(f'{name} is {value}, not a finite number', field=name)
-    if not SMALLEST <= value <= LARGEST:
+    length = number(value, name)
+    if not SMALLEST <= length <= LARGEST:
         raise BadSize(
-            f'{name} is {value:g} m; it must lie between {SMALLEST:g} and {LARGEST:g} m',
+            f'{name} is {length:g} m; it must lie between {SMALLEST:g} and {LARGEST:g} m',
             field=name,
         )
-    return float(value)
+    return length
 
 
 def checked_points(points: Sequence[Point], name: str) -> Floats:
