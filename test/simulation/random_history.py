@@ -110,7 +110,7 @@ def history_of(seed: int) -> list[Operation]:
     operations: list[Operation] = [
         ('begin', physics, publish, rng.choice((0.1, 0.17, 0.5, 1.0, 3.0)), rng.random() < 0.5)
     ]
-    if rng.random() < 0.25:
+    if rng.random() < 0.1:
         world = rng.choice(WORLDS)
         rng.take_names_of(shipped_world(world, physics))
         operations.append(('load_shipped', world))
