@@ -93,6 +93,11 @@ class JointKind(StrEnum):
         """Return the number of points that a joint of this kind is drawn with."""
         return self.schema.points
 
+    @property
+    def phrase(self) -> str:
+        """Return the kind with its article, as `an axle`."""
+        return f'an {self}' if self[0] in 'aeiou' else f'a {self}'
+
 
 @dataclass(frozen=True, slots=True)
 class JointSchema:
@@ -204,5 +209,5 @@ class JointProperties(Checked):
         for name in (*self.explicit(), *unset):
             if name not in known:
                 raise UnknownProperty(
-                    f'a {kind} has no {name}; it has {", ".join(known)}', field=name
+                    f'{kind.phrase} has no {name}; it has {", ".join(known)}', field=name
                 )

@@ -413,7 +413,7 @@ class Join(Checked):
         count = self.kind.points
         if len(self.points) != count:
             raise Malformed(
-                f'a {self.kind} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
+                f'{self.kind.phrase} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
                 field='points',
             )
         if self.a == WORLD:

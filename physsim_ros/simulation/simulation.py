@@ -131,6 +131,8 @@ class Simulation:
     def limit_history(self, seconds: float) -> None:
         """Set the length of the past that is kept [s of simulation time]."""
         self.playback.seek_shown()
+        # The times of a paused world are told anew.
+        self.playback.changed = True
         if not self.past.timeline.keep_within(self.past.steps_in(seconds)):
             self.playback.note_jump()
             self._handler.report_oldest()

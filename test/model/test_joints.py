@@ -40,6 +40,7 @@ def test_a_kind_has_the_points_and_properties_of_the_contract(kind: JointKind) -
     points, own = CONTRACT[kind]
 
     assert kind.points == points
+    assert kind.phrase == ('an axle' if kind is JointKind.AXLE else f'a {kind}')
     assert tuple(kind.schema.properties) == (*own, *COMMON)
 
 
@@ -60,7 +61,7 @@ def test_a_default_passes_its_own_check(kind: JointKind) -> None:
 @pytest.mark.parametrize('kind', JointKind)
 def test_a_property_of_another_kind_is_unknown(kind: JointKind) -> None:
     for name in set(PROPERTIES) - set(kind.schema.properties):
-        with pytest.raises(UnknownProperty, match=f'a {kind} has no {name}'):
+        with pytest.raises(UnknownProperty, match=f'{kind.phrase} has no {name}'):
             JointProperties(**{name: 1.0}).check_kind(kind)
 
 

@@ -10,7 +10,7 @@ from typing import Any
 from diagnostic_msgs.msg import DiagnosticStatus
 from physsim_ros.testing import command, delete, disc, PhysSim
 
-from ..client import Client, KEPT
+from ..client import Client, KEPT, set_parameter
 
 
 def told(message: Any) -> dict[str, str]:
@@ -65,6 +65,19 @@ def test_it_tells_the_state_the_course_and_what_can_be_undone(
     assert (status['undo'], status['redo']) == ('undo spawn a/0', 'redo set motion of a/0')
     physsim.spawn(delete('a/0'))
     assert told(messages[-1])['redo'] == ''
+
+
+def test_a_shorter_history_is_told_while_time_is_paused(physsim: PhysSim, client: Client) -> None:
+    messages = client.listen(DiagnosticStatus, '~/timeline', KEPT)
+    physsim.spawn(disc('a/0'))
+    physsim.run(1.0)
+    client.call('~/pause')
+    physsim.node.apply_requests()
+    set_parameter(physsim, 'history', 0.2)
+    physsim.node.apply_requests()
+    physsim.settle()
+    status = told(messages[-1])
+    assert (status['oldest'], status['undo']) == ('0.800000', '')
 
 
 def test_times_of_a_running_world_come_some_times_a_second(

@@ -103,7 +103,7 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
     ends = snapping.joint_ends(points, context)
     if ends is None:
         raise NothingThere(
-            f'a {kind} joins two bodies, one of which moves; there are none at its ends',
+            f'{kind.phrase} joins two bodies, one of which moves; there are none at its ends',
             field='poses',
         )
     first, last = ends
@@ -119,7 +119,7 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
     return Outcome(
         requests=(request,),
         subject=name,
-        message=f'a {kind} from {first.body} to {last.body}',
+        message=f'{kind.phrase} from {first.body} to {last.body}',
         outline=np.array(line) if kind is JointKind.ROD else context.drawn.points,
     )
 

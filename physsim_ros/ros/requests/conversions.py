@@ -230,7 +230,9 @@ def walls_requests(message: OccupancyGrid, *, frame_id: str) -> tuple[DeleteAll 
     info = message.info
     frame = named_frame(message.header.frame_id, frame_id)
     if frame not in ('', 'map'):
-        raise UnknownFrame(f'a map is in the frame of the world, not in {frame}')
+        raise UnknownFrame(
+            f'a map is in the frame of the world, not in {frame!r}', field='header.frame_id'
+        )
     cells = np.frombuffer(message.data, np.int8)
     if len(cells) != info.width * info.height:
         raise Malformed(

@@ -44,22 +44,30 @@ def test_occupied_cells_become_walls_in_place_of_earlier_ones(
 
 
 @pytest.mark.parametrize(
-    ('change', 'code'),
+    ('change', 'code', 'field'),
     [
-        (lambda message: message.data.pop(), 'malformed'),
-        (lambda message: setattr(message.info, 'resolution', 0.0), 'bad_size'),
-        (lambda message: setattr(message.info, 'resolution', math.nan), 'malformed'),
-        (lambda message: setattr(message.header, 'frame_id', 'base_link'), 'unknown_frame'),
-        (lambda message: setattr(message.info.origin.orientation, 'x', 1.0), 'not_planar'),
+        (lambda message: message.data.pop(), 'malformed', 'data'),
+        (lambda message: setattr(message.info, 'resolution', 0.0), 'bad_size', 'resolution'),
+        (lambda message: setattr(message.info, 'resolution', math.nan), 'malformed', 'resolution'),
+        (
+            lambda message: setattr(message.header, 'frame_id', 'base_link'),
+            'unknown_frame',
+            'header.frame_id',
+        ),
+        (
+            lambda message: setattr(message.info.origin.orientation, 'x', 1.0),
+            'not_planar',
+            'info.origin.orientation',
+        ),
     ],
 )
 def test_a_map_that_is_none_is_refused(
-    physsim: PhysSim, client: Client, change: object, code: str
+    physsim: PhysSim, client: Client, change: object, code: str, field: str
 ) -> None:
     message = grid(['#.', '.#'])
     change(message)  # type: ignore[operator]
     (event,) = client.ask('~/walls', message)
-    assert (event.name, event.code) == ('~/walls', code)
+    assert (event.name, event.code, event.field) == ('~/walls', code, field)
     assert physsim.names == ()
 
 
