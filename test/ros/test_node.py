@@ -23,61 +23,36 @@ from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
 from ..client import Client
-from ..outside import Outside
+from ..outside import Outside, ROOT
 
 G = 9.81
 # One frame at 60 Hz; stamps are whole nanoseconds [ns].
 PERIOD = 1e9 / 60.0
-TYPES = {
-    '/physsim/poses': 'geometry_msgs/msg/PoseArray',
-    '/physsim/states': 'sensor_msgs/msg/MultiDOFJointState',
-    '/physsim/contacts': 'sensor_msgs/msg/MultiDOFJointState',
-    '/physsim/markers': 'visualization_msgs/msg/MarkerArray',
-    '/physsim/drag/update': 'visualization_msgs/msg/InteractiveMarkerUpdate',
-    '/physsim/map': 'nav_msgs/msg/OccupancyGrid',
-    '/physsim/preview': 'visualization_msgs/msg/MarkerArray',
-    '/physsim/events': 'diagnostic_msgs/msg/DiagnosticStatus',
-    '/physsim/timeline': 'diagnostic_msgs/msg/DiagnosticStatus',
-    '/clock': 'rosgraph_msgs/msg/Clock',
-    '/diagnostics': 'diagnostic_msgs/msg/DiagnosticArray',
-}
-DEPTHS = {
-    '/physsim/poses': 5,
-    '/physsim/states': 5,
-    '/physsim/contacts': 5,
-    '/physsim/markers': 1,
-    '/physsim/drag/update': 100,
-    '/physsim/map': 1,
-    '/physsim/preview': 1,
-    '/physsim/events': 1000,
-    '/physsim/timeline': 1,
-    '/clock': 10,
-    '/diagnostics': 10,
-}
-KEPT = ('/physsim/markers', '/physsim/map', '/physsim/preview', '/physsim/timeline')
-REQUESTS = {
-    '/physsim/spawn': 'visualization_msgs/msg/Marker',
-    '/physsim/spawn_array': 'visualization_msgs/msg/MarkerArray',
-    '/physsim/walls': 'nav_msgs/msg/OccupancyGrid',
-    '/physsim/join': 'visualization_msgs/msg/Marker',
-    '/physsim/pin': 'geometry_msgs/msg/PointStamped',
-    '/physsim/axle': 'geometry_msgs/msg/PointStamped',
-    '/physsim/anchor': 'geometry_msgs/msg/PointStamped',
-    '/physsim/release': 'geometry_msgs/msg/PointStamped',
-    '/physsim/command': 'sensor_msgs/msg/MultiDOFJointState',
-    '/physsim/drag/feedback': 'visualization_msgs/msg/InteractiveMarkerFeedback',
-    '/clicked_point': 'geometry_msgs/msg/PointStamped',
-    '/physsim/stroke': 'nav_msgs/msg/Path',
-    '/physsim/speed': 'std_msgs/msg/Float64',
-    '/physsim/seek': 'rosgraph_msgs/msg/Clock',
-}
-SERVICES = {
-    f'/physsim/{name}'
-    for name in (
-        'play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'step', 'reset', 'clear',
-        'undo', 'redo', 'instead', 'save_world', 'load_world',
-    )
-}  # fmt: skip
+
+
+def rows_below(heading: str) -> list[list[str]]:
+    """Return the cells of the table below a heading of the contract."""
+    text = (ROOT / 'docs' / 'interface.md').read_text(encoding='utf-8')
+    section = text.partition(f'\n## {heading}\n')[2].partition('\n#')[0]
+    return [line.strip('|').split(' | ') for line in section.splitlines() if line[:3] == '| `']
+
+
+def resolved(topic: str) -> str:
+    """Return the name of a topic or service of the contract on the graph."""
+    return f'/{topic.strip("` /")}'.replace('/~', '/physsim')
+
+
+def type_name(cell: str) -> str:
+    """Return a type of the contract as the graph names it."""
+    return cell.strip('` ').replace('/', '/msg/')
+
+
+TYPES = {resolved(topic): type_name(kind) for topic, kind, *_ in rows_below('Output')}
+QOS = {resolved(topic): qos for topic, _, qos, *_ in rows_below('Output')}
+# Topics have three columns, services two.
+_REQUESTS = rows_below('Requests')
+REQUESTS = {resolved(row[0]): type_name(row[1]) for row in _REQUESTS if len(row) == 3}
+SERVICES = {resolved(name) for row in _REQUESTS if len(row) == 2 for name in row[0].split(', ')}
 # In the order in which the program outside spawns them.
 NAMES = ['floor/0', 'ball/7', 'ball/6', 'ball/5']
 
@@ -123,7 +98,8 @@ def frames_of(stamps: list[int]) -> list[int]:
 
 def test_topics_have_the_types_and_qos_of_the_contract(seen: dict[str, Any]) -> None:
     for topic, type_ in TYPES.items():
-        durability = 'TRANSIENT_LOCAL' if topic in KEPT else 'VOLATILE'
+        durability = 'TRANSIENT_LOCAL' if 'transient local' in QOS[topic] else 'VOLATILE'
+        assert QOS[topic].startswith('reliable')
         assert seen['publishers'][topic] == [[type_, 'RELIABLE', durability]], topic
     for topic, type_ in REQUESTS.items():
         assert seen['subscriptions'][topic] == [[type_, 'RELIABLE', 'VOLATILE']], topic
@@ -132,8 +108,11 @@ def test_topics_have_the_types_and_qos_of_the_contract(seen: dict[str, Any]) -> 
 def test_topics_have_the_depths_of_the_contract(physsim: PhysSim) -> None:
     # Discovery does not tell them, so they are looked at from inside.
     profiles = {each.topic_name: each.qos_profile for each in physsim.node.publishers}
-    for topic, depth in DEPTHS.items():
-        assert (profiles[topic].history, profiles[topic].depth) == (HistoryPolicy.KEEP_LAST, depth)
+    for topic, qos in QOS.items():
+        assert profiles[topic].history == HistoryPolicy.KEEP_LAST
+        assert qos.endswith(f' depth {profiles[topic].depth}'), topic
+    # It publishes nothing else but what every node does.
+    assert set(profiles) - {'/parameter_events', '/rosout'} == set(QOS)
     profiles = {each.topic_name: each.qos_profile for each in physsim.node.subscriptions}
     # It hears nothing else.
     assert set(profiles) == set(REQUESTS)

@@ -44,12 +44,20 @@ def main() -> None:
         epilog='Arguments after --ros-args are those of each world, as: '
         'physsim_class --pupils 20 --ros-args -p world_file:=free_fall',
     )
-    parser.add_argument('--pupils', type=int, default=20, help=f'worlds, 1 to {MOST_PUPILS}')
+    default = '(default: %(default)s)'
     parser.add_argument(
-        '--address', default='127.0.0.1', help='to listen on; 0.0.0.0 is the whole network'
+        '--pupils', type=int, default=20, help=f'worlds, 1 to {MOST_PUPILS} {default}'
     )
     parser.add_argument(
-        '--port', type=int, default=8800, help='of the class; those after it are the worlds'
+        '--address',
+        default='127.0.0.1',
+        help=f'to listen on; 0.0.0.0 is the whole network {default}',
+    )
+    parser.add_argument(
+        '--port',
+        type=int,
+        default=8800,
+        help=f'of the class; those after it are the worlds {default}',
     )
     split = sys.argv.index('--ros-args') if '--ros-args' in sys.argv else len(sys.argv)
     options = parser.parse_args(sys.argv[1:split])
