@@ -59,14 +59,14 @@ class FrameFeed:
 
     def add_page(self, socket: WebSocketHandler, address: str, person: int | None) -> OpenPage:
         """
-        Begin to send frames to the page of a socket.
+        Begin to send frames to the page of a socket, from the next one on.
 
         :param address: of the machine that it is open on
         :param person: number of the person at it; None for a new one
         """
         page = self.pages.add(socket, address, person, self.update_page)
-        self.send_frame()
-        self.update_page(page)
+        # The newest may be old: while no page was open, no frame has come.
+        page.frame = self._number
         return page
 
     def show_parts(self, page: OpenPage, show: Show, robot: str) -> None:

@@ -130,9 +130,7 @@ class Server:
         host = reachable_host(self._address)
         return f'http://{host}:{self.port}/login?token={self._access.tokens[role]}'
 
-    def show(
-        self, frame: Frame, ghost: Snapshot | None = None, timeline: Content | None = None
-    ) -> None:
+    def show(self, frame: Frame, ghost: Snapshot | None, timeline: Content | None = None) -> None:
         """
         Send the answers of a frame, the timeline that goes with it, and the frame to all pages.
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from dataclasses import replace
 from functools import partial
 import time
 from typing import Any
@@ -80,6 +81,8 @@ class Sketchpad:
         )
         self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
+        # The last one; None before the first.
+        self._frame: Frame | None = None
         self._sent_recording = self._recording_path()
         self._sent_class: dict[str, Any] = {}
 
@@ -119,10 +122,10 @@ class Sketchpad:
 
     def show(self, frame: Frame) -> None:
         """Send a frame, its answers and the timeline to all pages; never blocks."""
-        frame = self._contacts.completed(frame)
+        self._frame = frame = self._contacts.completed(frame)
         self._autosave.note_frame(frame, drawn=bool(self._sessions))
         if not self._sessions:
-            self._server.show(frame)
+            # The server's thread sleeps until a page is opened.
             return
         status = self._timeline.take_status(frame, time.monotonic())
         for session in self._sessions.values():
@@ -257,6 +260,9 @@ class Sketchpad:
         # To all: what is not sent again is what all pages have got.
         self._server.send(timeline_content(self._timeline.read_status(time.monotonic())))
         self._server.list_worlds(number)
+        if self._frame is not None:
+            frame = replace(self._frame, answers=())
+            self._server.show(frame, self._timeline.ghost(frame.snapshot))
         # Sent to all again.
         self._sent_class = {}
 

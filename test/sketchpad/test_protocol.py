@@ -129,6 +129,25 @@ def test_a_frame_comes_after_its_answers_and_the_timeline_that_it_is_shown_with(
     assert page.order[begin:] == ['answer', 'timeline', 'frame']
 
 
+def test_the_thread_of_the_server_sleeps_while_no_page_is_open(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    woken: list[object] = []
+    page, sketchpad = browser.open_page(), browser.physsim.node.outputs.sketchpad
+    assert page.ask('follow', names=['a/0'])['ok']
+    page.close()
+    browser.until(lambda: not sketchpad.wants_contacts)
+    with monkeypatch.context() as patch:
+        patch.setattr(
+            asyncio.SelectorEventLoop, 'call_soon_threadsafe', lambda *call: woken.append(call)
+        )
+        browser.physsim.run(0.5)
+    assert woken == []
+    page = browser.open_page()
+    page.until(lambda: page.frames)
+    assert page.frames[0].time == pytest.approx(browser.physsim.time)
+
+
 def test_of_many_answers_in_a_frame_others_get_the_first_and_the_count_of_the_rest(
     browser: Browser,
 ) -> None:
