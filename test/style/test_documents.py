@@ -10,8 +10,12 @@ import re
 from physsim_ros.files import world_schema
 from physsim_ros.model import checks
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.joints import JOINT_KEYS, JointProperties
+from physsim_ros.model.joints import JOINT_KEYS, JointKind, JointProperties
 from physsim_ros.model.names import LONGEST_NAME
+from physsim_ros.model.robots.drives import DRIVES
+from physsim_ros.model.robots.odometry import Odometry
+from physsim_ros.model.robots.robot import Robot
+from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.shapes import LARGEST, MOST_POINTS
 import pytest
 
@@ -143,6 +147,42 @@ def test_the_table_of_world_files_has_every_key():
     }.items():
         told = [key for each, said in rows if each == of for key in said.split(', ')]
         assert sorted(told) == sorted(f'`{key}`' for key in keys)
+
+
+@pytest.mark.linter
+def test_the_table_of_joints_has_every_kind_with_its_points_and_properties():
+    table = _section('\n### A joint from a marker\n')
+    rows = re.findall(r'^\| `(\w+)` \| (\d) \| (.*) \|$', table, re.MULTILINE)
+
+    told = {kind: (int(points), {*re.findall('`([a-z_]+)`', text)}) for kind, points, text in rows}
+    assert told.keys() == {*JointKind}
+    for kind in JointKind:
+        points, words = told[kind]
+        assert points == kind.points
+        assert words - {'a', 'b'} == {*kind.schema.own}
+
+
+@pytest.mark.linter
+def test_the_tables_of_robots_have_every_key_of_drives_odometry_and_sensors():
+    def keys_of(heading):
+        rows = re.findall(
+            r'^\| `?(\w+)`? \| ((?:`\w+`(?:, )?)+) \|', _section(heading), re.MULTILINE
+        )
+        told = {}
+        for of, keys in rows:
+            told.setdefault(of, []).extend(re.findall(r'\w+', keys))
+        return told
+
+    drives = {key for each in DRIVES.values() for key in each.CHECKS}
+    assert {of: sorted(keys) for of, keys in keys_of('\n### Robots\n').items()} == {
+        'robot': sorted(Robot.CHECKS),
+        'drive': sorted({'kind', *drives}),
+        'odometry': sorted(Odometry.CHECKS),
+    }
+    # Where it is mounted is told of all.
+    assert {of: sorted(keys) for of, keys in keys_of('\n### Sensors of a robot\n').items()} == {
+        kind: sorted({*each.CHECKS} - {'at'}) for kind, each in SENSORS.items()
+    }
 
 
 @pytest.mark.linter
