@@ -203,12 +203,13 @@ class RobotTopics:
             self._node.destroy_publisher(publisher)
 
     def _is_due(self, name: str, rate: float, view: View) -> bool:
-        """Return whether what has a rate [Hz] reads at a frame, in either direction of time."""
+        """Return whether what has a rate [Hz] reads at a frame, a past one as before."""
         now, before = view.snapshot.stamp, view.before
         if before is None:
             return True
-        earlier, later = sorted((before.stamp, now))
-        return is_due(f'{self.body}|{name}', rate, earlier, later)
+        # In a rewind, the frame before is a later one: the period that counts ends with this one.
+        period = abs(now - before.stamp)
+        return is_due(f'{self.body}|{name}', rate, now - period, now)
 
 
 def _is_heard(publisher: Publisher | None) -> TypeGuard[Publisher]:

@@ -22,6 +22,7 @@ from sensor_msgs.msg import Image, Imu, JointState, LaserScan, Range
 from std_msgs.msg import Bool
 
 from .driver import Driver, yaw_of
+from ..journey import Journey
 from ...client import Client, set_parameter
 
 
@@ -63,6 +64,24 @@ def test_the_same_run_has_the_same_bits_and_a_rewind_repeats_it(flat: PhysSim) -
     flat.rewind(3.0)
     flat.run(3.0)
     assert flat.digest() == first
+
+
+def test_a_rewind_shows_the_messages_of_the_way_there(journey: Journey, client: Client) -> None:
+    physsim = journey.physsim
+    set_parameter(physsim, 'gravity', [0.0, 0.0])
+    physsim.robot('turtlebot3_burger').drive(0.2)
+    topics = {'scan': LaserScan, 'odom': Odometry, 'joint_states': JointState}
+    messages = {
+        topic: heard(physsim, client, kind, f'/robot_0/{topic}') for topic, kind in topics.items()
+    }
+    journey.tick(60)
+    there = {topic: each.copy() for topic, each in messages.items()}
+    set_parameter(physsim, 'speed', -1.0)
+    journey.tick(50)
+    for topic, each in messages.items():
+        back = each[len(there[topic]) :]
+        assert len(back) >= 4
+        assert [message for message in back if message not in there[topic]] == []
 
 
 def test_a_test_steers_otherwise_after_a_rewind(flat: PhysSim) -> None:
