@@ -134,3 +134,35 @@ def test_a_page_that_only_shows_has_no_tools(chromium: Any, address: str) -> Non
     sheet.wait('Object.keys(physsim.bodies).length > 0')
     assert sheet.page.get_by_role('button').count() == 0
     sheet.close()
+
+
+def test_the_world_is_framed_alike_whatever_message_comes_last(
+    chromium: Any, address: str
+) -> None:
+    # With two people the bars of a phone have a button more, and need another line.
+    other = Sheet(chromium, address)
+    places = []
+    for late in ('"type":"worlds"', '"type":"class"'):
+        sheet = Sheet(chromium, 'about:blank', viewport={'width': 390, 'height': 844})
+        sockets: list[Any] = []
+        held: list[str] = []
+
+        def pass_on(socket: Any, *, late=late, sockets=sockets, held=held) -> None:
+            def take(text: str | bytes) -> None:
+                is_late = isinstance(text, str) and late in text
+                held.append(text) if is_late else socket.send(text)
+
+            sockets.append(socket)
+            socket.connect_to_server().on_message(take)
+
+        sheet.page.route_web_socket('**/ws*', pass_on)
+        sheet.page.goto(address)
+        sheet.wait('Object.keys(physsim.bodies).length > 0')
+        sheet.until(lambda held=held: held, late)
+        sockets[0].send(held[0])
+        sheet.page.get_by_role('button', name='People').wait_for()
+        sheet.wait('true')
+        places.append(sheet.place(0.0, 0.0))
+        sheet.close()
+    assert places[0] == places[1]
+    other.close()

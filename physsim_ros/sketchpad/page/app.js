@@ -138,12 +138,10 @@ export class App {
     const bar = elementOf('bar', HTMLElement), top = elementOf('top', HTMLElement);
     const sizes = new ResizeObserver(() => {
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
+      document.documentElement.style.setProperty('--top', `${top.offsetHeight}px`);
       this.refit();
     });
-    sizes.observe(bar, {box: 'border-box'});
-    // What is said there makes it higher and lower: the world stays where it is.
-    new ResizeObserver(() => document.documentElement.style.setProperty('--top', `${top.offsetHeight}px`)).observe(top);
-    sizes.observe(this.view.canvas);
+    for (const each of [bar, top, this.view.canvas]) sizes.observe(each, {box: 'border-box'});
   }
 
   /** Ask for the parts of frames that are shown. */
