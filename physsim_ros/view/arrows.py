@@ -33,6 +33,9 @@ LONGEST = 3.0
 _SHORT, _LONG = 0.15, 1.0
 # Standard gravity [m/s²], for the scale in worlds without one.
 _GRAVITY = 9.81
+# Least weight at the scale [N]: that of the lightest body there may be, 1e-9 kg. The weight in a
+# gravity of next to nothing has no round number near it.
+_LEAST_WEIGHT = 1e-8
 # Time in which the impulses of the first frame act [ns]: a period of 60 Hz, the default rate.
 _FIRST_PERIOD = 16_666_667
 # Time by which a velocity is multiplied [s], and the shortest period of sending it [frames].
@@ -63,6 +66,7 @@ def force_scale(scene: Scene, unit: float) -> ForceScale:
         return ForceScale(1.0, unit)
     weight = float(np.median(scene.inertia[dynamic, 0]))
     weight *= float(np.hypot(*scene.settings.gravity)) or _GRAVITY
+    weight = max(weight, _LEAST_WEIGHT)
     size = float(np.median([scene.bodies[row].shape.form.outer for row in dynamic]))
     length = min(max(2.0 * size, _SHORT * unit), _LONG * unit)
     force = nice_number(weight)

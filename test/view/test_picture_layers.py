@@ -73,6 +73,16 @@ def test_contacts_are_arrows_by_force_on_the_movable_body_as_long_as_they_last(r
     assert second == pytest.approx(2 * first, rel=1e-4)
 
 
+def test_contacts_in_next_to_no_gravity_are_arrows_too(recording):
+    recording.draw(
+        frame(scene(body(), gravity=(0.0, 5e-324)), [(0, 0, 0)], contacts=contacts((0.0, -0.1)))
+    )
+
+    (vector,) = recording.rows('world/contacts', 'Arrows3D:vectors')[0].value
+    assert vector[1] > 0
+    assert np.isfinite(vector).all()
+
+
 def test_thousands_of_contacts_are_sent_less_often(recording):
     box = scene(body())
     crowd = contacts(*[(0.0, -1.0)] * 1500)
