@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody, same_in_engine
@@ -260,6 +261,8 @@ class Space:
             bodies[end] for end in (joint.a, joint.b) if end in bodies
         )
 
+    # The numbers of a body that leaves their range overflow in any stage, before it is removed.
+    @np.errstate(over='ignore', invalid='ignore')
     def step(self, number: int, *, reports_contacts: bool) -> list[str]:
         """
         Make a step.

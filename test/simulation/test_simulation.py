@@ -5,8 +5,16 @@
 
 import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, NothingThere, UnknownBody
-from physsim_ros.model.requests import Anchor, Command, Configure, Delete, DeleteAll
+from physsim_ros.model.requests import (
+    Anchor,
+    Command,
+    Configure,
+    Delete,
+    DeleteAll,
+    join_from,
+)
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Polygon
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
@@ -399,6 +407,30 @@ def test_a_lost_body_is_told_of() -> None:
         ('divergence', 'a/0', 'divergence'),
     ]
     assert len(sim.world) == 0
+
+
+@pytest.mark.filterwarnings('error')
+def test_what_leaves_the_range_of_numbers_warns_nobody_else() -> None:
+    sim = simulation(settings=WorldSettings())
+    triangle, needle = Polygon(outline=((0, 0), (1e4, 0), (0, 1e4))), Box(width=1e4, height=1e-3)
+    for spawned in (
+        spawning('a/0', triangle, (0.0, 1e7, 0.0), mass=1.0, velocity=(0.0, 7e4)),
+        spawning('a/1', needle, (-2.0, 1e7, -0.14), velocity=(0.0, 7e4)),
+        spawning('a/2', Box(width=1e-3, height=0.1), (-1.0, -1e7, 0.0), mass=1e-3),
+    ):
+        sim.requests.submit(spawned, topic='~/spawn')
+    pin, slider = {'kind': 'pin', 'a': 'a/0', 'b': 'a/2'}, {'kind': 'slider', 'a': 'a/0'}
+    for name, said, points in (
+        ('j/0', pin, ((-2.0, 1e7),)),
+        ('j/1', slider, ((0.0, 1e7), (0.001, 1e7))),
+    ):
+        request = join_from(said, name=name, points=points, frame='')
+        sim.requests.submit(request, topic='~/join')
+
+    told = answers(periods(sim, 40))
+
+    assert {answer.code for answer in told} == {'', 'divergence'}
+    assert len(sim.world) == 1
 
 
 def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_steps() -> None:

@@ -130,7 +130,7 @@ class SweptBoxes:
         gap = self._centers(other, since) - self._centers(one, since)
         way = self._centers(other, until) - self._centers(one, until) - gap
         reach = self._halves[one] + self._halves[other]
-        with np.errstate(divide='ignore', invalid='ignore'):
+        with np.errstate(divide='ignore'):
             times = np.stack(((-gap - reach) / way, (-gap + reach) / way))
         inside = np.where(np.abs(gap) <= reach, -np.inf, np.inf)
         enters = np.where(way == 0.0, inside, times.min(axis=0)).max(axis=1)

@@ -152,7 +152,7 @@ def _advance(motions: Motions, pairs: Pairs) -> Floats:
         # Greatest distance from the other one's centre of rotation, now and later.
         far = (_farthest(b, pivots_a), _farthest(a, pivots_b))
         speed = _speed_bound(rates, reaches[:, live], far, axis, 1.0 - now)
-        with np.errstate(divide='ignore', invalid='ignore'):
+        with np.errstate(divide='ignore'):
             after = now + np.where(speed > 0.0, gap / speed, np.inf)
         stays &= ~met & (after < 1.0)
         shares[live] = after

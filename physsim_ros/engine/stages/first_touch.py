@@ -203,7 +203,7 @@ def _first_hits(start: Floats, stop: Floats, shapes: Shapes, rows: Ints) -> tupl
     corners, normals = shapes.corners[1, rows], shapes.normals[1, rows]
     radii, way = shapes.radii[:, rows].sum(axis=0)[:, None], (stop - start)[:, None]
     ahead = start[:, None] - corners
-    with np.errstate(divide='ignore', invalid='ignore'):
+    with np.errstate(divide='ignore'):
         # Faces, moved outwards by the radius: t of n . (ahead + way t) = r, between their corners.
         height = dots(normals, ahead) - radii
         faces = height / -dots(normals, way)
