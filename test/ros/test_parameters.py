@@ -8,22 +8,31 @@ from __future__ import annotations
 from collections.abc import Iterator
 import math
 from pathlib import Path
+import re
 import socket
 from typing import Any
 
 from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError
 from physsim_ros.ros import parameters
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.requests.parameter_services import MOST_PARAMETERS
 from physsim_ros.sketchpad import listening
 from physsim_ros.testing import box, disc, own_context, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import ParameterType, ParameterValue, SetParametersResult
-from rcl_interfaces.srv import DescribeParameters, SetParameters, SetParametersAtomically
+from rcl_interfaces.srv import (
+    DescribeParameters,
+    GetParameters,
+    GetParameterTypes,
+    SetParameters,
+    SetParametersAtomically,
+)
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import MultiDOFJointState
 
 from ..client import Client, Event
 
@@ -290,6 +299,33 @@ def test_many_are_taken_together_or_not_at_all(physsim: PhysSim, client: Client)
     assert response.results[1].reason
     assert physsim.node.simulation.world.settings.density == 2.0
     assert physsim.node.simulation.world.settings.friction == 0.5
+
+
+def test_a_call_about_more_parameters_than_there_may_be_does_nothing(
+    physsim: PhysSim, client: Client
+) -> None:
+    most = MOST_PARAMETERS
+    for kind, field in (
+        (DescribeParameters, 'descriptors'),
+        (GetParameters, 'values'),
+        (GetParameterTypes, 'types'),
+    ):
+        service = '~/' + re.sub('(?<!^)(?=[A-Z])', '_', kind.__name__).lower()
+        for number in (most, most + 1):
+            response = client.request(kind, service, kind.Request(names=['speed'] * number))
+            assert len(getattr(response, field)) == (number if number <= most else 0)
+    client.ask('~/command', MultiDOFJointState())
+    client.events.clear()
+    density = Parameter('density', value=2.0).to_parameter_msg()
+    request = SetParameters.Request(parameters=[density] * (most + 1))
+    response = client.request(SetParameters, '~/set_parameters', request)
+    physsim.node.apply_requests()
+    physsim.settle()
+    (event,) = client.events
+    assert event.code == 'malformed'
+    assert {each.reason for each in response.results} == {f'malformed: {event.message}'}
+    assert len(response.results) == most + 1
+    assert value_of(physsim, 'density') == 1.0
 
 
 # Effects that fail
