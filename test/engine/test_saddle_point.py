@@ -76,3 +76,18 @@ def test_bodies_that_share_only_what_does_not_move_are_islands_of_their_own():
 
     assert len(set(system.islands.tolist())) == 3
     assert system.island_of_row[1] == system.island_of_row[2] != system.island_of_row[0]
+
+
+def test_a_problem_on_which_block_pivoting_goes_in_a_circle_is_solved():
+    # With this matrix of three rows that push one body, block principal pivoting comes back to
+    # the sides that it began with.
+    matrix = np.array([(4.0, 5.0, -5.0), (5.0, 9.0, -5.0), (-5.0, -5.0, 7.0)])
+    jacobian = np.zeros((3, 2, 3))
+    jacobian[:, 1] = np.linalg.cholesky(matrix)
+    problem = Problem(jacobian, np.array([2.0, 1.0, -3.0]), np.zeros(3), np.full(3, np.inf))
+    inverse = np.array([(0.0, 0.0, 0.0), (1.0, 1.0, 1.0)])
+
+    solution = solve(np.array([(0, 1)] * 3), inverse, problem)
+
+    assert not solution.wrong.any()
+    assert solution.impulses == pytest.approx((0.5, 0.0, 0.0), rel=2 * EVEN)

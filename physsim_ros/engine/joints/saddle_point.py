@@ -19,8 +19,9 @@ Rows whose λ has bounds make it a mixed linear complementarity problem: a row r
 or λ is at a bound and J v is on the other side of the target. Block principal pivoting (J. J.
 Júdice and F. M. Pires, "A block principal pivoting algorithm for large-scale strictly monotone
 linear complementarity problems", Computers & Operations Research 1994): all rows on the wrong side
-change it at once; after `ROUNDS` / 2 only the last of them, which comes to an end (K. G. Murty,
-"Note on a Bard-type scheme for solving the complementarity problem", Opsearch 1974).
+change it at once. That may go in a circle, even with three rows of one body; so after half of the
+factorisations only the last of them changes, which comes to an end (K. G. Murty, "Note on a
+Bard-type scheme for solving the complementarity problem", Opsearch 1974).
 
 Islands share no dynamic body, so that no entry of the matrix connects them. Rounding, and which
 row is the last one, are decided island by island, so that none depends on another.
