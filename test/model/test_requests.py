@@ -237,7 +237,9 @@ def test_a_command_does_not_change_with_the_arrays_that_it_was_made_of() -> None
     poses[:] = 7.0
 
     assert command == Command(names=('a/0',), poses=np.zeros((1, 3)))
+    assert len({command, Command(names=('a/0',), poses=np.zeros((1, 3)))}) == 1
     assert command != Command(names=('a/0',), poses=poses)
+    assert command != Delete(name='a/0')
     with pytest.raises(ValueError, match='read-only'):
         command.poses[0] = 7.0
 

@@ -14,8 +14,10 @@ from physsim_ros.model.requests import (
     Delete,
     DeleteAll,
     Grab,
+    GrabToPlace,
     LetGo,
     MoveHand,
+    PlaceHand,
     Restore,
     Spawn,
 )
@@ -248,3 +250,45 @@ def test_a_body_keeps_its_hand_when_its_shape_changes() -> None:
     dragged(world, (2.2, 0.0), 240)
 
     assert world.snapshot().poses[0, 0] == pytest.approx(2.0, abs=1e-3)
+
+
+def test_a_hand_that_grabs_another_body_lets_go_of_the_first() -> None:
+    worlds = World(), World()
+    for world in worlds:
+        spawn(world, 'a/0', DISC)
+        spawn(world, 'b/0', DISC, (5.0, 0.0, 0.0))
+        world.apply(Grab(hand='h', point=(0.0, 0.0)))
+        world.step(60)
+    worlds[0].apply(LetGo(hand='h'))
+    for world in worlds:
+        world.apply(Grab(hand='h', point=world.snapshot().poses[1, :2]))
+        assert [grip.body for grip in world.grips] == ['b/0']
+        world.step(60)
+
+    assert worlds[1].digest() == worlds[0].digest()
+
+
+def test_a_paused_hand_places_an_anchored_body_and_does_not_pull_it_while_time_runs() -> None:
+    world = World()
+    spawn(world, 'a/0', BOX, anchored=True)
+    # Without a body that moves, no step is made.
+    spawn(world, 'b/0', DISC, (9.0, 0.0, 0.0))
+    world.apply(GrabToPlace(hand='h', point=(0.2, 0.0)))
+
+    assert world.apply(PlaceHand(hand='h', point=(1.2, 0.0))) == ('a/0', 'placed a/0')
+    world.apply(MoveHand(hand='h', point=(3.0, 0.0)))
+    world.step(60)
+
+    assert world.snapshot().poses[0].tolist() == [1.0, 0.0, 0.0]
+    world.apply(Delete(name='a/0'))
+    assert world.apply(PlaceHand(hand='h', point=(2.0, 0.0))) == ('', 'h holds no body')
+
+
+def test_a_paused_hand_that_does_not_move_changes_nothing() -> None:
+    world = World()
+    spawn(world, 'a/0', BOX)
+    world.apply(GrabToPlace(hand='h', point=(0.2, 0.0)))
+
+    world.apply(PlaceHand(hand='h', point=(0.2, 0.0)))
+
+    assert not world.changed

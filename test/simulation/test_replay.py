@@ -214,6 +214,14 @@ def test_other_bits_than_before_are_told(driven: Driven) -> None:
     assert f'{wrong.step / 240:.3f} s' in answer.message
 
 
+def test_a_request_that_is_refused_when_it_is_made_again_is_told(driven: Driven) -> None:
+    history = driven.simulation.past.timeline.history
+    history.nodes[-1].request = Delete(name='nobody/0')
+    driven.simulation.seek(0)
+    answer, *_ = told(driven.run(8.0, 0.7), 'divergence')
+    assert "is refused now: there is no body 'nobody/0'" in answer.message
+
+
 def test_saving_in_the_past_drops_nothing(driven: Driven) -> None:
     driven.run(-1.0, 1.3)
     step = driven.simulation.step

@@ -564,3 +564,48 @@ def test_a_body_that_rests_begins_nothing_and_one_that_bounces_begins_each_time(
     later = [pair for _ in range(120) for pair in frame(world).begun.tolist()]
     assert later
     assert set(map(tuple, later)) == {(1, -1)}
+
+
+def test_a_checkpoint_within_a_frame_keeps_its_contacts() -> None:
+    world, twin = resting(), resting()
+    for each in (world, twin):
+        spawn(each, 'a/1', BOX, (6.0, 0.5, 0.0))
+        each.step(FRAME)
+    # As a checkpoint does, the space is built anew.
+    world.renew()
+    told, known = (each.contacts(each.snapshot()) for each in (world, twin))
+    assert told.pairs.tolist() == known.pairs.tolist() == [[0, -1], [1, -1]]
+    assert told.impulses.tolist() == known.impulses.tolist()
+    assert told.points.tolist() == known.points.tolist()
+
+    world.step(FRAME)
+    world.renew()
+    world.apply(Delete(name='a/0'))
+    assert world.contacts(world.snapshot()).pairs.tolist() == [[0, -1]]
+
+
+def test_a_body_that_is_deleted_after_it_has_touched_and_parted_is_told_of_no_more() -> None:
+    world = watched()
+    spawn(world, 'a/0', DISC)
+    spawn(world, 'a/1', DISC, (1.01, 0.0, 0.0), velocity=(-9.0, 0.0))
+    world.step(FRAME)
+    world.apply(Delete(name='a/1'))
+
+    assert world.contacts(world.snapshot()).pairs.shape == (0, 2)
+
+
+def test_bodies_that_a_request_wakes_before_the_frame_is_shown_keep_their_contacts() -> None:
+    world = watched(YARD)
+    spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0))
+    spawn(world, 'a/1', BOX, (0.0, 1.5, 0.0))
+    for _ in range(240):
+        frame(world)
+    spawn(world, 'ball/0', DISC, (5.0, 0.5, 0.0), velocity=(1.0, 0.0))
+    frame(world)
+    world.step(FRAME)
+    world.apply(Delete(name='a/1'))
+    contacts = world.contacts(world.snapshot())
+
+    assert contacts.pairs.tolist() == [[0, -1], [1, -1]]
+    assert contacts.normals == pytest.approx(np.array([(0.0, -1.0)] * 2), abs=1e-3)
+    assert contacts.points[0] == pytest.approx((0.0, 0.0), abs=0.01)

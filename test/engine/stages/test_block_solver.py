@@ -53,6 +53,14 @@ def test_an_impact_between_two_that_forces_do_not_move_leaves_others_solved(met)
     assert max(abs(each.poses[row, 2]) for each in steps(sim, 360)) < 1e-4
 
 
+def test_an_impact_where_no_velocity_is_kept_is_left_to_the_engine():
+    sim = simulation(damping=1.0, elasticity=0.5)
+    floor(sim)
+    row = spawn(sim, 'box/0', Box(width=0.5, height=0.5), (0.0, 0.255, 0.0), velocity=(0.0, -5.0))
+    (last,) = steps(sim, 1)
+    assert last.twists[row, 1] == pytest.approx(2.5, abs=0.01)
+
+
 def test_damping_and_a_boundary_change_nothing_in_that():
     sim = simulation(elasticity=0.5)
     sim.perform(Configure(changes={'damping': 0.9, 'bounds': (-9.0, 0.0, 9.0, 9.0)}))

@@ -6,7 +6,7 @@
 import math
 
 import numpy as np
-from physsim_ros.model.shapes import Box
+from physsim_ros.model.shapes import Box, Disc
 import pytest
 
 from ...laws.scenes import NOWHERE, simulation, spawn, steps
@@ -35,8 +35,15 @@ def _pairs(gap, speed):
 
 
 def test_squares_that_part_do_not_touch_again():
-    *_, last = steps(_pairs(gap=0.2, speed=0.3), 60)
-    assert np.abs(last.twists[::2]).max() == 0.0
+    sim = _pairs(gap=0.2, speed=0.3)
+    # Discs touch a wall in the same steps.
+    spawn(sim, 'wall/0', Box(width=1.0, height=200.0), (-9.0, 0.0, 0.0), anchored=True)
+    for number in range(60):
+        place = (-9.6 - number / 24, number, 0.0)
+        spawn(sim, f'disc/{number}', Disc(radius=0.1), place, velocity=(10.0, 0.0))
+    *_, last = steps(sim, 60)
+    assert np.abs(last.twists[: 2 * PAIRS : 2]).max() == 0.0
+    assert last.twists[-60:, 0] == pytest.approx(-5.0, rel=1e-3)
 
 
 @pytest.mark.parametrize('speed', [-2.3, -9.0])

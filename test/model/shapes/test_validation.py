@@ -101,6 +101,7 @@ OUTLINES = {
     'on a line': ((0.0, 0.0), (1.0, 1.0), (2.0, 2.0)),
     'on a slanted line': ((0.0, 0.0), (0.1, 0.3), (0.2, 0.6), (0.7, 2.1)),
     'there and back': ((0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (1.0, 0.0)),
+    'micrometres wide': ((0.0, 0.0), (1e-5, 1.9e-5), (2e-5, 0.0), (1e-5, 2e-5)),
     'bow tie': ((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)),
     'lopsided bow tie': ((0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 1.0)),
     'pentagram': tuple((math.cos(0.8 * math.pi * k), math.sin(0.8 * math.pi * k))
@@ -142,11 +143,10 @@ def test_an_outline_that_is_none_is_refused(
         ('bow tie', 'the outline crosses or touches itself'),
         ('lopsided bow tie', 'the outline crosses or touches itself'),
         ('pentagram', 'the outline crosses or touches itself'),
+        ('micrometres wide', 'the outline cannot be split into convex parts'),
     ],
 )
-def test_an_outline_that_crosses_itself_is_told_from_one_without_area(
-    name: str, reason: str
-) -> None:
+def test_the_refusal_of_an_outline_has_the_reason(name: str, reason: str) -> None:
     with pytest.raises(BadOutline) as refused:
         Polygon(outline=OUTLINES[name])
     assert str(refused.value) == reason
