@@ -92,7 +92,7 @@ class RigidBody:
     def pose(self, pose: Pose) -> None:
         self.pm_body.angle = pose[2]
         self.pm_body.position = local_to_world(self.offset, pose)
-        self._reindex()
+        index_at_rest(self.pm_body)
 
     def covers(self, point: Point) -> bool:
         """Return whether a point of the world lies in the body where it is now, edge included."""
@@ -127,11 +127,6 @@ class RigidBody:
         self.pm_body.velocity = twist[0] + ahead[0], twist[1] + ahead[1]
         self.pm_body.angular_velocity = twist[2] + ahead[2]
         self.free = free
-
-    def _reindex(self) -> None:
-        """Index the body in the broad phase where it is now."""
-        if self.pm_body.space is not None:
-            index_at_rest(self.pm_body)
 
 
 def index_at_rest(pm_body: pymunk.Body, *, ahead: float = 0.0) -> None:

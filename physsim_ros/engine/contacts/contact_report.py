@@ -266,8 +266,6 @@ class ContactReport:
             manifolds = np.concatenate((manifolds, self._last.of_pairs(parted)), axis=1)
         self._last.end_frame(self._ids, manifolds[:, : len(self._ids)])
         self._sums = np.zeros(self._sums.shape)
-        if len(table.bodies) == 0 or len(touching) == 0:
-            return replace(NO_CONTACTS, steps=steps)
         if self._listing is None or not self._listing.is_of(touching, table):
             self._listing = list_pairs(touching, table)
         contacts, pointless = self._listing.merge_contacts(manifolds, sums, len(self._ids))

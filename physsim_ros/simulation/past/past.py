@@ -375,8 +375,7 @@ class Past:
             self.reports.append(Answer(topic='history', message=message))
         self.course, self._era = line.course, line.era
         for frame in line.ghost:
-            if frame.snapshot.step >= timeline.history.oldest:
-                self.frame_cache.add_frame(frame)
+            self.frame_cache.add_frame(frame)
         self._lines.drop(line)
         return left, frames
 

@@ -161,9 +161,7 @@ def _members(
 
 
 def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
-    """Refuse a joint of a body with itself, of a robot, or of two bodies that are not dynamic."""
-    if a == b:
-        raise BadProperty(f'{a} cannot be joined to itself', field='b', body=a)
+    """Refuse a joint of a robot, or of two bodies that are not dynamic."""
     bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
     for field, body in zip('ab', bodies, strict=False):
         if body.robot is not None:
