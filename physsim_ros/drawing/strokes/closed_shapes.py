@@ -86,15 +86,8 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     # Independent of the corners: a rectangle may have a bent side or a round corner.
     corners, off = fitting.rectangle_of(wide)
     off /= size
-    # Logistic regression on hand-drawn ellipses and outlines with straight sides.
-    evidence = (
-        _EVIDENCE
-        + _SIDES * math.log(max(min(residual, off), _EXACT))
-        - _ELLIPSE * math.log(max(error, _EXACT))
-        + _BULGE * _bulge(wide, at)
-        + _THIN * math.log(min(max(aspect, _EXACT) / _PLANK, 1.0))
-    )
-    edgeless = rises(evidence, 0.0, 1.0)
+    sides = min(residual, off)
+    edgeless = _edgelessness(sides=sides, error=error, aspect=aspect, bulge=_bulge(wide, at))
     circle = edgeless * _winds_once(outline - ellipse.center) * falls(error, 0.085, 0.01)
     sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
     circular = rises(aspect, _CIRCULAR, 0.02)
@@ -127,6 +120,27 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     if along is not None:
         # Neither round nor sided: a polygon along the stroke.
         yield Hypothesis(primitive=POLYGON, weight=broad * free, points=along)
+
+
+def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) -> float:
+    """
+    Return the probability that an outline is an ellipse, and not one with straight sides.
+
+    Logistic regression on hand-drawn outlines of both kinds.
+
+    :param sides: residual of straight sides, in shares of the size
+    :param error: residual of the ellipse, in shares of the size
+    :param aspect: of the ellipse
+    :param bulge: of the sides
+    """
+    evidence = (
+        _EVIDENCE
+        + _SIDES * math.log(max(sides, _EXACT))
+        - _ELLIPSE * math.log(max(error, _EXACT))
+        + _BULGE * bulge
+        + _THIN * math.log(min(max(aspect, _EXACT) / _PLANK, 1.0))
+    )
+    return rises(evidence, 0.0, 1.0)
 
 
 def disc_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:

@@ -318,24 +318,18 @@ class _Step:
         gaps = self._gaps(rows)
         # Parts of gaps that are too wide to be closed in one step.
         left = gaps - np.minimum(np.maximum(gaps, -most), most)
-        impulses, count = np.zeros(len(self._of_row)), len(self._islands)
-        # Of each island the iterate of the least error.
-        best, best_impulses = bodies.poses.copy(), impulses
-        least = np.full(count, np.inf)
+        impulses = np.zeros(len(self._of_row))
+        best = _BestIterates(self._system, bodies.poses, impulses)
         for number in range(MOST_STEPS + 1):
             gaps = self._gaps(rows) - left
             ways = self._system.rates(normals, bodies.poses - start)
             distance = apart + ways[self._normals]
             errors = np.concatenate((np.abs(gaps), -np.minimum(distance, 0.0)))
             of_row = self._of_row[: len(errors)]
-            sums = np.zeros(count)
+            sums = np.zeros(len(self._islands))
             np.add.at(sums, of_row, errors)
-            better = sums < least
-            least = np.minimum(sums, least)
-            of_body = better[self._islands]
-            best[of_body] = bodies.poses[of_body]
-            best_impulses = np.where(better[self._of_row], impulses, best_impulses)
-            wide = np.zeros(count, np.bool_)
+            best.keep_better(sums, bodies.poses, impulses)
+            wide = np.zeros(len(sums), np.bool_)
             wide[of_row[errors > (CLOSED if number else NEGLIGIBLE)]] = True
             if number == MOST_STEPS or not np.count_nonzero(wide):
                 break
@@ -346,10 +340,10 @@ class _Step:
             bodies.poses[:] += solution.changes * share[self._islands][:, None]
             impulses = impulses + solution.impulses * share[self._of_row]
             rows = joints.read(bodies.poses)
-        if not np.count_nonzero(best_impulses):
+        if not np.count_nonzero(best.impulses):
             return
-        bodies.poses[:] = best
-        self._remove_velocity(best - pushed, rows, best_impulses)
+        bodies.poses[:] = best.poses
+        self._remove_velocity(best.poses - pushed, rows, best.impulses)
 
     def _gaps(self, rows: JointRows) -> Floats:
         """Return (j,) float64: C of the rows of joints that hold, less the slop of limits."""
@@ -433,6 +427,29 @@ class _Step:
         impulses = contacts.impulses
         impulses[0] += given[self._normals]
         contacts.write_impulses(impulses)
+
+
+class _BestIterates:
+    """
+    The iterate of the least error, island by island.
+
+    :param system: of all rows
+    :param poses: (b, 3) float64: the first iterate [m, rad]
+    :param impulses: (r,) float64: λ of its displacement [kg m, kg m²]
+    """
+
+    def __init__(self, system: SaddlePoint, poses: Floats, impulses: Floats) -> None:
+        self._islands, self._of_row = system.islands, system.island_of_row
+        self.poses, self.impulses = poses.copy(), impulses
+        self._least = np.full(len(self._islands), np.inf)
+
+    def keep_better(self, errors: Floats, poses: Floats, impulses: Floats) -> None:
+        """Keep an iterate in the islands where its error, (b,) float64 [m, rad], is the least."""
+        better = errors < self._least
+        self._least = np.minimum(errors, self._least)
+        of_body = better[self._islands]
+        self.poses[of_body] = poses[of_body]
+        self.impulses = np.where(better[self._of_row], impulses, self.impulses)
 
 
 def _first_sides(problem: Problem, guess: Floats) -> Ints:

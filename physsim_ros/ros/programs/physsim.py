@@ -110,18 +110,9 @@ class _Usage(ArgumentParser):
         return super().format_help() + physsim_help()
 
 
-def main() -> None:
-    """Run the node until it is interrupted."""
-    open_closed_streams()
-    watch = TerminationWatch()
-    reduce_latency()
-    limit_fragmentation()
-    # ROS and the engine take a second to import, during which a signal is received already.
-    from physsim_ros.model.errors import PhysSimError
-    from physsim_ros.ros.node import PhysSimNode
-    from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
+def _initialise() -> None:
+    """Initialise ROS by the command line; end the program where that is refused."""
     import rclpy
-    from rclpy.experimental import EventsExecutor
     from rclpy.impl.implementation_singleton import rclpy_implementation
     from rclpy.signals import SignalHandlerOptions
     from rclpy.utilities import remove_ros_args
@@ -145,6 +136,22 @@ def main() -> None:
         # rcl raises it for invalid arguments, and where it cannot write its log.
         hint = '; ROS_LOG_DIR names another' if 'log directory' in str(error) else ''
         sys.exit(f'physsim: {error}{hint}')
+
+
+def main() -> None:
+    """Run the node until it is interrupted."""
+    open_closed_streams()
+    watch = TerminationWatch()
+    reduce_latency()
+    limit_fragmentation()
+    # ROS and the engine take a second to import, during which a signal is received already.
+    from physsim_ros.model.errors import PhysSimError
+    from physsim_ros.ros.node import PhysSimNode
+    from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
+    import rclpy
+    from rclpy.experimental import EventsExecutor
+
+    _initialise()
     try:
         node = PhysSimNode()
     except PhysSimError as error:
