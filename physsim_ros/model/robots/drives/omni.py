@@ -12,7 +12,11 @@ from typing import ClassVar
 from physsim_ros.model.robots.drives.drive import Drive, within
 from physsim_ros.model.transform import Pose, Twist
 
-_ANGLES = tuple(math.radians(angle) for angle in (60.0, 180.0, 300.0))
+_ANGLES = {
+    'wheel_1_joint': math.radians(60.0),
+    'wheel_2_joint': math.radians(180.0),
+    'wheel_3_joint': math.radians(300.0),
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,8 +30,8 @@ class Omni(Drive):
         """Return the wheels that drive, by the name of their joint."""
         # A wheel rolls along the tangent of the circle, its rollers along the radius.
         return {
-            f'wheel_{number}_joint': (-math.sin(angle), math.cos(angle), self.track / 2)
-            for number, angle in enumerate(_ANGLES, 1)
+            joint: (-math.sin(angle), math.cos(angle), self.track / 2)
+            for joint, angle in _ANGLES.items()
         }
 
     @property
