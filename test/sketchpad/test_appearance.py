@@ -118,3 +118,21 @@ def test_the_grid_far_from_the_origin_has_no_line_beside_the_page(
     assert len(far) == len(near) > 50
     assert all(0 <= x <= 1200.5 and 0 <= y <= 800.5 for x, y in far)
     sheet.close()
+
+
+def test_on_a_small_page_a_panel_lies_beside_what_is_said_and_a_plot_over_both(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address, viewport={'width': 600, 'height': 400})
+    sheet.begin()
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.wait_for()
+    hint = sheet.page.locator('#hint').bounding_box()
+    left = panel.bounding_box()['x']
+    assert 60 < hint['width'] <= left - hint['x']
+    sheet.press('Large plot')
+    plot = sheet.page.get_by_role('img', name='Large plot').bounding_box()
+    assert min(plot['width'] / 3, plot['height']) > 100
+    sheet.close()

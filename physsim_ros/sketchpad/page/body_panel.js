@@ -16,6 +16,7 @@ const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Fri
   ['elasticity', 'Bounciness', 0, 1, 0.05]];
 const STEP_OF_DIAL = Math.PI / 12; // rad
 const COVERED = 80; // px: nearer to the edge of the panel, or beneath it, a body is covered
+const BOTH = 720; // px: least width of a page with room for a panel and a lesson
 const BESIDE = 0.5; // m: where a copy is put
 
 export class BodyPanel {
@@ -174,8 +175,7 @@ export class BodyPanel {
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})),
       iconButton('Close', 'close', () => this.app.selection.select([]))), ...content);
     this.element.hidden = false;
-    // On a narrow page, there is no room for both and the world.
-    if (this.app.camera.narrow) this.app.lessons.card.open = false;
+    if (this.app.camera.width < BOTH) this.app.lessons.card.open = false;
     // The panel of the same body stays where it was scrolled to.
     const subject = title + name;
     if (subject !== this.subject) this.element.scrollTop = 0;
