@@ -265,7 +265,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._handle_pages()
         self._submit_commands()
         frames: tuple[Frame, ...] = ()
-        if not self.fleet.is_waiting:
+        # While time goes back, no command counts, and controllers may be silent.
+        if self.simulation.speed < 0.0 or not self.fleet.is_waiting:
             frames = self.simulation.advance(
                 now_ns,
                 is_overdue=lambda: (

@@ -51,8 +51,8 @@ class Fleet:
         self._scene: Scene | None = None
         self.view: View | None = None
         self._look_due = 0.0
-        # Steady time until which a command is waited for [s]; None is none.
-        self._deadline: float | None = None
+        # Steady time since which a command is waited for [s]; None is none.
+        self._waiting_since: float | None = None
 
     def wants_contacts(self) -> bool:
         """Return whether a bumper has subscribers."""
@@ -113,16 +113,25 @@ class Fleet:
         Whether the world waits for the commands that answer the last scans (`lockstep`).
 
         Only robots whose commands are stamped are waited for, and no longer than `lockstep` by
-        the wall from the first time it is asked.
+        the wall from the first time it is asked; then no answer to these scans is expected.
         """
         longest = self._values['lockstep']
         if not longest or not any(each.commands.is_awaited for each in self.robots.values()):
-            self._deadline = None
+            self._waiting_since = None
             return False
         now = time.monotonic()
-        if self._deadline is None:
-            self._deadline = now + longest
-        return now < self._deadline
+        if self._waiting_since is None:
+            self._waiting_since = now
+        if now < self._waiting_since + longest:
+            return True
+        self._expect_no_answers()
+        return False
+
+    def _expect_no_answers(self) -> None:
+        """End the wait for commands that answer the scans up to now."""
+        self._waiting_since = None
+        for robot in self.robots.values():
+            robot.commands.awaited = None
 
     # Frames
 
@@ -137,14 +146,13 @@ class Fleet:
         frozen = frame.past and self._values['robots_in_past'] == 'freeze'
         if frozen or (before is not None and snapshot.stamp < before.stamp):
             # The scan that was to be answered is of a time that is not shown.
-            for robot in self.robots.values():
-                robot.commands.awaited = None
+            self._expect_no_answers()
         if snapshot.scene is not self._scene:
             self._scene = snapshot.scene
             self._update(snapshot.scene)
         if stands or frozen or not self.robots:
             return
-        self._deadline = None
+        self._waiting_since = None
         rows = snapshot.scene.robot_rows
         for number, (row, robot) in enumerate(
             zip(rows.tolist(), self.robots.values(), strict=True)

@@ -22,7 +22,7 @@ from sensor_msgs.msg import Image, Imu, JointState, LaserScan, Range
 from std_msgs.msg import Bool
 
 from .driver import Driver, yaw_of
-from ..journey import Journey
+from ..journey import Journey, SECOND
 from ...client import Client, set_parameter
 
 
@@ -393,6 +393,28 @@ def test_a_frozen_past_does_not_wait_for_an_answer(waiting: PhysSim) -> None:
     assert not waiting.node.fleet.is_waiting
     waiting.run(0.4)
     assert not waiting.node.fleet.is_waiting
+
+
+def test_each_scan_is_waited_for_once(waiting: PhysSim) -> None:
+    # The wait of 1,000 s becomes a short one, which ends.
+    set_parameter(waiting, 'lockstep', 1e-6)
+    waiting.wait_until(lambda: not waiting.node.fleet.is_waiting)
+    set_parameter(waiting, 'lockstep', 1e3)
+    assert not waiting.node.fleet.is_waiting
+    # A frame without a scan.
+    waiting.step()
+    assert not waiting.node.fleet.is_waiting
+    set_parameter(waiting, 'lockstep', 0.0)
+    waiting.run(0.2)
+    set_parameter(waiting, 'lockstep', 1e3)
+    assert waiting.node.fleet.is_waiting
+
+
+def test_a_rewind_does_not_wait_for_a_controller_that_is_silent(waiting: PhysSim) -> None:
+    set_parameter(waiting, 'speed', -1.0)
+    for frame in range(40):
+        waiting.node.tick(round(1e12 + frame * SECOND / 60))
+    assert waiting.time == pytest.approx(0.4, abs=0.05)
 
 
 def test_commands_without_a_stamp_are_not_waited_for(waiting: PhysSim) -> None:
