@@ -45,6 +45,16 @@ LABELS = """async () => {
     return [drawn, measured];
 }"""
 
+# Note the lowest place of each text that is drawn [px].
+LOWEST = """() => {
+    const {prototype} = CanvasRenderingContext2D, original = prototype.fillText;
+    window.lowest = {};
+    prototype.fillText = function (text, x, y) {
+        lowest[text] = Math.max(lowest[text] ?? 0, y);
+        original.call(this, text, x, y);
+    };
+}"""
+
 
 def test_a_label_that_is_larger_than_its_body_is_on_no_other_and_is_measured_once(
     chromium: Any, address: str
@@ -135,4 +145,15 @@ def test_on_a_small_page_a_panel_lies_beside_what_is_said_and_a_plot_over_both(
     sheet.press('Large plot')
     plot = sheet.page.get_by_role('img', name='Large plot').bounding_box()
     assert min(plot['width'] / 3, plot['height']) > 100
+    sheet.close()
+
+
+def test_the_number_of_a_weight_is_above_the_bar(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    sheet.page.evaluate(LOWEST)
+    sheet.press('Show forces')
+    sheet.wait('"9.81 N" in lowest')
+    bar = sheet.page.get_by_role('contentinfo').bounding_box()
+    assert bar['y'] - 40 < sheet.page.evaluate('lowest["9.81 N"]') < bar['y']
     sheet.close()

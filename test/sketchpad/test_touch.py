@@ -96,6 +96,18 @@ def test_a_finger_beside_a_body_means_that_body(chromium: Any, address: str) -> 
     sheet.close()
 
 
+def test_the_first_tap_of_a_circle_leaves_a_mark(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    sheet.press('Circle')
+    x, y = sheet.place(1.0, 6.0)
+    sheet.page.touchscreen.tap(x, y)
+    mark = sheet.page.evaluate('([x, y]) => physsim.toWorld(x, y)', [x + 4, y])
+    sheet.until(lambda: sheet.color_at(*mark) == [11, 98, 196], 'a mark')
+    sheet.page.keyboard.press('Escape')
+    sheet.close()
+
+
 def test_a_finger_that_stays_on_a_button_asks_what_it_does(chromium: Any, address: str) -> None:
     sheet = Sheet(chromium, address, has_touch=True)
     sheet.begin()

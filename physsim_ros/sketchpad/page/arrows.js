@@ -173,7 +173,9 @@ function drawArrow(view, from, x, y, scale, most, color, text, labels, width = 2
   /** @type {Point} */
   const tip = [from[0] + ux * length, from[1] + uy * length];
   view.arrow(from, tip, color, {width, cut: whole > most});
-  labels.push({text, color, x: tip[0], y: tip[1], ux, uy});
+  // What lies beyond the page has no number at its edge.
+  const {width: right, height: bottom} = view.camera, [left, top] = from;
+  if (left > 0 && left < right && top > 0 && top < bottom) labels.push({text, color, x: tip[0], y: tip[1], ux, uy});
   return tip;
 }
 
@@ -187,9 +189,9 @@ function drawLabels(view, labels) {
   const taken = [];
   view.ctx.font = FONT;
   for (const {text, color, x, y, ux, uy} of labels) {
-    const half = view.ctx.measureText(text).width / 2, {left: least} = view.insets;
-    const cx = Math.min(Math.max(x + ux * (BETWEEN + half), least + half + 4), view.camera.width - half - 4);
-    const cy = y + uy * (BETWEEN + 8);
+    const half = view.ctx.measureText(text).width / 2, {insets, camera} = view;
+    const cx = Math.min(Math.max(x + ux * (BETWEEN + half), insets.left + half + 4), camera.width - half - 4);
+    const cy = Math.min(Math.max(y + uy * (BETWEEN + 8), insets.top + 12), camera.height - insets.bottom - 12);
     const box = [cx - half, cy - 8, cx + half, cy + 8];
     if (taken.some(([left, top, right, bottom]) => box[0] < right && left < box[2] && box[1] < bottom && top < box[3])) continue;
     taken.push(box);

@@ -10,6 +10,7 @@ import {onGrid} from '../snapping.js';
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
 const DRAG = 6; // px: farther than that, letting go is a click too
+const MARK = 4; // px: radius of a point that was clicked
 const CLOSE = 12; // px around the first corner of a polygon
 /** @type {Record<string, number>} */
 const CLICKS = {rectangle: 3, polygon: Infinity, anchor: 1, release: 1, pin: 1, axle: 1, delete: 1};
@@ -124,6 +125,8 @@ export class ClickTool {
       view.line([p, q, [q[0] + dx, q[1] + dy], [p[0] + dx, p[1] + dy], p], color);
     } else if (ARROWS.includes(this.id)) view.arrow(view.camera.toPage(...p), view.camera.toPage(...q), color);
     else view.line(points, color);
+    // A finger that is lifted leaves nothing else.
+    for (const {at} of this.points) view.ring(at, MARK, color);
     if (this.id === 'polygon') view.ring(p, CLOSE, color);
     const [x, y] = this.last.page, size = this.#sizeOf(points);
     if (size) view.write(size, [x + 14, y - 14], color);
