@@ -302,14 +302,20 @@ def test_a_world_in_a_namespace_has_its_topics_there(physsim: PhysSim) -> None:
     context = Context()
     words = ['--ros-args', '-r', '__ns:=/b']
     rclpy.init(context=context, args=words, domain_id=physsim.context.get_domain_id())
-    node = PhysSimNode(context=context, parameter_overrides=[Parameter('viewer', value='none')])
+    values = {'viewer': 'none', 'world_file': 'boxes'}
+    overrides = [Parameter(name, value=value) for name, value in values.items()]
+    node = PhysSimNode(context=context, parameter_overrides=overrides)
+    node.advance_frame()
     published = {each.topic_name for each in node.publishers}
+    robots = {topic for topic in published if 'robot_0' in topic}
     heard = {each.topic_name for each in node.subscriptions}
     node.destroy_node()
     rclpy.shutdown(context=context)
-    assert published - {'/rosout', '/parameter_events'} == {
+    assert published - robots - {'/rosout', '/parameter_events'} == {
         topic if topic == '/diagnostics' else f'/b{topic}' for topic in TYPES
     }
+    assert '/b/robot_0/scan' in robots
+    assert all(topic.startswith('/b/robot_0/') for topic in robots)
     assert heard >= {f'/b{topic}' for topic in REQUESTS}
 
 

@@ -73,7 +73,8 @@ class RobotTopics:
         self._world_frame = world_frame
         namespace = robot.namespace_of(body)
         self._frames = RobotFrames(namespace, robot_tf)
-        self._below = f'/{namespace}/' if namespace else '/'
+        root = node.get_namespace().rstrip('/')
+        self._below = f'{root}/{namespace}/' if namespace else f'{root}/'
         self._publishers: list[Publisher] = []
         self._odometry = self._publisher(Odometry, 'odom')
         self._truth = self._publisher(Odometry, 'ground_truth')
