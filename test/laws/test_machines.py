@@ -106,6 +106,23 @@ def test_as_many_balls_leave_the_cradle_as_came(report, swung, gap):
         report.check(17, f'cradle, {swung} swung, {apart}, speed', vx, exact, 0.02, 'v')
 
 
+@pytest.mark.parametrize('speed', [30.0, 400.0])
+def test_balls_on_rods_between_elastic_walls_gain_no_energy(report, speed):
+    material = {'elasticity': 1.0, 'friction': 0.0}
+    sim = simulation(gravity=(0.0, 0.0), bounds=(-4.0, 0.4, 4.0, 5.0), **material)
+    for number in range(3):
+        x, vx = 0.606 * number, speed if number == 0 else 0.0
+        spawn(sim, f'ball/{number}', Disc(radius=0.3), (x, 1.4, 0.0), velocity=(vx, 0.0))
+        points = [(x, 1.4), (x, 4.4)]
+        join(sim, f'joint/{number}', 'rod', points, a=f'ball/{number}', b='world')
+    before = energy(sim.world.snapshot())
+
+    most = max(energy(each) for each in steps(sim, 480))
+
+    gained = max(most / before - 1.0, 0.0)
+    report.check(17, 'balls on rods between walls, gained in 2 s', gained, 0.0, 1e-3, '–')
+
+
 def test_a_chain_does_not_stretch(report):
     sim, count, link = simulation(), 50, 0.2
     chain(sim, count, link)

@@ -14,7 +14,8 @@ is closed by a velocity becomes energy where joints and contacts contradict each
 1. *Velocities.* The impulses that the engine gave to these rows are taken back. Joints and
    contacts along their normals are solved without friction, friction then within its cone
    (staggered projections: Kaufman, Sueda, James and Pai, SIGGRAPH Asia 2008). Both are
-   projections, by which kinetic energy can only fall.
+   projections, by which kinetic energy can only fall; contacts that bounce can make it rise. An
+   island then has the greatest share of its bounces with which their impulses do no work.
 2. *Curvature.* A point on a circle leaves its tangent in half a step, so that rows are solved for
    J v = - dt / 2 (dJ/dt) v; without that a pendulum loses (w dt)^2 / 2 of its energy in a step.
    An island gets no more energy by this than the projection took, and none where contacts press.
@@ -207,20 +208,11 @@ class _Step:
         jacobian = np.concatenate((rows.jacobian, contacts.normals, contacts.tangents))
         given = self._per_row(joints.impulses(rows), *contacts.impulses)
         without = -system.momenta(jacobian, given) * bodies.inverse
-        targets = self._per_row(0.0, contacts.bounce, -contacts.slide)
-        wanted = targets - system.rates(jacobian, bodies.velocities + without)
-        lower, upper = self._joint_bounds(rows)
-        pressing = Problem(
-            jacobian,
-            wanted,
-            self._per_row(np.maximum(lower, -joints.most), 0.0, 0.0),
-            self._per_row(np.minimum(upper, joints.most), np.inf, 0.0),
-        )
-        even = np.full(len(wanted), VELOCITY_REGULARISATION)
-        solution = system.solve(pressing, _first_sides(pressing, given), even)
-        if len(contacts):
-            solution = self._solve_friction(pressing, solution, given, even)
-        solution = system.refine(pressing, solution)
+        rates = system.rates(jacobian, bodies.velocities + without)
+        bounce = contacts.bounce
+        solution = self._solve_impacts(jacobian, rates, bounce, given)
+        if np.count_nonzero(bounce > 0.0):
+            solution = self._without_gain(solution, jacobian, rates, bounce, given)
         changes = solution.changes
         more, bent = self._bend(jacobian, bodies.velocities + without + changes, solution)
         bodies.write_velocities(without + changes + bent)
@@ -229,6 +221,90 @@ class _Step:
         first = self._normals.start
         contacts.write_impulses(impulses[first:].reshape(2, -1))
         self._holding = joints.holding(joints.equal & (solution.sides[self._of_joints] != 0))
+
+    def _solve_impacts(
+        self, jacobian: Floats, rates: Floats, bounce: Floats, given: Floats
+    ) -> Solution:
+        """
+        Return the solution in velocities, friction included.
+
+        :param rates: (r,) float64: J v without impulses
+        :param bounce: (c,) float64: least velocities of contacts along their normals [m/s]
+        :param given: (r,) float64: λ of the engine
+        """
+        joints, contacts, system = self._joints, self._contacts, self._system
+        lower, upper = self._joint_bounds(self._rows)
+        pressing = Problem(
+            jacobian,
+            self._per_row(0.0, bounce, -contacts.slide) - rates,
+            self._per_row(np.maximum(lower, -joints.most), 0.0, 0.0),
+            self._per_row(np.minimum(upper, joints.most), np.inf, 0.0),
+        )
+        even = np.full(len(rates), VELOCITY_REGULARISATION)
+        solution = system.solve(pressing, _first_sides(pressing, given), even)
+        if len(contacts):
+            solution = self._solve_friction(pressing, solution, given, even)
+        return system.refine(pressing, solution)
+
+    def _without_gain(
+        self, elastic: Solution, jacobian: Floats, rates: Floats, bounce: Floats, given: Floats
+    ) -> Solution:
+        """Return a solution with bounces, less the share of them that would create energy."""
+        gained = self._gained(elastic, jacobian, rates, bounce)
+        gains = gained > 0.0
+        if not np.count_nonzero(gains):
+            return elastic
+        none = np.where(gains[self._of_row[self._normals]], np.minimum(bounce, 0.0), bounce)
+        plastic = self._solve_impacts(jacobian, rates, none, given)
+        lost = self._gained(plastic, jacobian, rates, bounce)
+        return self._share_bounce(elastic, plastic, gained, lost)
+
+    def _gained(
+        self, solution: Solution, jacobian: Floats, rates: Floats, bounce: Floats
+    ) -> Floats:
+        """
+        Return (b,) float64: of each island the work of the impulses of a solution [J].
+
+        Relative to the surfaces that touch, so that a kinematic body or a conveyor does none.
+
+        :param rates: (r,) float64: J v without the impulses
+        :param bounce: (c,) float64: of the contacts, whose approach may have been as fast [m/s]
+        """
+        before = rates + self._per_row(0.0, 0.0, self._contacts.slide)
+        after = before + self._system.rates(jacobian, solution.changes)
+        # The engine measures the approach before gravity and springs act on it.
+        approach = before[self._normals]
+        before[self._normals] = np.where(bounce > 0.0, np.minimum(approach, -bounce), approach)
+        work = solution.impulses * (before + after) / 2.0
+        # Weighted counts are float64, which the types of NumPy 2.4 do not say.
+        return np.bincount(self._of_row, work, len(self._islands))  # type: ignore[return-value]
+
+    def _share_bounce(
+        self, elastic: Solution, plastic: Solution, gained: Floats, lost: Floats
+    ) -> Solution:
+        """
+        Return the solution between two, in each island the one whose impulses do no work.
+
+        It meets the bounds of both, which are convex.
+
+        :param elastic: the solution with bounces
+        :param plastic: the same without those of islands that gain energy
+        :param gained: (b,) float64: work in the first, by island [J]
+        :param lost: (b,) float64: work in the second, by island [J]
+        """
+        changes = elastic.changes - plastic.changes
+        impulses = elastic.impulses - plastic.impulses
+        # Work is a quadratic function of the share: bend share² + slope share + lost.
+        energy = self._system.products(changes, changes) / 2.0
+        bend = np.bincount(self._islands, energy, len(self._islands))
+        lost = np.minimum(lost, 0.0)
+        slope = gained - lost - bend
+        root = slope + np.sqrt(slope * slope - 4.0 * bend * lost)
+        share = np.where(gained > 0.0, -2.0 * lost / np.maximum(root, 1e-300), 0.0)
+        return plastic._replace(
+            impulses=plastic.impulses + impulses * share[self._of_row],
+            changes=plastic.changes + changes * share[self._islands][:, None],
+        )
 
     def _joint_bounds(self, rows: JointRows) -> tuple[Floats, Floats]:
         """Return the least and the greatest λ of the rows of joints."""
