@@ -262,9 +262,21 @@ def check_point(point: Any, name: str) -> Point:
     :raises BadProperty: it is too far away
     """
     x, y = check_finite(point, 2, name)
-    if max(abs(x), abs(y)) > FARTHEST:
-        raise BadProperty(f'{name} is further away than {FARTHEST:g} m', field=name)
+    _check_near(x, y, name)
     return x, y
+
+
+def check_pose(pose: Any, name: str) -> Pose:
+    """
+    Return a pose that is finite and not too far away.
+
+    :raises Malformed: it is not three finite numbers
+    :raises BadProperty: it is too far away
+    """
+    x, y, yaw = check_finite(pose, 3, name)
+    _check_near(x, y, name)
+    _check_turn(yaw, name)
+    return x, y, yaw
 
 
 def check_yaw(yaw: Any, name: str) -> float:
@@ -276,21 +288,18 @@ def check_yaw(yaw: Any, name: str) -> float:
     :raises BadProperty: it is too large
     """
     (angle,) = check_finite((yaw,), 1, name)
-    if abs(angle) > FARTHEST:
-        raise BadProperty(f'the yaw of {name} is too large', field=name)
+    _check_turn(angle, name)
     return angle
 
 
-def check_pose(pose: Any, name: str) -> Pose:
-    """
-    Return a pose that is finite and not too far away.
+def _check_near(x: float, y: float, name: str) -> None:
+    if max(abs(x), abs(y)) > FARTHEST:
+        raise BadProperty(f'{name} is further away than {FARTHEST:g} m', field=name)
 
-    :raises Malformed: it is not three finite numbers
-    :raises BadProperty: it is too far away
-    """
-    x, y, yaw = check_finite(pose, 3, name)
-    check_point((x, y), name)
-    return x, y, check_yaw(yaw, name)
+
+def _check_turn(yaw: float, name: str) -> None:
+    if abs(yaw) > FARTHEST:
+        raise BadProperty(f'the yaw of {name} is too large', field=name)
 
 
 def check_key(key: object, known: list[str]) -> None:
@@ -325,8 +334,10 @@ class Checked:
             value = getattr(self, name)
             if value is None and self.__dataclass_fields__[name].default is None:
                 continue
-            # Frozen for everyone but its own constructor.
-            object.__setattr__(self, name, check(value, name))
+            kept = check(value, name)
+            if kept is not value:
+                # Frozen for everyone but its own constructor.
+                object.__setattr__(self, name, kept)
 
     def explicit(self) -> dict[str, Any]:
         """Return the fields that are set, by name, in the order of the checks."""
