@@ -79,7 +79,8 @@ def test_a_rewind_shows_the_messages_of_the_way_there(journey: Journey, client: 
     set_parameter(physsim, 'speed', -1.0)
     journey.tick(50)
     for topic, each in messages.items():
-        back = each[len(there[topic]) :]
+        count = len(there[topic])
+        back = each[count:]
         assert len(back) >= 4
         assert [message for message in back if message not in there[topic]] == []
 
