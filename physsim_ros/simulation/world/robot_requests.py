@@ -11,6 +11,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import BadProperty, Exists
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robot_states import NEVER
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import body_of_name, Done
@@ -44,7 +45,20 @@ def check_robot(space: Space, body: Body) -> None:
         return
     if space.joints.has_joints(body.name):
         raise BadProperty(f'{body.name} has joints; it cannot be a robot', field='robot')
-    check_namespaces((body, *(rigid.body for rigid in space.bodies.by_name.values())))
+    # Only of robots below one another, or of one namespace, can names be the same.
+    below, related = _prefix_of(body.robot, body.name), [body]
+    for name, rigid in space.bodies.by_name.items():
+        if (robot := rigid.body.robot) is not None:
+            prefix = _prefix_of(robot, name)
+            if prefix.startswith(below) or below.startswith(prefix):
+                related.append(rigid.body)
+    check_namespaces(related)
+
+
+def _prefix_of(robot: Robot, body: str) -> str:
+    """Return what the names of topics and frames of a robot begin with."""
+    namespace = robot.namespace_of(body)
+    return f'{namespace}/' if namespace else ''
 
 
 def check_namespaces(bodies: Iterable[Body]) -> None:
