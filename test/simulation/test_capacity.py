@@ -272,6 +272,23 @@ def test_joints_are_counted(monkeypatch: pytest.MonkeyPatch, *, in_all: bool) ->
     assert flooded(world, [Restore(state=state)]) == 1
 
 
+def test_topics_of_robots_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    drive, sensors = {'kind': 'omni'}, [{'kind': 'imu', 'name': f'imu{each}'} for each in range(3)]
+    topics = Properties(robot={'drive': drive}).robot.topics
+    monkeypatch.setattr(capacity, 'MOST_ROBOT_TOPICS', 2 * topics + 2)
+    world = row(2, robot={'drive': drive, 'sensors': sensors[:1]})
+    more = Properties(robot={'drive': drive, 'sensors': sensors})
+    requests = [
+        Spawn(name='b/0', shape=DISC, properties=Properties(robot={'drive': drive})),
+        ChangeBody(name='a/1', properties=more),
+    ]
+    assert flooded(world, requests) == 2
+    full = world.save()
+    assert flooded(World(settings=FEW), [Restore(state=full)]) == 0
+    monkeypatch.setattr(capacity, 'MOST_ROBOT_TOPICS', 2 * topics)
+    assert flooded(World(settings=FEW), [Restore(state=full)]) == 1
+
+
 def test_what_was_counted_for_a_shape_goes_with_it() -> None:
     discs = Compound(element=DISC, centers=((0.0, 0.0), (7.0, 0.0)))
     form = ref(discs.form)

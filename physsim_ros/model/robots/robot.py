@@ -106,6 +106,11 @@ class Robot(Checked):
             raise BadProperty('a robot needs a drive', field='drive')
         return cls(**mapping)
 
+    @property
+    def topics(self) -> int:
+        """Return the number of its topics."""
+        return len(OWN_TOPICS) + len(self.sensors)
+
     def namespace_of(self, body: str) -> str:
         """
         Return the namespace of its topics, without a slash at its beginning.

@@ -64,6 +64,7 @@ def spawn(live: LiveSpace, request: Spawn) -> Done:
         return Done(name, f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
     check_robot(space, body)
+    live.capacity.check_robot(body)
     live.capacity.check_body(body, pose)
     space.add(body, pose, twist)
     return Done(name, f'spawned {name}')
@@ -226,6 +227,7 @@ def _change(
     """Change fields and properties of a body, and its pose."""
     body = changed_body(old.body, changes, properties)
     check_robot(live.space, body)
+    live.capacity.check_robot(body)
     twist = REST if old.body.anchored else live.space.twist_of(old)
     twist = changed_twist(body, twist, properties)
     if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):

@@ -5,7 +5,8 @@
 Capacity: limits on the size of a world, checked before the engine changes.
 
 Law: a request is refused as `world_full` if the world would have more bodies, convex pieces,
-overlapping pairs of pieces or joints than its settings allow; so is a grip beyond `MOST_HANDS`.
+overlapping pairs of pieces or joints than its settings allow; so are a grip beyond `MOST_HANDS`
+and a robot beyond `MOST_ROBOT_TOPICS`.
 
 Overlaps are bounded from above: each body that is spawned or moved adds the pieces whose boxes its
 own boxes meet in the engine's tree. Only when this bound exceeds the limit, the overlaps of the
@@ -15,7 +16,7 @@ whole world are counted (`engine.overlaps`).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
@@ -25,7 +26,12 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
-from physsim_ros.model.settings import MOST_HANDS, MOST_JOINTS_ON_BODY, WorldSettings
+from physsim_ros.model.settings import (
+    MOST_HANDS,
+    MOST_JOINTS_ON_BODY,
+    MOST_ROBOT_TOPICS,
+    WorldSettings,
+)
 from physsim_ros.model.transform import Pose
 
 # Pairs of pieces of one body that cost as much as one contact [1]: the engine lists them too, and
@@ -113,6 +119,17 @@ class Capacity:
             raise _too_many(before + added, most)
         self._bound = before + added
 
+    def check_robot(self, body: Body) -> None:
+        """
+        Refuse a robot beyond `MOST_ROBOT_TOPICS`; a body of its name does not count.
+
+        :raises WorldFull: the robots would have too many topics
+        """
+        if self.checking and body.robot is not None:
+            bodies = self._space.bodies.by_name.items()
+            others = (rigid.body for name, rigid in bodies if name != body.name)
+            _check_topics((body, *others))
+
     def check_joint(self, joint: Joint) -> None:
         """
         Refuse a joint that exceeds a limit, unless it replaces the one of its name.
@@ -149,6 +166,7 @@ class Capacity:
         check_limit('max_bodies', len(state.bodies), state.settings)
         check_limit('max_shapes', pieces, state.settings)
         check_limit('max_joints', len(state.joints), state.settings)
+        _check_topics(each.body for each in state.bodies)
         ends = Counter(end for joint in state.joints for end in (joint.a, joint.b))
         for body, count in ends.items():
             _check_on_body(count, body)
@@ -198,6 +216,14 @@ def _check_on_body(count: int, body: str) -> None:
     if count > MOST_JOINTS_ON_BODY and body != WORLD:
         raise WorldFull(
             f'{body} would have {count} joints; a body has at most {MOST_JOINTS_ON_BODY}'
+        )
+
+
+def _check_topics(bodies: Iterable[Body]) -> None:
+    count = sum(body.robot.topics for body in bodies if body.robot is not None)
+    if count > MOST_ROBOT_TOPICS:
+        raise WorldFull(
+            f'the robots would have {count} topics; there are at most {MOST_ROBOT_TOPICS}'
         )
 
 
