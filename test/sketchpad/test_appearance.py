@@ -45,12 +45,14 @@ LABELS = """async () => {
     return [drawn, measured];
 }"""
 
-# Note the lowest place of each text that is drawn [px].
-LOWEST = """() => {
+# Note the lowest place of each text that is drawn, and where the last one ends at its right [px].
+PLACES = """() => {
     const {prototype} = CanvasRenderingContext2D, original = prototype.fillText;
     window.lowest = {};
+    window.ends = {};
     prototype.fillText = function (text, x, y) {
         lowest[text] = Math.max(lowest[text] ?? 0, y);
+        ends[text] = x + this.measureText(text).width;
         original.call(this, text, x, y);
     };
 }"""
@@ -148,12 +150,21 @@ def test_on_a_small_page_a_panel_lies_beside_what_is_said_and_a_plot_over_both(
     sheet.close()
 
 
-def test_the_number_of_a_weight_is_above_the_bar(chromium: Any, address: str) -> None:
+def test_numbers_beside_bodies_are_on_the_page(chromium: Any, address: str) -> None:
     sheet = Sheet(chromium, address)
     sheet.begin()
-    sheet.page.evaluate(LOWEST)
+    sheet.page.evaluate(PLACES)
     sheet.press('Show forces')
     sheet.wait('"9.81 N" in lowest')
     bar = sheet.page.get_by_role('contentinfo').bounding_box()
     assert bar['y'] - 40 < sheet.page.evaluate('lowest["9.81 N"]') < bar['y']
+    # And so is that of a place at the right edge.
+    sheet.press('Hand')
+    with sheet.dragging((4.0, 0.5), (7.9, 4.0)):
+        sheet.wait('Object.keys(ends).some(text => text.startsWith("at 7.9"))')
+        (end,) = sheet.page.evaluate(
+            'Object.keys(ends).filter(text => text.startsWith("at 7.9")).map(text => ends[text])'
+        )
+        assert 1100 < end < 1200
+    sheet.press('Undo')
     sheet.close()

@@ -358,6 +358,13 @@ def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, addre
     other = Sheet(chromium, address)
     other.press('Play')
     hint.get_by_text('take the hand').wait_for()
+    # At the beginning there is nothing to rewind.
+    sheet.begin()
+    sheet.press('Hand')
+    sheet.drag((0.0, 0.5), (0.0, 3.0))
+    sheet.wait('document.querySelector("#hint").className === "faded"')
+    sheet.press('Play')
+    hint.get_by_text('rewind').wait_for()
     other.close()
     sheet.close()
 

@@ -13,7 +13,7 @@ const STEPS = [
   ['draw', 'Draw a circle, a box, a line: it comes to life.', ''],
   ['play', 'Time is paused: press Play.', 'Play', ({paused}) => paused],
   ['throw', 'A small circle over two bodies is an axle. Or take the hand and throw one.', 'Hand'],
-  ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind'],
+  ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind', ({timeline: {oldest, now}}) => oldest < now],
   ['change', 'This is the past. Draw or move something here, and the future changes.', '', ({timeline: {newest, now}}) => now < newest],
   ['ghost', 'Dashed: what happened before. The ring on the time line returns there.', 'Play', ({timeline}) => Boolean(timeline.courses?.length)],
 ];

@@ -207,14 +207,15 @@ export class SceneView {
 
   /**
    * @param {string} text on a rim of paper
-   * @param {Point} at its begin, or its middle [px]
+   * @param {Point} at its begin, or its middle [px]; what begins on the page ends there, too
    * @param {string} color
    * @param {CanvasTextAlign} align
    */
   write(text, [x, y], color, align = 'left') {
-    const {ctx} = this;
+    const {ctx, camera} = this;
     ctx.font = '13px system-ui, sans-serif';
     ctx.textAlign = align;
+    if (align === 'left' && x < camera.width) x = Math.min(x, camera.width - ctx.measureText(text).width - 4);
     ctx.lineJoin = 'round';
     ctx.lineWidth = 4;
     ctx.strokeStyle = this.palette.paper;
