@@ -113,7 +113,8 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         nargs=2,
         default=(0.0, 0.0),
         metavar=('X', 'Y'),
-        help='position of the lower left corner of the drawing [m] (default: the origin)',
+        help='where the origin of the drawing goes [m]: the lower left corner of the page of an '
+        'SVG file, [0, 0] of a JSON file (default: the origin of the frame)',
     )
     parser.add_argument(
         '--speed', type=_positive, default=4.0, help='of the pen [m/s] (default: %(default)g)'
