@@ -199,6 +199,7 @@ def test_a_page_that_comes_again_with_its_key_is_the_same_person(browser: Browse
         page.until(lambda page=page: page.of_type('class'))
         assert ('Page 1', 'draw') not in people(page)
         assert page.ask('person', name='Page 1')['code'] == 'bad_property'
+        assert page.ask('person', name='Page Smith')['ok']
         page.close()
     last = browser.open_page(f'/ws?view&person={key}')
     ben.until(lambda: people(ben) == [('Page 2', 'draw')])

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from functools import partial
+import re
 
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import BadProperty, NothingThere
@@ -28,7 +29,7 @@ def _patterns(value: object, name: str) -> tuple[str, ...]:
 @message('person', 'page', Right.DRAW, name=fields.person)
 def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     """Choose the name of the person at this page."""
-    if name.startswith(UNNAMED) and name != page.unnamed:
+    if name != page.unnamed and re.fullmatch(rf'{UNNAMED}\d+', name):
         raise BadProperty(f'{name} may be another person, who has no name', field='name')
     page.person = name
     page.answer_page(origin, f'you are {name}')
