@@ -41,6 +41,7 @@ from physsim_ros.simulation.request_handler import DeferredCalls, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import WorldControl
 from rclpy.context import Context
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.parameter import Parameter
 
 # Time after which a tick simulates no further publish period [ns]: requests, services and signals
@@ -72,13 +73,17 @@ class PhysSimNode(NodeWithoutQosEvents):
         namespace: str = '',
         parameter_overrides: list[Parameter] | None = None,
     ) -> None:
-        super().__init__(
-            'physsim',
-            context=context,
-            namespace=namespace,
-            parameter_overrides=parameter_overrides,
-            start_parameter_services=False,
-        )
+        try:
+            super().__init__(
+                'physsim',
+                context=context,
+                namespace=namespace,
+                parameter_overrides=parameter_overrides,
+                start_parameter_services=False,
+            )
+        except rclpy_implementation.RCLError as error:
+            # As for a namespace of the command line that is longer than a name of DDS may be.
+            raise PhysSimError(str(error)) from error
         self._closing = ExitStack()
         try:
             self._set_up()

@@ -299,6 +299,7 @@ def test_it_can_be_started_in_a_namespace_under_another_name(outside: Outside) -
         (['demo'], 2, 'usage: physsim'),
         (['-p', 'speed:=1.0'], 2, '--ros-args -p name:=value'),
         (['--ros-args', '--foo'], 1, "unknown arguments after --ros-args: ['--foo']"),
+        (['--ros-args', '-r', f'__ns:=/{"x" * 300}'], 1, 'physsim: error creating node: invalid'),
     ],
 )
 def test_it_says_how_it_is_told_things(
