@@ -163,10 +163,18 @@ class PreSolveHook:
         constraint = pymunk.RotaryLimitJoint(pm_space.static_body, body, -1.0, 1.0)
         constraint.pre_solve = lambda *_: self._before_solving()
         pm_space.add(constraint)
-        # In a step that is not made here, as for a warm start, there is nothing to do.
-        self._before_solving: Callable[[], None] = lambda: None
+        self._before_solving: Callable[[], None] = _do_nothing
 
     def step(self, dt: float, before_solving: Callable[[], None]) -> None:
-        """Make a step of the engine, with a call before its contacts are solved."""
+        """
+        Make a step of the engine, with a call before its contacts are solved.
+
+        Steps that are made elsewhere, as for a warm start, have no such call.
+        """
         self._before_solving = before_solving
         self._pm_space.step(dt)
+        self._before_solving = _do_nothing
+
+
+def _do_nothing() -> None:
+    pass
