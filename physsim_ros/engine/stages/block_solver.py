@@ -261,7 +261,8 @@ def _points_of(contact: Any, bodies: Mapping[Any, _MovedBody]) -> Iterator[_Impa
     """Return the points of a contact."""
     begins: bool = contact.state == lib.CP_ARBITER_STATE_FIRST_COLLISION
     normal = complex(contact.n.x, contact.n.y)
-    for place in range(contact.count):
+    # Far away a distance can be lost in rounding, and with it the direction.
+    for place in range(contact.count if normal else 0):
         point = contact.contacts[place]
         levers = (
             _lever_of(bodies[contact.body_a], -normal, point.r1),

@@ -8,7 +8,7 @@ import random
 
 import numpy as np
 from physsim_ros.model.requests import Configure
-from physsim_ros.model.shapes import Box, Compound, Disc
+from physsim_ros.model.shapes import Box, Compound, Disc, Polygon
 import pytest
 
 from ...laws.scenes import energy, floor, NOWHERE, run, simulation, spawn, steps, turned
@@ -108,6 +108,19 @@ def test_a_thousand_points_of_one_face_are_its_two_ends():
         heights.append(each.poses[row, 1])
         assert abs(each.poses[row, 2]) < 1e-4
     assert max(heights[130:]) == pytest.approx(0.05 + 0.25, abs=0.01)
+
+
+def test_a_contact_without_a_direction_leaves_others_solved():
+    # 10,000 km away a distance of less than 2 nm is none, and the engine's normal is 0.
+    sim, away = simulation(gravity=NOWHERE), (0.0, 1e7, 0.0)
+    spawn(sim, 'thin/0', Box(width=0.001, height=0.1), away, spin=-1e5)
+    spawn(sim, 'disc/0', Disc(radius=5000.0), away)
+    slope = Polygon(outline=((0.0, 0.0), (100.0, 0.0), (0.0, 100.0)))
+    spawn(sim, 'slope/0', slope, away, kinematic=True, friction=10.0)
+    hits = (-25.84229025034827, *away[1:])
+    row = spawn(sim, 'hits/0', Box(width=1.0, height=1.0), hits, mass=1e6, velocity=(1e5, 0.0))
+    *_, last = steps(sim, 4)
+    assert last.twists[row, 0] < 1e5
 
 
 # With some seeds the pile gains more, also without the block solver: see *Limits* in
