@@ -19,8 +19,8 @@ from tornado.web import HTTPError, StaticFileHandler
 _SCALE, _QUIET = 8, 4
 # The files that a browser runs.
 PAGE = Path(__file__).with_name('page')
-# What a browser does not need: descriptions, types of editors, lines that are comments, but for
-# the licence; and indentation, since no text of a script has several lines.
+# Parts of scripts that browsers do not need: descriptions, types of editors, lines that are
+# comments, but for the licence; and indentation, since no text of a script has several lines.
 _FOR_READERS = re.compile(
     rb'/\*\*.*?\*/|^[ \t]*//(?! SPDX)[^\n]*|^[ \t]+', re.DOTALL | re.MULTILINE
 )

@@ -139,7 +139,7 @@ def test_a_disc_rolls_over_a_bridge(report, ratio):
 
 
 def test_friction_that_is_not_found_is_left_out(monkeypatch):
-    # Where the engine's guess of what slides is not right at once.
+    # With one round, the engine's guess of the sliding contacts is not corrected.
     monkeypatch.setattr(joint_solver, 'FRICTION_ROUNDS', 1)
     sim, middle = bridge('axle', slack=0.1)
     put_load(sim, Box(width=0.8, height=0.4), 50.0, middle, velocity=(1.0, 0.0))

@@ -179,7 +179,7 @@ def test_the_tables_of_robots_have_every_key_of_drives_odometry_and_sensors():
         'drive': sorted({'kind', *drives}),
         'odometry': sorted(Odometry.CHECKS),
     }
-    # Where it is mounted is told of all.
+    # The key of the mount, `at`, is in the text, for all kinds.
     assert {of: sorted(keys) for of, keys in keys_of('\n### Sensors of a robot\n').items()} == {
         kind: sorted({*each.CHECKS} - {'at'}) for kind, each in SENSORS.items()
     }

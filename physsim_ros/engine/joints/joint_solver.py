@@ -265,7 +265,8 @@ class _Step:
         """
         Return (b,) float64: of each island the work of the impulses of a solution [J].
 
-        Relative to the surfaces that touch, so that a kinematic body or a conveyor does none.
+        Velocities are relative to the surfaces that touch: the work that a kinematic body or a
+        conveyor does is not counted.
 
         :param rates: (r,) float64: J v without the impulses
         :param bounce: (c,) float64: of the contacts, whose approach may have been as fast [m/s]

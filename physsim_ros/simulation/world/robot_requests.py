@@ -56,7 +56,7 @@ def check_robot(space: Space, body: Body) -> None:
 
 
 def _prefix_of(robot: Robot, body: str) -> str:
-    """Return what the names of topics and frames of a robot begin with."""
+    """Return the prefix of the names of topics and frames of a robot."""
     namespace = robot.namespace_of(body)
     return f'{namespace}/' if namespace else ''
 
