@@ -29,6 +29,11 @@ else
   unexport _ROS_WHEELS_BOOTSTRAP_COMPLETE
 endif
 
+# The core of the engine, and how it is compiled where only mistakes are looked for.
+CORE := $(wildcard physsim_ros/engine/core/*.[ch])
+BUILT := $(VENV)/.core-is-built
+STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -DCORE_SOURCES='""'
+
 # TypeScript's checker, for the types in the comments of the page.
 TSC := npx --yes --package=typescript -- tsc
 
@@ -40,7 +45,7 @@ help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
 	@echo "ARGS='...' is handed on, as in: make run ARGS='-p world_file:=car', make test ARGS=test/laws"
 
-run: $(STAMP)  ## start the demo world, and print the address of its page
+run: $(BUILT)  ## start the demo world, and print the address of its page
 	@echo 'The world starts. Ctrl-C ends it. Where to look:'
 	@echo '  the page  draw with pen, mouse and fingers, at the address below'
 	@echo '  Rerun     opens by itself where there is a display, else by the button Rerun of the page'
@@ -53,22 +58,22 @@ run: $(STAMP)  ## start the demo world, and print the address of its page
 PUPILS ?= 20
 ADDRESS ?= 0.0.0.0
 
-class: $(STAMP)  ## start a world for each pupil of a class, PUPILS=20, open to the network
+class: $(BUILT)  ## start a world for each pupil of a class, PUPILS=20, open to the network
 	@exec $(BIN)/physsim_class --pupils $(PUPILS) --address $(ADDRESS) --ros-args -p world_file:=free_fall -p speed:=0.0 $(ARGS)
 
 # A worker that a test takes down is replaced, but not without end.
 PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4
 
-test: $(STAMP)  ## run all tests but the slow ones: four minutes
+test: $(BUILT)  ## run all tests but the slow ones: four minutes
 	$(PYTEST) -m 'not slow' $(ARGS)
 
-test-all: $(STAMP)  ## run every test: a quarter of an hour
+test-all: $(BUILT)  ## run every test: a quarter of an hour
 	$(PYTEST) $(ARGS)
 
 # Side by side; ament's checks take a minute the first time, then look only at files that have changed.
-LINTS := lint-ruff lint-mypy lint-imports lint-style lint-page
+LINTS := lint-ruff lint-mypy lint-imports lint-style lint-core lint-page
 .PHONY: $(LINTS)
-lint: $(STAMP)  ## check style, types and imports
+lint: $(BUILT)  ## check style, types and imports
 	@$(MAKE) --no-print-directory --jobs=4 --output-sync --keep-going $(LINTS)
 lint-ruff:
 	$(BIN)/ruff check
@@ -79,21 +84,25 @@ lint-imports:
 	$(BIN)/lint-imports
 lint-style:
 	$(BIN)/python -m pytest -q -n0 test/style
+lint-core:
+	$(BIN)/clang-format --dry-run --Werror $(CORE)
+	$(BIN)/clang-tidy --quiet $(filter %.c,$(CORE)) -- $(STRICT)
+	@if command -v gcc >/dev/null; then gcc -fsyntax-only -O2 $(STRICT) $(filter %.c,$(CORE)); fi
 lint-page:
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
 
-bench: $(STAMP)  ## measure times against the bare engine
+bench: $(BUILT)  ## measure times against the bare engine
 	$(BIN)/python -m tools.bench $(ARGS)
 
-ablate: $(STAMP)  ## measure each stage of a step by leaving it out
+ablate: $(BUILT)  ## measure each stage of a step by leaving it out
 	$(BIN)/python -m tools.ablation $(ARGS)
 
-evaluate: $(STAMP)  ## measure how drawn strokes are read
+evaluate: $(BUILT)  ## measure how drawn strokes are read
 	$(BIN)/python -m tools.evaluation $(ARGS)
 
 # Draws the pictures of README and docs anew; needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
-gallery: $(STAMP)  ## draw the pictures of README and docs anew
+gallery: $(BUILT)  ## draw the pictures of README and docs anew
 	$(BIN)/python -m tools.gallery $(ARGS)
 
 # The site, from docs/ and the docstrings; any warning, as a link that leads nowhere, fails.
@@ -103,11 +112,11 @@ docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
 	@echo 'Open docs/_build/html/index.html'
 
 # MINUTES=30 and SEED=0 unless they are given.
-soak: $(STAMP)  ## disturb a world at random for MINUTES=30, with SEED=0
+soak: $(BUILT)  ## disturb a world at random for MINUTES=30, with SEED=0
 	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary $(ARGS)
 
 clean:  ## remove .venv and all that was built
-	rm -rf $(VENV) build install log dist docs/_build docs/api *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) physsim_ros/engine/core/*.so build install log dist docs/_build docs/api *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The lines of pip that say what it does now; what was there already, and from where, is left out.
@@ -120,8 +129,13 @@ $(STAMP): setup.py
 	@[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
 	@echo '2 of 2: packages into it, some 170, of which Rerun is the largest (170 MB); two or three minutes the first time.'
 	@set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --editable '.[$(EXTRAS)]' | $(PROGRESS)
+	@touch $@ $(BUILT)
+
+# What the package needs to run: the environment, and the core as its sources are now.
+$(BUILT): $(STAMP) $(CORE)
+	@$(BIN)/python setup.py --quiet build_ext --inplace
 	@touch $@
 
-$(VENV)/.with-docs: $(STAMP)
+$(VENV)/.with-docs: $(BUILT)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
 	@touch $@

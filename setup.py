@@ -4,15 +4,51 @@
 """The package as colcon and pip install it; the tools' settings are in pyproject.toml."""
 
 from glob import glob
+from importlib.util import find_spec
+import os
 from pathlib import Path
+import runpy
+import shutil
+import sys
 
-from setuptools import find_packages, setup
+from setuptools import Extension, find_packages, setup
+from setuptools.command.build_ext import build_ext
 
 PACKAGE = 'physsim_ros'
 SHARE = f'share/{PACKAGE}'
 
 # colcon --symlink-install runs a link to this file from its build tree, where no README is.
 SOURCE = Path(__file__).resolve().parent
+
+# The core of the engine: a plain shared library, without any Python in it.
+CORE = f'{PACKAGE}/engine/core'
+HASH = runpy.run_path(str(SOURCE / CORE / 'sources.py'))['hash_of_sources'](SOURCE / CORE)
+FLAGS = [
+    '-std=c11',
+    # The same bits by every compiler: no sum in another order, no fused multiply-add.
+    '-O2',
+    '-ffp-contract=off',
+    '-fno-math-errno',
+    '-fvisibility=hidden',
+]
+# Zig links the C library that its wheels are made for; see PEP 600, manylinux_2_28.
+ZIG = f'{sys.executable} -m ziglang cc -target x86_64-linux-gnu.2.28'
+
+
+class BuildCore(build_ext):
+    """Compile the core; where the machine has no C compiler, by that of the package ziglang."""
+
+    def run(self) -> None:
+        """Choose the compiler, and compile."""
+        if 'CC' not in os.environ and not any(map(shutil.which, ('cc', 'gcc', 'clang'))):
+            if find_spec('ziglang') is None:
+                sys.exit(
+                    f'{PACKAGE} is compiled in part, and this machine has no C compiler: '
+                    f'`apt-get install gcc`, or `{sys.executable} -m pip install ziglang`'
+                )
+            os.environ['CC'] = ZIG
+        super().run()
+
 
 setup(
     name=PACKAGE,
@@ -36,8 +72,23 @@ setup(
         'Topic :: Scientific/Engineering :: Physics',
     ],
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
+    ext_modules=[
+        Extension(
+            f'{PACKAGE}.engine.core._core',
+            sorted(glob(f'{CORE}/*.c')),
+            depends=glob(f'{CORE}/*.h'),
+            define_macros=[('CORE_SOURCES', f'"{HASH}"')],
+            extra_compile_args=FLAGS,
+            libraries=['m'],
+            # One binary for every Python, since it calls none.
+            py_limited_api=True,
+        )
+    ],
+    cmdclass={'build_ext': BuildCore},
     package_data={
         PACKAGE: ['py.typed'],
+        # Their declarations are those of Python, too.
+        f'{PACKAGE}.engine.core': ['chipmunk.h', 'core.h'],
         f'{PACKAGE}.ros.programs': ['*.xml'],
         f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*'],
     },
@@ -58,6 +109,8 @@ setup(
     python_requires='>=3.11',
     # Packages that package.xml cannot name; those of ROS come with a sourced installation.
     install_requires=[
+        # Calls the core; Pymunk needs it, too.
+        'cffi>=1.17',
         'numpy>=2',
         # Reads the images of maps; Rerun needs it, too.
         'Pillow>=10',
@@ -66,8 +119,7 @@ setup(
         'pymunk>=7.3,<8',
         'PyYAML',
         'rerun-sdk>=0.41,<0.42',
-        # Sparse factors without BLAS, for joints; its matrices are those of scipy.
-        'qdldl>=0.1.9,<0.2',
+        # Partitions maps into rectangles.
         'scipy>=1.13',
         # Reads SVG; pure Python, and needs nothing itself.
         'svgelements>=1.9,<2',
@@ -96,6 +148,9 @@ setup(
             'psutil',
             'pytest>=8',
             'pytest-xdist',
+            # Check the core.
+            'clang-format>=23,<24',
+            'clang-tidy>=23,<24',
             # With every rule selected, a new minor version of ruff is new rules.
             'ruff>=0.17,<0.18',
             'import-linter>=2.5,<3',

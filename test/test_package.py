@@ -168,12 +168,12 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
     extras = {str(each.marker) for each in requirements if each.marker is not None}
 
     named = {
+        'cffi',
         'numpy',
         'pillow',
         'pyarrow',
         'pymunk',
         'pyyaml',
-        'qdldl',
         'rerun-sdk',
         'scipy',
         'svgelements',

@@ -16,6 +16,8 @@ import numpy as np
 from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.ccd.fast_bodies import slow_bounds
+from physsim_ros.engine.core import dtype_of
+from physsim_ros.engine.core_world import address_of
 from physsim_ros.engine.graph_search import Rows
 from physsim_ros.engine.memory import place_of
 from physsim_ros.engine.scene_columns import columns_of
@@ -28,6 +30,7 @@ from pymunk._chipmunk_cffi import lib
 # A body beyond this position or speed is removed [m, m/s, rad, rad/s]; float64 resolves 0.1 mm
 # there.
 LOST = 1e12
+_BODY = dtype_of('Body')
 
 
 class BodyTable:
@@ -73,6 +76,13 @@ class BodyTable:
         places = (rigid.place for rigid in bodies)
         self.places = np.array([*places, place_of(background._body)], np.int64)  # noqa: SLF001
         self._by_place = np.argsort(self.places)
+        self.records = np.zeros(len(self.ids), _BODY)
+        self.records['engine'] = [
+            *(address_of(rigid.pm_body) for rigid in bodies),
+            address_of(background),
+        ]
+        self.records['dynamic'] = self.columns.dynamic
+        self.records['anchored'] = self.columns.anchored
         self._ascending = np.argsort(self.ids)
         self._sorted_ids = self.ids[self._ascending]
         self._state: Floats | None = None

@@ -190,8 +190,9 @@ def restore_checkpoint(
     table.write_state(checkpoint.state)
     for joint in checkpoint.scene.joints:
         space.joints.add(joint)
-    space.joints.set_impulses(checkpoint.memory.joints)
     space.joints.set_unstepped(checkpoint.unstepped)
+    space.lay_out_joints()
+    space.joints.set_impulses(checkpoint.memory.joints)
     for grip in checkpoint.grips:
         space.pipeline.mouse_joints.set_grip(grip)
     space.pipeline.floor.begin(table, checkpoint.memory.pushes)

@@ -36,7 +36,7 @@ from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.ccd.continuous import ContinuousCollision
 from physsim_ros.engine.ccd.hulls import Hulls
 from physsim_ros.engine.contacts.contact_report import ContactReport
-from physsim_ros.engine.joints.joint_set import JointSet
+from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.stages.block_solver import BlockSolver
 from physsim_ros.engine.stages.first_touch import correct_first_touches
 from physsim_ros.engine.stages.floor import Floor
@@ -60,7 +60,7 @@ class Pipeline:
     :param io: reads and writes its arrays
     :param shapes: numbers of its shapes
     :param bodies: the bodies in it, by name
-    :param joints: the joints in it
+    :param core: the core's part of it
     :param dt: length of a step [s]
     """
 
@@ -70,7 +70,7 @@ class Pipeline:
         io: BatchIO,
         shapes: ShapeIds,
         bodies: Mapping[str, RigidBody],
-        joints: JointSet,
+        core: CoreWorld,
         *,
         dt: float,
     ) -> None:
@@ -83,7 +83,7 @@ class Pipeline:
         self._impact_propagation = ImpactPropagation(pm_space, io)
         self._block_solver = BlockSolver(pm_space)
         self.contact_report = ContactReport(io)
-        self._joints = joints
+        self._core = core
         self._pm_space = pm_space
         self._hook = PreSolveHook(pm_space)
         self._shapes = shapes
@@ -118,10 +118,10 @@ class Pipeline:
         self.floor.pull_bodies(context)
         self.continuous_collision.clamp_moves(context)
         tighten_boxes(context)
-        self._joints.begin_step(context)
+        self._core.prepare_joints()
         self._hook.step(self._dt, lambda: self._before_solving(context))
         table.forget_state()
-        self._joints.end_step(context)
+        self._core.solve_joints()
         self.floor.end_step(context)
         self.half_step.find_free(context)
         keep_flying_awake(context)

@@ -19,6 +19,7 @@ from physsim_ros.engine.body import RigidBody, same_in_engine
 from physsim_ros.engine.body_set import BodySet
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
+from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.pipeline import Pipeline
 from physsim_ros.engine.settings import make_space
@@ -65,10 +66,11 @@ class Space:
         self.shapes.following = first_shape
         self.bodies = BodySet(self.pm_space, self.shapes)
         self.boundary = Boundary(self.pm_space, self.shapes)
-        self.joints = JointSet(self.pm_space, self.bodies.by_name, dt)
+        self.core = CoreWorld(self.pm_space, dt)
+        self.joints = JointSet(self.pm_space, self.bodies.by_name, self.core, dt)
         self._io = BatchIO(self.pm_space)
         self.pipeline = Pipeline(
-            self.pm_space, self._io, self.shapes, self.bodies.by_name, self.joints, dt=dt
+            self.pm_space, self._io, self.shapes, self.bodies.by_name, self.core, dt=dt
         )
         self.broken: list[tuple[str, float]] = []
         self.changes = 0
@@ -103,7 +105,15 @@ class Space:
         """Return a new table of the bodies."""
         rigids, background = self.bodies.by_name.values(), self.pm_space.static_body
         self._table = BodyTable(scene, tuple(rigids), background, self._io, self.dt)
+        self.core.use_bodies(self._table.records)
+        self.lay_out_joints()
         return self._table
+
+    def lay_out_joints(self) -> None:
+        """Have the core step the joints that there are."""
+        if self.joints.by_name:
+            bodies = (*(rigid.pm_body for rigid in self.table.bodies), self.pm_space.static_body)
+            self.joints.use_places({body: place for place, body in enumerate(bodies)})
 
     @property
     def start_state(self) -> StartState:

@@ -6,11 +6,10 @@
 import math
 
 import numpy as np
-from physsim_ros.engine.joints import joint_solver
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
-from .scenes import cross, G, join, simulation, spawn, steps
+from .scenes import G, join, simulation, spawn, steps
 from ..slow import slow
 
 PLANKS = 10
@@ -136,18 +135,3 @@ def test_a_disc_rolls_over_a_bridge(report, ratio):
     x, y, _ = sim.world.snapshot().poses[-1]
     assert x > 2.0
     assert y > 5.0
-
-
-def test_friction_that_is_not_found_is_left_out(monkeypatch):
-    # With one round, the engine's guess of the sliding contacts is not corrected.
-    monkeypatch.setattr(joint_solver, 'FRICTION_ROUNDS', 1)
-    sim, middle = bridge('axle', slack=0.1)
-    put_load(sim, Box(width=0.8, height=0.4), 50.0, middle, velocity=(1.0, 0.0))
-    sim.world.reports_contacts = True
-    for _ in range(120):
-        sim.world.step(1)
-        contacts = sim.world.contacts(sim.world.snapshot())
-        normal = np.abs((contacts.impulses * contacts.normals).sum(axis=1))
-        across = np.abs(cross(contacts.impulses.T, contacts.normals.T))
-        # The load presses with 0.4 N s in a step; friction that is wrong has ten times that.
-        assert (across < 0.5 * normal + 0.1).all()

@@ -2,10 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The joints of a space: added, removed, prepared for a step and corrected after it.
-
-Pymunk solves its constraints together with contacts, without their bias, a velocity that closes
-gaps. `joint_solver` then solves them again, with the contacts of jointed bodies.
+The joints of a space: added, removed, and read after a step; the core solves them.
 
 Laws: a joint is removed with either of its bodies; a body whose engine objects are made anew keeps
 its joints; a joint that exceeds its break force is removed after that step; impulses are those of
@@ -18,15 +15,11 @@ from collections.abc import Iterable, Mapping
 import itertools
 import math
 
-import numpy as np
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.joints import spring
-from physsim_ros.engine.joints.build_joint import build_joint
-from physsim_ros.engine.joints.engine_joint import EngineJoint
-from physsim_ros.engine.joints.joint_solver import JointSolver
+from physsim_ros.engine.core_world import CoreWorld
+from physsim_ros.engine.joints import stiffness
 from physsim_ros.engine.joints.joint_table import JointTable
-from physsim_ros.engine.memory import impulse_places, NUMBERS
-from physsim_ros.engine.step_context import StepContext
+from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint
@@ -41,10 +34,17 @@ class JointSet:
 
     :param pm_space: of the engine
     :param bodies: the bodies of the space by name
+    :param core: of the space
     :param dt: length of a step [s]
     """
 
-    def __init__(self, pm_space: pymunk.Space, bodies: Mapping[str, RigidBody], dt: float) -> None:
+    def __init__(
+        self,
+        pm_space: pymunk.Space,
+        bodies: Mapping[str, RigidBody],
+        core: CoreWorld,
+        dt: float,
+    ) -> None:
         self.by_name: dict[str, EngineJoint] = {}
         self._pm_space = pm_space
         self._bodies = bodies
@@ -55,11 +55,10 @@ class JointSet:
         self._serials: dict[str, int] = {}
         self._next_serial = 0
         self._table: JointTable | None = None
-        self._solver = JointSolver(dt)
+        self._core = core
         self._springs: Springs | None = None
-        # Names of the joints whose first step is to come, and of those whose last one it was.
+        # Names of the joints whose first step was to come when the table was dropped.
         self._unstepped: set[str] = set()
-        self._stepped_once: set[str] = set()
 
     def names_on(self, body: str) -> tuple[str, ...]:
         """Return the names of a body's joints, in the order in which they were made."""
@@ -85,7 +84,7 @@ class JointSet:
         joints = self._joints_on(bodies, joint)
         ends = {name for each in joints for name in (each.a, each.b)} - {WORLD}
         known = {name: bodies.get(name) or self._bodies[name].body for name in ends}
-        spring.check_stiffness(joints, known, self._dt)
+        stiffness.check_stiffness(joints, known, self._dt)
 
     def with_turns(self, rigid: RigidBody, pose: Pose) -> Pose:
         """Return a pose with the whole turns that a jointed body has made, which joints count."""
@@ -131,79 +130,62 @@ class JointSet:
         for name in self.names_on(body):
             self._add_constraints(self.by_name[name].joint)
 
-    def begin_step(self, context: StepContext) -> None:
-        """Prepare constraints for the poses of the coming step."""
-        if self.by_name:
-            table, joints = context.table, self._joint_table()
-            # The engine moves bodies first.
-            poses = table.state_with_background[:, :3]
-            poses[:-1] += context.twists * self._dt
-            joints.prepare(poses[joints.rows(table.bodies)])
-        self._stepped_once, self._unstepped = self._unstepped, set()
+    def use_places(self, places: Mapping[pymunk.Body, int]) -> None:
+        """
+        Have the core step these joints.
 
-    def end_step(self, context: StepContext) -> None:
-        """Solve joints, after the step of the engine."""
-        if self.by_name:
-            self._solver.solve(self._joint_table(), context.table)
+        :param places: of bodies in the table of bodies, the background among them
+        """
+        if not self.by_name:
+            return
+        if self._table is None:
+            self._table = JointTable(list(self.by_name.values()), self._unstepped, self._dt)
+        self._table.place_ends(places)
+        self._core.use_joints(self._table.joints, self._table.parts, self._table.rows)
 
     def forces(self) -> Floats:
         """Return (j,) float64: the force of each joint in the last step [N]."""
-        return (
-            np.array([engine_joint.impulse for engine_joint in self.by_name.values()]) / self._dt
-        )
+        return self._core.read_joints()[0] / self._dt
 
     def pulls(self) -> Floats:
         """Return (j, 2) float64: force of each joint on its body b in the last step [N]."""
-        pulls = [engine_joint.pull for engine_joint in self.by_name.values()]
-        return np.array(pulls).reshape(-1, 2) / self._dt
+        return self._core.read_joints()[1] / self._dt
 
     def compressed(self) -> Flags:
         """Return (j,) bool: whether each joint pushed its bodies apart in the last step."""
-        return np.array(
-            [engine_joint.is_compressed for engine_joint in self.by_name.values()], dtype=bool
-        )
+        return self._core.read_joints()[2]
 
     def impulses(self) -> Floats:
         """Return (c, 2) float64: impulses from which the next step starts, of all constraints."""
-        impulses = np.zeros((len(constraints := self._constraints()), 2))
-        for row, constraint in enumerate(constraints):
-            places = impulse_places(constraint)
-            impulses[row, : len(places)] = NUMBERS[places]
-        return impulses
+        return self._core.read_impulses()
 
     def set_impulses(self, impulses: Floats) -> None:
         """Set (c, 2) float64: impulses from which the next step starts; none of another number."""
-        if len(impulses) == len(constraints := self._constraints()):
-            for constraint, impulse in zip(constraints, impulses, strict=True):
-                places = impulse_places(constraint)
-                NUMBERS[places] = impulse[: len(places)]
+        if len(impulses) == len(self._constraints()):
+            self._core.write_impulses(impulses)
 
     def unstepped(self) -> frozenset[str]:
         """Return the names of the joints whose first step is to come."""
-        return frozenset(self._unstepped & self.by_name.keys())
+        unstepped = self._unstepped if self._table is None else self._table.unstepped
+        return frozenset(unstepped & self.by_name.keys())
 
     def set_unstepped(self, names: Iterable[str]) -> None:
         """Set the names of the joints whose first step is to come."""
+        self._drop_table()
         self._unstepped = set(names)
 
     def springs(self) -> Springs:
         """Return the springs among the joints."""
         if self._springs is None:
-            self._springs = spring.springs_of(list(self.by_name.values()))
+            self._springs = stiffness.springs_of(list(self.by_name.values()))
         return self._springs
 
     def broken(self) -> list[tuple[str, float]]:
         """Return the joints that broke in the last step, and the force of each in it [N]."""
-        if not self.by_name:
+        if self._table is None or not (broken := self._table.broken):
             return []
-        # The first step of a joint takes back the half-step lead of a body that was in free
-        # flight: that impulse is no load.
-        return [
-            (name, impulse / self._dt)
-            for engine_joint, most in self._joint_table().breakable
-            if (name := engine_joint.joint.name) not in self._stepped_once
-            and (impulse := engine_joint.impulse) > most
-        ]
+        names, forces = self._table.names, self.forces().tolist()
+        return [(names[number], forces[number]) for number in broken]
 
     def _joints_on(self, bodies: Iterable[str], joint: Joint | None) -> list[Joint]:
         """
@@ -243,10 +225,7 @@ class JointSet:
 
     def _drop_table(self) -> None:
         """Drop the table of all joints, as one of them comes or goes."""
+        if self._table is not None:
+            self._unstepped = self._table.unstepped
         self._table = self._springs = None
-
-    def _joint_table(self) -> JointTable:
-        if self._table is None:
-            engine_joint = list(self.by_name.values())
-            self._table = JointTable(engine_joint, self._pm_space.static_body, self._dt)
-        return self._table
+        self._core.drop_joints()

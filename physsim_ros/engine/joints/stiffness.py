@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Spring: pulls or pushes in proportion to its strain, and is damped.
+Stiffness: how stiff springs may be for the steps.
 
 Pymunk moves bodies first and lets springs pull then (symplectic Euler), which is stable while no
 body swings by more than two radians a step. All springs on a body together keep it below one:
@@ -16,31 +16,14 @@ from collections.abc import Iterator, Mapping, Sequence
 import math
 
 import numpy as np
-from physsim_ros.engine.joints.constraint_rows import Kind
-from physsim_ros.engine.joints.engine_joint import Ends, EngineJoint
+from physsim_ros.engine.joints.kinds import EngineJoint
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.snapshot import Springs
-import pymunk
 
 # Share of the bound by which rounding may exceed it.
 _ROUNDING = 1e-9
-
-
-def _constraints(joint: Joint, ends: Ends) -> list[pymunk.Constraint]:
-    stiffness, damping = joint.stiffness, joint.number('damping')
-    anchors = ends.at_a, ends.at_b
-    spring = pymunk.DampedSpring(ends.a, ends.b, *anchors, joint.rest_length, stiffness, damping)
-    most = joint.properties.max_force
-    if most is not None:
-        # Pymunk's max_force limits a spring's damping, but not its pull.
-        def pull(spring: pymunk.DampedSpring, distance: float) -> float:
-            force = (spring.rest_length - distance) * spring.stiffness
-            return max(-most, min(most, force))
-
-        spring.force_func = pull
-    return [spring]
 
 
 def springs_of(joints: Sequence[EngineJoint]) -> Springs:
@@ -48,7 +31,7 @@ def springs_of(joints: Sequence[EngineJoint]) -> Springs:
     numbers = [
         number
         for number, each in enumerate(joints)
-        if each.joint.kind is JointKind.SPRING and each.constraints
+        if each.joint.kind is JointKind.SPRING and each.parts
     ]
     springs = [joints[number].joint for number in numbers]
     stiffness = np.array([spring.stiffness for spring in springs], np.float64)
@@ -102,6 +85,3 @@ def _softness(spring: Joint, bodies: Mapping[str, Body]) -> Iterator[tuple[str, 
         form = body.shape.form
         arm2 = (x - form.centroid[0]) ** 2 + (y - form.centroid[1]) ** 2
         yield name, len(moving) * (1.0 + arm2 / form.gyration) / body.total_mass
-
-
-KIND = Kind(_constraints)

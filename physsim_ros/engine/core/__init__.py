@@ -1,0 +1,80 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The core: all that happens within a step, in C.
+
+Its sources are in this folder, one file a stage; `core.h` is what they share with Python. Not
+here: what is built once for a scene, which is Python's (`engine`). Start with `step.c`, then
+`core.h`.
+
+It is a plain shared library without any Python in it, so that one binary serves every Python; cffi
+calls it by its declarations (ABI mode), and lets other threads run meanwhile.
+"""
+
+from __future__ import annotations
+
+from importlib.machinery import EXTENSION_SUFFIXES
+from importlib.resources import files
+from typing import Any
+
+from cffi import FFI
+import numpy as np
+from physsim_ros.engine.core.sources import hash_of_sources
+
+# The call that builds it in a source tree.
+_BUILD = '`pip install --editable .`'
+_HERE = files(__name__)
+
+
+def _declarations() -> str:
+    """Return the headers that cffi reads, without what is for the preprocessor."""
+    texts = [(_HERE / name).read_text('utf-8') for name in ('chipmunk.h', 'core.h')]
+    lines = ''.join(texts).splitlines(keepends=True)
+    return ''.join(line for line in lines if not line.startswith('#'))
+
+
+def _load() -> Any:
+    """
+    Return the library.
+
+    :raises ImportError: it has not been built, or not from these sources
+    """
+    paths = [path for suffix in EXTENSION_SUFFIXES if (path := _HERE / f'_core{suffix}').is_file()]
+    if not paths:
+        raise ImportError(f'the core of the engine has not been compiled; run {_BUILD}')
+    library = ffi.dlopen(str(paths[0]))
+    ours, theirs = hash_of_sources(_HERE), ffi.string(library.core_sources()).decode()
+    if ours not in {'', theirs}:
+        raise ImportError(f'the core of the engine was compiled from other sources; run {_BUILD}')
+    return library
+
+
+def dtype_of(struct: str) -> np.dtype[np.void]:
+    """Return the type of NumPy that has the fields of a struct, pointers as integers."""
+    kind = ffi.typeof(struct)
+    fields = {name: (_dtype(field.type), field.offset) for name, field in kind.fields}
+    return np.dtype(
+        {
+            'names': [*fields],
+            'formats': [each for each, _ in fields.values()],
+            'offsets': [offset for _, offset in fields.values()],
+            'itemsize': ffi.sizeof(kind),
+        }
+    )
+
+
+def _dtype(kind: Any) -> np.dtype[Any]:
+    if kind.kind == 'array':
+        return np.dtype((_dtype(kind.item), (kind.length,)))
+    if kind.kind == 'struct':
+        return dtype_of(kind.cname)
+    if kind.kind == 'pointer':
+        return np.dtype(np.uintp)
+    letter = 'f' if kind.cname == 'double' else 'u' if kind.cname.startswith('u') else 'i'
+    return np.dtype(f'{letter}{ffi.sizeof(kind)}')
+
+
+ffi = FFI()
+ffi.cdef(_declarations())
+lib = _load()

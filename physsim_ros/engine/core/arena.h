@@ -1,0 +1,40 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Memory of one step: taken piece by piece, given back all at once.
+//
+// Method: a linear allocator (Box2D v3, `arena_allocator.c`). A step that needs more than there is gets the rest from
+// the heap, and the arena has as much from the next step on; so steps allocate nothing once a world has been running.
+
+#ifndef PHYSSIM_ARENA_H
+#define PHYSSIM_ARENA_H
+
+#include <stddef.h>
+
+typedef struct Arena {
+    char *memory;
+    size_t size, used, most; // [bytes]; `most` is what was in use at once in this step
+    struct Block *extra;     // from the heap
+} Arena;
+
+// Return memory for so many values, all bits 0; it lasts until a release of an earlier mark, or a reset.
+void *arena_take(Arena *arena, size_t count, size_t size);
+
+// Return a mark, to which `arena_release` gives back what is taken from now on.
+static inline size_t arena_mark(const Arena *arena) {
+    return arena->used;
+}
+
+static inline void arena_release(Arena *arena, size_t mark) {
+    arena->used = mark;
+}
+
+// Give back everything, between steps, and grow to what the last step needed.
+void arena_reset(Arena *arena);
+
+void arena_free(Arena *arena);
+
+// The one macro of the core: a function cannot be given a type.
+#define TAKE(arena, type, count) ((type *)arena_take((arena), (size_t)(count), sizeof(type)))
+
+#endif

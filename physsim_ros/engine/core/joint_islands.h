@@ -1,0 +1,45 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+#ifndef PHYSSIM_JOINT_ISLANDS_H
+#define PHYSSIM_JOINT_ISLANDS_H
+
+#include "joint_rows.h"
+#include "world.h"
+
+// A point in which a jointed body touches another one.
+typedef struct Touch {
+    cpContact *point;
+    int a, b; // places of the two bodies in the table
+    uintptr_t shapes[2];
+    Vec arm_a, arm_b, normal; // world axes [m]; the normal leads from the first to the second body
+    double friction;
+    double slide; // velocity across the normal of the surfaces against their bodies [m/s]
+} Touch;
+
+// The rows of an island: those of joints, then normals of contacts, then tangents.
+typedef struct Island {
+    int joint_count, joint_row_count, touch_count, body_count, row_count;
+    const Joint **joints;
+    const Row **rows; // (joint_row_count)
+    int *joint_of_row;
+    double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
+    Touch *touches;
+    cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
+    bool *jointed;   // (body_count)
+    Inverse *inverses;
+    Pose *poses;
+    Twist *velocities;
+    Ends *ends;  // (row_count)
+    int *groups; // (row_count): one for each joint, and for each pair of bodies that touch
+} Island;
+
+typedef struct Islands {
+    int count;
+    Island *islands;
+} Islands;
+
+// Return the islands of jointed bodies and of what they touch, after the step of Chipmunk.
+Islands joint_islands(World *world);
+
+#endif

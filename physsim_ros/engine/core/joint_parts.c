@@ -1,0 +1,164 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// The constraints that a joint consists of in Chipmunk: what they need before a step, and their impulses.
+
+#include "joint_parts.h"
+#include "joint_rows.h"
+
+// Length of the arm with which a pin pulls a slider across its line [m]; any will do.
+static const double across_arm = 1.0;
+
+double *impulse_at(const Part *part, int component) {
+    switch (part->kind) {
+    case PART_PIVOT: {
+        cpPivotJoint *pivot = (cpPivotJoint *)part->constraint;
+        return component == 0 ? &pivot->jAcc.x : &pivot->jAcc.y;
+    }
+    case PART_PIN:
+        return &((cpPinJoint *)part->constraint)->jnAcc;
+    case PART_SLIDE:
+        return &((cpSlideJoint *)part->constraint)->jnAcc;
+    case PART_GEAR:
+        return &((cpGearJoint *)part->constraint)->jAcc;
+    case PART_ROTARY_LIMIT:
+        return &((cpRotaryLimitJoint *)part->constraint)->jAcc;
+    case PART_MOTOR:
+        return &((cpSimpleMotor *)part->constraint)->jAcc;
+    default:
+        return &((cpDampedSpring *)part->constraint)->jAcc;
+    }
+}
+
+static Vec impulse_of(const Part *part) {
+    return vec(*impulse_at(part, 0), part->kind == PART_PIVOT ? *impulse_at(part, 1) : 0.0);
+}
+
+// The force of a spring at a length [N]; Chipmunk's own (7.0.3) has no greatest one.
+static double spring_force(cpConstraint *constraint, double distance) {
+    const cpDampedSpring *spring = (cpDampedSpring *)constraint;
+    double force = (spring->restLength - distance) * spring->stiffness;
+    return clamped(force, -constraint->maxForce, constraint->maxForce);
+}
+
+void prepare_springs(World *world) {
+    for (int number = 0; number < world->part_count; number++) {
+        if (world->parts[number].kind == PART_SPRING) {
+            ((cpDampedSpring *)world->parts[number].constraint)->springForceFunc = spring_force;
+        }
+    }
+}
+
+// Where Chipmunk will move a body to.
+static Pose ahead(const cpBody *body, double dt) {
+    return (Pose){add(body->p, scaled(body->v, dt)), body->a + body->w * dt};
+}
+
+void prepare_parts(World *world) {
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        // A slider that is locked has a pivot instead.
+        if (!joint->has_axis || joint->part_count == 0 || world->parts[joint->first_part].kind != PART_PIN) {
+            continue;
+        }
+        cpPinJoint *pin = (cpPinJoint *)world->parts[joint->first_part].constraint;
+        Pose a = ahead(world->bodies[joint->a].engine, world->dt), b = ahead(world->bodies[joint->b].engine, world->dt);
+        Anchors anchors = anchors_at(joint, a, b);
+        Vec across = perpendicular(rotated(vec(joint->axis[0], joint->axis[1]), anchors.of_b));
+        Vec beside = sub(add(anchors.arm_b, anchors.apart), scaled(across, across_arm));
+        pin->anchorA = rotated_back(beside, anchors.of_b);
+    }
+}
+
+void core_read_impulses(const World *world, cpVect *impulses) {
+    for (int number = 0; number < world->part_count; number++) {
+        impulses[number] = impulse_of(world->parts + number);
+    }
+}
+
+void core_write_impulses(World *world, const cpVect *impulses) {
+    for (int number = 0; number < world->part_count; number++) {
+        const Part *part = world->parts + number;
+        *impulse_at(part, 0) = impulses[number].x;
+        if (part->kind == PART_PIVOT) {
+            *impulse_at(part, 1) = impulses[number].y;
+        }
+    }
+}
+
+static double greatest_impulse(const World *world, const Joint *joint) {
+    double most = 0.0;
+    for (int number = 0; number < joint->part_count; number++) {
+        // That of a spring is negative where it pulls.
+        most = greatest(most, length(impulse_of(world->parts + joint->first_part + number)));
+    }
+    return most;
+}
+
+// The place of an anchor in the world [m].
+static Vec world_place(const cpBody *body, Vec anchor) {
+    return add(body->p, rotated(anchor, rotation(body->a)));
+}
+
+// The unit vector from the first anchor of a constraint to the second.
+static Vec between(const cpConstraint *constraint, Vec at_a, Vec at_b) {
+    Vec apart = sub(world_place(constraint->b, at_b), world_place(constraint->a, at_a));
+    double distance = length(apart);
+    return distance > 0.0 ? scaled(apart, 1.0 / distance) : vec(0.0, 0.0);
+}
+
+// The unit vector along which a constraint about an axis acts on the second body of its joint.
+//
+// Both constraints have the bodies of the joint the other way round, and their anchors are put anew in each step, so
+// that their lines are taken from the axis. Chipmunk turns the normal of a limit round at the lower one.
+static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
+    const cpBody *a = world->bodies[joint->a].engine, *b = world->bodies[joint->b].engine;
+    Vec axis = rotated(vec(joint->axis[0], joint->axis[1]), rotation(b->a));
+    if (part->kind == PART_PIN) {
+        return negated(perpendicular(axis));
+    }
+    const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
+    Vec at_a = world_place(a, vec(joint->anchor_a[0], joint->anchor_a[1]));
+    double way = length(sub(at_a, world_place(b, limit->anchorA)));
+    return 2.0 * way < limit->min + limit->max ? axis : negated(axis);
+}
+
+// The linear impulse of a joint on its second body [N s]. Chipmunk keeps that of a pivot as a vector, that of a rod, a
+// rope, a spring or a limit as a number along the line from one anchor to the other.
+static Vec pull_of(const World *world, const Joint *joint) {
+    Vec pull = {0.0, 0.0};
+    for (int number = 0; number < joint->part_count; number++) {
+        const Part *part = world->parts + joint->first_part + number;
+        Vec impulse = impulse_of(part);
+        if (part->kind == PART_PIVOT) {
+            pull = add(pull, impulse);
+        } else if (part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING) {
+            // The anchors of these three lie in the same place.
+            const cpPinJoint *axial = (cpPinJoint *)part->constraint;
+            Vec line = joint->has_axis ? by_axis(world, joint, part)
+                                       : between(part->constraint, axial->anchorA, axial->anchorB);
+            pull = add(pull, scaled(line, impulse.x));
+        }
+    }
+    return pull;
+}
+
+void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8_t *pressing) {
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        impulses[number] = greatest_impulse(world, joint);
+        pulls[number] = pull_of(world, joint);
+        const Part *first = world->parts + joint->first_part;
+        pressing[number] = joint->presses && joint->part_count > 0 && *impulse_at(first, 0) > 0.0;
+    }
+}
+
+void find_broken(World *world) {
+    for (int number = 0; number < world->joint_count; number++) {
+        Joint *joint = world->joints + number;
+        // The first step of a joint takes back the half-step lead of a body that was in free flight: that impulse is no
+        // load.
+        joint->broken = !joint->unstepped && joint->most < INFINITY && greatest_impulse(world, joint) > joint->most;
+        joint->unstepped = false;
+    }
+}

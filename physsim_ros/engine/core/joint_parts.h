@@ -1,0 +1,21 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+#ifndef PHYSSIM_JOINT_PARTS_H
+#define PHYSSIM_JOINT_PARTS_H
+
+#include "world.h"
+
+// Where Chipmunk stores an impulse of a constraint; a pivot has two.
+double *impulse_at(const Part *part, int component);
+
+// Have springs with a greatest force obey it.
+void prepare_springs(World *world);
+
+// Put the ends of constraints where the coming step needs them.
+void prepare_parts(World *world);
+
+// Find the joints that have broken in the step.
+void find_broken(World *world);
+
+#endif

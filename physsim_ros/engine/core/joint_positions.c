@@ -1,0 +1,251 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Positions of jointed bodies.
+//
+// C(q) = 0 by Newton's method with the least mass-weighted displacement (fast projection: Goldenthal, Harmon, Fattal,
+// Bercovier and Grinspun, SIGGRAPH 2007). Contacts are rows too, so that what joints pull in and what contacts push out
+// is one system. An island makes so much of a Newton step as its rows are linear (trust region).
+//
+// The displacement then changes velocities as far as their energy falls by it (the velocity update of position based
+// dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007). This is how a straight chain stops what falls on it: its
+// rows have no velocity, only a gap of second order. A gap thus never becomes energy.
+
+#include "joint_solver.h"
+#include <string.h>
+
+// Violated limits are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
+static const double limit_slop = 1e-4;
+// The fastest that a gap is closed at [m/s, rad/s]: a body that is put elsewhere comes back like a thrown one, and
+// joints that contradict each other move their bodies no further than that.
+static const double fastest_correction = 20.0;
+// E as a share of the diagonal of J M⁻¹ Jᵀ: of joints, and of contacts, which yield where joints contradict them.
+static const double joint_softness = 1e-7, contact_softness = 1e-3;
+// The first Newton step is made where a gap is wider than `negligible`, and a further one where it is wider than
+// `closed` [m, rad]: ten planks in a straight row sag by 7 mm with a gap of 1e-6 m each.
+static const double negligible = 1e-7, closed = 1e-5;
+// The furthest that a body turns in a Newton step [rad]: rows are linear for small turns only, and points may be metres
+// off.
+static const double most_turn = 0.25;
+// The furthest that a body moves in a Newton step, in sums of all gaps of its island: joints that contradict each other
+// have nearly singular equations, whose solutions are of any size.
+static const double most_leverage = 10.0;
+
+// Counts of Newton steps, and of factorisations in each, at most.
+enum { MOST_STEPS = 16, ROUNDS = 30 };
+
+// A displacement of an island, as Newton's method finds it.
+typedef struct Displacement {
+    Pose *start, *pushed;        // (body_count): before it, and after the pushes of other contacts
+    double *excess;              // (joint_row_count): C at the poses of now
+    Jacobian *jacobians;         // (row_count): of joints there
+    double *gaps;                // (joint_row_count): C, less what is not closed in this step
+    double *left;                // (joint_row_count): parts of gaps that are too wide to be closed in one step
+    double *apart;               // (touch_count): distance by which contacts may approach at the start [m]
+    double *distances;           // (touch_count): the same now, < 0 where they overlap
+    double *impulses;            // (row_count): λ [kg m, kg m²]
+    double sum, squares, widest; // of gaps and overlaps: sum, sum of squares, and the greatest [m, rad]
+} Displacement;
+
+// The iterate of least squares so far.
+typedef struct Best {
+    double squares;
+    Pose *poses;
+    double *impulses;
+} Best;
+
+// C of a row, less the slop of limits.
+static double gap_of(const Row *row, bool holds, double excess) {
+    double slop = row->lower == row->upper ? 0.0 : limit_slop;
+    return holds ? copysign(greatest(fabs(excess) - slop, 0.0), excess) : 0.0;
+}
+
+static Twist way(Pose from, Pose to) {
+    return (Twist){sub(to.p, from.p), to.yaw - from.yaw};
+}
+
+// Move jointed bodies by the pushes of contacts that are no rows here. Those of the rows' own contacts are removed,
+// since their overlaps are solved here. What has no joints is moved by Chipmunk in the next step.
+static void take_pushes(Solve *solve) {
+    const Island *island = solve->island;
+    Twist *momenta = TAKE(solve->arena, Twist, island->body_count);
+    for (int number = 0; number < island->touch_count; number++) {
+        int row = island->joint_row_count + number;
+        add_momenta(solve->jacobians[row], island->ends[row], island->touches[number].point->jBias, momenta);
+    }
+    for (int body = 0; body < island->body_count; body++) {
+        Inverse inverse = island->inverses[body];
+        if (inverse.mass == 0.0) {
+            continue;
+        }
+        cpBody *engine = island->engine[body];
+        Vec push = sub(engine->v_bias, scaled(momenta[body].v, inverse.mass));
+        double turn = engine->w_bias - momenta[body].w * inverse.moment;
+        bool jointed = island->jointed[body];
+        if (jointed) {
+            solve->poses[body].p = add(solve->poses[body].p, scaled(push, solve->dt));
+            solve->poses[body].yaw += turn * solve->dt;
+        }
+        engine->v_bias = jointed ? vec(0.0, 0.0) : push;
+        engine->w_bias = jointed ? 0.0 : turn;
+    }
+}
+
+static Displacement begin(Solve *solve) {
+    const cpSpace *space = solve->space;
+    const Island *island = solve->island;
+    Arena *arena = solve->arena;
+    Displacement move = {.start = TAKE(arena, Pose, island->body_count),
+                         .pushed = TAKE(arena, Pose, island->body_count),
+                         .excess = TAKE(arena, double, island->joint_row_count),
+                         .jacobians = TAKE(arena, Jacobian, island->row_count),
+                         .gaps = TAKE(arena, double, island->joint_row_count),
+                         .left = TAKE(arena, double, island->joint_row_count),
+                         .apart = TAKE(arena, double, island->touch_count),
+                         .distances = TAKE(arena, double, island->touch_count),
+                         .impulses = TAKE(arena, double, island->row_count)};
+    memcpy(move.start, solve->poses, (size_t)island->body_count * sizeof(Pose));
+    take_pushes(solve);
+    memcpy(move.pushed, solve->poses, (size_t)island->body_count * sizeof(Pose));
+    memcpy(move.jacobians, solve->jacobians, (size_t)island->row_count * sizeof(Jacobian));
+    read_rows(island, solve->poses, move.excess, move.jacobians);
+    double most = fastest_correction * solve->dt;
+    for (int row = 0; row < island->joint_row_count; row++) {
+        double gap = gap_of(island->rows[row], solve->holds[row], move.excess[row]);
+        move.left[row] = gap - clamped(gap, -most, most);
+    }
+    // Of an overlap Chipmunk's share of a step is pushed out; nothing gets deeper.
+    double stays = pow(space->collisionBias, solve->dt);
+    for (int number = 0; number < island->touch_count; number++) {
+        const Touch *touch = island->touches + number;
+        Ends ends = island->ends[island->joint_row_count + number];
+        Vec a = add(move.start[ends.a].p, touch->arm_a), b = add(move.start[ends.b].p, touch->arm_b);
+        double apart = dot(sub(b, a), touch->normal) + space->collisionSlop;
+        move.apart[number] = apart - least(apart, 0.0) * stays;
+    }
+    return move;
+}
+
+// Measure gaps and overlaps at the poses of now.
+static void measure(const Solve *solve, Displacement *move) {
+    const Island *island = solve->island;
+    move->sum = move->widest = move->squares = 0.0;
+    for (int row = 0; row < island->joint_row_count; row++) {
+        move->gaps[row] = gap_of(island->rows[row], solve->holds[row], move->excess[row]) - move->left[row];
+        move->sum += fabs(move->gaps[row]);
+        move->squares += move->gaps[row] * move->gaps[row];
+        move->widest = greatest(move->widest, fabs(move->gaps[row]));
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        int row = island->joint_row_count + number;
+        Ends ends = island->ends[row];
+        Twist ways[2] = {way(move->start[ends.a], solve->poses[ends.a]),
+                         way(move->start[ends.b], solve->poses[ends.b])};
+        move->distances[number] = move->apart[number] + rate(solve->jacobians[row], (Ends){0, 1}, ways);
+        double overlap = greatest(-move->distances[number], 0.0);
+        move->sum += overlap;
+        move->squares += overlap * overlap;
+        move->widest = greatest(move->widest, overlap);
+    }
+}
+
+static void keep_better(const Solve *solve, const Displacement *move, Best *best) {
+    if (move->sum < best->squares) {
+        best->squares = move->sum;
+        memcpy(best->poses, solve->poses, (size_t)solve->island->body_count * sizeof(Pose));
+        memcpy(best->impulses, move->impulses, (size_t)solve->island->row_count * sizeof(double));
+    }
+}
+
+// Return the displacement that closes linear gaps and overlaps.
+static Solution newton_step(Solve *solve, const Displacement *move) {
+    const Island *island = solve->island;
+    Arena *arena = solve->arena;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    double *wanted = TAKE(arena, double, island->row_count), *soft = TAKE(arena, double, island->row_count);
+    double *lower = TAKE(arena, double, island->row_count), *upper = TAKE(arena, double, island->row_count);
+    Solution solution = solution_for(&solve->system, arena);
+    for (int row = 0; row < island->row_count; row++) {
+        soft[row] = row < normal ? joint_softness : contact_softness;
+        if (row < normal) {
+            wanted[row] = -move->gaps[row];
+            lower[row] = lower_bound(island->rows[row], solve->holds[row], move->gaps[row]);
+            upper[row] = upper_bound(island->rows[row], solve->holds[row], move->gaps[row]);
+        } else if (row < tangent) {
+            wanted[row] = -move->distances[row - normal];
+            upper[row] = INFINITY;
+        }
+        solution.sides[row] = side_of(move->impulses[row], lower[row], upper[row]);
+    }
+    Problem problem = {move->jacobians, wanted, lower, upper, soft};
+    solve_problem(&solve->system, &problem, &solution, ROUNDS, arena);
+    return solution;
+}
+
+// The share of a Newton step that is made.
+static double trusted_share(const Solve *solve, const Twist *changes, double sum) {
+    double farthest = 0.0, turn = 0.0;
+    for (int body = 0; body < solve->island->body_count; body++) {
+        farthest = greatest(farthest, length(changes[body].v));
+        turn = greatest(turn, fabs(changes[body].w));
+    }
+    double by_turn = most_turn / greatest(turn, 1e-300);
+    return least(1.0, least(by_turn, most_leverage * sum / greatest(farthest, 1e-300)));
+}
+
+// Change velocities by a displacement, as far as their energy falls by it.
+static void remove_velocity(Solve *solve, const Displacement *move, const double *impulses) {
+    const Island *island = solve->island;
+    Twist *changes = TAKE(solve->arena, Twist, island->body_count);
+    for (int body = 0; body < island->body_count; body++) {
+        Twist moved = way(move->pushed[body], solve->poses[body]);
+        changes[body] = (Twist){scaled(moved.v, 1.0 / solve->dt), moved.w / solve->dt};
+    }
+    double lost = -mass_product(&solve->system, solve->velocities, changes);
+    double share = paid_share(lost, mass_product(&solve->system, changes, changes));
+    change_velocities(solve, changes, share);
+    for (int row = 0; row < island->joint_row_count; row++) {
+        double sign = sign_of(island->rows[row], move->excess[row]);
+        *island->impulses[row] += impulses[row] * share / solve->dt / sign;
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        double impulse = impulses[island->joint_row_count + number];
+        island->touches[number].point->jnAcc += impulse * share / solve->dt;
+    }
+}
+
+void solve_positions(Solve *solve) {
+    const Island *island = solve->island;
+    size_t mark = arena_mark(solve->arena);
+    Displacement move = begin(solve);
+    Best best = {INFINITY, TAKE(solve->arena, Pose, island->body_count), TAKE(solve->arena, double, island->row_count)};
+    bool moved = false;
+    for (int number = 0; number <= MOST_STEPS; number++) {
+        measure(solve, &move);
+        if (number > 0 && move.widest <= closed) {
+            best.squares = INFINITY;
+        }
+        keep_better(solve, &move, &best);
+        if (number == MOST_STEPS || move.widest <= (number > 0 ? closed : negligible)) {
+            break;
+        }
+        size_t step = arena_mark(solve->arena);
+        Solution solution = newton_step(solve, &move);
+        double share = trusted_share(solve, solution.changes, move.sum);
+        for (int body = 0; body < island->body_count; body++) {
+            solve->poses[body].p = add(solve->poses[body].p, scaled(solution.changes[body].v, share));
+            solve->poses[body].yaw += solution.changes[body].w * share;
+        }
+        for (int row = 0; row < island->row_count; row++) {
+            move.impulses[row] += solution.impulses[row] * share;
+        }
+        arena_release(solve->arena, step);
+        read_rows(island, solve->poses, move.excess, move.jacobians);
+        moved = true;
+    }
+    if (moved) {
+        memcpy(solve->poses, best.poses, (size_t)island->body_count * sizeof(Pose));
+        remove_velocity(solve, &move, best.impulses);
+    }
+    arena_release(solve->arena, mark);
+}

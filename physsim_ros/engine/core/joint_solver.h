@@ -1,0 +1,57 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+#ifndef PHYSSIM_JOINT_SOLVER_H
+#define PHYSSIM_JOINT_SOLVER_H
+
+#include "joint_islands.h"
+
+// One island in one step.
+typedef struct Solve {
+    Arena *arena;
+    const cpSpace *space;
+    double dt; // [s]
+    const Island *island;
+    System system;
+    Twist *velocities;   // (body_count): of this step
+    Pose *poses;         // (body_count)
+    double *excess;      // (joint_row_count): C [m, rad]
+    Jacobian *jacobians; // (row_count): where the step of Chipmunk ends
+    bool *holds;         // (joint_row_count): rows of joints that have not reached their greatest force
+} Solve;
+
+// Read the rows of joints at some poses: C, and J as the first of `jacobians`.
+void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians);
+
+// λ of a row by the impulse that Chipmunk stores.
+static inline double sign_of(const Row *row, double excess) {
+    return excess < 0.0 ? row->below : row->above;
+}
+
+// Bounds of λ of a row of a joint, without its greatest force.
+static inline double lower_bound(const Row *row, bool holds, double excess) {
+    return holds && (row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
+}
+
+static inline double upper_bound(const Row *row, bool holds, double excess) {
+    return holds && (row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
+}
+
+// The side of a row by a guess of λ.
+static inline int8_t side_of(double guess, double lower, double upper) {
+    return (int8_t)(guess <= lower ? -1 : guess >= upper ? 1 : 0);
+}
+
+// The share of a gain of energy that what was lost pays for.
+static inline double paid_share(double lost, double gained) {
+    double owed = greatest(gained, 1e-300);
+    return least(greatest(lost, 0.0), owed) / owed;
+}
+
+// Add changes to the velocities, here and in Chipmunk.
+void change_velocities(Solve *solve, const Twist *changes, double share);
+
+void solve_velocities(Solve *solve);
+void solve_positions(Solve *solve);
+
+#endif

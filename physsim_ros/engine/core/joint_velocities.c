@@ -1,0 +1,280 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Velocities of jointed bodies.
+//
+// The impulses that Chipmunk gave to the rows of an island are taken back. Joints and contacts along their normals are
+// solved without friction, friction then within its cone (staggered projections: Kaufman, Sueda, James and Pai,
+// SIGGRAPH Asia 2008). Both are projections, by which kinetic energy can only fall; contacts that bounce can make it
+// rise. An island then has the greatest share of its bounces with which their impulses do no work.
+//
+// Curvature: a point on a circle leaves its tangent in half a step, so that rows are solved for
+// J v = - dt / 2 (dJ/dt) v; without that a pendulum loses (w dt)² / 2 of its energy in a step. An island gets no more
+// energy by this than the projection took, and none where contacts press.
+
+#include "joint_solver.h"
+#include <string.h>
+
+// E, as a share of the diagonal of J M⁻¹ Jᵀ. The impulses are Chipmunk's next guess; without E those of joints that
+// contradict each other would be of any size.
+static const double softness = 1e-4;
+
+// Counts of factorisations, at most: for joints with normals, and for friction, of which rows that are on the wrong
+// side then have none.
+enum { ROUNDS = 30, FRICTION_ROUNDS = 10 };
+
+// The rows of an island in velocities.
+typedef struct Impact {
+    Problem problem;
+    double *wanted, *lower, *upper; // of the problem
+    double *rates;                  // (row_count): J v without impulses
+    double *given;                  // (row_count): λ of Chipmunk
+    double *bounce;                 // (touch_count): least velocity along the normal that Chipmunk seeks [m/s]
+} Impact;
+
+static Impact begin(Solve *solve, const Twist *without) {
+    const Island *island = solve->island;
+    Arena *arena = solve->arena;
+    Impact impact = {.wanted = TAKE(arena, double, island->row_count),
+                     .lower = TAKE(arena, double, island->row_count),
+                     .upper = TAKE(arena, double, island->row_count),
+                     .rates = TAKE(arena, double, island->row_count),
+                     .bounce = TAKE(arena, double, island->touch_count)};
+    double *soft = TAKE(arena, double, island->row_count);
+    for (int row = 0; row < island->row_count; row++) {
+        soft[row] = softness;
+        impact.rates[row] = rate(solve->jacobians[row], island->ends[row], without);
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        impact.bounce[number] = -island->touches[number].point->bounce;
+    }
+    impact.problem = (Problem){solve->jacobians, impact.wanted, impact.lower, impact.upper, soft};
+    return impact;
+}
+
+// λ that Chipmunk gave, and velocities without them.
+static double *take_back(Solve *solve, Twist *without) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    double *given = TAKE(solve->arena, double, island->row_count);
+    for (int row = 0; row < normal; row++) {
+        given[row] = *island->impulses[row] * sign_of(island->rows[row], solve->excess[row]);
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        given[normal + number] = island->touches[number].point->jnAcc;
+        given[tangent + number] = island->touches[number].point->jtAcc;
+    }
+    for (int row = 0; row < island->row_count; row++) {
+        add_momenta(solve->jacobians[row], island->ends[row], -given[row], without);
+    }
+    for (int body = 0; body < island->body_count; body++) {
+        Inverse inverse = island->inverses[body];
+        without[body].v = add(solve->velocities[body].v, scaled(without[body].v, inverse.mass));
+        without[body].w = solve->velocities[body].w + without[body].w * inverse.moment;
+    }
+    return given;
+}
+
+static void solve_friction(Solve *solve, Impact *impact, Solution *solution) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    // Contacts that press are equalities, and what is at a bound stays there.
+    for (int row = 0; row < island->row_count; row++) {
+        bool acts = solution->sides[row] == 0;
+        impact->lower[row] = acts ? -INFINITY : solution->impulses[row];
+        impact->upper[row] = acts ? INFINITY : solution->impulses[row];
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        double friction = island->touches[number].friction, guess = impact->given[tangent + number];
+        double most = friction * greatest(solution->impulses[normal + number], 0.0);
+        double known = friction * impact->given[normal + number] * (1.0 - 1e-9);
+        bool slides = fabs(guess) >= known || most == 0.0;
+        impact->lower[tangent + number] = -most;
+        impact->upper[tangent + number] = most;
+        solution->sides[tangent + number] = (int8_t)(slides ? (guess < 0.0 ? -1 : 1) : 0);
+    }
+    solve_problem(&solve->system, &impact->problem, solution, FRICTION_ROUNDS, solve->arena);
+    if (solution->wrong_count == 0) {
+        return;
+    }
+    for (int row = tangent; row < island->row_count; row++) {
+        if (solution->wrong[row]) {
+            impact->lower[row] = impact->upper[row] = 0.0;
+            solution->sides[row] = -1;
+        }
+    }
+    solve_problem(&solve->system, &impact->problem, solution, 1, solve->arena);
+}
+
+// Return the solution, friction included, with some least velocities along the normals of contacts [m/s].
+static Solution solve_impact(Solve *solve, Impact *impact, const double *bounce) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    Solution solution = solution_for(&solve->system, solve->arena);
+    for (int row = 0; row < island->row_count; row++) {
+        double target = row < normal    ? 0.0
+                        : row < tangent ? bounce[row - normal]
+                                        : -island->touches[row - tangent].slide;
+        impact->wanted[row] = target - impact->rates[row];
+        impact->lower[row] = 0.0;
+        impact->upper[row] = row >= normal && row < tangent ? INFINITY : 0.0;
+        if (row < normal) {
+            const Row *of_joint = island->rows[row];
+            impact->lower[row] = greatest(lower_bound(of_joint, true, solve->excess[row]), -of_joint->most);
+            impact->upper[row] = least(upper_bound(of_joint, true, solve->excess[row]), of_joint->most);
+        }
+        solution.sides[row] = side_of(impact->given[row], impact->lower[row], impact->upper[row]);
+    }
+    solve_problem(&solve->system, &impact->problem, &solution, ROUNDS, solve->arena);
+    if (island->touch_count > 0) {
+        solve_friction(solve, impact, &solution);
+    }
+    refine(&solve->system, &impact->problem, &solution, solve->arena);
+    return solution;
+}
+
+// The work of the impulses of a solution [J].
+//
+// Velocities are relative to the surfaces that touch: the work that a kinematic body or a conveyor does is not counted.
+// Chipmunk measures the approach before gravity and springs act on it, so that it may have been as fast as `bounce`.
+static double work_of(const Solve *solve, const Impact *impact, const Solution *solution) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    double work = 0.0;
+    for (int row = 0; row < island->row_count; row++) {
+        double before = impact->rates[row] + (row >= tangent ? island->touches[row - tangent].slide : 0.0);
+        double after = before + rate(solve->jacobians[row], island->ends[row], solution->changes);
+        if (row >= normal && row < tangent && impact->bounce[row - normal] > 0.0) {
+            before = least(before, -impact->bounce[row - normal]);
+        }
+        work += solution->impulses[row] * (before + after) / 2.0;
+    }
+    return work;
+}
+
+// Mix two solutions, with and without bounces, so that the impulses do no work; it meets the bounds of both, which are
+// convex. Work is a quadratic function of the share: bend share² + slope share + lost.
+static void mix(const Solve *solve, Solution *elastic, const Solution *plastic, double gained, double lost) {
+    const Island *island = solve->island;
+    for (int body = 0; body < island->body_count; body++) {
+        elastic->changes[body].v = sub(elastic->changes[body].v, plastic->changes[body].v);
+        elastic->changes[body].w -= plastic->changes[body].w;
+    }
+    double bend = mass_product(&solve->system, elastic->changes, elastic->changes) / 2.0;
+    lost = least(lost, 0.0);
+    double slope = gained - lost - bend;
+    double share = -2.0 * lost / greatest(slope + sqrt(slope * slope - 4.0 * bend * lost), 1e-300);
+    for (int body = 0; body < island->body_count; body++) {
+        elastic->changes[body].v = add(plastic->changes[body].v, scaled(elastic->changes[body].v, share));
+        elastic->changes[body].w = plastic->changes[body].w + elastic->changes[body].w * share;
+    }
+    for (int row = 0; row < island->row_count; row++) {
+        double difference = elastic->impulses[row] - plastic->impulses[row];
+        elastic->impulses[row] = plastic->impulses[row] + difference * share;
+        elastic->sides[row] = plastic->sides[row];
+    }
+}
+
+// Return the solution with bounces, less the share of them that would create energy.
+static Solution solve_bounces(Solve *solve, Impact *impact) {
+    Solution solution = solve_impact(solve, impact, impact->bounce);
+    bool bounces = false;
+    double *none = TAKE(solve->arena, double, solve->island->touch_count);
+    for (int number = 0; number < solve->island->touch_count; number++) {
+        bounces = bounces || impact->bounce[number] > 0.0;
+        none[number] = least(impact->bounce[number], 0.0);
+    }
+    double gained = bounces ? work_of(solve, impact, &solution) : 0.0;
+    if (gained > 0.0) {
+        Solution plastic = solve_impact(solve, impact, none);
+        mix(solve, &solution, &plastic, gained, work_of(solve, impact, &plastic));
+    }
+    return solution;
+}
+
+// Add the impulses of the curvature to a solution, whose factors the system has.
+static void bend(Solve *solve, Solution *solution, Twist *velocities) {
+    const Island *island = solve->island;
+    Arena *arena = solve->arena;
+    int normal = island->joint_row_count;
+    double lost = mass_product(&solve->system, solution->changes, solution->changes);
+    Pose *halfway = TAKE(arena, Pose, island->body_count);
+    for (int body = 0; body < island->body_count; body++) {
+        Twist *twist = velocities + body;
+        twist->v = add(twist->v, solution->changes[body].v);
+        twist->w += solution->changes[body].w;
+        halfway[body].p = add(solve->poses[body].p, scaled(twist->v, solve->dt / 2.0));
+        halfway[body].yaw = solve->poses[body].yaw + twist->w * solve->dt / 2.0;
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        // Under a load rows can be singular, as those of a straight chain: there energy is lost.
+        if (solution->sides[normal + number] == 0) {
+            return;
+        }
+    }
+    double *excess = TAKE(arena, double, normal), *wanted = TAKE(arena, double, island->row_count);
+    double *impulses = TAKE(arena, double, island->row_count);
+    Jacobian *jacobians = TAKE(arena, Jacobian, normal);
+    Twist *changes = TAKE(arena, Twist, island->body_count);
+    read_rows(island, halfway, excess, jacobians);
+    for (int row = 0; row < normal; row++) {
+        Ends ends = island->ends[row];
+        if (island->rows[row]->lower == island->rows[row]->upper && solution->sides[row] == 0) {
+            wanted[row] = rate(solve->jacobians[row], ends, velocities) - rate(jacobians[row], ends, velocities);
+        }
+    }
+    solve_active(&solve->system, solution->sides, wanted, impulses, changes);
+    double share = sqrt(paid_share(lost, mass_product(&solve->system, changes, changes)));
+    for (int row = 0; row < island->row_count; row++) {
+        solution->impulses[row] += impulses[row] * share;
+    }
+    for (int body = 0; body < island->body_count; body++) {
+        velocities[body].v = add(velocities[body].v, scaled(changes[body].v, share));
+        velocities[body].w += changes[body].w * share;
+    }
+}
+
+static void write_impulses(Solve *solve, const Solution *solution) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    for (int row = 0; row < normal; row++) {
+        *island->impulses[row] = solution->impulses[row] / sign_of(island->rows[row], solve->excess[row]);
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        island->touches[number].point->jnAcc = solution->impulses[normal + number];
+        island->touches[number].point->jtAcc = solution->impulses[tangent + number];
+    }
+}
+
+// A joint of which an equality has reached its greatest force does not hold.
+static void find_yielded(Solve *solve, const Solution *solution) {
+    const Island *island = solve->island;
+    for (int row = 0; row < island->joint_row_count; row++) {
+        if (island->rows[row]->lower == island->rows[row]->upper && solution->sides[row] != 0) {
+            for (int other = 0; other < island->joint_row_count; other++) {
+                if (island->joint_of_row[other] == island->joint_of_row[row]) {
+                    solve->holds[other] = false;
+                }
+            }
+        }
+    }
+}
+
+void solve_velocities(Solve *solve) {
+    const Island *island = solve->island;
+    size_t mark = arena_mark(solve->arena);
+    Twist *velocities = TAKE(solve->arena, Twist, island->body_count);
+    double *given = take_back(solve, velocities);
+    Impact impact = begin(solve, velocities);
+    impact.given = given;
+    Solution solution = solve_bounces(solve, &impact);
+    bend(solve, &solution, velocities);
+    for (int body = 0; body < island->body_count; body++) {
+        velocities[body].v = sub(velocities[body].v, solve->velocities[body].v);
+        velocities[body].w -= solve->velocities[body].w;
+    }
+    change_velocities(solve, velocities, 1.0);
+    write_impulses(solve, &solution);
+    find_yielded(solve, &solution);
+    arena_release(solve->arena, mark);
+}

@@ -1,0 +1,89 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+#ifndef PHYSSIM_SADDLE_POINT_H
+#define PHYSSIM_SADDLE_POINT_H
+
+#include "arena.h"
+#include "ldl.h"
+#include "vector.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+// J of a row: of the first and the second body.
+typedef struct Jacobian {
+    Twist a, b;
+} Jacobian;
+
+// The two bodies of a row, as places among those of the system.
+typedef struct Ends {
+    int a, b;
+} Ends;
+
+// What forces change: 0 for bodies that they do not move [1/kg, 1/(kg m²)].
+typedef struct Inverse {
+    double mass, moment;
+} Inverse;
+
+// A set of rows, whose Jacobian may change.
+typedef struct System {
+    int body_count, row_count;
+    const Inverse *inverses; // (body_count)
+    const Ends *ends;        // (row_count)
+    int *body_unknowns;      // (body_count): the first of three unknowns of each; -1 for those that do not move
+    int *row_unknowns;       // (row_count)
+    int (*places)[6];        // (row_count): of the entries of J among the values of the matrix; -1 for none
+    Ldl factors;
+    double *side; // the right side, then the solution
+} System;
+
+// Rows with targets and bounds.
+typedef struct Problem {
+    const Jacobian *jacobians;
+    const double *wanted;        // target - J v [m/s, rad/s]
+    const double *lower, *upper; // of λ [N s, N m s]
+    const double *softness;      // E as a share of the diagonal of J M⁻¹ Jᵀ
+} Problem;
+
+typedef struct Solution {
+    double *impulses; // (row_count): λ
+    Twist *changes;   // (body_count): of velocities
+    int8_t *sides;    // (row_count): -1 and 1 where λ is at the lower and at the upper bound, else 0
+    bool *wrong;      // (row_count): still on the wrong side
+    int wrong_count;
+} Solution;
+
+// Return the system of rows; those of a joint or of a pair of bodies have one group and follow one another.
+System system_of(Arena *arena, int body_count, const Inverse *inverses, int row_count, const Ends *ends,
+                 const int *groups);
+
+Solution solution_for(const System *system, Arena *arena);
+
+// J v of a row.
+static inline double rate(Jacobian jacobian, Ends ends, const Twist *velocities) {
+    Twist a = velocities[ends.a], b = velocities[ends.b];
+    return dot(jacobian.a.v, a.v) + jacobian.a.w * a.w + dot(jacobian.b.v, b.v) + jacobian.b.w * b.w;
+}
+
+// Add Jᵀ λ of a row to momenta [N s, N m s].
+static inline void add_momenta(Jacobian jacobian, Ends ends, double impulse, Twist *momenta) {
+    Twist *a = momenta + ends.a, *b = momenta + ends.b;
+    a->v = add(a->v, scaled(jacobian.a.v, impulse));
+    a->w += jacobian.a.w * impulse;
+    b->v = add(b->v, scaled(jacobian.b.v, impulse));
+    b->w += jacobian.b.w * impulse;
+}
+
+// Return u M v of two changes of velocities [J].
+double mass_product(const System *system, const Twist *u, const Twist *v);
+
+// Solve rows with bounds. `solution` has the first guess of `sides`.
+void solve_problem(System *system, const Problem *problem, Solution *solution, int rounds, Arena *arena);
+
+// Come closer to the targets, which E keeps a solution from.
+void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
+
+// Solve active rows with the factors of the last solution: λ of the others is 0.
+void solve_active(System *system, const int8_t *sides, const double *wanted, double *impulses, Twist *changes);
+
+#endif

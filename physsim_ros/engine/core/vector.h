@@ -1,0 +1,96 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Vectors of the plane, rotations and poses, as values.
+
+#ifndef PHYSSIM_VECTOR_H
+#define PHYSSIM_VECTOR_H
+
+#include "chipmunk.h"
+#include <math.h>
+
+typedef cpVect Vec;
+
+typedef struct Rotation {
+    double c, s; // cosine and sine of the angle
+} Rotation;
+
+// Where a body is: x, y [m], yaw [rad].
+typedef struct Pose {
+    Vec p;
+    double yaw;
+} Pose;
+
+// A velocity [m/s] and a spin [rad/s], or changes of a pose [m, rad].
+typedef struct Twist {
+    Vec v;
+    double w;
+} Twist;
+
+static inline Vec vec(double x, double y) {
+    return (Vec){x, y};
+}
+
+static inline Vec add(Vec a, Vec b) {
+    return (Vec){a.x + b.x, a.y + b.y};
+}
+
+static inline Vec sub(Vec a, Vec b) {
+    return (Vec){a.x - b.x, a.y - b.y};
+}
+
+static inline Vec scaled(Vec a, double s) {
+    return (Vec){a.x * s, a.y * s};
+}
+
+static inline Vec negated(Vec a) {
+    return (Vec){-a.x, -a.y};
+}
+
+static inline double dot(Vec a, Vec b) {
+    return a.x * b.x + a.y * b.y;
+}
+
+static inline double cross(Vec a, Vec b) {
+    return a.x * b.y - a.y * b.x;
+}
+
+static inline double length(Vec a) {
+    return sqrt(a.x * a.x + a.y * a.y);
+}
+
+// The vector turned counter-clockwise by a quarter.
+static inline Vec perpendicular(Vec a) {
+    return (Vec){-a.y, a.x};
+}
+
+static inline Rotation rotation(double yaw) {
+    return (Rotation){cos(yaw), sin(yaw)};
+}
+
+static inline Vec rotated(Vec a, Rotation by) {
+    return (Vec){by.c * a.x - by.s * a.y, by.s * a.x + by.c * a.y};
+}
+
+static inline Vec rotated_back(Vec a, Rotation by) {
+    return (Vec){by.c * a.x + by.s * a.y, by.c * a.y - by.s * a.x};
+}
+
+// Velocity of a point of a body that is `arm` away from the centre of mass.
+static inline Vec velocity_at(Twist twist, Vec arm) {
+    return (Vec){twist.v.x - twist.w * arm.y, twist.v.y + twist.w * arm.x};
+}
+
+static inline double least(double a, double b) {
+    return a < b ? a : b;
+}
+
+static inline double greatest(double a, double b) {
+    return a > b ? a : b;
+}
+
+static inline double clamped(double value, double lower, double upper) {
+    return greatest(lower, least(value, upper));
+}
+
+#endif

@@ -1,0 +1,268 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The kinds of joints: the constraints of Chipmunk that each consists of, and their rows.
+
+Chipmunk solves the constraints together with contacts, without their bias, a velocity that closes
+gaps; the core then solves the rows (`core/joint_solver.c`). A constraint without rows, as a
+spring, is solved by Chipmunk alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+import math
+from typing import NamedTuple
+
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.core import lib
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.scene import Joint
+from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.transform import Point
+import pymunk
+
+# The bias of constraints whose gaps the core closes: a share of 0 of the gap is closed in a step.
+_NO_BIAS = 1.0
+# With 1 Chipmunk takes a limit of an angle whose bias is 0 for one that is not reached: this
+# corrects a share of 4e-7 of an angle in a step of 1/240 s.
+_NEARLY_NO_BIAS = 1.0 - 1e-4
+# How far behind its lower limit the point lies from which the way of a slider is measured [m]; any
+# distance will do.
+_BACK = 1.0
+
+
+class Row(NamedTuple):
+    """
+    A constraint row: lower <= x <= upper, both the same for an equality.
+
+    :ivar kind: which number x is, one of `ROW_X` ... of `core.h`
+    :ivar lower: least x [m, rad]
+    :ivar upper: greatest x [m, rad]
+    :ivar below: λ by the impulse that Chipmunk stores, where x is below its bounds
+    :ivar above: the same where it is not
+    """
+
+    kind: int
+    lower: float = 0.0
+    upper: float = 0.0
+    below: float = 1.0
+    above: float = 1.0
+
+
+class Part(NamedTuple):
+    """
+    A constraint of Chipmunk and its rows.
+
+    :ivar kind: one of `PART_PIVOT` ... of `core.h`
+    :ivar constraint: Pymunk's
+    :ivar rows: in the order of its impulses; none where Chipmunk alone solves it
+    """
+
+    kind: int
+    constraint: pymunk.Constraint
+    rows: tuple[Row, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Ends:
+    """
+    The two bodies of a joint in the engine, and its anchors.
+
+    :param a: one body
+    :param b: another one, or the background
+    :param at_a: anchor in the frame of the first, its origin the centre of mass [m]
+    :param at_b: the same in the frame of the second
+    """
+
+    a: pymunk.Body
+    b: pymunk.Body
+    at_a: Point
+    at_b: Point
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class EngineJoint:
+    """
+    A joint in the engine.
+
+    :param joint: its description
+    :param ends: its bodies and anchors
+    :param parts: its constraints; none where neither body is dynamic
+    """
+
+    joint: Joint
+    ends: Ends
+    parts: tuple[Part, ...]
+
+    @property
+    def row_count(self) -> int:
+        """Return the count of its rows."""
+        return sum(len(part.rows) for part in self.parts)
+
+    @property
+    def constraints(self) -> tuple[pymunk.Constraint, ...]:
+        """Return its constraints."""
+        return tuple(part.constraint for part in self.parts)
+
+
+def _pivot(ends: Ends) -> Part:
+    """Return two anchors that coincide; Chipmunk's impulse pushes the second body."""
+    constraint = pymunk.PivotJoint(ends.a, ends.b, ends.at_a, ends.at_b)
+    constraint.error_bias = _NO_BIAS
+    rows = (Row(lib.ROW_X, below=-1.0, above=-1.0), Row(lib.ROW_Y, below=-1.0, above=-1.0))
+    return Part(lib.PART_PIVOT, constraint, rows)
+
+
+def _turn(joint: Joint, ends: Ends) -> Part:
+    """Return ratio yaw_b - yaw_a = phase; the first body gets a share of Chipmunk's impulse."""
+    phase, ratio = joint.seat.phase, joint.number('ratio')
+    constraint = pymunk.GearJoint(ends.a, ends.b, phase, ratio)
+    constraint.error_bias = _NO_BIAS
+    row = Row(lib.ROW_ANGLE, phase, phase, 1.0 / ratio, 1.0 / ratio)
+    return Part(lib.PART_GEAR, constraint, (row,))
+
+
+def _weld(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return two anchors that coincide, and bodies that do not turn against each other."""
+    return _pivot(ends), _turn(joint, ends)
+
+
+def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """
+    Return two anchors that coincide; the turn of one body against the other may have limits.
+
+    `lower` and `upper` are turns of a against b from where they were, rows have the turn of b
+    against a, from zero.
+    """
+    lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
+    if lower is None and upper is None:
+        return (_pivot(ends),)
+    least = -math.inf if upper is None else phase - upper
+    most = math.inf if lower is None else phase - lower
+    limit = pymunk.RotaryLimitJoint(ends.a, ends.b, least, most)
+    limit.error_bias = _NEARLY_NO_BIAS
+    row = Row(lib.ROW_ANGLE, least, most)
+    return _pivot(ends), Part(lib.PART_ROTARY_LIMIT, limit, (row,))
+
+
+def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return an axle that turns one body against the other at a rate, with a greatest torque."""
+    motor = pymunk.SimpleMotor(ends.a, ends.b, joint.number('rate'))
+    motor.max_force = joint.number('max_torque')
+    return _pivot(ends), Part(lib.PART_MOTOR, motor)
+
+
+def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return a pull or push in proportion to its strain, which is damped."""
+    rest, stiffness, damping = joint.rest_length, joint.stiffness, joint.number('damping')
+    anchors = ends.at_a, ends.at_b
+    spring = pymunk.DampedSpring(ends.a, ends.b, *anchors, rest, stiffness, damping)
+    return (Part(lib.PART_SPRING, spring),)
+
+
+def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return two anchors that keep their distance."""
+    rod = pymunk.PinJoint(ends.a, ends.b, ends.at_a, ends.at_b)
+    rod.distance, rod.error_bias = joint.seat.length, _NO_BIAS
+    return (Part(lib.PART_PIN, rod, (Row(lib.ROW_DISTANCE, rod.distance, rod.distance),)),)
+
+
+def _rope(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return two anchors that are no further from each other than its length."""
+    longest = joint.rest_length
+    rope = pymunk.SlideJoint(ends.a, ends.b, ends.at_a, ends.at_b, 0.0, longest)
+    rope.error_bias = _NO_BIAS
+    # It only holds back, from its least length on too.
+    return (Part(lib.PART_SLIDE, rope, (Row(lib.ROW_DISTANCE, 0.0, longest, below=-1.0),)),)
+
+
+def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """
+    Return an anchor on a line of another body, and bodies that do not turn against each other.
+
+    The way along the line may have limits. Chipmunk's `GrooveJoint` solves both directions and
+    then drops what is along the line, which is not the velocity constraint of a line where masses
+    and arms make the two directions unequal (7.0.3, as in Pymunk 7.3.1): sliders that are loaded
+    off centre would gain energy. In its place a `PinJoint` pulls across the line, from a point of
+    the second body that the core puts beside the anchor in each step.
+    """
+    pin = pymunk.PinJoint(ends.b, ends.a, ends.at_b, ends.at_a)
+    pin.error_bias = _NO_BIAS
+    parts = (Part(lib.PART_PIN, pin, (Row(lib.ROW_ACROSS),)), _turn(joint, ends))
+    lower, upper = joint.properties.lower, joint.properties.upper
+    if lower is None and upper is None:
+        return parts
+    least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
+    # Distances from a point of the line that lies behind its lower limit.
+    back = _BACK if lower is None else _BACK - lower
+    (x, y), (ux, uy) = ends.at_b, (joint.seat.ux, joint.seat.uy)
+    origin, nearest = (x - ux * back, y - uy * back), 0.0 if lower is None else back + lower
+    limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, nearest, back + most)
+    limit.error_bias = _NO_BIAS
+    row = Row(lib.ROW_ALONG, least, most, below=-1.0)
+    return *parts, Part(lib.PART_SLIDE, limit, (row,))
+
+
+def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return a body whose turn is that of the other times a ratio, and a phase."""
+    return (_turn(joint, ends),)
+
+
+KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {
+    JointKind.PIN: _weld,
+    JointKind.AXLE: _axle,
+    JointKind.MOTOR: _motor,
+    JointKind.SPRING: _spring,
+    JointKind.ROD: _rod,
+    JointKind.ROPE: _rope,
+    JointKind.SLIDER: _slider,
+    JointKind.GEAR: _gear,
+}
+
+
+def build_joint(
+    joint: Joint, a: RigidBody, b: RigidBody | None, background: pymunk.Body
+) -> EngineJoint:
+    """
+    Make the constraints of a joint, outside any space.
+
+    Pymunk divides by the sum of inverse masses, so that of two bodies neither of which is dynamic
+    there are none; such a joint waits until one of them is. A slider whose limits are one point is
+    welded there.
+
+    :param a: the first body
+    :param b: the second one; None is the background
+    :param background: the engine's own
+    """
+    seat, make = joint.seat, KINDS[joint.kind]
+    at_b = (seat.bx, seat.by) if b is None else (seat.bx - b.offset[0], seat.by - b.offset[1])
+    stop = _stop_of(joint)
+    if stop is not None:
+        at_b, make = (at_b[0] + seat.ux * stop, at_b[1] + seat.uy * stop), _weld
+    ends = Ends(
+        a=a.pm_body,
+        b=background if b is None else b.pm_body,
+        at_a=(seat.ax - a.offset[0], seat.ay - a.offset[1]),
+        at_b=at_b,
+    )
+    if not (a.body.dynamic or (b is not None and b.body.dynamic)):
+        return EngineJoint(joint, ends, ())
+    built = EngineJoint(joint, ends, make(joint, ends))
+    for part in built.parts:
+        # With the background, which is the walls of `bounds` too, a body always collides.
+        part.constraint.collide_bodies = joint.collide or b is None
+        # That of a motor is its greatest torque.
+        if joint.properties.max_force is not None and part.kind != lib.PART_MOTOR:
+            part.constraint.max_force = joint.properties.max_force
+    return built
+
+
+def _stop_of(joint: Joint) -> float | None:
+    """Return where on its line a slider without any way stays [m]; None if it has a way."""
+    lower, upper = joint.properties.lower, joint.properties.upper
+    if joint.kind is not JointKind.SLIDER or lower is None or upper is None:
+        return None
+    return (lower + upper) / 2.0 if upper - lower < SMALLEST else None

@@ -1,0 +1,32 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The build backend: that of setuptools, which asks for a C compiler from PyPI where there is none.
+
+`setup.py` has the rest. The package ziglang is a compiler of 101 MB in a wheel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import shutil
+
+from setuptools import build_meta
+from setuptools.build_meta import *  # noqa: F403 - the hooks of PEP 517 and PEP 660
+
+Settings = Mapping[str, object] | None
+
+
+def _compiler() -> list[str]:
+    return [] if any(map(shutil.which, ('cc', 'gcc', 'clang'))) else ['ziglang']
+
+
+def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:
+    """Return what is needed to build a wheel."""
+    return [*build_meta.get_requires_for_build_wheel(config_settings), *_compiler()]
+
+
+def get_requires_for_build_editable(config_settings: Settings = None) -> list[str]:
+    """Return what is needed to install the source tree itself."""
+    return [*build_meta.get_requires_for_build_editable(config_settings), *_compiler()]
