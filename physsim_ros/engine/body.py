@@ -17,8 +17,9 @@ from dataclasses import dataclass, field, replace
 import math
 import operator
 
-from physsim_ros.engine.memory import place_of
+from physsim_ros.engine.core_world import address_of
 from physsim_ros.model.checkpoint import BodyState, Motion
+from physsim_ros.model.robot_states import RobotState, SPAWNED
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece
@@ -53,27 +54,35 @@ class RigidBody:
     :param pm_body: the Pymunk body
     :param serial: number of the spawn; the body that is spawned later is the topmost one
     :param first_shape: the engine's number of its first shape
-    :param free: in free flight, so that the engine's velocity leads
+    :param row: in the table of bodies; -1 if it is in none yet
     :param wrench: force [N] and torque [N m] that act on the centre of mass
     :param wrench_until: step at which the wrench ends; None is never
+    :param free: in free flight, so that the engine's velocity leads; this and what follows is the
+        state of a body that is in no table
+    :param released: something that it touched was removed or moved since the last step
+    :param thrown: its velocity was set since the last step
+    :param push: changes of velocity [m/s] and spin [rad/s] by contacts and joints, on a floor
+    :param driven: of a robot, the state of drive and odometry
 
-    :ivar pm_id: the engine's number of the body
-    :ivar place: of its `cpBody`, by which `memory` reads it
+    :ivar address: of the struct of Chipmunk
     """
 
     body: Body
     pm_body: pymunk.Body
     serial: int
     first_shape: int = 0
-    free: bool = True
+    row: int = -1
     wrench: Wrench = NO_WRENCH
     wrench_until: int | None = None
-    pm_id: int = field(init=False)
-    place: int = field(init=False)
+    free: bool = True
+    released: bool = False
+    thrown: bool = False
+    push: Twist = REST
+    driven: RobotState = SPAWNED
+    address: int = field(init=False)
 
     def __post_init__(self) -> None:
-        # Kept, since Pymunk takes a microsecond for each, and a table of all bodies has both.
-        self.pm_id, self.place = self.pm_body.id, place_of(self.pm_body._body)  # noqa: SLF001
+        self.address = address_of(self.pm_body)
 
     @property
     def offset(self) -> Point:
@@ -129,28 +138,18 @@ class RigidBody:
         self.free = free
 
 
-def index_at_rest(pm_body: pymunk.Body, *, ahead: float = 0.0) -> None:
+def index_at_rest(pm_body: pymunk.Body) -> None:
     """
-    Index the shapes of a body in its space as if it were at rest (see `stages.tight_boxes`).
+    Index the shapes of a body in its space as if it were at rest (see `core/tight_boxes.c`).
 
     Pymunk's own attributes would take five times as long.
-
-    :param ahead: time after which it is where it is indexed [s]
     """
     raw, space = pm_body._body, pm_body.space  # noqa: SLF001
     if space is None:
         return
-    x, y, angle, velocity = *pm_body.position, pm_body.angle, lib.cpBodyGetVelocity(raw)
+    velocity = lib.cpBodyGetVelocity(raw)
     lib.cpBodySetVelocity(raw, (0.0, 0.0))
-    if ahead:
-        spin = pm_body.angular_velocity
-        lib.cpBodySetPosition(raw, (x + velocity.x * ahead, y + velocity.y * ahead))
-        lib.cpBodySetAngle(raw, angle + spin * ahead)
-        lib.cpSpaceReindexShapesForBody(space._space, raw)  # noqa: SLF001
-        lib.cpBodySetPosition(raw, (x, y))
-        lib.cpBodySetAngle(raw, angle)
-    else:
-        lib.cpSpaceReindexShapesForBody(space._space, raw)  # noqa: SLF001
+    lib.cpSpaceReindexShapesForBody(space._space, raw)  # noqa: SLF001
     lib.cpBodySetVelocity(raw, velocity)
 
 

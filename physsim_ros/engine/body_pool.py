@@ -13,10 +13,9 @@ from __future__ import annotations
 import numpy as np
 from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.body_set import wake_bodies
 from physsim_ros.engine.space import Space
-from physsim_ros.engine.stages.sleeping import wake_bodies
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.transform import NO_WRENCH
 import pymunk
 
 
@@ -66,7 +65,7 @@ def _clear_contacts(space: Space) -> None:
     # In random order: in ascending order the engine's tree is as deep as there are bodies, and
     # 20,000 took 4 s.
     state[:, 0] = np.random.default_rng(0).permutation(len(rigids)) * 1e6
-    space.table.write_state(state)
+    space.write_state(state)
     space.pm_space.step(space.dt)
 
 
@@ -77,5 +76,4 @@ def _extract_body(space: Space) -> RigidBody:
     space.pm_space.remove(rigid.pm_body)
     # The last step left a bias velocity, by which the next one would push overlaps apart.
     pymunk.Body.update_position(rigid.pm_body, 0.0)
-    rigid.wrench, rigid.wrench_until, rigid.free = NO_WRENCH, None, True
-    return rigid
+    return RigidBody(rigid.body, rigid.pm_body, rigid.serial)

@@ -10,10 +10,9 @@ Pymunk does not wake bodies that overlap a static or kinematic body which is add
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.stages.sleeping import wake_bodies, wake_overlapping
 from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.transform import Point
 import pymunk
@@ -118,3 +117,16 @@ class BodySet:
 def _is_anchored(shape: pymunk.Shape) -> bool:
     """Return whether a shape is that of an anchored body."""
     return shape.body is None or shape.body.body_type == pymunk.Body.STATIC
+
+
+def wake_bodies(bodies: Iterable[pymunk.Body]) -> None:
+    """Wake dynamic bodies, and with each its whole island."""
+    for body in bodies:
+        if body.is_sleeping:
+            body.activate()
+
+
+def wake_overlapping(pm_space: pymunk.Space, body: pymunk.Body) -> None:
+    """Wake the bodies that overlap one: the engine compares static shapes with awake ones only."""
+    hits = (hit.shape for shape in body.shapes for hit in pm_space.shape_query(shape))
+    wake_bodies(shape.body for shape in hits if shape is not None and shape.body is not None)

@@ -1,207 +1,154 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""
-One table of all bodies: a row each, in spawn order, and last a row for the background.
-
-The engine lists bodies by *slot*, in an order that changes whenever one falls asleep, wakes, comes
-or goes. The table maps slots to rows, so that everything outside of it speaks of rows alone.
-"""
+"""One table of all bodies: a row each, in spawn order, and last a row for the background."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 import numpy as np
-from physsim_ros.engine.batch_io import BatchIO, Ids
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.ccd.fast_bodies import slow_bounds
-from physsim_ros.engine.core import dtype_of
 from physsim_ros.engine.core_world import address_of
-from physsim_ros.engine.graph_search import Rows
-from physsim_ros.engine.memory import place_of
 from physsim_ros.engine.scene_columns import columns_of
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.noise import normals
+from physsim_ros.model.robot_states import RobotStates
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.transform import NO_WRENCH
 import pymunk
-from pymunk._chipmunk_cffi import lib
 
-# A body beyond this position or speed is removed [m, m/s, rad, rad/s]; float64 resolves 0.1 mm
-# there.
+# A body beyond this position or speed is removed [m, m/s, rad, rad/s]; `step.c` has it too.
 LOST = 1e12
-_BODY = dtype_of('Body')
+# Steps whose noise is made at once: a call of `normals` takes as long as 300 of its numbers.
+_BLOCK = 64
 
 
 class BodyTable:
     """
-    The bodies of a space by column.
+    The bodies of a space as the tables of the core.
 
     :param scene: of these bodies
     :param bodies: in spawn order
     :param background: Pymunk's static body, which has the walls
-    :param io: reads and writes the arrays of the space
     :param dt: length of a step [s]
 
-    :ivar columns: numbers that follow from the scene alone
-    :ivar leads: (n, 3) float64: the half-step lead of each body in free flight, wrench included
-    :ivar free: (n,) bool: in free flight, so that the engine's velocity leads by `leads`
-    :ivar asleep: (n,) bool: asleep in the engine at the last reading
-    :ivar sleepers: count of sleeping bodies
-    :ivar can_fly: (n,) bool: awake, not on a floor, and free flight has a half-step lead
-    :ivar may_fly: whether any body can
-    :ivar places: (n + 1,) int64: of `cpBody`, by which `memory` reads it
-    :ivar slot_changes: count of changes of the slots, by bodies that fell asleep or woke
+    :ivar columns: what follows from the scene alone
+    :ivar records: (n + 1,) `Body`; the last one is the background
+    :ivar robots: (r,) `Robot`, in the order of their bodies
     """
 
     def __init__(
-        self,
-        scene: Scene,
-        bodies: Sequence[RigidBody],
-        background: pymunk.Body,
-        io: BatchIO,
-        dt: float,
+        self, scene: Scene, bodies: Sequence[RigidBody], background: pymunk.Body, dt: float
     ) -> None:
         self.scene = scene
         self.bodies = tuple(bodies)
         self.columns = columns_of(scene, dt)
-        self.leads = self.columns.gravity_lead.copy(order='F')
+        self.records = self.columns.bodies.copy()
+        self.robots = self.columns.robots.copy()
+        own = self.records[:-1]
+        self.records['engine'] = [*(rigid.address for rigid in bodies), address_of(background)]
+        for name in ('free', 'released', 'thrown'):
+            own[name] = [getattr(rigid, name) for rigid in bodies]
         for row, rigid in enumerate(bodies):
             if rigid.wrench != NO_WRENCH:
-                self.leads[row] = rigid.lead(scene.settings.gravity, dt)
-        self.free = np.array([rigid.free for rigid in bodies], np.bool_)
-        self.slot_changes = 0
-        self._io = io
-        self.ids: Ids = np.array([*(rigid.pm_id for rigid in bodies), background.id], np.uint64)
-        places = (rigid.place for rigid in bodies)
-        self.places = np.array([*places, place_of(background._body)], np.int64)  # noqa: SLF001
-        self._by_place = np.argsort(self.places)
-        self.records = np.zeros(len(self.ids), _BODY)
-        self.records['engine'] = [
-            *(address_of(rigid.pm_body) for rigid in bodies),
-            address_of(background),
-        ]
-        self.records['dynamic'] = self.columns.dynamic
-        self.records['anchored'] = self.columns.anchored
-        self._ascending = np.argsort(self.ids)
-        self._sorted_ids = self.ids[self._ascending]
-        self._state: Floats | None = None
-        self._sizes: Floats | None = None
-        # Bounds of positions and velocities within which a body is neither lost nor fast.
-        self._bounds = np.full((len(bodies), 6), LOST, order='F')
-        np.minimum(LOST, slow_bounds(self.columns, dt), out=self._bounds[:, 3:])
-        self._all_within: bool | None = None
-        self._listed, _ = io.read_states()
-        self._map_slots()
+                self.set_wrench(row, scene.settings.gravity, dt)
+            if rigid.push != NO_WRENCH:
+                own['push'][row] = rigid.push
+        states = RobotStates.of([self.bodies[row].driven for row in self.robots['body'].tolist()])
+        self._write_robots(states)
 
-    def rows_of(self, ids: Ids) -> Rows:
-        """Return the rows of engine ids; an id that is in no row is the background."""
-        near = np.minimum(np.searchsorted(self._sorted_ids, ids), len(self.ids) - 1)
-        rows: Rows = self._ascending[near]
-        return np.where(self._sorted_ids[near] == ids, rows, len(self.bodies))
+    def set_wrench(self, row: int, gravity: tuple[float, float], dt: float) -> None:
+        """Set the wrench of a body, and the lead of its velocity in free flight."""
+        rigid = self.bodies[row]
+        self.records['wrench'][row] = rigid.wrench
+        self.records['lead'][row] = rigid.lead(gravity, dt)
 
-    def rows_at(self, places: Ints) -> Rows:
-        """Return the rows of bodies by the places of their `cpBody`."""
-        rows: Rows = self._by_place[np.searchsorted(self.places, places, sorter=self._by_place)]
-        return rows
-
-    @property
-    def state(self) -> Floats:
-        """Return (n, 6) float64: poses and velocities of the engine's origins; read only."""
-        if self._state is None:
-            self._state = self.read_states()[:-1]
-        return self._state
-
-    @property
-    def state_with_background(self) -> Floats:
-        """Return (n + 1, 6) float64: the same, and zeros for the background."""
-        return np.concatenate((self.state, np.zeros((1, 6))))
-
-    @property
-    def sizes(self) -> Floats:
-        """Return (n, 6) float64: the absolute values of `state`; read only."""
-        if self._sizes is None:
-            self._sizes = np.abs(self.state)
-        return self._sizes
-
-    @property
-    def all_slow(self) -> bool:
-        """Return whether no body is lost, or fast enough for any stage (`fast_bodies`)."""
-        if self._all_within is None:
-            # NaN compares false.
-            within = self.sizes < self._bounds
-            self._all_within = np.count_nonzero(within) == within.size
-        return self._all_within
-
-    def read_states(self) -> Floats:
-        """
-        Return poses and velocities as the engine has them now, in the middle of a step too.
-
-        :return: (n + 1, 6) float64, by row [m, rad, m/s, rad/s]
-        """
-        listed, states = self._io.read_states()
-        if listed != self._listed:
-            self._listed = listed
-            self.slot_changes += 1
-            self._map_slots()
-        # Column by column: NumPy is three times slower with rows of a thousand bodies.
-        return np.asfortranarray(states.take(self._slots, axis=0))
+    def store(self) -> None:
+        """Write to each body what outlives the table, before that is dropped."""
+        own = self.records[:-1]
+        names = 'free', 'released', 'thrown'
+        columns = (own[name].astype(np.bool_).tolist() for name in names)
+        for rigid, *flags in zip(self.bodies, *columns, strict=True):
+            rigid.free, rigid.released, rigid.thrown = flags
+        pushes = own['push']
+        for row in np.flatnonzero(pushes.any(axis=1)).tolist():
+            x, y, turn = pushes[row].tolist()
+            self.bodies[row].push = x, y, turn
+        for row, state in zip(self.robots['body'].tolist(), self.robot_states.rows(), strict=True):
+            self.bodies[row].driven = state
 
     def lost(self) -> list[str]:
         """Return the names of the bodies whose state is not finite, or too large."""
-        if self.all_slow:
-            return []
-        # NaN compares false, so that it is lost too.
-        far = ~(self.sizes < LOST).all(axis=1)
-        return [self.scene.names[row] for row in np.flatnonzero(far)]
+        names = []
+        for rigid in self.bodies:
+            pm_body = rigid.pm_body
+            state = *pm_body.position, pm_body.angle, *pm_body.velocity, pm_body.angular_velocity
+            # NaN compares false, so that it is lost too.
+            if not all(abs(each) < LOST for each in state):
+                names.append(rigid.body.name)
+        return names
 
-    def write_state(self, state: Floats) -> None:
-        """Set the poses and velocities of all bodies, (n, 6) float64; no body may sleep."""
-        states = np.zeros((len(self.ids), 6))
-        states[self._slots[:-1]] = state
-        self._io.write_states(states)
-        self.forget_state()
+    @property
+    def asleep(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
+        """Return (n,) bool: bodies that sleep in the engine."""
+        return np.array([rigid.pm_body.is_sleeping for rigid in self.bodies], np.bool_)
 
-    def write_poses(self, rows: Rows, poses: Floats) -> None:
+    # Floor and robots
+
+    @property
+    def pushes(self) -> Floats:
         """
-        Set the poses of some bodies, sleeping ones excepted.
+        Return what contacts and joints have changed in the last steps.
 
-        :param rows: (k,) of the bodies
-        :param poses: (k, 3) float64: of the engine's origins [m, rad]
+        :return: (k, 3) float64: changes of velocity [m/s] and spin [rad/s] of the bodies that the
+            floor acts on, in spawn order
         """
-        state = self.state
-        if self.sleepers:
-            awake = ~self.asleep[rows]
-            rows, poses = rows[awake], poses[awake]
-        before = state[rows, :3].tolist()
-        for row, old, new in zip(rows.tolist(), before, poses.tolist(), strict=True):
-            if new != old:
-                # Pymunk's own attributes check and convert each value: ten times the cost.
-                pm_body, (x, y, yaw) = self.bodies[row].pm_body._body, new  # noqa: SLF001
-                lib.cpBodySetPosition(pm_body, (x, y))
-                lib.cpBodySetAngle(pm_body, yaw)
-        state[rows, :3] = poses
-        self._sizes = self._all_within = None
+        return self.records['push'][self.records['floor_friction'] > 0.0]
 
-    def forget_state(self) -> None:
-        """Drop the cached state, which the engine has changed."""
-        self._state = self._sizes = self._all_within = None
+    def set_pushes(self, pushes: Floats) -> None:
+        """Continue with what contacts and joints have changed in the last steps."""
+        rows = np.flatnonzero(self.records['floor_friction'] > 0.0)
+        if len(pushes) == len(rows):
+            self.records['push'][rows] = pushes
 
-    def store_flags(self) -> None:
-        """Write to each body whether it is in free flight, before the table is dropped."""
-        for rigid, free in zip(self.bodies, self.free.tolist(), strict=True):
-            rigid.free = free
+    @property
+    def robot_states(self) -> RobotStates:
+        """Return drives and odometry of the robots."""
+        if not len(self.robots):
+            return RobotStates.of(())
+        return RobotStates(
+            aim=self.robots['aim'].copy(),
+            until=self.robots['until'].copy(),
+            wheels=self.robots['rolling'].copy(),
+            travel=self.robots['travel'].copy(),
+            odometry=self.robots['odometry'].copy(),
+            path=self.robots['path'].copy(),
+        )
 
-    def _map_slots(self) -> None:
-        rows = self.rows_of(np.frombuffer(self._listed, np.uint64))
-        slots = np.empty(len(self.ids), np.intp)
-        slots[rows] = np.arange(len(rows))
-        self._slots = slots
-        # The engine lists sleeping bodies behind all static ones, the background among them.
-        dynamic = self.columns.dynamic[:-1]
-        self.asleep = dynamic & (slots[:-1] > slots[-1])
-        self.sleepers = np.count_nonzero(self.asleep)
-        self.can_fly = dynamic & ~self.columns.sprung & ~self.asleep
-        # On a floor nothing flies.
-        self.can_fly &= self.columns.floor_friction == 0.0
-        self.may_fly = np.count_nonzero(self.can_fly) > 0
+    def _write_robots(self, states: RobotStates) -> None:
+        if len(self.robots):
+            self.robots['aim'][:] = states.aim
+            self.robots['until'] = states.until
+            self.robots['rolling'][:] = states.wheels
+            self.robots['travel'][:] = states.travel
+            self.robots['odometry'][:] = states.odometry
+            self.robots['path'][:] = states.path
+
+    def make_noise(self, step: int, count: int) -> None:
+        """Make the noise of odometry for some steps: it depends on seed, name and step alone."""
+        robots = self.scene.robots
+        noisy = [number for number, robot in enumerate(robots) if any(robot.odometry.slip)]
+        if not noisy:
+            return
+        first, last = step // _BLOCK, (step + count - 1) // _BLOCK
+        blocks = []
+        for number in noisy:
+            name = f'odometry of {self.scene.names[self.robots["body"][number]]}'
+            seed = self.scene.settings.seed
+            parts = [normals(seed, name, block, 2 * _BLOCK) for block in range(first, last + 1)]
+            blocks.append(np.concatenate(parts)[2 * (step - first * _BLOCK) :])
+        # Kept while the core reads it.
+        self._noise = np.stack(blocks)
+        for row, number in enumerate(noisy):
+            self.robots[number]['noise'] = self._noise[row].ctypes.data

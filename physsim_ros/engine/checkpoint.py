@@ -20,7 +20,6 @@ from physsim_ros.engine import body as rigid_body
 from physsim_ros.engine.body import engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
-from physsim_ros.engine.stages.half_step import observe_bodies
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
 from physsim_ros.model.garbage_collection import suspended_collection
@@ -38,30 +37,30 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
 
     :param step: steps that the world has made
     """
-    table, start, rigids = space.table, space.start_state, list(space.bodies.by_name.values())
-    unsupported = [rigids[row] for row in np.flatnonzero(start.unsupported)]
+    table, rigids = space.table, list(space.bodies.by_name.values())
+    state, free, unsupported = space.core.read_state()
     return Checkpoint(
         step=step,
         scene=table.scene,
-        state=start.state.copy(),
-        free=start.free.copy(),
+        state=state,
+        free=free,
         wrenches=tuple(
             (table.columns.rows[rigid.body.name], rigid.wrench, rigid.wrench_until)
-            for rigid in space.pipeline.wrenches.acting()
+            for rigid in space.wrenched()
         ),
         memory=replace(
             read_impulses(
                 space.shapes,
                 rigids,
                 space.boundary.first_shape,
-                without=shape_numbers(unsupported),
+                without=shape_numbers(rigids[row] for row in np.flatnonzero(unsupported)),
                 joints=space.joints.impulses(),
             ),
-            pushes=space.pipeline.floor.pushes(table),
+            pushes=table.pushes,
         ),
-        grips=space.pipeline.mouse_joints.grips(),
+        grips=space.grips(),
         unstepped=space.joints.unstepped(),
-        robots=space.robot_states,
+        robots=table.robot_states,
     )
 
 
@@ -78,7 +77,7 @@ def saved_state(space: Space, step: int) -> WorldState:
     states = (each.shifted(-step) for each in checkpoint.robots.rows())
     driven = dict(zip(checkpoint.scene.robot_rows.tolist(), states, strict=True))
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
-    _, twists = observe_bodies(space.table, space.start_state)
+    _, twists = space.observe()
     rigids = enumerate(space.bodies.by_name.values())
     for (row, rigid), (state, free) in zip(rigids, motions, strict=True):
         body, until = rigid.body, rigid.wrench_until
@@ -178,25 +177,27 @@ def restore_checkpoint(
         rigids, checkpoint.memory.ids.tolist(), checkpoint.free.tolist(), strict=True
     ):
         rigid.first_shape, rigid.free = first, free
-    for row, wrench, until in checkpoint.wrenches:
-        space.pipeline.wrenches.set_wrench(rigids[row], wrench, until)
+    driven = checkpoint.robots.rows()
+    for row, state in zip(scene.robot_rows.tolist(), driven, strict=True):
+        rigids[row].driven = state
     space.bodies.add_without_shapes(rigids)
-    table = space.lay_out(checkpoint.scene)
+    for row, wrench, until in checkpoint.wrenches:
+        space.put_wrench(rigids[row], wrench, until)
+    table = space.lay_out(scene)
+    table.set_pushes(checkpoint.memory.pushes)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
-    table.write_state(at_rest)
+    space.write_state(at_rest)
     space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in rigids)
     write_impulses(space.pm_space, space.shapes, checkpoint.memory, dt)
-    table.write_state(checkpoint.state)
-    for joint in checkpoint.scene.joints:
+    space.write_state(checkpoint.state)
+    for joint in scene.joints:
         space.joints.add(joint)
     space.joints.set_unstepped(checkpoint.unstepped)
     space.lay_out_joints()
     space.joints.set_impulses(checkpoint.memory.joints)
     for grip in checkpoint.grips:
-        space.pipeline.mouse_joints.set_grip(grip)
-    space.pipeline.floor.begin(table, checkpoint.memory.pushes)
-    space.pipeline.floor.drives.put_states(checkpoint.scene, checkpoint.robots.rows())
+        space.put_grip(grip)
     return space
 
 

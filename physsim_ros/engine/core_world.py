@@ -5,16 +5,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.core import ffi, lib
+from physsim_ros.engine.core import dtype_of, ffi, lib
 from physsim_ros.model.arrays import Flags, Floats
 import pymunk
 from pymunk._chipmunk_cffi import ffi as pymunk_ffi
+from pymunk._chipmunk_cffi import lib as pymunk_lib
 
 Table = NDArray[np.void]
+# Functions of Chipmunk by the fields of `Chipmunk`.
+_FUNCTIONS = {
+    'space_step': 'cpSpaceStep',
+    'body_activate': 'cpBodyActivate',
+    'reindex_body': 'cpSpaceReindexShapesForBody',
+    'shape_query': 'cpSpaceShapeQuery',
+    'each_arbiter': 'cpSpaceEachCachedArbiter',
+}
+_CONTACT, _BEGUN = dtype_of('Contact'), dtype_of('Begun')
 
 
 def address_of(it: pymunk.Space | pymunk.Body | pymunk.Shape | pymunk.Constraint) -> int:
@@ -40,36 +51,137 @@ class CoreWorld:
     """
 
     def __init__(self, pm_space: pymunk.Space, dt: float) -> None:
-        space = ffi.cast('cpSpace *', address_of(pm_space))
-        self._world = ffi.gc(lib.core_new(space, dt), lib.core_free)
-        # The tables that the core uses, which have to live as long.
-        self._bodies: Table | None = None
-        self._joints: tuple[Table, ...] = ()
+        # A massive body outside the space, whose angle stays 0 and within the limits.
+        body = pymunk.Body(1.0, 1.0)
+        hook = pymunk.RotaryLimitJoint(pm_space.static_body, body, -1.0, 1.0)
+        pm_space.add(hook)
+        pointers = (
+            ffi.cast('cpSpace *', address_of(pm_space)),
+            _chipmunk(),
+            dt,
+            ffi.cast('cpConstraint *', address_of(hook)),
+        )
+        self._world = ffi.gc(lib.core_new(*pointers), lib.core_free)
+        # Kept while the core uses them: what it calls, and its tables.
+        self._pm_space = pm_space
+        self._tables: dict[str, tuple[Table, ...]] = {}
 
-    def use_bodies(self, bodies: Table) -> None:
-        """Have the core step these bodies, (n + 1,) `Body`; the last one is the background."""
+    # Before a step
+
+    def use_bodies(self, bodies: Table, former: Sequence[int]) -> None:
+        """
+        Have the core step these bodies.
+
+        :param bodies: (n + 1,) `Body`; the last one is the background
+        :param former: place of each in the table before; -1 for those that are new
+        """
         self.drop_joints()
-        self._bodies = bodies
-        lib.core_use_bodies(self._world, *_table(bodies, 'Body'))
+        self.use_grips(np.zeros(0, dtype_of('Grip')))
+        self.use_robots(np.zeros(0, dtype_of('Robot')))
+        places = np.array(former, np.int32)
+        lib.core_use_bodies(
+            self._world, *_pointer_and_count(bodies, 'Body'), _pointer(places, 'int32_t')
+        )
+        self._tables['bodies'] = (bodies,)
 
     def use_joints(self, joints: Table, parts: Table, rows: Table) -> None:
         """Have the core step these joints: `Joint`, `Part` and `Row` of `core.h`."""
-        self._joints = joints, parts, rows
-        tables = _table(joints, 'Joint'), _table(parts, 'Part'), _table(rows, 'Row')
-        lib.core_use_joints(self._world, *(each for table in tables for each in table))
+        tables = zip((joints, parts, rows), ('Joint', 'Part', 'Row'), strict=True)
+        pointers = (each for table in tables for each in _pointer_and_count(*table))
+        lib.core_use_joints(self._world, *pointers)
+        self._tables['joints'] = joints, parts, rows
 
     def drop_joints(self) -> None:
         """Have the core step no joints, before one of them comes or goes."""
-        self._joints = ()
         lib.core_use_joints(self._world, ffi.NULL, 0, ffi.NULL, 0, ffi.NULL, 0)
+        self._tables.pop('joints', None)
 
-    def prepare_joints(self) -> None:
-        """Prepare constraints for the poses of the coming step."""
-        lib.core_prepare_joints(self._world)
+    def use_grips(self, grips: Table) -> None:
+        """Have the core draw bodies to hands, `Grip`."""
+        self._world.grips, self._world.grip_count = _pointer_and_count(grips, 'Grip')
+        self._tables['grips'] = (grips,)
 
-    def solve_joints(self) -> None:
-        """Solve joints, after the step of Chipmunk."""
-        lib.core_solve_joints(self._world)
+    def use_robots(self, robots: Table) -> None:
+        """Have the core drive robots, `Robot`, in the order of their bodies."""
+        self._world.robots, self._world.robot_count = _pointer_and_count(robots, 'Robot')
+        self._tables['robots'] = (robots,)
+
+    def note_moved_static(self) -> None:
+        """Note that an anchored body or a wall has been moved."""
+        self._world.statics_moved = True
+
+    def leave_out(self, stages: int) -> None:
+        """Leave out stages from now on, a sum of `STAGE_...` of `core.h`; to measure them."""
+        self._world.stages = lib.STAGE_ALL & ~stages
+
+    # Steps
+
+    def step(
+        self, count: int, *, number: int, age: int, drag_force: float, reports_contacts: bool
+    ) -> int:
+        """
+        Make steps.
+
+        :param count: of them
+        :param number: count of steps that the world has made
+        :param age: count of steps since the space was built; stages that act every n steps count
+            by it, so that a space restored from a checkpoint goes on alike
+        :param drag_force: greatest force of a hand, in weights of the body
+        :return: count of the steps that were made: fewer where a joint breaks or a body is lost
+        """
+        world = self._world
+        world.step, world.age, world.drag_force = number, age, drag_force
+        world.reports_contacts = reports_contacts
+        made: int = lib.core_step(world, count)
+        return made
+
+    @property
+    def has_lost(self) -> bool:
+        """Return whether a body has left the range of numbers in the last step."""
+        return bool(self._world.has_lost)
+
+    @property
+    def swept(self) -> int:
+        """Return the count of pairs whose time of impact was looked for until now."""
+        return int(self._world.swept)
+
+    @property
+    def has_broken(self) -> bool:
+        """Return whether a joint has broken in the last step."""
+        return bool(self._world.has_broken)
+
+    # State
+
+    def read_state(self) -> tuple[Floats, Flags, Flags]:
+        """
+        Return the state that the next step begins with, after all requests until now.
+
+        :return: (n, 6) float64: poses and velocities of the engine's origins; (n,) bool: in free
+            flight, so that the velocity leads; (n,) bool: falls since its support was removed
+        """
+        count = self._count
+        state = np.zeros((count, 6))
+        free, unsupported = np.zeros((2, count), np.bool_)
+        flags = _pointer(free, 'uint8_t'), _pointer(unsupported, 'uint8_t')
+        lib.core_read_state(self._world, _pointer(state, 'Motion'), *flags)
+        return state, free, unsupported
+
+    def write_state(self, state: Floats) -> None:
+        """Set the poses and velocities of all bodies, (n, 6) float64; no body may sleep."""
+        state = np.ascontiguousarray(state)
+        lib.core_write_state(self._world, _pointer(state, 'Motion'))
+
+    def observe(self) -> tuple[Floats, Floats]:
+        """
+        Return poses of the bodies' origins and true velocities of their centres of mass.
+
+        :return: (n, 3) float64 each: x, y [m], yaw [rad]; velocity [m/s], spin [rad/s]
+        """
+        poses, twists = np.zeros((2, self._count, 3))
+        lib.core_observe(self._world, _pointer(poses, 'Pose'), _pointer(twists, 'Twist'))
+        return poses, twists
+
+    # Joints
 
     def read_impulses(self) -> Floats:
         """Return (p, 2) float64: impulses from which the next step starts, of all constraints."""
@@ -90,11 +202,8 @@ class CoreWorld:
             linear impulse on the second body [N s]; (j,) bool: pushed its bodies apart
         """
         count = self._world.joint_count
-        impulses, pulls, pressing = (
-            np.zeros(count),
-            np.zeros((count, 2)),
-            np.zeros(count, np.bool_),
-        )
+        impulses, pulls = np.zeros(count), np.zeros((count, 2))
+        pressing = np.zeros(count, np.bool_)
         lib.core_read_joints(
             self._world,
             _pointer(impulses, 'double'),
@@ -103,11 +212,55 @@ class CoreWorld:
         )
         return impulses, pulls, pressing
 
+    # Contacts
+
+    def take_contacts(self) -> tuple[Table, Table, int]:
+        """
+        Return the contacts since the last call, and begin the next sums.
+
+        :return: (m,) `Contact`; (k,) `Begun`; count of steps
+        """
+        world = self._world
+        lib.core_take_contacts(world)
+        contacts = _copy(world.contacts, world.contact_count, _CONTACT)
+        begun = _copy(world.begun, world.begun_count, _BEGUN)
+        steps: int = world.frame_steps
+        lib.core_clear_contacts(world)
+        return contacts, begun, steps
+
+    def clear_contacts(self) -> None:
+        """Drop the sums since the last call of `take_contacts`."""
+        lib.core_clear_contacts(self._world)
+
+    def copy_contacts(self, old: CoreWorld) -> None:
+        """Continue with the sums of a world of the same bodies."""
+        lib.core_copy_contacts(self._world, old._world)
+
+    @property
+    def _count(self) -> int:
+        """Return the count of bodies, without the background."""
+        return int(self._world.body_count) - 1
+
+
+def _chipmunk() -> Any:
+    """Return the functions of Chipmunk that the core calls, in Pymunk's own library."""
+    functions = ffi.new('Chipmunk *')
+    kinds = dict(ffi.typeof('Chipmunk').fields)
+    for field, name in _FUNCTIONS.items():
+        address = int(pymunk_ffi.cast('uintptr_t', pymunk_ffi.addressof(pymunk_lib, name)))
+        setattr(functions, field, ffi.cast(kinds[field].type, address))
+    return functions[0]
+
 
 def _pointer(array: NDArray[Any], kind: str) -> Any:
     return ffi.cast(f'{kind} *', array.ctypes.data)
 
 
-def _table(array: Table, kind: str) -> tuple[Any, int]:
-    """Return the arguments of the core for a table: its pointer and its count."""
-    return _pointer(array, kind), len(array)
+def _pointer_and_count(table: Table, kind: str) -> tuple[Any, int]:
+    return _pointer(table, kind), len(table)
+
+
+def _copy(pointer: Any, count: int, dtype: np.dtype[np.void]) -> Table:
+    """Return a copy of values in the memory of the core."""
+    memory = ffi.buffer(pointer, count * dtype.itemsize) if count else b''
+    return np.frombuffer(memory, dtype).copy()

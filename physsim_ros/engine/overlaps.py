@@ -23,7 +23,7 @@ from typing import NamedTuple, TypeVar
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from physsim_ros.engine.ccd.broad_phase import pairs_in_parts
+from physsim_ros.engine.broad_phase import pairs_in_parts
 from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Form, Piece, Shape

@@ -10,27 +10,27 @@ a wrench changes.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 import math
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.batch_io import BatchIO
 from physsim_ros.engine.body import RigidBody, same_in_engine
-from physsim_ros.engine.body_set import BodySet
+from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
+from physsim_ros.engine.contacts import take_contacts
+from physsim_ros.engine.core import dtype_of
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.pipeline import Pipeline
 from physsim_ros.engine.settings import make_space
-from physsim_ros.engine.stages.half_step import StartState
-from physsim_ros.engine.stages.sleeping import wake_bodies
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
+from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.robot_states import RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Grip
+from physsim_ros.model.snapshot import Contacts, Grip
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
 
@@ -68,14 +68,15 @@ class Space:
         self.boundary = Boundary(self.pm_space, self.shapes)
         self.core = CoreWorld(self.pm_space, dt)
         self.joints = JointSet(self.pm_space, self.bodies.by_name, self.core, dt)
-        self._io = BatchIO(self.pm_space)
-        self.pipeline = Pipeline(
-            self.pm_space, self._io, self.shapes, self.bodies.by_name, self.core, dt=dt
-        )
         self.broken: list[tuple[str, float]] = []
         self.changes = 0
         self._age = 0
         self._table: BodyTable | None = None
+        # Place of the background in the table before; -1 if its contacts are over.
+        self._background = -1
+        # Bodies on which a wrench acts, and grips of hands, both by name.
+        self._wrenched: dict[str, RigidBody] = {}
+        self._grips: dict[str, Grip] = {}
         self._settings = WorldSettings(gravity=(0.0, 0.0))
         self.configure(settings)
 
@@ -91,23 +92,30 @@ class Space:
 
     @property
     def table(self) -> BodyTable:
-        """Return the bodies by column."""
-        return self._table or self.lay_out(
-            Scene(
-                bodies=tuple(rigid.body for rigid in self.bodies.by_name.values()),
-                settings=self._settings,
-                joints=tuple(held.joint for held in self.joints.by_name.values()),
-                lesson=self._lesson,
+        """Return the bodies as the core has them."""
+        if self._table is None:
+            return self.lay_out(
+                Scene(
+                    bodies=tuple(rigid.body for rigid in self.bodies.by_name.values()),
+                    settings=self._settings,
+                    joints=tuple(held.joint for held in self.joints.by_name.values()),
+                    lesson=self._lesson,
+                )
             )
-        )
+        return self._table
 
     def lay_out(self, scene: Scene) -> BodyTable:
-        """Return a new table of the bodies."""
-        rigids, background = self.bodies.by_name.values(), self.pm_space.static_body
-        self._table = BodyTable(scene, tuple(rigids), background, self._io, self.dt)
-        self.core.use_bodies(self._table.records)
+        """Return a new table of the bodies, which the core steps from now on."""
+        rigids, background = tuple(self.bodies.by_name.values()), self.pm_space.static_body
+        self._table = table = BodyTable(scene, rigids, background, self.dt)
+        self.core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
+        self.core.use_robots(table.robots)
+        self._background = len(rigids)
+        for row, rigid in enumerate(rigids):
+            rigid.row = row
         self.lay_out_joints()
-        return self._table
+        self._lay_out_grips()
+        return table
 
     def lay_out_joints(self) -> None:
         """Have the core step the joints that there are."""
@@ -115,10 +123,39 @@ class Space:
             bodies = (*(rigid.pm_body for rigid in self.table.bodies), self.pm_space.static_body)
             self.joints.use_places({body: place for place, body in enumerate(bodies)})
 
-    @property
-    def start_state(self) -> StartState:
-        """Return the state that the next step begins with."""
-        return self.pipeline.half_step.start_state(self.table)
+    def _lay_out_grips(self) -> None:
+        """Have the core draw bodies to the hands that there are."""
+        if self._table is None:
+            return
+        records = np.zeros(len(self._grips), dtype_of('Grip'))
+        for record, grip in zip(records, self._grips.values(), strict=True):
+            rigid = self.bodies.by_name[grip.body]
+            (x, y), offset = grip.anchor, rigid.offset
+            record['body'], record['target'] = rigid.row, grip.target
+            record['anchor'] = x - offset[0], y - offset[1]
+        self.core.use_grips(records)
+
+    def read_state(self) -> tuple[Floats, Flags]:
+        """
+        Return the state that the next step begins with, after all requests until now.
+
+        :return: (n, 6) float64: poses and velocities of the engine's origins [m, rad, m/s, rad/s];
+            (n,) bool: in free flight, so that the velocity leads
+        """
+        state, free, _ = self._laid_out().read_state()
+        return state, free
+
+    def write_state(self, state: Floats) -> None:
+        """Set poses and velocities, (n, 6) float64; no body may sleep."""
+        self._laid_out().write_state(state)
+
+    def observe(self) -> tuple[Floats, Floats]:
+        """
+        Return poses of the bodies' origins and true velocities of their centres of mass.
+
+        :return: (n, 3) float64 each: x, y [m], yaw [rad]; velocity [m/s], spin [rad/s]
+        """
+        return self._laid_out().observe()
 
     def twist_of(self, rigid: RigidBody) -> Twist:
         """Return the true velocity of a body."""
@@ -174,8 +211,9 @@ class Space:
         self._insert(rigid, pose, twist)
         self.joints.attach(body.name)
         if not body.dynamic:
-            self.pipeline.mouse_joints.forget_body(body.name)
-        self.pipeline.half_step.release_bodies(touching)
+            self._drop_grips_on(body.name)
+        rigid.driven = old.driven
+        self._release(touching)
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
 
@@ -186,72 +224,123 @@ class Space:
         for joint in self.joints.names_on(name):
             self.unjoin(joint)
         self._take_out(rigid)
-        self.pipeline.mouse_joints.forget_body(name)
-        self.pipeline.floor.drives.forget_body(name)
+        self._drop_grips_on(name)
         del self.bodies.by_name[name]
-        self.pipeline.half_step.release_bodies(touching)
+        self._release(touching)
 
     def set_pose(self, rigid: RigidBody, pose: Pose) -> None:
         """Set the pose of a body."""
         touching = self.bodies.touching(rigid.pm_body)
         rigid.pose = self.joints.with_turns(rigid, pose)
         self.bodies.wake_around(rigid, touching)
-        self.pipeline.continuous_collision.invalidate()
-        self.pipeline.half_step.release_bodies(touching)
-        self._note_motion()
+        self.core.note_moved_static()
+        self._release(touching)
+        self.changes += 1
 
     def set_twist(self, rigid: RigidBody, twist: Twist) -> None:
         """Set the velocity of a body, which is in free flight then unless it has joints."""
         free = self._is_free(rigid) or not self.joints.has_joints(rigid.body.name)
         rigid.set_twist(twist, self._settings.gravity, self.dt, free=free)
-        self.pipeline.resting_damping.exempt_body(rigid)
-        if self._table is not None and not rigid.body.anchored:
-            self._table.free[self._table.columns.rows[rigid.body.name]] = free
-        self._note_motion()
+        if not rigid.body.anchored:
+            self._set_flag(rigid, 'free', free)
+            self._set_flag(rigid, 'thrown', True)
+        self.changes += 1
 
     def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
         """Set the wrench on a body until a step; None is for ever."""
         twist, free = self.twist_of(rigid), self._is_free(rigid)
-        self.pipeline.wrenches.set_wrench(rigid, wrench, until)
+        self.put_wrench(rigid, wrench, until)
         if wrench != NO_WRENCH:
-            self._wake(rigid)
+            rigid.pm_body.activate()
         if self._table is not None:
-            row = self._table.columns.rows[rigid.body.name]
-            self._table.leads[row] = rigid.lead(self._settings.gravity, self.dt)
+            self._table.set_wrench(rigid.row, self._settings.gravity, self.dt)
         if free:
             self.set_twist(rigid, twist)
-        self._note_motion()
+        self.changes += 1
+
+    def put_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
+        """Set the wrench of a body that is in no table yet."""
+        rigid.wrench, rigid.wrench_until = wrench, until
+        if wrench == NO_WRENCH:
+            self._wrenched.pop(rigid.body.name, None)
+        else:
+            self._wrenched[rigid.body.name] = rigid
+
+    def wrenched(self) -> list[RigidBody]:
+        """Return the bodies on which a wrench acts, in spawn order."""
+        return sorted(self._wrenched.values(), key=lambda rigid: rigid.serial)
 
     # Robots
 
     @property
     def robot_states(self) -> RobotStates:
         """Return drives and odometry of the robots, in the order of the scene."""
-        return RobotStates.of([*self.pipeline.floor.drives.states(self.table.scene).values()])
+        return self.table.robot_states
 
     def drive(self, rigid: RigidBody, velocity: Twist, until: int) -> None:
         """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""
-        drives, name = self.pipeline.floor.drives, rigid.body.name
-        self.changes += drives.command(self.table.scene, name, velocity, until)
-        self._wake(rigid)
+        robot, robots = rigid.body.robot, self.table.robots
+        assert robot is not None  # noqa: S101 - its caller refuses other bodies
+        record = robots[int(np.flatnonzero(robots['body'] == rigid.row)[0])]
+        aim = robot.drive.aim(velocity)
+        self.changes += (*record['aim'].tolist(), int(record['until'])) != (*aim, until)
+        record['aim'], record['until'] = aim, until
+        rigid.pm_body.activate()
 
     # Grips
 
+    def grips(self) -> tuple[Grip, ...]:
+        """Return the grips of hands, in the order in which they were made."""
+        return tuple(self._grips.values())
+
+    def grip_of(self, hand: str) -> Grip | None:
+        """Return the grip of a hand; None if it has none."""
+        return self._grips.get(hand)
+
     def set_grip(self, grip: Grip) -> None:
         """Add a grip, in place of that of the same hand."""
-        old = self.pipeline.mouse_joints.grip_of(grip.hand)
+        old = self._grips.get(grip.hand)
         if old is not None and old.body != grip.body:
             self.remove_grip(grip.hand)
         self.changes += old != grip
-        self.pipeline.mouse_joints.set_grip(grip)
+        self.put_grip(grip)
+
+    def put_grip(self, grip: Grip) -> None:
+        """Add a grip; it replaces that of the same hand in its place."""
+        self._grips[grip.hand] = grip
+        self._lay_out_grips()
 
     def remove_grip(self, hand: str) -> None:
         """Remove the grip of a hand; its body keeps its velocity."""
-        grip = self.pipeline.mouse_joints.grip_of(hand)
+        grip = self._grips.pop(hand, None)
         if grip is not None:
-            self.pipeline.mouse_joints.remove_grip(hand)
-            self.pipeline.half_step.release_bodies([self.bodies.by_name[grip.body]])
-            self._note_motion()
+            self._lay_out_grips()
+            self._release([self.bodies.by_name[grip.body]])
+            self.changes += 1
+
+    def _drop_grips_on(self, body: str) -> None:
+        """Remove all grips on a body."""
+        self._grips = {hand: grip for hand, grip in self._grips.items() if grip.body != body}
+        self._lay_out_grips()
+
+    # Contacts
+
+    def take_contacts(self, centers: Callable[[], Floats]) -> Contacts:
+        """
+        Return the contacts since the last call, of the steps in which they were reported.
+
+        :param centers: returns (n, 2) float64: centres of mass [m]
+        """
+        return take_contacts(self.core, self.table, centers)
+
+    def clear_contacts(self) -> None:
+        """Drop the contacts since the last call of `take_contacts`."""
+        self.core.clear_contacts()
+
+    def copy_reports(self, old: Space) -> None:
+        """Copy what an older space of the same bodies has to report of the unfinished frame."""
+        self.core.copy_contacts(old.core)
+        self.broken = old.broken
 
     # Joints
 
@@ -267,41 +356,58 @@ class Space:
         self.changes += 1
         joint, bodies = self.joints.by_name[name].joint, self.bodies.by_name
         self.joints.remove(name)
-        self.pipeline.half_step.release_bodies(
-            bodies[end] for end in (joint.a, joint.b) if end in bodies
-        )
+        self._release(bodies[end] for end in (joint.a, joint.b) if end in bodies)
 
-    # The numbers of a body that leaves their range overflow in any stage, before it is removed.
-    @np.errstate(over='ignore', invalid='ignore')
-    def step(self, number: int, *, reports_contacts: bool) -> list[str]:
+    # Steps
+
+    def step(self, number: int, count: int, *, reports_contacts: bool) -> tuple[int, list[str]]:
         """
-        Make a step.
+        Make steps.
 
-        :param number: count of steps of the world
+        :param number: count of steps that the world has made
+        :param count: of the steps to make
         :param reports_contacts: whether contacts are reported
-        :return: bodies that left the range of numbers, and were removed
+        :return: count of the steps that were made: fewer where something has to be done between
+            two of them; and bodies that left the range of numbers, and were removed
         """
-        for rigid in self.pipeline.wrenches.ended(number):
-            self.set_wrench(rigid, NO_WRENCH, None)
-        table = self.table
+        for rigid in list(self._wrenched.values()):
+            if rigid.wrench_until is not None and rigid.wrench_until <= number:
+                self.set_wrench(rigid, NO_WRENCH, None)
+        table, made = self.table, self._steps_until_event(number, count)
         if table.columns.moving:
-            self.pipeline.step(
-                table,
+            table.make_noise(number, made)
+            made = self.core.step(
+                made,
                 number=number,
                 age=self._age,
+                drag_force=self._settings.drag_force,
                 reports_contacts=reports_contacts,
             )
-        self._age += 1
-        for name, force in self.joints.broken():
-            self.unjoin(name)
-            self.broken.append((name, force))
-        lost = table.lost()
+        self._age += made
+        if self.core.has_broken:
+            for name, force in self.joints.broken():
+                self.unjoin(name)
+                self.broken.append((name, force))
+        lost = table.lost() if self.core.has_lost else []
         # In a fixed order: the engine solves its constraints in an order that removals change.
-        for name in dict.fromkeys((*lost, *table.columns.expiries.get(number + 1, ()))):
+        expired = table.columns.expiries.get(number + made, ())
+        for name in dict.fromkeys((*lost, *expired)):
             self.remove(name)
-        return lost
+        return made, lost
+
+    def _steps_until_event(self, number: int, count: int) -> int:
+        """Return how many of some steps follow each other without anything between them."""
+        ends = (rigid.wrench_until for rigid in self._wrenched.values())
+        events = (*self.table.columns.expiries, *(end for end in ends if end is not None))
+        return min([count, *(event - number for event in events if event > number)])
 
     # Inside
+
+    def _laid_out(self) -> CoreWorld:
+        """Return the core, which has the bodies and joints of now."""
+        table = self.table
+        assert table is self._table  # noqa: S101
+        return self.core
 
     def _change_gravity(self, old: Point, new: Point) -> None:
         """
@@ -324,20 +430,35 @@ class Space:
         background = self.pm_space.static_body
         touching = self.bodies.touching(background)
         self.boundary.rebuild(self._settings)
-        self.pipeline.contact_report.forget_body(background.id)
-        self.pipeline.half_step.release_bodies(touching)
+        self._background = -1
+        self._release(touching)
 
     def _is_free(self, rigid: RigidBody) -> bool:
         """Return whether a body is in free flight."""
         if self._table is None:
             return rigid.free
-        return bool(self._table.free[self._table.columns.rows[rigid.body.name]])
+        return bool(self._table.records['free'][rigid.row])
+
+    def _set_flag(self, rigid: RigidBody, flag: str, value: bool) -> None:  # noqa: FBT001
+        """Set a flag of a body that outlives the table."""
+        if self._table is None:
+            setattr(rigid, flag, value)
+        else:
+            self._table.records[flag][rigid.row] = value
+
+    def _release(self, rigids: Iterable[RigidBody]) -> None:
+        """Note bodies whose support may have been removed, or moved away."""
+        for rigid in rigids:
+            # A body whose engine objects have been made anew is another one.
+            now = self.bodies.by_name.get(rigid.body.name)
+            if now is not None:
+                self._set_flag(now, 'released', value=True)
 
     def _insert(self, rigid: RigidBody, pose: Pose, twist: Twist) -> None:
         self._drop_table()
         self.changes += 1
         rigid.pose = pose
-        # At rest: see `stages.tight_boxes`.
+        # At rest: see `core/tight_boxes.c`.
         self.bodies.add(rigid)
         rigid.set_twist(twist, self._settings.gravity, self.dt)
 
@@ -345,24 +466,13 @@ class Space:
         self._drop_table()
         self.changes += 1
         self.bodies.take_out(rigid)
-        self.pipeline.wrenches.forget_body(rigid)
-        self.pipeline.contact_report.forget_body(rigid.pm_body.id)
-
-    def _wake(self, rigid: RigidBody) -> None:
-        """Wake a body and its island, before the next step: the table shows who sleeps."""
-        rigid.pm_body.activate()
-        if self._table is not None:
-            self._table.forget_state()
-
-    def _note_motion(self) -> None:
-        self.changes += 1
-        if self._table is not None:
-            self._table.forget_state()
+        self._wrenched.pop(rigid.body.name, None)
 
     def _drop_table(self) -> None:
         """Drop the table, before a body or joint is added, removed or changed."""
         if self._table is not None:
-            self._table.store_flags()
+            self._table.store()
+            self.core.drop_joints()
         self._table = None
 
 

@@ -158,13 +158,6 @@ def shape_numbers(rigids: Iterable[RigidBody]) -> Ints:
     return np.fromiter(itertools.chain.from_iterable(numbers), np.int64)
 
 
-def clear_impulses(shapes: ShapeIds, rigids: Iterable[RigidBody]) -> None:
-    """Clear the cached impulses of some bodies, from which the engine starts its next step."""
-    found = shapes.contacts()
-    found.forget(shape_numbers(rigids))
-    found.write()
-
-
 def read_impulses(
     shapes: ShapeIds, rigids: Sequence[RigidBody], walls: int, *, without: Ints, joints: Floats
 ) -> ImpulseCache:

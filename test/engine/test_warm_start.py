@@ -134,10 +134,3 @@ def test_impulses_of_the_frame_are_taken_over() -> None:
     got, expected = (world.contacts(world.snapshot()) for world in (one, other))
     np.testing.assert_array_equal(got.pairs, expected.pairs)
     np.testing.assert_allclose(got.impulses, expected.impulses, rtol=1e-6, atol=1e-9)
-
-
-def test_no_stage_runs_while_a_space_is_built_or_cleared(monkeypatch: pytest.MonkeyPatch) -> None:
-    world = settled(2)
-    # The stages that the bodies of the last step need would run on those of another space.
-    monkeypatch.setattr('physsim_ros.engine.pipeline.correct_first_touches', lambda *_: 1 / 0)
-    world.renew()

@@ -410,7 +410,7 @@ def test_a_lost_body_is_told_of() -> None:
 
 
 @pytest.mark.filterwarnings('error')
-def test_what_leaves_the_range_of_numbers_warns_nobody_else() -> None:
+def test_a_machine_of_extreme_sizes_stays_within_the_range_of_numbers() -> None:
     sim = simulation(settings=WorldSettings())
     triangle, needle = Polygon(outline=((0, 0), (1e4, 0), (0, 1e4))), Box(width=1e4, height=1e-3)
     for spawned in (
@@ -429,8 +429,8 @@ def test_what_leaves_the_range_of_numbers_warns_nobody_else() -> None:
 
     told = answers(periods(sim, 40))
 
-    assert {answer.code for answer in told} == {'', 'divergence'}
-    assert len(sim.world) == 1
+    assert {answer.code for answer in told} == {''}
+    assert np.abs(sim.world.snapshot().twists).max() < 1e5
 
 
 def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_steps() -> None:

@@ -15,6 +15,7 @@ from . import (
     chromium_page,
     classroom,
     crowd,
+    engine,
     fixture,
     frames,
     joints,
@@ -35,6 +36,7 @@ gc.freeze()
 _TABLES = {
     module.__name__.rpartition('.')[2]: module.table
     for module in (
+        engine,
         fixture,
         outside,
         resting,

@@ -108,13 +108,18 @@ class Bare:
         ours = world.space.pm_space
         self.space = pymunk.Space()
         self.space.gravity, self.space.collision_slop = ours.gravity, ours.collision_slop
+        self.space.iterations, self.space.damping = ours.iterations, ours.damping
+        twins = {ours.static_body: self.space.static_body}
         for body in ours.bodies:
-            twin = pymunk.Body(body.mass, body.moment, body.body_type)
+            twins[body] = twin = pymunk.Body(body.mass, body.moment, body.body_type)
             twin.position, twin.angle = body.position, body.angle
             twin.velocity, twin.angular_velocity = body.velocity, body.angular_velocity
             self.space.add(twin, *(_twin(shape, twin) for shape in body.shapes))
         walls = ours.static_body.shapes
         self.space.add(*(_twin(wall, self.space.static_body) for wall in walls))
+        for held in world.space.joints.by_name.values():
+            for constraint in held.constraints:
+                self.space.add(_twin_of_constraint(constraint, twins))
 
     def frame(self) -> None:
         """Make four steps."""
@@ -130,10 +135,35 @@ def _twin(shape: pymunk.Shape, body: pymunk.Body) -> pymunk.Shape:
     """Return the same shape on another body."""
     if isinstance(shape, pymunk.Circle):
         twin: pymunk.Shape = pymunk.Circle(body, shape.radius, shape.offset)
+    elif isinstance(shape, pymunk.Segment):
+        twin = pymunk.Segment(body, shape.a, shape.b, shape.radius)
     else:
         assert isinstance(shape, pymunk.Poly)
         twin = pymunk.Poly(body, shape.get_vertices(), radius=shape.radius)
     twin.friction, twin.elasticity = shape.friction, shape.elasticity
+    twin.filter = shape.filter
+    return twin
+
+
+def _twin_of_constraint(
+    constraint: pymunk.Constraint, twins: dict[pymunk.Body, pymunk.Body]
+) -> pymunk.Constraint:
+    """Return the same constraint between the twins of its bodies."""
+    a, b = twins[constraint.a], twins[constraint.b]
+    match constraint:
+        case pymunk.PivotJoint():
+            twin = pymunk.PivotJoint(a, b, constraint.anchor_a, constraint.anchor_b)
+        case pymunk.PinJoint():
+            twin = pymunk.PinJoint(a, b, constraint.anchor_a, constraint.anchor_b)
+        case pymunk.SimpleMotor():
+            twin = pymunk.SimpleMotor(a, b, constraint.rate)
+        case pymunk.DampedSpring():
+            anchors = constraint.anchor_a, constraint.anchor_b
+            numbers = constraint.rest_length, constraint.stiffness, constraint.damping
+            twin = pymunk.DampedSpring(a, b, *anchors, *numbers)
+        case _:
+            raise NotImplementedError(type(constraint))
+    twin.max_force, twin.collide_bodies = constraint.max_force, constraint.collide_bodies
     return twin
 
 

@@ -51,7 +51,11 @@ def _load() -> Any:
 
 
 def dtype_of(struct: str) -> np.dtype[np.void]:
-    """Return the type of NumPy that has the fields of a struct, pointers as integers."""
+    """
+    Return the type of NumPy that has the fields of a struct.
+
+    Vectors, poses and twists are arrays of float64, pointers are integers.
+    """
     kind = ffi.typeof(struct)
     fields = {name: (_dtype(field.type), field.offset) for name, field in kind.fields}
     return np.dtype(
@@ -65,12 +69,13 @@ def dtype_of(struct: str) -> np.dtype[np.void]:
 
 
 def _dtype(kind: Any) -> np.dtype[Any]:
-    if kind.kind == 'array':
-        return np.dtype((_dtype(kind.item), (kind.length,)))
-    if kind.kind == 'struct':
-        return dtype_of(kind.cname)
-    if kind.kind == 'pointer':
-        return np.dtype(np.uintp)
+    match kind.kind:
+        case 'array':
+            return np.dtype((_dtype(kind.item), (kind.length,)))
+        case 'struct':
+            return np.dtype((np.float64, (ffi.sizeof(kind) // 8,)))
+        case 'pointer':
+            return np.dtype(np.uintp)
     letter = 'f' if kind.cname == 'double' else 'u' if kind.cname.startswith('u') else 'i'
     return np.dtype(f'{letter}{ffi.sizeof(kind)}')
 

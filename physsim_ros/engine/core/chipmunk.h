@@ -38,7 +38,7 @@ typedef struct cpBody {
     void *space;
     struct cpShape *shapeList;
     struct cpArbiter *arbiterList;
-    void *constraintList;
+    struct cpConstraint *constraintList;
     struct cpBody *sleeping_root; // NULL while awake
     struct cpBody *sleeping_next;
     double idle_time; // [s]

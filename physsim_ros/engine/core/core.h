@@ -12,13 +12,91 @@
 #include "chipmunk.h"
 #include <stdint.h>
 
+// Where a body is: x, y [m], yaw [rad].
+typedef struct Pose {
+    cpVect p;
+    double yaw;
+} Pose;
+
+// A velocity [m/s] and a spin [rad/s]; also changes of a pose [m, rad], and momenta [N s, N m s].
+typedef struct Twist {
+    cpVect v;
+    double w;
+} Twist;
+
+// Pose and velocity of the engine's origin of a body.
+typedef struct Motion {
+    Pose pose;
+    Twist twist;
+} Motion;
+
 // A body; the last one of the table is the background, which has the walls.
 typedef struct Body {
+    // What Python sets.
     cpBody *engine;
-    uint8_t dynamic;  // forces move it
-    uint8_t anchored; // it does not move at all
-    uint8_t jointed;  // a joint with rows ends on it; the core sets this
+    uint8_t dynamic;       // forces move it
+    uint8_t anchored;      // it does not move at all
+    uint8_t sensor;        // its contacts have no effect
+    uint8_t joined;        // a joint ends on it
+    uint8_t sprung;        // an island of joints that hangs on a spring and on what forces do not move
+    uint8_t on_spring;     // a spring pulls it, and forces move it
+    uint8_t expires;       // the steps of Python end with it
+    cpVect offset;         // the engine's origin in the body's frame [m]
+    double reach;          // greatest distance of a point of it from the centre of mass [m]
+    double half_width;     // of its thinnest piece [m]
+    double safe_depth;     // how far it may be entered in a step unseen [m]
+    double turning_radius; // how far out its turning counts for continuous collision [m]
+    double corners;        // of its pieces, the cost of continuous collision
+    double pieces;         // count of its pieces
+    int64_t group;         // bodies of one group pass through each other; 0 is none
+    Twist lead;            // half a step of gravity and wrench: the lead of its velocity in free flight
+    Twist wrench;          // force [N] and torque [N m] that act on it
+    double floor_friction; // coefficient of friction with the floor; 0 where none acts
+    double lever;          // mean distance of the points that bear it on the floor [m]
+    cpVect surface;        // velocity of the surface of a conveyor, in the body's axes [m/s]
+    // State that outlives a step.
+    uint8_t free;     // in free flight, so that its velocity leads by `lead`
+    uint8_t released; // something that it touched was removed or moved since the last step
+    uint8_t thrown;   // its velocity was set since the last step
+    Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
+    // What the core keeps for a step.
+    uint8_t jointed; // a joint with rows ends on it
+    uint8_t slides;  // on a floor that does not carry it along
+    Pose begin;      // as the step begins
+    Twist twist;     // with which Chipmunk begins
+    Twist under;     // mean velocity of the floor under it
+    Twist without;   // velocity that it would have after the step without contacts, on a floor
 } Body;
+
+// A grip of a hand on a body; Box2D's mouse joint.
+typedef struct Grip {
+    int32_t body;
+    cpVect anchor; // in the body's frame, its origin the centre of mass [m]
+    cpVect target; // of the hand in the world [m]
+} Grip;
+
+// A robot: its drive, and what its wheels and its odometry have done.
+typedef struct Robot {
+    // What Python sets.
+    int32_t body;
+    int32_t wheel_count;
+    Twist wheels[4];     // speed of the rim of each wheel, by the velocity of the floor
+    double acceleration; // greatest of the rim of a wheel [m/s²]
+    double curvature;    // greatest of its way [1/m]
+    cpVect center;       // of mass in the frame of the body [m]
+    double slip[2];      // drift of the odometry: of the way [√m], and of the heading [rad/√m]
+    const double *noise; // (steps, 2): normal numbers for the steps of this call; NULL without slip
+    // State: velocities are as seen from the robot.
+    int64_t until;  // step at which the command ends
+    Twist aim;      // velocity that the last command aims at; 0 after its timeout
+    Twist rolling;  // velocity that the wheels have
+    Twist travel;   // integral of that
+    Pose odometry;  // by wheels and gyroscope, from the pose in which it was spawned
+    double path[2]; // length of the way of the wheels [m], and sum of the turns of the body [rad]
+    // What the core keeps for a step.
+    Twist mean;       // velocity of the wheels
+    Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes
+} Robot;
 
 // Kinds of constraint rows: which number x of the poses of two bodies a row bounds.
 enum {
@@ -68,13 +146,54 @@ typedef struct Joint {
 typedef struct Chipmunk {
     void (*space_step)(cpSpace *, double);
     void (*body_activate)(cpBody *);
+    void (*reindex_body)(cpSpace *, cpBody *);
+    uint8_t (*shape_query)(cpSpace *, cpShape *, void (*)(cpShape *, void *, void *), void *);
+    void (*each_arbiter)(cpSpace *, void (*)(cpArbiter *, void *), void *);
 } Chipmunk;
+
+// The stages that can be left out, to measure what fails without each (`make ablate`).
+enum {
+    STAGE_HALF_STEP = 1,
+    STAGE_SUPPORT = 2,
+    STAGE_RESTING_DAMPING = 4,
+    STAGE_FLOOR = 8,
+    STAGE_CONTINUOUS = 16,
+    STAGE_TIGHT_BOXES = 32,
+    STAGE_FALSE_CONTACTS = 64,
+    STAGE_IMPACT = 128,
+    STAGE_PROJECTION = 256,
+    STAGE_EDGES = 512,
+    STAGE_PROPAGATION = 1024,
+    STAGE_BLOCK_SOLVER = 2048,
+    STAGE_JOINTS = 4096,
+    STAGE_ALL = 8191
+};
+
+// A pair of bodies that touched during a frame; -1, always second, is the background.
+typedef struct Contact {
+    int32_t a, b;   // places in the table, the lesser first
+    cpVect point;   // mean of the latest contact points [m]
+    cpVect normal;  // from the first to the second body
+    cpVect impulse; // sum over the frame of what acts on the second body [N s]
+    int32_t points; // count of contact points; 0 for an overlap of a sensor
+} Contact;
+
+// A pair of bodies that began to touch in a step of a frame, 1 and on.
+typedef struct Begun {
+    int32_t a, b, step;
+} Begun;
 
 // A world: what Python sets, and what the core keeps between steps.
 typedef struct World {
     cpSpace *space;
     Chipmunk chipmunk;
     double dt; // length of a step [s]
+    uint32_t stages;
+    uint8_t reports_contacts;
+    uint8_t statics_moved; // an anchored body or a wall has been moved since the last step
+    double drag_force;     // greatest force of a hand, in weights of the body
+    int64_t step;          // count of steps that the world has made
+    int64_t age;           // count of steps since the space was built
     Body *bodies;
     int32_t body_count; // with the background
     Joint *joints;
@@ -83,6 +202,17 @@ typedef struct World {
     int32_t part_count;
     Row *rows;
     int32_t row_count;
+    Grip *grips;
+    int32_t grip_count;
+    Robot *robots;
+    int32_t robot_count;
+    // What the last steps have left.
+    uint8_t has_broken; // a joint
+    uint8_t has_lost;   // a body has left the range of numbers
+    int64_t swept;      // pairs of bodies whose time of impact has been looked for since the world was made
+    int32_t contact_count, begun_count, frame_steps;
+    Contact *contacts; // of the frame, by place
+    Begun *begun;
     struct Private *own;
 } World;
 
@@ -92,14 +222,25 @@ typedef struct World {
 // A hash of the sources that the library was compiled from (`sources.py`).
 const char *core_sources(void);
 
-World *core_new(cpSpace *space, double dt);
+// `hook` is a constraint in the space that changes nothing: by it the core is called between narrow phase and solver.
+World *core_new(cpSpace *space, Chipmunk chipmunk, double dt, cpConstraint *hook);
 void core_free(World *world);
-void core_use_bodies(World *world, Body *bodies, int32_t count);
+
+// Have the core step other bodies. `former` has the place (count) that each body had in the table before; -1 is none.
+void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *former);
 void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
                      int32_t row_count);
 
-void core_prepare_joints(World *world);
-void core_solve_joints(World *world);
+// Make a number of steps, and return how many were made: fewer where a joint breaks or a body is lost.
+int32_t core_step(World *world, int32_t count);
+
+// The state that the next step begins with, after all requests until now, (body_count - 1): motions, whether each body
+// is in free flight, and whether its support was removed.
+void core_read_state(World *world, Motion *motions, uint8_t *free, uint8_t *unsupported);
+// Poses of the bodies' origins, and true velocities of their centres of mass.
+void core_observe(World *world, Pose *poses, Twist *twists);
+// Set poses and velocities; no body may sleep.
+void core_write_state(World *world, const Motion *motions);
 
 // Impulses from which the next step starts, (part_count) [N s, N m s]; the second is 0 but for pivots.
 void core_read_impulses(const World *world, cpVect *impulses);
@@ -108,6 +249,12 @@ void core_write_impulses(World *world, const cpVect *impulses);
 // Of each joint (joint_count): the greatest impulse of its parts in the last step [N s, N m s], its linear impulse on
 // the second body [N s], and whether it pushed its bodies apart.
 void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8_t *pressing);
+
+// List the contacts since the frame began; begin the next one.
+void core_take_contacts(World *world);
+void core_clear_contacts(World *world);
+// Continue with the sums of a world of the same bodies.
+void core_copy_contacts(World *world, const World *old);
 
 #pragma GCC visibility pop
 

@@ -19,7 +19,7 @@
 enum { MOST_POINTS = 32 };
 
 typedef struct Touches {
-    Touch *list;
+    Bearing *list;
     int count;
 } Touches;
 
@@ -28,7 +28,7 @@ static int compared(double a, double b) {
 }
 
 static int compare_touches(const void *one, const void *other) {
-    const Touch *a = one, *b = other;
+    const Bearing *a = one, *b = other;
     double keys[][2] = {{(double)a->a, (double)b->a},
                         {(double)a->b, (double)b->b},
                         {(double)a->shapes[0], (double)b->shapes[0]},
@@ -48,15 +48,15 @@ static void add_contact(World *world, Touches *touches, const cpArbiter *arbiter
     Vec tangent = perpendicular(arbiter->n);
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
-        touches->list[touches->count++] = (Touch){.point = point,
-                                                  .a = place_of(world, arbiter->body_a),
-                                                  .b = place_of(world, arbiter->body_b),
-                                                  .shapes = {arbiter->a->hashid, arbiter->b->hashid},
-                                                  .arm_a = point->r1,
-                                                  .arm_b = point->r2,
-                                                  .normal = arbiter->n,
-                                                  .friction = arbiter->u,
-                                                  .slide = dot(arbiter->surface_vr, tangent)};
+        touches->list[touches->count++] = (Bearing){.point = point,
+                                                    .a = place_of(world, arbiter->body_a),
+                                                    .b = place_of(world, arbiter->body_b),
+                                                    .shapes = {arbiter->a->hashid, arbiter->b->hashid},
+                                                    .arm_a = point->r1,
+                                                    .arm_b = point->r2,
+                                                    .normal = arbiter->n,
+                                                    .friction = arbiter->u,
+                                                    .slide = dot(arbiter->surface_vr, tangent)};
     }
 }
 
@@ -102,7 +102,7 @@ static Touches touches_of_jointed(World *world) {
     for (int number = 0; number < members.count; number++) {
         most += point_count(world->bodies[members.places[number]].engine);
     }
-    Touches touches = {.list = TAKE(&world->own->arena, Touch, most)};
+    Touches touches = {.list = TAKE(&world->own->arena, Bearing, most)};
     for (int number = 0; number < members.count; number++) {
         const cpBody *body = world->bodies[members.places[number]].engine;
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
@@ -112,22 +112,13 @@ static Touches touches_of_jointed(World *world) {
             }
         }
     }
-    qsort(touches.list, (size_t)touches.count, sizeof(Touch), compare_touches);
+    qsort(touches.list, (size_t)touches.count, sizeof(Bearing), compare_touches);
     return touches;
 }
 
-static int root_of(int *parents, int body) {
-    while (parents[body] != body) {
-        body = parents[body] = parents[parents[body]];
-    }
-    return body;
-}
-
-static void unite(const World *world, int *parents, int a, int b) {
+static void unite_dynamic(const World *world, int *parents, int a, int b) {
     if (world->bodies[a].dynamic && world->bodies[b].dynamic) {
-        a = root_of(parents, a);
-        b = root_of(parents, b);
-        parents[a > b ? a : b] = a > b ? b : a;
+        unite(parents, a, b);
     }
 }
 
@@ -139,18 +130,15 @@ static int island_of(const World *world, int *parents, const int *numbers, int a
 // Return the islands, with their joints and contacts, in the order of their first joints.
 static Islands split(World *world, Touches touches) {
     Arena *arena = &world->own->arena;
-    int *parents = TAKE(arena, int, world->body_count), *numbers = TAKE(arena, int, world->body_count);
-    for (int body = 0; body < world->body_count; body++) {
-        parents[body] = body;
-    }
+    int *parents = sets_of(world), *numbers = TAKE(arena, int, world->body_count);
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
         if (joint->row_count > 0) {
-            unite(world, parents, joint->a, joint->b);
+            unite_dynamic(world, parents, joint->a, joint->b);
         }
     }
     for (int number = 0; number < touches.count; number++) {
-        unite(world, parents, touches.list[number].a, touches.list[number].b);
+        unite_dynamic(world, parents, touches.list[number].a, touches.list[number].b);
     }
     Islands found = {.islands = TAKE(arena, Island, world->own->jointed_count)};
     for (int number = 0; number < world->joint_count; number++) {
@@ -165,14 +153,14 @@ static Islands split(World *world, Touches touches) {
         }
     }
     for (int number = 0; number < touches.count; number++) {
-        Touch touch = touches.list[number];
+        Bearing touch = touches.list[number];
         found.islands[island_of(world, parents, numbers, touch.a, touch.b)].touch_count++;
     }
     for (int number = 0; number < found.count; number++) {
         Island *island = found.islands + number;
         island->row_count = island->joint_row_count + 2 * island->touch_count;
         island->joints = TAKE(arena, const Joint *, island->joint_count);
-        island->touches = TAKE(arena, Touch, island->touch_count);
+        island->touches = TAKE(arena, Bearing, island->touch_count);
         island->joint_count = island->touch_count = 0;
     }
     for (int number = 0; number < world->joint_count; number++) {
@@ -183,7 +171,7 @@ static Islands split(World *world, Touches touches) {
         }
     }
     for (int number = 0; number < touches.count; number++) {
-        Touch touch = touches.list[number];
+        Bearing touch = touches.list[number];
         Island *island = found.islands + island_of(world, parents, numbers, touch.a, touch.b);
         island->touches[island->touch_count++] = touch;
     }
@@ -236,7 +224,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
     }
     for (int side = 0; side < 2; side++) {
         for (int number = 0; number < island->touch_count; number++, row++) {
-            const Touch *touch = island->touches + number;
+            const Bearing *touch = island->touches + number;
             bool same = number > 0 && touch->a == touch[-1].a && touch->b == touch[-1].b;
             group += same ? 0 : 1;
             island->ends[row] = (Ends){number_in(world, island, numbers, places, touch->a),

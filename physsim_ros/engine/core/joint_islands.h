@@ -8,14 +8,14 @@
 #include "world.h"
 
 // A point in which a jointed body touches another one.
-typedef struct Touch {
+typedef struct Bearing {
     cpContact *point;
     int a, b; // places of the two bodies in the table
     uintptr_t shapes[2];
     Vec arm_a, arm_b, normal; // world axes [m]; the normal leads from the first to the second body
     double friction;
     double slide; // velocity across the normal of the surfaces against their bodies [m/s]
-} Touch;
+} Bearing;
 
 // The rows of an island: those of joints, then normals of contacts, then tangents.
 typedef struct Island {
@@ -24,7 +24,7 @@ typedef struct Island {
     const Row **rows; // (joint_row_count)
     int *joint_of_row;
     double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
-    Touch *touches;
+    Bearing *touches;
     cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
     bool *jointed;   // (body_count)
     Inverse *inverses;

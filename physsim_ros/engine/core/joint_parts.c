@@ -5,6 +5,7 @@
 
 #include "joint_parts.h"
 #include "joint_rows.h"
+#include "stages.h"
 
 // Length of the arm with which a pin pulls a slider across its line [m]; any will do.
 static const double across_arm = 1.0;
@@ -51,7 +52,7 @@ void prepare_springs(World *world) {
 
 // Where Chipmunk will move a body to.
 static Pose ahead(const cpBody *body, double dt) {
-    return (Pose){add(body->p, scaled(body->v, dt)), body->a + body->w * dt};
+    return moved(pose_of(body), twist_of(body), dt);
 }
 
 void prepare_parts(World *world) {
@@ -154,11 +155,13 @@ void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8
 }
 
 void find_broken(World *world) {
+    world->has_broken = false;
     for (int number = 0; number < world->joint_count; number++) {
         Joint *joint = world->joints + number;
         // The first step of a joint takes back the half-step lead of a body that was in free flight: that impulse is no
         // load.
         joint->broken = !joint->unstepped && joint->most < INFINITY && greatest_impulse(world, joint) > joint->most;
         joint->unstepped = false;
+        world->has_broken = world->has_broken || joint->broken;
     }
 }

@@ -12,10 +12,4 @@ double *impulse_at(const Part *part, int component);
 // Have springs with a greatest force obey it.
 void prepare_springs(World *world);
 
-// Put the ends of constraints where the coming step needs them.
-void prepare_parts(World *world);
-
-// Find the joints that have broken in the step.
-void find_broken(World *world);
-
 #endif

@@ -117,7 +117,7 @@ static Displacement begin(Solve *solve) {
     // Of an overlap Chipmunk's share of a step is pushed out; nothing gets deeper.
     double stays = pow(space->collisionBias, solve->dt);
     for (int number = 0; number < island->touch_count; number++) {
-        const Touch *touch = island->touches + number;
+        const Bearing *touch = island->touches + number;
         Ends ends = island->ends[island->joint_row_count + number];
         Vec a = add(move.start[ends.a].p, touch->arm_a), b = add(move.start[ends.b].p, touch->arm_b);
         double apart = dot(sub(b, a), touch->normal) + space->collisionSlop;

@@ -11,7 +11,7 @@
 // first guess. Impulses of springs and motors, and contacts between bodies without joints, stay Chipmunk's.
 
 #include "joint_solver.h"
-#include "joint_parts.h"
+#include "stages.h"
 
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians) {
     int row = 0;
@@ -54,7 +54,7 @@ static Solve begin(World *world, const Island *island) {
     read_rows(island, island->poses, solve.excess, solve.jacobians);
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     for (int number = 0; number < island->touch_count; number++) {
-        const Touch *touch = island->touches + number;
+        const Bearing *touch = island->touches + number;
         Vec against = negated(touch->normal);
         solve.jacobians[normal + number] = along(against, touch->arm_a, touch->arm_b);
         solve.jacobians[tangent + number] = along(perpendicular(against), touch->arm_a, touch->arm_b);
@@ -77,16 +77,12 @@ static void solve_island(World *world, const Island *island) {
     arena_release(&world->own->arena, mark);
 }
 
-void core_solve_joints(World *world) {
-    Arena *arena = &world->own->arena;
-    arena_reset(arena);
+void solve_joints(World *world) {
+    if (!has_stage(world, STAGE_JOINTS)) {
+        return;
+    }
     Islands found = joint_islands(world);
     for (int number = 0; number < found.count; number++) {
         solve_island(world, found.islands + number);
     }
-    find_broken(world);
-}
-
-void core_prepare_joints(World *world) {
-    prepare_parts(world);
 }

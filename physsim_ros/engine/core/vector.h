@@ -6,7 +6,7 @@
 #ifndef PHYSSIM_VECTOR_H
 #define PHYSSIM_VECTOR_H
 
-#include "chipmunk.h"
+#include "core.h"
 #include <math.h>
 
 typedef cpVect Vec;
@@ -14,18 +14,6 @@ typedef cpVect Vec;
 typedef struct Rotation {
     double c, s; // cosine and sine of the angle
 } Rotation;
-
-// Where a body is: x, y [m], yaw [rad].
-typedef struct Pose {
-    Vec p;
-    double yaw;
-} Pose;
-
-// A velocity [m/s] and a spin [rad/s], or changes of a pose [m, rad].
-typedef struct Twist {
-    Vec v;
-    double w;
-} Twist;
 
 static inline Vec vec(double x, double y) {
     return (Vec){x, y};

@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// What the core keeps of a world, for the stages.
+// What the core keeps of a world, and what stages share.
 
 #ifndef PHYSSIM_WORLD_H
 #define PHYSSIM_WORLD_H
@@ -11,18 +11,46 @@
 #include "vector.h"
 #include <stdbool.h>
 
+// Overlaps are not smaller than this by rounding, within a kilometre of the origin [m].
+#define ROUNDING_OF_POSITIONS 1e-12
+
 typedef struct Private {
     Arena arena;
-    // Places of bodies by the address of their `cpBody`: a hash table with open addressing, of a power of two.
-    struct Slot *slots;
-    uintptr_t slot_count;
+    cpConstraint *hook;
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
+    double kept;        // share of its velocity that a body keeps in a step
+    double least_depth; // least safe depth of a body [m]
+    // Shapes that never move, for continuous collision; they last until one of them is moved.
+    Arena static_arena;
+    struct Statics *statics;
+    struct Touch *begun; // contacts that begin in this step
+    int begun_count;
+    int call_step; // number of the step in this call
+    struct Report *report;
 } Private;
 
-// Return the place of a body in the table.
-int place_of(const World *world, const cpBody *body);
+// Memory that outlives a step, all bits 0.
+void *allocated(size_t count, size_t size);
+
+// The body of a struct of Chipmunk: the table sets its user data, which Pymunk reads only in callbacks of Python that
+// move a body.
+static inline Body *body_of(const cpBody *engine) {
+    return engine->userData;
+}
+
+static inline int place_of(const World *world, const cpBody *engine) {
+    return (int)(body_of(engine) - world->bodies);
+}
+
+static inline bool has_stage(const World *world, uint32_t stage) {
+    return (world->stages & stage) != 0;
+}
+
+static inline bool sleeps(const Body *body) {
+    return body->engine->sleeping_root != NULL;
+}
 
 static inline Pose pose_of(const cpBody *body) {
     return (Pose){body->p, body->a};
@@ -40,9 +68,33 @@ static inline void set_twist(cpBody *body, Twist twist) {
 // Set the pose of a body whose centre of mass is its origin, as `cpBodySetPosition` and `cpBodySetAngle` do.
 void set_pose(cpBody *body, Pose pose);
 
+// A pose after a way.
+static inline Pose moved(Pose pose, Twist way, double share) {
+    return (Pose){add(pose.p, scaled(way.v, share)), pose.yaw + way.w * share};
+}
+
+static inline Twist twist_sum(Twist a, Twist b, double share) {
+    return (Twist){add(a.v, scaled(b.v, share)), a.w + b.w * share};
+}
+
 // The next contact in the list of a body.
 static inline cpArbiter *next_of(const cpArbiter *arbiter, const cpBody *body) {
     return arbiter->body_a == body ? arbiter->thread_a.next : arbiter->thread_b.next;
 }
+
+static inline int arbiter_count(const World *world) {
+    return world->space->arbiters->num;
+}
+
+static inline cpArbiter *arbiter_at(const World *world, int number) {
+    return world->space->arbiters->arr[number];
+}
+
+// The root of a set of bodies (union-find with path halving; Tarjan and van Leeuwen, "Worst-Case Analysis of Set Union
+// Algorithms", JACM 1984); the least of a set is its root.
+int root_of(int *parents, int place);
+void unite(int *parents, int a, int b);
+// Return sets of one body each.
+int *sets_of(World *world);
 
 #endif

@@ -150,8 +150,8 @@ class Capacity:
 
         :raises WorldFull: too many hands drag a body
         """
-        grips = self._space.pipeline.mouse_joints
-        if self.checking and grips.grip_of(hand) is None and len(grips.grips()) >= MOST_HANDS:
+        space = self._space
+        if self.checking and space.grip_of(hand) is None and len(space.grips()) >= MOST_HANDS:
             raise WorldFull(f'{MOST_HANDS} hands drag a body; no more are allowed')
 
     def check_state(self, state: WorldState) -> None:

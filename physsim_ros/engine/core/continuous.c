@@ -1,0 +1,149 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Continuous collision: the coming step of fast bodies ends where they first hit something.
+//
+// Problem: Chipmunk tests for overlap only where a step ends. A disc of 0.1 m at 40 m/s jumps over a wall.
+// Method: pairs that approach by more than a safe depth in a step are found by a broad phase of swept boxes
+// (`swept_boxes`), and advanced to their time of impact (`time_of_impact`). For the rest of the step the two move as
+// one rigid body with their common momentum and angular momentum (a perfectly plastic impact, of the positions only): a
+// light body is carried along by a heavy one and by a kinematic one, and stops at an anchored one (`impact_islands`).
+// Chipmunk then finds the contact where the step ends, and resolves it from the velocities, which stay as they are.
+// Laws: bodies that meet keep the displacement of their common centre of mass, unless one is anchored or kinematic; a
+// pair that overlaps is stopped only where it would come deeper; islands that do not meet do not depend on each other.
+// Cost: 2 µs for a single fast body near nothing; some 2 µs for each pair that could meet.
+// Without it laws 25 (thin wall) and 35 (a fast bar hits all discs) fail.
+
+#include "impact_islands.h"
+#include "stages.h"
+#include "work_correction.h"
+
+// Up to this many fast bodies, boxes are compared first: it saves time, and changes no result.
+enum { FEW = 8 };
+
+static bool is_solid(const Body *body) {
+    return !body->anchored && !body->sensor;
+}
+
+// Whether a body could meet others in a step unseen by Chipmunk.
+static bool is_fast(const World *world, const Body *body) {
+    double way = length(body->engine->v) + fabs(body->engine->w) * body->turning_radius;
+    return is_solid(body) && way * world->dt > world->own->least_depth;
+}
+
+static Mover mover_of(const World *world, Body *body) {
+    Twist twist = twist_of(body->engine);
+    Mover mover = {.body = body,
+                   .movable = body->dynamic,
+                   .pose = pose_of(body->engine),
+                   .pivot = body->engine->p,
+                   .depth = body->safe_depth,
+                   .turning = body->turning_radius,
+                   .corners = body->corners,
+                   .horizon = 1.0,
+                   .island = -1,
+                   .next = -1,
+                   .leader = -1};
+    // A turning disc covers the same ground.
+    mover.rate = (Twist){scaled(twist.v, world->dt), mover.turning > 0.0 ? twist.w * world->dt : 0.0};
+    fit_box(&mover);
+    return mover;
+}
+
+static bool stop(int number, void *data) {
+    (void)number;
+    *(bool *)data = true;
+    return false;
+}
+
+// Whether the swept box of a fast body overlaps that of another, or a static shape.
+static bool boxes_meet(World *world, const Statics *statics) {
+    Mover fast[FEW];
+    int count = 0;
+    for (int place = 0; place < world->body_count; place++) {
+        if (is_fast(world, world->bodies + place)) {
+            fast[count++] = mover_of(world, world->bodies + place);
+        }
+    }
+    bool meet = false;
+    for (int number = 0; number < count && !meet; number++) {
+        tree_query(&statics->tree, fast[number].box, stop, &meet);
+    }
+    for (int place = 0; place < world->body_count && !meet; place++) {
+        Body *body = world->bodies + place;
+        if (is_solid(body)) {
+            Box box = mover_of(world, body).box;
+            for (int number = 0; number < count; number++) {
+                meet = meet || (fast[number].body != body && overlap(fast[number].box, box));
+            }
+        }
+    }
+    return meet;
+}
+
+static Sweep sweep_of(World *world, const Statics *statics) {
+    Arena *arena = &world->own->arena;
+    Sweep sweep = {.world = world, .statics = statics, .movers = TAKE(arena, Mover, world->body_count)};
+    sweep.followed = TAKE(arena, bool, world->body_count);
+    Box *boxes = TAKE(arena, Box, world->body_count);
+    for (int place = 0; place < world->body_count; place++) {
+        if (is_solid(world->bodies + place)) {
+            Mover mover = mover_of(world, world->bodies + place);
+            mover.island = sweep.count;
+            boxes[sweep.count] = mover.box;
+            sweep.movers[sweep.count++] = mover;
+        }
+    }
+    sweep.tree = tree_of(boxes, sweep.count, arena);
+    return sweep;
+}
+
+// Set a body back, so that Chipmunk moves it to its first impact and no further.
+static void set_back(World *world, const Mover *mover) {
+    cpBody *engine = mover->body->engine;
+    Vec pivot, way = scaled(engine->v, world->dt);
+    Pose end = pose_at(mover, 1.0, &pivot), free_end = moved(pose_of(engine), twist_of(engine), world->dt);
+    Vec shift = sub(end.p, free_end.p);
+    double turn = mover->turning > 0.0 ? end.yaw - free_end.yaw : 0.0;
+    if (mover->body->engine->sleeping_root != NULL) {
+        world->chipmunk.body_activate(engine);
+    }
+    // Correct only a body's own motion, not motion imparted by another body.
+    double share = clamped(-dot(way, shift) / greatest(dot(way, way), 1e-300), 0.0, 1.0);
+    if (!(mover->body->joined && mover->body->dynamic)) {
+        set_twist(engine, corrected_twist(world, engine, scaled(way, -share)));
+    }
+    set_pose(engine, (Pose){add(engine->p, shift), engine->a + turn});
+}
+
+void clamp_moves(World *world) {
+    if (!has_stage(world, STAGE_CONTINUOUS)) {
+        return;
+    }
+    int fast = 0;
+    for (int place = 0; place < world->body_count; place++) {
+        fast += is_fast(world, world->bodies + place);
+    }
+    if (fast == 0) {
+        return;
+    }
+    Arena *arena = &world->own->arena;
+    size_t mark = arena_mark(arena);
+    const Statics *statics = statics_of(world);
+    if (fast > FEW || boxes_meet(world, statics)) {
+        Sweep sweep = sweep_of(world, statics);
+        int *changed = TAKE(arena, int, sweep.count), count = 0;
+        for (int number = 0; number < sweep.count; number++) {
+            if (is_fast(world, sweep.movers[number].body)) {
+                changed[count++] = number;
+            }
+        }
+        join_impacts(&sweep, changed, count);
+        for (int number = 0; number < sweep.count; number++) {
+            if (sweep.movers[number].met) {
+                set_back(world, sweep.movers + number);
+            }
+        }
+    }
+    arena_release(arena, mark);
+}

@@ -1,0 +1,104 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Drives: from the last command of each robot to the velocity of the floor under its wheels; and its odometry.
+//
+// Problem: a robot does not have its commanded velocity at once, and not for ever: motors accelerate wheels by so much,
+// and a command counts until its timeout.
+// Method: the velocity of the wheels goes to the commanded one on a straight line, as fast as the rim of no wheel
+// accelerates more than it can; a robot that starts on an arc stays on it. The wheels turn as told whatever the body
+// does: where the floor cannot move it, they slip. Law: the way of the wheels is the integral of their velocity by the
+// trapezoidal rule, and exact.
+//
+// Odometry. Method: the way of the wheels in a step is an arc whose turn the gyroscope measures (exact integration of a
+// constant twist; Siegwart, Nourbakhsh, "Autonomous Mobile Robots"). Errors are random walks: those of the way grow
+// with its root, those of the heading with the root of way and turn (Thrun, Burgard, Fox, "Probabilistic Robotics",
+// section 5.4, in the limit of short moves). Noise is a function of seed, name and step; without slip there is none.
+//
+// Cost: 0.2 µs a robot and step.
+
+#include "stages.h"
+
+// The chord of an arc by its length, for the turn along it [rad].
+static double chord_by_arc(double turn) {
+    return turn != 0.0 ? sin(turn / 2.0) / (turn / 2.0) : 1.0;
+}
+
+static double rim_speed(const Robot *robot, Twist velocity) {
+    double most = 0.0;
+    for (int wheel = 0; wheel < robot->wheel_count; wheel++) {
+        Twist by = robot->wheels[wheel];
+        most = greatest(most, fabs(dot(by.v, velocity.v) + by.w * velocity.w));
+    }
+    return most;
+}
+
+// The velocity of the wheels after a step.
+static Twist accelerated(const Robot *robot, Twist aim, double dt) {
+    Twist before = robot->rolling, after = aim, change = twist_sum(aim, before, -1.0);
+    double speed = rim_speed(robot, change), most = robot->acceleration * dt;
+    if (speed > most) {
+        after = twist_sum(before, change, most / speed);
+    }
+    if (robot->curvature < INFINITY) {
+        double sharpest = robot->curvature * fabs(after.v.x);
+        after.w = clamped(after.w, -sharpest, sharpest);
+    }
+    return after;
+}
+
+static bool is_same(Twist a, Twist b) {
+    return a.v.x == b.v.x && a.v.y == b.v.y && a.w == b.w;
+}
+
+// A velocity of the wheels as that of the centre of mass, world axes.
+static Twist at_center(Twist velocity, Vec center, double yaw) {
+    return (Twist){rotated(velocity_at(velocity, center), rotation(yaw)), velocity.w};
+}
+
+// Accelerate the wheels.
+void roll_wheels(World *world) {
+    for (int number = 0; number < world->robot_count; number++) {
+        Robot *robot = world->robots + number;
+        double yaw = world->bodies[robot->body].begin.yaw;
+        Twist aim = world->step < robot->until ? robot->aim : (Twist){0}, after = robot->rolling;
+        if (!is_same(robot->rolling, aim) || !is_same(aim, robot->aim)) {
+            after = accelerated(robot, aim, world->dt);
+        }
+        robot->mean = twist_sum(robot->rolling, after, 1.0);
+        robot->mean = (Twist){scaled(robot->mean.v, 0.5), robot->mean.w / 2.0};
+        robot->aim = aim;
+        robot->rolling = after;
+        double turn = robot->mean.w * world->dt;
+        robot->under = at_center(robot->mean, robot->center, yaw + turn / 2.0);
+        // The chord of the arc that they roll along.
+        robot->under.v = scaled(robot->under.v, chord_by_arc(turn));
+        robot->end = at_center(after, robot->center, yaw + turn);
+    }
+}
+
+// A reckoned pose after a way, as seen from the robot.
+static Pose reckoned(Pose pose, Vec way, double turn) {
+    Vec chord = rotated(scaled(way, chord_by_arc(turn)), rotation(pose.yaw + turn / 2.0));
+    return (Pose){add(pose.p, chord), pose.yaw + turn};
+}
+
+// Add the step to the way of the wheels, and to the odometry.
+void reckon_odometry(World *world) {
+    for (int number = 0; number < world->robot_count; number++) {
+        Robot *robot = world->robots + number;
+        const Body *body = world->bodies + robot->body;
+        Vec way = scaled(robot->mean.v, world->dt), told = way;
+        double turn = body->engine->a - body->begin.yaw, drift = 0.0, distance = length(way);
+        if (robot->noise != NULL) {
+            const double *noise = robot->noise + 2 * world->own->call_step;
+            double share = distance > 0.0 ? 1.0 + noise[0] * robot->slip[0] / sqrt(distance) : 1.0;
+            told = scaled(way, share);
+            drift = noise[1] * robot->slip[1] * sqrt(distance + fabs(turn));
+        }
+        robot->travel = twist_sum(robot->travel, robot->mean, world->dt);
+        robot->odometry = reckoned(robot->odometry, told, turn + drift);
+        robot->path[0] += distance;
+        robot->path[1] += fabs(turn);
+    }
+}

@@ -1,0 +1,176 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// The floor of a world that is seen from above: it pulls every body towards its own velocity.
+//
+// Problem: bodies on a floor slide to a stop, robots drive, stall and push, conveyors carry.
+// Method: one mechanism. Under a body the floor has a velocity: 0, that of a conveyor, and of a robot besides that of
+// its wheels against the floor. Friction brings the body to that velocity within its limit surface. It is solved before
+// Chipmunk's step, implicitly, with the push of contacts and joints that the last step has had (warm start): so it
+// bears what presses on a body, and a robot pushes at its full speed. A body that the floor carries moves exactly as
+// the floor; one that slips has the mean of its velocities before and after as it is moved (velocity Verlet), the rest
+// of friction as a force.
+//
+// Limit surface. Problem: a body that slides and turns at once has less friction either way than one that only slides
+// or only turns; two separate limits would give it too much. Method: the limit surface of Goyal, Ruina and Papadopoulos
+// ("Planar sliding with dry friction", 1991), approximated by the ellipsoid of Howe and Cutkosky ("Practical
+// force-motion models for sliding manipulation", 1996): (f / F)² + (τ / T)² = 1 with F = μ m g and T = lever F. The
+// body slips along its normal (maximum dissipation). One step is implicit (backward Euler), so that friction stops a
+// body and never turns it round: the slip that is left is the root of a scalar equation, found by Newton's method as
+// Moré and Sorensen do ("Computing a trust region step", 1983).
+//
+// Cost: 60 ns a body, 0.3 µs for one that slips. Without it nothing stops, nothing drives (`test/laws/test_floor.py`).
+
+#include "outline.h"
+#include "stages.h"
+
+static const double standard_gravity = 9.81; // of weights on the floor [m/s²]
+// The share of the push of the last step that the next one expects where the floor stands still. With all of it, bodies
+// would stay pressed against each other by friction alone, for ever; so they lose a fiftieth in each step.
+static const double relaxed = 0.98;
+// The greatest push that is expected, by the limit of friction: more is an impact, which is over.
+static const double most_expected = 2.0;
+// A push below this is none [m/s, rad/s], so that what rests is still to the last bit.
+static const double least_push = 1e-11;
+// Newton's steps. Without turning or without sliding the first is exact; eight leave 1e-12 of the slip at any ratio of
+// the two limits from 0.01 to 100.
+enum { ITERATIONS = 8 };
+
+// The limit surface of a body, as changes of its velocity in a step.
+typedef struct Surface {
+    double lever;  // mean distance of the points that bear it [m]
+    double most;   // greatest change of velocity [m/s]
+    double around; // greatest change of the speed of a turn at the lever [m/s]
+} Surface;
+
+static Surface surface_of(const World *world, const Body *body) {
+    double most = body->floor_friction * standard_gravity * world->dt;
+    double gyration = body->engine->i / body->engine->m;
+    return (Surface){body->lever, most, most * body->lever * body->lever / gyration};
+}
+
+// The square of a change of velocity by the surface; on it, 1.
+static double square(Twist change, Surface surface) {
+    double x = change.v.x / surface.most, y = change.v.y / surface.most;
+    double turn = change.w * surface.lever / surface.around;
+    return x * x + y * y + turn * turn;
+}
+
+// The change of velocity by friction that a slip gets. The slip s that is left solves
+// (across / (s + most))² + (around / (s + most_around))² = 1, where turns count by the speed at the lever.
+static Twist friction(Twist slip, Surface surface) {
+    double across = length(slip.v), around = surface.lever * fabs(slip.w);
+    double left = greatest(greatest(across - surface.most, around - surface.around), 0.0);
+    for (int number = 0; number < ITERATIONS; number++) {
+        double sliding = 1.0 / (left + surface.most), turning = 1.0 / (left + surface.around);
+        double a = across * sliding * across * sliding, b = around * turning * around * turning;
+        left += (a + b) * (sqrt(a + b) - 1.0) / (a * sliding + b * turning);
+    }
+    return (Twist){scaled(slip.v, -surface.most / (left + surface.most)),
+                   -slip.w * surface.around / (left + surface.around)};
+}
+
+// The velocity at the centre of mass of a body of the conveyor under it: of several that which was spawned last.
+static Twist conveyed(const World *world, const Body *body) {
+    Twist velocity = {0};
+    for (int place = 0; place < world->body_count; place++) {
+        const Body *conveyor = world->bodies + place;
+        if ((conveyor->surface.x == 0.0 && conveyor->surface.y == 0.0) || conveyor == body) {
+            continue;
+        }
+        Rotation by = rotation(conveyor->begin.yaw);
+        Vec around = sub(body->begin.p, conveyor->begin.p), local = rotated_back(around, by);
+        for (const cpShape *shape = conveyor->engine->shapeList; shape != NULL; shape = shape->next) {
+            if (covers(shape, local)) {
+                Vec surface = rotated(conveyor->surface, by);
+                velocity = (Twist){add(velocity_at(conveyor->twist, around), surface), conveyor->twist.w};
+            }
+        }
+    }
+    return velocity;
+}
+
+static bool has_conveyors(const World *world) {
+    for (int place = 0; place < world->body_count; place++) {
+        if (world->bodies[place].surface.x != 0.0 || world->bodies[place].surface.y != 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Bring a body to the velocity of the floor under it: its mean in the step, and that at its end.
+static void pull(World *world, Body *body, Twist mean, Twist end) {
+    cpBody *engine = body->engine;
+    double dt = world->dt, kept = world->own->kept;
+    double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
+    Twist before = twist_of(engine);
+    before = body->free ? twist_sum(before, body->lead, -1.0) : before;
+    // What the step brings without the floor: damping, gravity, forces of commands and hands.
+    Twist after = {add(scaled(before.v, kept), add(scaled(engine->f, linear), scaled(world->space->gravity, dt))),
+                   before.w * kept + engine->t * angular};
+    Surface surface = surface_of(world, body);
+    bool moves = mean.v.x != 0.0 || mean.v.y != 0.0 || mean.w != 0.0;
+    double share = moves ? 1.0 : relaxed;
+    Twist expected = {scaled(body->push.v, share), body->push.w * share};
+    double size = greatest(sqrt(square(expected, surface)) / most_expected, 1.0);
+    expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
+    Twist slip = twist_sum(twist_sum(after, expected, 1.0), end, -1.0);
+    body->slides = square(slip, surface) > 1.0;
+    Twist change = body->slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
+    Twist as_moved = mean;
+    if (body->slides) {
+        Twist sum = twist_sum(twist_sum(before, after, 1.0), twist_sum(expected, change, 1.0), 1.0);
+        as_moved = (Twist){scaled(sum.v, 0.5), sum.w / 2.0};
+    }
+    body->under = mean;
+    body->without = twist_sum(after, change, 1.0);
+    if (!sleeps(body)) {
+        set_twist(engine, as_moved);
+        Vec added = add(scaled(sub(before.v, as_moved.v), kept), change.v);
+        engine->f = add(engine->f, scaled(added, 1.0 / linear));
+        engine->t += ((before.w - as_moved.w) * kept + change.w) / angular;
+    }
+}
+
+void pull_by_floor(World *world) {
+    if (!has_stage(world, STAGE_FLOOR)) {
+        return;
+    }
+    roll_wheels(world);
+    bool conveyors = has_conveyors(world);
+    // Robots are listed in the order of the bodies.
+    const Robot *robot = world->robots, *last = world->robots + world->robot_count;
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        Twist mean = {0}, end = {0};
+        if (robot < last && robot->body == place) {
+            mean = robot->under;
+            end = robot->end;
+            robot++;
+        }
+        if (body->floor_friction > 0.0) {
+            Twist belt = conveyors ? conveyed(world, body) : (Twist){0};
+            pull(world, body, twist_sum(mean, belt, 1.0), twist_sum(end, belt, 1.0));
+        }
+    }
+}
+
+void find_pushes(World *world) {
+    if (!has_stage(world, STAGE_FLOOR)) {
+        return;
+    }
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        if (body->floor_friction == 0.0) {
+            continue;
+        }
+        // Half of what is expected is the newest push. With all of it, a robot at a wall and the wall would push in
+        // turns.
+        Twist push = twist_sum(twist_sum(twist_of(body->engine), body->without, -1.0), body->push, 1.0);
+        push = (Twist){scaled(push.v, 0.5), push.w / 2.0};
+        double size = greatest(greatest(fabs(push.v.x), fabs(push.v.y)), fabs(push.w));
+        body->push = sleeps(body) || size < least_push ? (Twist){0} : push;
+    }
+    reckon_odometry(world);
+}

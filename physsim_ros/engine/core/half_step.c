@@ -1,0 +1,217 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Half-step velocity: exact free flight (leapfrog; Störmer, Verlet).
+//
+// Problem: Chipmunk moves a body with the velocity of the step before and then accelerates it, so that a thrown ball
+// falls ½ g t dt too far (law 1: 4 cm in 2 s at 240 Hz).
+// Method: while a body is in free flight, its velocity in the engine leads the true one by half a step of its
+// acceleration; what is reported is the true one. A body is in free flight if its velocity changed in the last step by
+// its acceleration and by nothing else. True velocities do not jump when a body begins or ceases to fly.
+//
+// Support graph. Problem: where a floor, an anchor or a joint is removed, Chipmunk still warm starts with the impulses
+// that carried the pile on it, which would accelerate its bodies upward; and a body that falls from that moment on has
+// no lead yet, so that its reported velocity would begin with half a step of gravity upward. Method: bodies that
+// contacts or joints tie to nothing that stands are in free fall as one, without the impulses of the step before; a
+// search for that moment only.
+//
+// Cost: a comparison of velocities before and after each step.
+
+#include "stages.h"
+#include <string.h>
+
+// Difference of a sum in another order, as a share of the velocity.
+static const double rounding = 1e-12;
+
+// Bodies that support each other.
+typedef struct Support {
+    World *world;
+    int *parents;
+    const Body *released; // whose neighbours are looked for
+} Support;
+
+// Whether a body may have lost what it rested on.
+static bool is_loose(const Body *body) {
+    return body->released && body->dynamic;
+}
+
+static bool presses(const cpArbiter *arbiter) {
+    for (int number = 0; number < arbiter->count; number++) {
+        if (arbiter->contacts[number].jnAcc != 0.0 || arbiter->contacts[number].jtAcc != 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Whether two bodies touched in the last step without pressing on each other: they only lie side by side.
+static bool lie_apart(const Body *a, const Body *b) {
+    bool touched = false;
+    for (const cpArbiter *each = a->engine->arbiterList; each != NULL; each = next_of(each, a->engine)) {
+        if (each->body_a == b->engine || each->body_b == b->engine) {
+            if (presses(each)) {
+                return false;
+            }
+            touched = true;
+        }
+    }
+    return touched;
+}
+
+static void support_by(cpShape *shape, void *points, void *data) {
+    (void)points;
+    const Support *support = data;
+    Body *other = body_of(shape->body);
+    if (!shape->sensor && other != support->released && !lie_apart(support->released, other)) {
+        unite(support->parents, place_of(support->world, support->released->engine),
+              place_of(support->world, shape->body));
+    }
+}
+
+// Find which bodies have lost all that they rested on; `unsupported` (body_count) is 0 before.
+static void find_unsupported(World *world, uint8_t *unsupported) {
+    Support support = {.world = world, .parents = sets_of(world)};
+    for (int number = 0; number < arbiter_count(world); number++) {
+        const cpArbiter *each = arbiter_at(world, number);
+        if (!is_loose(body_of(each->body_a)) && !is_loose(body_of(each->body_b)) && presses(each)) {
+            unite(support.parents, place_of(world, each->body_a), place_of(world, each->body_b));
+        }
+    }
+    for (int number = 0; number < world->joint_count; number++) {
+        unite(support.parents, world->joints[number].a, world->joints[number].b);
+    }
+    // Contacts of released bodies are searched for anew, as the next step finds them.
+    for (int place = 0; place < world->body_count; place++) {
+        support.released = world->bodies + place;
+        if (!is_loose(support.released)) {
+            continue;
+        }
+        for (cpShape *shape = support.released->engine->shapeList; shape != NULL; shape = shape->next) {
+            if (!shape->sensor) {
+                world->chipmunk.shape_query(world->space, shape, support_by, &support);
+            }
+        }
+    }
+    bool *stands = TAKE(&world->own->arena, bool, world->body_count);
+    bool *falls = TAKE(&world->own->arena, bool, world->body_count);
+    for (int place = 0; place < world->body_count; place++) {
+        const Body *body = world->bodies + place;
+        int root = root_of(support.parents, place);
+        stands[root] = stands[root] || !body->dynamic;
+        falls[root] = falls[root] || is_loose(body);
+    }
+    for (int place = 0; place < world->body_count; place++) {
+        int root = root_of(support.parents, place);
+        unsupported[place] = falls[root] && !stands[root];
+    }
+}
+
+// Find the free flight that the next step begins with, and the bodies whose support was removed (body_count).
+static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
+    bool released = false;
+    for (int place = 0; place < world->body_count; place++) {
+        const Body *body = world->bodies + place;
+        free[place] = body->free && !body->sprung;
+        released = released || is_loose(body);
+    }
+    if (!released || !has_stage(world, STAGE_SUPPORT)) {
+        return;
+    }
+    find_unsupported(world, unsupported);
+    for (int place = 0; place < world->body_count; place++) {
+        free[place] = free[place] || unsupported[place];
+    }
+}
+
+// The velocity of a body that begins or ceases to fly.
+static Twist with_lead(const Body *body, bool flies) {
+    double sign = (double)flies - (double)body->free;
+    return twist_sum(twist_of(body->engine), body->lead, sign);
+}
+
+static void forget_impulses(const Body *body) {
+    for (cpArbiter *each = body->engine->arbiterList; each != NULL; each = next_of(each, body->engine)) {
+        for (int number = 0; number < each->count; number++) {
+            each->contacts[number].jnAcc = each->contacts[number].jtAcc = 0.0;
+        }
+    }
+}
+
+void begin_half_step(World *world) {
+    Arena *arena = &world->own->arena;
+    uint8_t *free = TAKE(arena, uint8_t, world->body_count), *unsupported = TAKE(arena, uint8_t, world->body_count);
+    find_start(world, free, unsupported);
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        if (free[place] != body->free) {
+            world->chipmunk.body_activate(body->engine);
+            set_twist(body->engine, with_lead(body, free[place]));
+            body->free = free[place];
+        }
+        if (unsupported[place]) {
+            forget_impulses(body);
+        }
+        if (body->wrench.v.x != 0.0 || body->wrench.v.y != 0.0 || body->wrench.w != 0.0) {
+            // Chipmunk clears forces after each step.
+            world->chipmunk.body_activate(body->engine);
+            body->engine->f = body->wrench.v;
+            body->engine->t = body->wrench.w;
+        }
+    }
+}
+
+void find_free(World *world) {
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        body->free = false;
+        if (!body->dynamic || body->sprung || body->floor_friction > 0.0 || sleeps(body) ||
+            !has_stage(world, STAGE_HALF_STEP)) {
+            continue;
+        }
+        Twist after = twist_of(body->engine), flown = body->lead;
+        flown =
+            twist_sum((Twist){scaled(body->twist.v, world->own->kept), body->twist.w * world->own->kept}, flown, 2.0);
+        body->free = fabs(flown.v.x - after.v.x) <= rounding * (1.0 + fabs(after.v.x)) &&
+                     fabs(flown.v.y - after.v.y) <= rounding * (1.0 + fabs(after.v.y)) &&
+                     fabs(flown.w - after.w) <= rounding * (1.0 + fabs(after.w));
+    }
+}
+
+void core_read_state(World *world, Motion *motions, uint8_t *free, uint8_t *unsupported) {
+    arena_reset(&world->own->arena);
+    uint8_t *flies = TAKE(&world->own->arena, uint8_t, world->body_count);
+    uint8_t *falls = TAKE(&world->own->arena, uint8_t, world->body_count);
+    find_start(world, flies, falls);
+    for (int place = 0; place < world->body_count - 1; place++) {
+        const Body *body = world->bodies + place;
+        // A sleeping body does not move, whatever velocity Chipmunk keeps for it.
+        Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, flies[place]);
+        motions[place] = (Motion){pose_of(body->engine), twist};
+        free[place] = flies[place];
+        unsupported[place] = falls[place];
+    }
+}
+
+void core_observe(World *world, Pose *poses, Twist *twists) {
+    arena_reset(&world->own->arena);
+    uint8_t *flies = TAKE(&world->own->arena, uint8_t, world->body_count);
+    find_start(world, flies, TAKE(&world->own->arena, uint8_t, world->body_count));
+    for (int place = 0; place < world->body_count - 1; place++) {
+        const Body *body = world->bodies + place;
+        Pose pose = pose_of(body->engine);
+        if (body->offset.x != 0.0 || body->offset.y != 0.0) {
+            pose.p = sub(pose.p, rotated(body->offset, rotation(pose.yaw)));
+        }
+        poses[place] = pose;
+        Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, flies[place]);
+        // The same sum as in a space that is built from this state, to the bit.
+        twists[place] = flies[place] ? twist_sum(twist, body->lead, -1.0) : twist;
+    }
+}
+
+void core_write_state(World *world, const Motion *motions) {
+    for (int place = 0; place < world->body_count - 1; place++) {
+        set_pose(world->bodies[place].engine, motions[place].pose);
+        set_twist(world->bodies[place].engine, motions[place].twist);
+    }
+}

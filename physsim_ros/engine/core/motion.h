@@ -1,0 +1,58 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Rigid motions in the coming step; time is a share of the step.
+
+#ifndef PHYSSIM_MOTION_H
+#define PHYSSIM_MOTION_H
+
+#include "outline.h"
+#include "world.h"
+
+// A rectangle along the axes [m].
+typedef struct Box {
+    Vec low, high;
+} Box;
+
+static inline bool overlap(Box a, Box b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+static inline Box united(Box a, Box b) {
+    return (Box){{least(a.low.x, b.low.x), least(a.low.y, b.low.y)},
+                 {greatest(a.high.x, b.high.x), greatest(a.high.y, b.high.y)}};
+}
+
+// A body, or a shape that never moves, in the coming step.
+typedef struct Mover {
+    Body *body;
+    const cpShape *shape; // the only one that counts; NULL is all of the body
+    bool movable;         // forces move it
+    double since;         // share of the step from which on the motion holds
+    Pose pose;            // then
+    Vec pivot;            // centre of rotation then [m]
+    Twist rate;           // way of the centre of rotation, and turn, in a whole step [m, rad]
+    double depth;         // how far it may be entered in a step unseen [m]
+    double turning;       // how far out its turning counts [m]
+    double corners;       // the cost of comparing it
+    // Swept box.
+    double horizon; // share of the step up to which it is followed
+    Vec start, end; // centres at the beginning of the motion and at the horizon [m]
+    Vec half;       // half the size of the box of now, with how far it is from the line between them at most [m]
+    Box box;        // of the whole way
+    // Island of what has met.
+    bool met;
+    int island; // its first member
+    int next;   // following member of the island; -1 is none
+    int leader; // what the island of this first member moves as; -1 is none
+} Mover;
+
+// Where a body is at a share of the step, and its centre of rotation.
+static inline Pose pose_at(const Mover *mover, double share, Vec *pivot) {
+    double lapse = share - mover->since;
+    *pivot = add(mover->pivot, scaled(mover->rate.v, lapse));
+    Vec arm = rotated(sub(mover->pose.p, mover->pivot), rotation(mover->rate.w * lapse));
+    return (Pose){add(*pivot, arm), mover->pose.yaw + mover->rate.w * lapse};
+}
+
+#endif

@@ -1,0 +1,53 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// The stages of a step, in the order of `step.c`.
+
+#ifndef PHYSSIM_STAGES_H
+#define PHYSSIM_STAGES_H
+
+#include "world.h"
+
+// Wrenches of commands, and free flight of bodies that requests have changed (`half_step.c`).
+void begin_half_step(World *world);
+
+// Forces of hands (`mouse_joints.c`).
+void pull_grips(World *world);
+
+// Errors of the solver in what friction locks in place (`resting_damping.c`).
+void damp_resting(World *world);
+
+// The floor, with drives and odometry of robots (`floor.c`, `drives.c`).
+void pull_by_floor(World *world);
+void find_pushes(World *world);
+void roll_wheels(World *world);
+void reckon_odometry(World *world);
+
+// Fast bodies end their step where they first hit something (`continuous.c`), and keep small boxes (`tight_boxes.c`).
+void clamp_moves(World *world);
+void tighten_boxes(World *world);
+
+// Constraints are put where the step needs them (`joint_parts.c`).
+void prepare_parts(World *world);
+
+// Between narrow phase and solver: contacts that begin (`first_touch.c`), contacts next to an impact
+// (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
+void correct_first_touches(World *world);
+void defer_contacts(World *world);
+void solve_impacts(World *world);
+
+// Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
+void solve_joints(World *world);
+void find_broken(World *world);
+
+// Which bodies the step only accelerated (`half_step.c`), and which do not fall asleep (`sleeping.c`).
+void find_free(World *world);
+void keep_awake(World *world);
+
+// What touched, and how it pressed (`contact_report.c`).
+void report_contacts(World *world);
+void forget_contacts(World *world);
+void rename_contacts(World *world, const int32_t *former, int count);
+void free_report(World *world);
+
+#endif

@@ -1,0 +1,90 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// The pipeline: one step of a world, stage by stage. `stages.h` says what each does, and its file why and how.
+
+#include "stages.h"
+
+// A body beyond this position or speed is removed [m, m/s, rad, rad/s]; a double resolves 0.1 mm there.
+static const double lost = 1e12;
+
+static void begin_bodies(World *world) {
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        body->begin = pose_of(body->engine);
+        body->twist = twist_of(body->engine);
+    }
+}
+
+static void keep_twists(World *world) {
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        body->twist = twist_of(body->engine);
+        body->thrown = body->released = false;
+    }
+}
+
+static bool is_lost(const cpBody *engine) {
+    // NaN compares false, so that it is lost too.
+    return !(fabs(engine->p.x) < lost && fabs(engine->p.y) < lost && fabs(engine->a) < lost &&
+             fabs(engine->v.x) < lost && fabs(engine->v.y) < lost && fabs(engine->w) < lost);
+}
+
+static void find_lost(World *world) {
+    world->has_lost = false;
+    for (int place = 0; place < world->body_count; place++) {
+        world->has_lost = world->has_lost || is_lost(world->bodies[place].engine);
+    }
+}
+
+// Chipmunk calls this between its narrow phase and its solver: all contacts of the step are known, with their target
+// velocities, and none has been solved. Munk2D has no hook there but that of constraints (`preSolve`, called after
+// `cpArbiterPreStep` of all contacts); it can go when it has one.
+static void before_solving(cpConstraint *hook, cpSpace *space) {
+    (void)space;
+    World *world = hook->userData;
+    correct_first_touches(world);
+    defer_contacts(world);
+    solve_impacts(world);
+}
+
+static void step(World *world) {
+    arena_reset(&world->own->arena);
+    begin_half_step(world);
+    begin_bodies(world);
+    pull_grips(world);
+    damp_resting(world);
+    pull_by_floor(world);
+    clamp_moves(world);
+    tighten_boxes(world);
+    prepare_parts(world);
+    keep_twists(world);
+    world->own->hook->preSolve = before_solving;
+    world->chipmunk.space_step(world->space, world->dt);
+    world->own->hook->preSolve = NULL;
+    solve_joints(world);
+    find_pushes(world);
+    find_free(world);
+    keep_awake(world);
+    find_broken(world);
+    find_lost(world);
+    if (world->reports_contacts) {
+        report_contacts(world);
+    } else {
+        forget_contacts(world);
+    }
+    world->step++;
+    world->age++;
+}
+
+int32_t core_step(World *world, int32_t count) {
+    world->own->kept = pow(world->space->damping, world->dt);
+    for (int number = 0; number < count; number++) {
+        world->own->call_step = number;
+        step(world);
+        if (world->has_broken || world->has_lost) {
+            return number + 1;
+        }
+    }
+    return count;
+}

@@ -1,0 +1,42 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+#ifndef PHYSSIM_SWEPT_BOXES_H
+#define PHYSSIM_SWEPT_BOXES_H
+
+#include "boxes.h"
+
+// Shapes that never move.
+typedef struct Statics {
+    int count;
+    Mover *movers;
+    Tree tree;
+} Statics;
+
+// The coming step: bodies, then shapes that never move.
+typedef struct Sweep {
+    World *world;
+    int count; // of bodies
+    Mover *movers;
+    Tree tree;
+    const Statics *statics;
+    bool *followed; // (count): bodies that are followed in this round
+} Sweep;
+
+static inline Mover *mover_at(const Sweep *sweep, int number) {
+    return number < sweep->count ? sweep->movers + number : sweep->statics->movers + (number - sweep->count);
+}
+
+// Return the shapes that never move, but sensors.
+const Statics *statics_of(World *world);
+
+// Bound the way of a body from where its motion begins to its horizon.
+void fit_box(Mover *mover);
+
+// Bring the horizons of bodies nearer until they meet no more than the budget permits.
+void cut_horizons(Sweep *sweep, const int *bodies, int count);
+
+// Whether the boxes of two movers overlap at one time, which move on straight lines.
+bool come_near(const Mover *one, const Mover *other);
+
+#endif

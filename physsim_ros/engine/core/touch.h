@@ -1,0 +1,43 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// A contact that begins in this step, in the middle of it.
+
+#ifndef PHYSSIM_TOUCH_H
+#define PHYSSIM_TOUCH_H
+
+#include "outline.h"
+#include "world.h"
+
+typedef struct Touch {
+    cpArbiter *arbiter;
+    const cpShape *shapes[2];
+    cpBody *engines[2];
+    int count;        // of points
+    Vec normal;       // from the first body to the second
+    Vec places[2][2]; // of both points (first index) on either body (second) [m]
+} Touch;
+
+Touch touch_of(cpArbiter *arbiter);
+
+// Write normal and points to Chipmunk.
+void write_touch(const Touch *touch);
+
+// The distance of a point on the second body from that on the first along the normal, < 0 where they overlap [m].
+static inline double distance_of(const Touch *touch, int point) {
+    return dot(sub(touch->places[point][1], touch->places[point][0]), touch->normal);
+}
+
+// The velocity of a place on one of the bodies [m/s].
+static inline Vec velocity_on(const Touch *touch, int side, Vec place) {
+    const cpBody *engine = touch->engines[side];
+    return velocity_at(twist_of(engine), sub(place, engine->p));
+}
+
+// How deep the other shape is behind a face of one [m].
+double face_depth(const Touch *touch, int side, int face);
+
+// Make effective masses, bias and bounce of a contact anew, as `cpArbiterPreStep` has made them of the old one.
+void prepare_contact(const World *world, cpArbiter *arbiter);
+
+#endif

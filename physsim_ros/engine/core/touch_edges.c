@@ -1,0 +1,98 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Internal edges: a contact at a corner, while a face is entered by no more than the slop and under no more than 10
+// degrees, gets the normal of that face (`btInternalEdgeUtility` in Bullet).
+
+#include "touch_stages.h"
+
+// Distance from a corner within which overlaps of the slop along two faces lie, in slops: the diagonal of their
+// rhombus, for faces that enclose 30 degrees or more.
+static const double near_slops = 4.0;
+// Approach by speed up to which a body slides over a face [1]: the sine of 10 degrees.
+static const double grazing = 0.17;
+
+// A face over which two shapes slide.
+typedef struct Slide {
+    int side;
+    double approach; // velocity against it [m/s]
+    double depth;    // of the other shape behind it [m]
+    Vec outwards;
+} Slide;
+
+static bool is_near(Vec point, Vec corner, double reach) {
+    return length(sub(corner, point)) <= reach;
+}
+
+static double reach_of(const World *world, const Touch *touch, int side) {
+    return near_slops * world->space->collisionSlop + radius_of(touch->shapes[side]);
+}
+
+static bool is_at_corner(const World *world, const Touch *touch, int side) {
+    double reach = reach_of(world, touch, side);
+    for (int number = 0; number < corner_count(touch->shapes[side]); number++) {
+        if (is_near(touch->places[0][side], corner_in_world(touch->shapes[side], number).place, reach)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The velocity of the second shape against the first [m/s]. The spin of a disc does not move its surface along a face.
+static Vec relative_velocity(const Touch *touch) {
+    Vec velocities[2];
+    for (int side = 0; side < 2; side++) {
+        const cpShape *shape = touch->shapes[side];
+        bool is_disc = kind_of(shape) == SHAPE_CIRCLE;
+        Vec place = is_disc ? corner_in_world(shape, 0).place : touch->places[0][side];
+        velocities[side] = velocity_on(touch, side, place);
+    }
+    return sub(velocities[1], velocities[0]);
+}
+
+// Look for the face of one shape that is approached slowest.
+static void find_slide(const World *world, const Touch *touch, int side, Vec velocity, Slide *best) {
+    const cpShape *shape = touch->shapes[side];
+    int count = corner_count(shape);
+    double reach = reach_of(world, touch, side), sign = side == 0 ? 1.0 : -1.0;
+    for (int face = 0; face < count && count > 1; face++) {
+        Corner corner = corner_in_world(shape, face);
+        Vec before = corner_in_world(shape, (face + count - 1) % count).place, point = touch->places[0][side];
+        double approach = -dot(corner.normal, velocity) * sign;
+        if (approach < best->approach && (is_near(point, corner.place, reach) || is_near(point, before, reach))) {
+            double depth = face_depth(touch, side, face);
+            if (depth >= 0.0 && depth <= world->space->collisionSlop) {
+                *best = (Slide){side, approach, depth, corner.normal};
+            }
+        }
+    }
+}
+
+void slide_over_edge(const World *world, Touch *touch) {
+    if (!is_at_corner(world, touch, 0) || !is_at_corner(world, touch, 1)) {
+        return;
+    }
+    Vec velocity = relative_velocity(touch);
+    double approach = -dot(velocity, touch->normal);
+    if (approach <= 0.0) {
+        return;
+    }
+    Slide slide = {.side = -1, .approach = least(approach, grazing * length(velocity))};
+    find_slide(world, touch, 0, velocity, &slide);
+    find_slide(world, touch, 1, velocity, &slide);
+    if (slide.side < 0) {
+        return;
+    }
+    const cpShape *other = touch->shapes[1 - slide.side];
+    Vec along = slide.side == 0 ? slide.outwards : negated(slide.outwards), half = scaled(along, slide.depth / 2.0);
+    touch->normal = along;
+    for (int point = 0; point < 2; point++) {
+        Vec middle = scaled(add(touch->places[point][0], touch->places[point][1]), 0.5);
+        if (kind_of(other) == SHAPE_CIRCLE) {
+            // A disc is touched below its centre.
+            middle = sub(corner_in_world(other, 0).place, scaled(slide.outwards, radius_of(other)));
+        }
+        touch->places[point][0] = add(middle, half);
+        touch->places[point][1] = sub(middle, half);
+    }
+}

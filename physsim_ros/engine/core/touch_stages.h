@@ -1,0 +1,20 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// The parts of the first touch (`first_touch.c`).
+
+#ifndef PHYSSIM_TOUCH_STAGES_H
+#define PHYSSIM_TOUCH_STAGES_H
+
+#include "touch.h"
+
+// Replace normal and places of the contact of a disc by those of its impact.
+void move_to_impact(const World *world, Touch *touch);
+
+// Replace a contact at a seam by one with the face that the shapes approach slowest.
+void slide_over_edge(const World *world, Touch *touch);
+
+// Set bodies apart that touch for the first time, along the normals of their contacts; mark those that are `moved`.
+void project_touches(World *world, const Touch *touches, int count, bool *moved);
+
+#endif
