@@ -26,6 +26,14 @@ _FUNCTIONS = {
     'each_arbiter': 'cpSpaceEachCachedArbiter',
 }
 _CONTACT, _BEGUN = dtype_of('Contact'), dtype_of('Begun')
+# Arrays of each type that crosses the border; cffi takes five times as long by their names.
+_ARRAYS = {
+    kind: ffi.typeof(f'{kind}[]')
+    for kind in (
+        *('Body', 'Joint', 'Part', 'Row', 'Grip', 'Robot', 'Motion', 'Pose', 'Twist', 'cpVect'),
+        *('double', 'uint8_t', 'int32_t'),
+    )
+}
 
 
 def address_of(it: pymunk.Space | pymunk.Body | pymunk.Shape | pymunk.Constraint) -> int:
@@ -253,7 +261,8 @@ def _chipmunk() -> Any:
 
 
 def _pointer(array: NDArray[Any], kind: str) -> Any:
-    return ffi.cast(f'{kind} *', array.ctypes.data)
+    """Return the pointer to the first value of an array, which has to live as long."""
+    return ffi.from_buffer(_ARRAYS[kind], array)
 
 
 def _pointer_and_count(table: Table, kind: str) -> tuple[Any, int]:

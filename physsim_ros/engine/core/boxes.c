@@ -39,7 +39,7 @@ static int by_y(const void *one, const void *other) {
 
 Tree tree_of(const Box *boxes, int count, Arena *arena) {
     Tree tree = {.count = count, .leaves = 1};
-    while (tree.leaves < count) {
+    while (tree.leaves < (size_t)count) {
         tree.leaves *= 2;
     }
     tree.members = TAKE(arena, int, count);
@@ -60,16 +60,16 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
         int size = count - first < slice ? count - first : slice;
         qsort(tiles + first, (size_t)size, sizeof(Tile), by_y);
     }
-    for (int node = 0; node < 2 * tree.leaves; node++) {
+    for (size_t node = 0; node < 2 * tree.leaves; node++) {
         tree.nodes[node] = empty;
     }
     for (int place = 0; place < count; place++) {
         int number = tiles[place].number;
         tree.members[place] = number;
         tree.places[number] = place;
-        tree.nodes[tree.leaves + place] = boxes[number];
+        tree.nodes[tree.leaves + (size_t)place] = boxes[number];
     }
-    for (int node = tree.leaves - 1; node > 0; node--) {
+    for (size_t node = tree.leaves - 1; node > 0; node--) {
         tree.nodes[node] = united(tree.nodes[2 * node], tree.nodes[2 * node + 1]);
     }
     arena_release(arena, mark);
@@ -77,7 +77,7 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
 }
 
 void tree_set(Tree *tree, int number, Box box) {
-    int node = tree->leaves + tree->places[number];
+    size_t node = tree->leaves + (size_t)tree->places[number];
     tree->nodes[node] = box;
     for (node /= 2; node > 0; node /= 2) {
         tree->nodes[node] = united(tree->nodes[2 * node], tree->nodes[2 * node + 1]);
@@ -85,12 +85,13 @@ void tree_set(Tree *tree, int number, Box box) {
 }
 
 void tree_query(const Tree *tree, Box box, bool (*found)(int number, void *data), void *data) {
-    int stack[DEEPEST], depth = 0;
+    size_t stack[DEEPEST];
+    int depth = 0;
     if (tree->count > 0) {
         stack[depth++] = 1;
     }
     while (depth > 0) {
-        int node = stack[--depth];
+        size_t node = stack[--depth];
         if (!overlap(tree->nodes[node], box)) {
             continue;
         }

@@ -103,10 +103,12 @@ static Pair *pair_of(Report *report, int a, int b) {
 static void add_begun(World *world, Report *report, const Pair *pair) {
     if (world->begun_count == report->begun_room) {
         report->begun_room = 2 * report->begun_room + 16;
-        world->begun = realloc(world->begun, (size_t)report->begun_room * sizeof(Begun));
-        if (world->begun == NULL) {
-            abort();
+        Begun *begun = allocated((size_t)report->begun_room, sizeof(Begun));
+        if (world->begun_count > 0) {
+            memcpy(begun, world->begun, (size_t)world->begun_count * sizeof(Begun));
         }
+        free(world->begun);
+        world->begun = begun;
     }
     world->begun[world->begun_count++] = (Begun){pair->a, pair->b, world->frame_steps};
 }

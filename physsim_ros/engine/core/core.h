@@ -85,7 +85,7 @@ typedef struct Robot {
     double curvature;    // greatest of its way [1/m]
     cpVect center;       // of mass in the frame of the body [m]
     double slip[2];      // drift of the odometry: of the way [√m], and of the heading [rad/√m]
-    const double *noise; // (steps, 2): normal numbers for the steps of this call; NULL without slip
+    const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     // State: velocities are as seen from the robot.
     int64_t until;  // step at which the command ends
     Twist aim;      // velocity that the last command aims at; 0 after its timeout

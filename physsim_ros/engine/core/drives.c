@@ -91,10 +91,10 @@ void reckon_odometry(World *world) {
         Vec way = scaled(robot->mean.v, world->dt), told = way;
         double turn = body->engine->a - body->begin.yaw, drift = 0.0, distance = length(way);
         if (robot->noise != NULL) {
-            const double *noise = robot->noise + 2 * world->own->call_step;
-            double share = distance > 0.0 ? 1.0 + noise[0] * robot->slip[0] / sqrt(distance) : 1.0;
+            const cpVect noise = robot->noise[world->own->call_step];
+            double share = distance > 0.0 ? 1.0 + noise.x * robot->slip[0] / sqrt(distance) : 1.0;
             told = scaled(way, share);
-            drift = noise[1] * robot->slip[1] * sqrt(distance + fabs(turn));
+            drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));
         }
         robot->travel = twist_sum(robot->travel, robot->mean, world->dt);
         robot->odometry = reckoned(robot->odometry, told, turn + drift);

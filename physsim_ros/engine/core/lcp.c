@@ -30,31 +30,41 @@ typedef struct Scaled {
     double wanted[LCP_ROWS]; // -b
 } Scaled;
 
-// Solve the rows that are active: Cholesky. λ of the others is 0.
-static void solve_active(const Scaled *problem, const bool *active, double *found) {
-    double lower[LCP_ROWS][LCP_ROWS] = {{0}}, reduced[LCP_ROWS] = {0};
-    for (int i = 0; i < problem->count; i++) {
-        for (int j = 0; active[i] && j <= i; j++) {
-            double sum = problem->matrix[i][j] * (i == j ? 1.0 + regularisation : 1.0);
+// Factor the rows that are active, L Lᵀ (Cholesky); the others, and those that there are not, have a diagonal of 1.
+static void factor(const Scaled *problem, const bool *active, double lower[LCP_ROWS][LCP_ROWS]) {
+    for (int i = 0; i < LCP_ROWS; i++) {
+        for (int j = 0; j < i; j++) {
+            double sum = active[i] && active[j] ? problem->matrix[i][j] : 0.0;
             for (int k = 0; k < j; k++) {
                 sum -= lower[i][k] * lower[j][k];
             }
-            if (active[j]) {
-                lower[i][j] = i == j ? sqrt(sum) : sum / lower[j][j];
-            }
+            lower[i][j] = sum / lower[j][j];
         }
-        double sum = problem->wanted[i];
+        double sum = active[i] ? problem->matrix[i][i] * (1.0 + regularisation) : 1.0;
         for (int k = 0; k < i; k++) {
-            sum -= lower[i][k] * reduced[k];
+            sum -= lower[i][k] * lower[i][k];
         }
-        reduced[i] = active[i] ? sum / lower[i][i] : 0.0;
+        lower[i][i] = sqrt(sum);
     }
-    for (int i = problem->count - 1; i >= 0; i--) {
-        double sum = reduced[i];
-        for (int k = i + 1; k < problem->count; k++) {
+}
+
+// Solve the rows that are active; λ of the others is 0.
+static void solve_active(const Scaled *problem, const bool *active, double *found) {
+    double lower[LCP_ROWS][LCP_ROWS] = {{0}};
+    factor(problem, active, lower);
+    for (int i = 0; i < LCP_ROWS; i++) {
+        double sum = active[i] ? problem->wanted[i] : 0.0;
+        for (int k = 0; k < i; k++) {
+            sum -= lower[i][k] * found[k];
+        }
+        found[i] = sum / lower[i][i];
+    }
+    for (int i = LCP_ROWS - 1; i >= 0; i--) {
+        double sum = found[i];
+        for (int k = i + 1; k < LCP_ROWS; k++) {
             sum -= lower[k][i] * found[k];
         }
-        found[i] = active[i] ? sum / lower[i][i] : 0.0;
+        found[i] = sum / lower[i][i];
     }
 }
 
@@ -79,6 +89,9 @@ bool solve_lcp(int count, double matrix[LCP_ROWS][LCP_ROWS], const double *rates
     Scaled problem = {.count = count};
     double scale[LCP_ROWS] = {0}, found[LCP_ROWS] = {0}, most_wanted = 0.0, most_found = 0.0;
     bool active[LCP_ROWS] = {false};
+    if (count > LCP_ROWS) {
+        return false;
+    }
     for (int i = 0; i < count; i++) {
         scale[i] = 1.0 / sqrt(matrix[i][i]);
         problem.wanted[i] = -rates[i] * scale[i];

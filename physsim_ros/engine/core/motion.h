@@ -28,6 +28,10 @@ typedef struct Mover {
     Body *body;
     const cpShape *shape; // the only one that counts; NULL is all of the body
     bool movable;         // forces move it
+    bool met;             // it has met another one, and moves on with that
+    int island;           // first member of the island of what has met
+    int next;             // following member of the island; -1 is none
+    int leader;           // what the island of this first member moves as; -1 is none
     double since;         // share of the step from which on the motion holds
     Pose pose;            // then
     Vec pivot;            // centre of rotation then [m]
@@ -35,16 +39,10 @@ typedef struct Mover {
     double depth;         // how far it may be entered in a step unseen [m]
     double turning;       // how far out its turning counts [m]
     double corners;       // the cost of comparing it
-    // Swept box.
-    double horizon; // share of the step up to which it is followed
-    Vec start, end; // centres at the beginning of the motion and at the horizon [m]
-    Vec half;       // half the size of the box of now, with how far it is from the line between them at most [m]
-    Box box;        // of the whole way
-    // Island of what has met.
-    bool met;
-    int island; // its first member
-    int next;   // following member of the island; -1 is none
-    int leader; // what the island of this first member moves as; -1 is none
+    double horizon;       // share of the step up to which it is followed
+    Vec start, end;       // centres at the beginning of the motion and at the horizon [m]
+    Vec half;             // half the size of its box at a moment, about the line between them [m]
+    Box box;              // of the whole way
 } Mover;
 
 // Where a body is at a share of the step, and its centre of rotation.

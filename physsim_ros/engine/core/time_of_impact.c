@@ -121,6 +121,14 @@ static double rate_along(const Side *side, Vec point, Vec axis) {
     return dot(velocity_at(side->mover->rate, sub(point, side->pivot)), axis);
 }
 
+// The velocity at which two shapes approach along an axis where they meet [m a step].
+static double approach(const Side *a, const Side *b, const Separation *found) {
+    const Side *cornered = found->of_first ? b : a;
+    Vec axis = found->of_first ? negated(found->axis) : found->axis;
+    Vec point = cornered->corners[foremost(cornered, axis)].place;
+    return rate_along(a, point, found->axis) - rate_along(b, point, found->axis);
+}
+
 // The share of the step at which two shapes first overlap by the skin.
 static double advance(Side *a, Side *b, double radii, double skin, double depth) {
     double share = greatest(a->mover->since, b->mover->since), target = -skin;
@@ -139,10 +147,7 @@ static double advance(Side *a, Side *b, double radii, double skin, double depth)
         // A pair that leaves its overlap may not come back as deep.
         target = greatest(target, least(-skin, distance - depth));
         if (met) {
-            const Side *cornered = found.of_first ? b : a;
-            Vec axis = found.of_first ? negated(found.axis) : found.axis;
-            Vec point = cornered->corners[foremost(cornered, axis)].place;
-            double rate = rate_along(a, point, found.axis) - rate_along(b, point, found.axis);
+            double rate = approach(a, b, &found);
             if (rate > 0.0) {
                 return rate * (1.0 - share) > depth ? share : INFINITY;
             }

@@ -50,34 +50,38 @@ void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *f
     }
 }
 
+// List the places of dynamic bodies with joints that have rows.
+static void list_jointed(World *world) {
+    Private *own = world->own;
+    free(own->jointed);
+    own->jointed = allocated((size_t)world->body_count, sizeof(int));
+    own->jointed_count = 0;
+    for (int place = 0; place < world->body_count; place++) {
+        if (world->bodies[place].jointed && world->bodies[place].dynamic) {
+            own->jointed[own->jointed_count++] = place;
+        }
+    }
+}
+
 void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
                      int32_t row_count) {
-    Private *own = world->own;
     world->joints = joints;
     world->joint_count = joint_count;
     world->parts = parts;
     world->part_count = part_count;
     world->rows = rows;
     world->row_count = row_count;
-    free(own->jointed);
-    own->jointed = allocated(2 * (size_t)joint_count, sizeof(int));
-    own->jointed_count = 0;
     for (int place = 0; place < world->body_count; place++) {
         world->bodies[place].jointed = world->bodies[place].joined = false;
     }
     for (int number = 0; number < joint_count; number++) {
-        int ends[2] = {joints[number].a, joints[number].b};
+        Body *ends[2] = {world->bodies + joints[number].a, world->bodies + joints[number].b};
         for (int end = 0; end < 2; end++) {
-            Body *body = world->bodies + ends[end];
-            body->joined = true;
-            if (joints[number].row_count > 0) {
-                if (body->dynamic && !body->jointed) {
-                    own->jointed[own->jointed_count++] = ends[end];
-                }
-                body->jointed = true;
-            }
+            ends[end]->joined = true;
+            ends[end]->jointed = ends[end]->jointed || joints[number].row_count > 0;
         }
     }
+    list_jointed(world);
     prepare_springs(world);
 }
 

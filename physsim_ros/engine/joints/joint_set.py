@@ -143,17 +143,15 @@ class JointSet:
         self._table.place_ends(places)
         self._core.use_joints(self._table.joints, self._table.parts, self._table.rows)
 
-    def forces(self) -> Floats:
-        """Return (j,) float64: the force of each joint in the last step [N]."""
-        return self._core.read_joints()[0] / self._dt
+    def report(self) -> tuple[Floats, Floats, Flags]:
+        """
+        Return what joints did in the last step.
 
-    def pulls(self) -> Floats:
-        """Return (j, 2) float64: force of each joint on its body b in the last step [N]."""
-        return self._core.read_joints()[1] / self._dt
-
-    def compressed(self) -> Flags:
-        """Return (j,) bool: whether each joint pushed its bodies apart in the last step."""
-        return self._core.read_joints()[2]
+        :return: (j,) float64: force of each [N]; (j, 2) float64: force on its body b [N]; (j,)
+            bool: whether it pushed its bodies apart
+        """
+        impulses, pulls, pressing = self._core.read_joints()
+        return impulses / self._dt, pulls / self._dt, pressing
 
     def impulses(self) -> Floats:
         """Return (c, 2) float64: impulses from which the next step starts, of all constraints."""
@@ -184,7 +182,7 @@ class JointSet:
         """Return the joints that broke in the last step, and the force of each in it [N]."""
         if self._table is None or not (broken := self._table.broken):
             return []
-        names, forces = self._table.names, self.forces().tolist()
+        names, forces = self._table.names, self.report()[0].tolist()
         return [(names[number], forces[number]) for number in broken]
 
     def _joints_on(self, bodies: Iterable[str], joint: Joint | None) -> list[Joint]:

@@ -137,20 +137,20 @@ class World(LiveSpace):
 
     def snapshot(self) -> Snapshot:
         """Return the snapshot of this step."""
-        joints = self.space.joints
         poses, twists = self.space.observe()
+        forces, pulls, pressing = self.space.joints.report()
         return Snapshot(
             step=self.step_count,
             stamp=self.stamp,
             scene=self.scene,
             poses=poses,
             twists=twists,
-            forces=joints.forces(),
-            compressed=joints.compressed(),
-            springs=joints.springs(),
+            forces=forces,
+            compressed=pressing,
+            springs=self.space.joints.springs(),
             grips=self.grips,
             robots=self.space.robot_states,
-            pulls=joints.pulls() if self.reports_contacts else np.empty((0, 2)),
+            pulls=pulls if self.reports_contacts else np.empty((0, 2)),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
