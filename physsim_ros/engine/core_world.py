@@ -56,7 +56,12 @@ class CoreWorld:
 
     :param pm_space: Pymunk's
     :param dt: of a step [s]
+
+    :cvar left_out: stages that new worlds leave out, a sum of `STAGE_...` of `core.h`; to measure
+        what fails without them
     """
+
+    left_out = 0
 
     def __init__(self, pm_space: pymunk.Space, dt: float) -> None:
         # A massive body outside the space, whose angle stays 0 and within the limits.
@@ -70,6 +75,7 @@ class CoreWorld:
             ffi.cast('cpConstraint *', address_of(hook)),
         )
         self._world = ffi.gc(lib.core_new(*pointers), lib.core_free)
+        self._world.stages = lib.STAGE_ALL & ~self.left_out
         # Kept while the core uses them: what it calls, and its tables.
         self._pm_space = pm_space
         self._tables: dict[str, tuple[Table, ...]] = {}
@@ -117,10 +123,6 @@ class CoreWorld:
     def note_moved_static(self) -> None:
         """Note that an anchored body or a wall has been moved."""
         self._world.statics_moved = True
-
-    def leave_out(self, stages: int) -> None:
-        """Leave out stages from now on, a sum of `STAGE_...` of `core.h`; to measure them."""
-        self._world.stages = lib.STAGE_ALL & ~stages
 
     # Steps
 
