@@ -31,8 +31,8 @@ static const double most_turn = 0.25;
 // have nearly singular equations, whose solutions are of any size.
 static const double most_leverage = 10.0;
 
-// Counts of Newton steps, and of factorisations in each, at most.
-enum { MOST_STEPS = 16, ROUNDS = 30 };
+// Count of Newton steps, at most.
+enum { MOST_STEPS = 16 };
 
 // A displacement of an island, as Newton's method finds it.
 typedef struct Displacement {
@@ -178,7 +178,7 @@ static Solution newton_step(Solve *solve, const Displacement *move) {
         solution.sides[row] = side_of(move->impulses[row], lower[row], upper[row]);
     }
     Problem problem = {move->jacobians, wanted, lower, upper, soft};
-    solve_problem(&solve->system, &problem, &solution, ROUNDS, arena);
+    solve_problem(&solve->system, &problem, &solution, arena);
     return solution;
 }
 

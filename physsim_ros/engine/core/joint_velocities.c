@@ -17,7 +17,7 @@
 
 // E, as a share of the diagonal of J M⁻¹ Jᵀ. The impulses are Chipmunk's next guess; without E those of joints that
 // contradict each other would be of any size.
-static const double softness = 1e-4;
+static const double softness = 1e-6;
 
 // Counts of factorisations, at most: for joints with normals, and for friction, of which rows that are on the wrong
 // side then have none.
@@ -93,7 +93,7 @@ static void solve_friction(Solve *solve, Impact *impact, Solution *solution) {
         impact->upper[tangent + number] = most;
         solution->sides[tangent + number] = (int8_t)(slides ? (guess < 0.0 ? -1 : 1) : 0);
     }
-    solve_problem(&solve->system, &impact->problem, solution, FRICTION_ROUNDS, solve->arena);
+    solve_problem(&solve->system, &impact->problem, solution, solve->arena);
     if (solution->wrong_count == 0) {
         return;
     }
@@ -103,7 +103,7 @@ static void solve_friction(Solve *solve, Impact *impact, Solution *solution) {
             solution->sides[row] = -1;
         }
     }
-    solve_problem(&solve->system, &impact->problem, solution, 1, solve->arena);
+    solve_problem(&solve->system, &impact->problem, solution, solve->arena);
 }
 
 // Return the solution, friction included, with some least velocities along the normals of contacts [m/s].
@@ -125,7 +125,7 @@ static Solution solve_impact(Solve *solve, Impact *impact, const double *bounce)
         }
         solution.sides[row] = side_of(impact->given[row], impact->lower[row], impact->upper[row]);
     }
-    solve_problem(&solve->system, &impact->problem, &solution, ROUNDS, solve->arena);
+    solve_problem(&solve->system, &impact->problem, &solution, solve->arena);
     if (island->touch_count > 0) {
         solve_friction(solve, impact, &solution);
     }

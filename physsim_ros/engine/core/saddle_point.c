@@ -22,6 +22,7 @@
 
 #include "saddle_point.h"
 #include "elimination_order.h"
+#include "interior_point.h"
 
 // Rounding of J v: a row is on the wrong side of its target beyond that [m/s], or [m] of positions.
 static const double rounding = 1e-7;
@@ -29,6 +30,8 @@ static const double rounding = 1e-7;
 static const double share_of_rounding = 1e-9;
 
 enum { NONE = -1 };
+// Factorisations by which rows are exchanged, at most.
+enum { ROUNDS = 8 };
 
 // The bodies that forces move, and the groups of rows, as the nodes of a graph.
 typedef struct Nodes {
@@ -197,27 +200,43 @@ double mass_product(const System *system, const Twist *u, const Twist *v) {
     return sum;
 }
 
-// The diagonal of J M⁻¹ Jᵀ [1/kg].
-static double inverse_effective_mass(Jacobian jacobian, Inverse a, Inverse b) {
+double inverse_effective_mass(Jacobian jacobian, Inverse a, Inverse b) {
     return dot(jacobian.a.v, jacobian.a.v) * a.mass + jacobian.a.w * jacobian.a.w * a.moment +
            dot(jacobian.b.v, jacobian.b.v) * b.mass + jacobian.b.w * jacobian.b.w * b.moment;
 }
 
+void set_row(System *system, int row, Jacobian jacobian, double stiffness) {
+    double entries[6] = {jacobian.a.v.x, jacobian.a.v.y, jacobian.a.w, jacobian.b.v.x, jacobian.b.v.y, jacobian.b.w};
+    system->factors.diagonal[system->row_unknowns[row]] = -stiffness;
+    for (int number = 0; number < 6; number++) {
+        if (system->places[row][number] != NONE) {
+            system->factors.values[system->places[row][number]] = entries[number];
+        }
+    }
+}
+
 static void factor(System *system, const Problem *problem, const int8_t *sides) {
-    double *diagonal = system->factors.diagonal, *values = system->factors.values;
     for (int row = 0; row < system->row_count; row++) {
         Jacobian used = sides[row] == 0 ? problem->jacobians[row] : (Jacobian){0};
         Ends ends = system->ends[row];
         double own = inverse_effective_mass(used, system->inverses[ends.a], system->inverses[ends.b]);
-        diagonal[system->row_unknowns[row]] = own > 0.0 ? -problem->softness[row] * own : -1.0;
-        double entries[6] = {used.a.v.x, used.a.v.y, used.a.w, used.b.v.x, used.b.v.y, used.b.w};
-        for (int number = 0; number < 6; number++) {
-            if (system->places[row][number] != NONE) {
-                values[system->places[row][number]] = entries[number];
-            }
-        }
+        set_row(system, row, used, own > 0.0 ? problem->softness[row] * own : 1.0);
     }
     ldl_factor(&system->factors);
+}
+
+void solve_rows(System *system, const double *wanted, double *impulses) {
+    double *x = system->side;
+    for (int unknown = 0; unknown < system->factors.size; unknown++) {
+        x[unknown] = 0.0;
+    }
+    for (int row = 0; row < system->row_count; row++) {
+        x[system->row_unknowns[row]] = wanted[row];
+    }
+    ldl_solve(&system->factors, x);
+    for (int row = 0; row < system->row_count; row++) {
+        impulses[row] = -x[system->row_unknowns[row]];
+    }
 }
 
 // Solve the factored system for λ of active rows, given the momenta that the others bring; NULL is none.
@@ -276,11 +295,15 @@ static int find_wrong(const System *system, const Problem *problem, Solution *so
     return solution->wrong_count;
 }
 
-void solve_problem(System *system, const Problem *problem, Solution *solution, int rounds, Arena *arena) {
+// Exchange the rows that are on the wrong side, until none is.
+static void pivot(System *system, const Problem *problem, Solution *solution, int rounds, Arena *arena) {
     size_t mark = arena_mark(arena);
     int8_t *right = TAKE(arena, int8_t, system->row_count);
     Twist *momenta = TAKE(arena, Twist, system->body_count);
-    for (int following = rounds - 1; following >= 0; following--) {
+    for (int round = 0; round < rounds; round++) {
+        for (int row = 0; row < system->row_count && round > 0; row++) {
+            solution->sides[row] = solution->wrong[row] ? right[row] : solution->sides[row];
+        }
         for (int body = 0; body < system->body_count; body++) {
             momenta[body] = (Twist){0};
         }
@@ -293,20 +316,19 @@ void solve_problem(System *system, const Problem *problem, Solution *solution, i
         }
         factor(system, problem, solution->sides);
         solve_with(system, solution->sides, problem->wanted, momenta, solution->impulses, solution->changes);
-        if (find_wrong(system, problem, solution, right) == 0 || following == 0) {
+        if (find_wrong(system, problem, solution, right) == 0) {
             break;
-        }
-        bool all = following >= rounds / 2;
-        for (int row = system->row_count - 1; row >= 0; row--) {
-            if (solution->wrong[row]) {
-                solution->sides[row] = right[row];
-                if (!all) {
-                    break;
-                }
-            }
         }
     }
     arena_release(arena, mark);
+}
+
+void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena) {
+    pivot(system, problem, solution, ROUNDS, arena);
+    if (solution->wrong_count > 0) {
+        find_sides(system, problem, solution, arena);
+        pivot(system, problem, solution, ROUNDS, arena);
+    }
 }
 
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena) {

@@ -78,10 +78,19 @@ static inline void add_momenta(Jacobian jacobian, Ends ends, double impulse, Twi
 double mass_product(const System *system, const Twist *u, const Twist *v);
 
 // Solve rows with bounds. `solution` has the first guess of `sides`.
-void solve_problem(System *system, const Problem *problem, Solution *solution, int rounds, Arena *arena);
+void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
 // Come closer to the targets, which E keeps a solution from.
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
+
+// The diagonal of J M⁻¹ Jᵀ of a row [1/kg, 1/(kg m²)].
+double inverse_effective_mass(Jacobian jacobian, Inverse a, Inverse b);
+
+// Set J and E of a row in the matrix.
+void set_row(System *system, int row, Jacobian jacobian, double stiffness);
+
+// Solve the factored system for λ of all rows.
+void solve_rows(System *system, const double *wanted, double *impulses);
 
 // Solve active rows with the factors of the last solution: λ of the others is 0.
 void solve_active(System *system, const int8_t *sides, const double *wanted, double *impulses, Twist *changes);
