@@ -29,6 +29,8 @@ FLAGS = [
     # The same bits by every compiler: no sum in another order, no fused multiply-add.
     '-O2',
     '-ffp-contract=off',
+    # GCC 12 fuses even so where it joins two sums into a vector, if CFLAGS allow it (PR 106902).
+    '-fno-tree-slp-vectorize',
     '-fno-math-errno',
     '-fvisibility=hidden',
 ]
