@@ -8,7 +8,7 @@ from importlib.util import find_spec
 import os
 from pathlib import Path
 import runpy
-import shutil
+import shlex
 import sys
 
 from setuptools import Extension, find_packages, setup
@@ -23,31 +23,55 @@ SOURCE = Path(__file__).resolve().parent
 # The core of the engine: a plain shared library, without any Python in it.
 CORE = f'{PACKAGE}/engine/core'
 HASH = runpy.run_path(str(SOURCE / CORE / 'sources.py'))['hash_of_sources'](SOURCE / CORE)
+COMPILER = runpy.run_path(str(SOURCE / 'tools/build/compiler.py'))
 FLAGS = [
     '-std=c11',
     # The same bits by every compiler: no sum in another order, no fused multiply-add.
     '-O2',
     '-ffp-contract=off',
+    # GCC 12 fuses even so where it joins two sums into a vector, if CFLAGS allow it (PR 106902).
+    '-fno-tree-slp-vectorize',
     '-fno-math-errno',
     '-fvisibility=hidden',
 ]
-# Zig links the C library that its wheels are made for; see PEP 600, manylinux_2_28.
-ZIG = f'{sys.executable} -m ziglang cc -target x86_64-linux-gnu.2.28'
 
 
 class BuildCore(build_ext):
-    """Compile the core; where the machine has no C compiler, by that of the package ziglang."""
+    """
+    Compile the core; where the machine has no C compiler, by that of the package ziglang.
 
-    def run(self) -> None:
+    CC, CPPFLAGS, CFLAGS and LDFLAGS of the environment are obeyed, and come after what is here.
+    The compiler and the flags of which Python was made are not: there is no Python in it.
+    """
+
+    def build_extensions(self) -> None:
         """Choose the compiler, and compile."""
-        if 'CC' not in os.environ and not any(map(shutil.which, ('cc', 'gcc', 'clang'))):
+        compiler = COMPILER['machine_compiler']()
+        if not compiler:
             if find_spec('ziglang') is None:
                 sys.exit(
                     f'{PACKAGE} is compiled in part, and this machine has no C compiler: '
                     f'`apt-get install gcc`, or `{sys.executable} -m pip install ziglang`'
                 )
-            os.environ['CC'] = ZIG
-        super().run()
+            compiler = COMPILER['zig_compiler']()
+        # The C library that zig builds for itself, 60 MB: elsewhere it would be in the home.
+        os.environ.setdefault('ZIG_GLOBAL_CACHE_DIR', str(Path(self.build_temp, 'zig').resolve()))
+        flags = [*FLAGS, *_environment('CPPFLAGS'), *_environment('CFLAGS')]
+        self.compiler.set_executables(
+            compiler_so=[*compiler, '-fPIC', *flags],
+            linker_so=[*compiler, '-shared', *_environment('LDFLAGS')],
+        )
+        super().build_extensions()
+
+    def build_extension(self, ext: Extension) -> None:
+        """Compile also where a source was renamed or is no more, which no time of a file tells."""
+        built = Path(self.get_ext_fullpath(ext.name))
+        self.force = self.force or (built.is_file() and HASH.encode() not in built.read_bytes())
+        super().build_extension(ext)
+
+
+def _environment(name: str) -> list[str]:
+    return shlex.split(os.environ.get(name, ''))
 
 
 setup(
@@ -78,7 +102,6 @@ setup(
             sorted(glob(f'{CORE}/*.c')),
             depends=glob(f'{CORE}/*.h'),
             define_macros=[('CORE_SOURCES', f'"{HASH}"')],
-            extra_compile_args=FLAGS,
             libraries=['m'],
             # One binary for every Python, since it calls none.
             py_limited_api=True,

@@ -10,8 +10,8 @@ The build backend: that of setuptools, which asks for a C compiler from PyPI whe
 from __future__ import annotations
 
 from collections.abc import Mapping
-import shutil
 
+from compiler import machine_compiler
 from setuptools import build_meta
 from setuptools.build_meta import *  # noqa: F403 - the hooks of PEP 517 and PEP 660
 
@@ -19,7 +19,7 @@ Settings = Mapping[str, object] | None
 
 
 def _compiler() -> list[str]:
-    return [] if any(map(shutil.which, ('cc', 'gcc', 'clang'))) else ['ziglang']
+    return [] if machine_compiler() else ['ziglang']
 
 
 def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:
