@@ -147,7 +147,8 @@ class BodyTable:
             name = f'odometry of {self.scene.names[self.robots["body"][number]]}'
             seed = self.scene.settings.seed
             parts = [normals(seed, name, block, 2 * _BLOCK) for block in range(first, last + 1)]
-            blocks.append(np.concatenate(parts)[2 * (step - first * _BLOCK) :])
+            begin = 2 * (step - first * _BLOCK)
+            blocks.append(np.concatenate(parts)[begin:])
         # Kept while the core reads it.
         self._noise = np.stack(blocks)
         for row, number in enumerate(noisy):

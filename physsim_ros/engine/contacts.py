@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.body_table import BodyTable
-from physsim_ros.engine.core_world import CoreWorld, Table
-from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.engine.core_world import CoreWorld
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.snapshot import Contacts, NO_CONTACTS
 
 
@@ -30,13 +30,13 @@ def take_contacts(core: CoreWorld, table: BodyTable, centers: Callable[[], Float
     if not len(listed) and not len(begun):
         return replace(NO_CONTACTS, steps=steps)
     contacts = Contacts(
-        pairs=_pairs(listed),
-        points=listed['point'].copy(),
-        normals=listed['normal'].copy(),
-        impulses=listed['impulse'].copy(),
+        pairs=listed['rows'],
+        points=listed['point'],
+        normals=listed['normal'],
+        impulses=listed['impulse'],
         steps=steps,
-        begun=_pairs(begun),
-        begun_in=begun['step'].astype(np.int64),
+        begun=begun['rows'],
+        begun_in=begun['step'],
     )
     pointless = listed['points'] == 0
     if pointless.any():
@@ -44,11 +44,6 @@ def take_contacts(core: CoreWorld, table: BodyTable, centers: Callable[[], Float
         _place_overlaps(contacts, np.flatnonzero(pointless & ~with_wall), places)
         _place_on_walls(contacts, np.flatnonzero(pointless & with_wall), places, table)
     return contacts
-
-
-def _pairs(listed: Table) -> Ints:
-    """Return (m, 2) int64: rows of pairs; the walls have no row in a scene, and are -1."""
-    return np.stack((listed['a'], listed['b']), axis=1).astype(np.int64)
 
 
 def _place_overlaps(contacts: Contacts, overlaps: NDArray[np.intp], centers: Floats) -> None:

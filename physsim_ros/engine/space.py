@@ -93,16 +93,16 @@ class Space:
     @property
     def table(self) -> BodyTable:
         """Return the bodies as the core has them."""
-        if self._table is None:
-            return self.lay_out(
-                Scene(
-                    bodies=tuple(rigid.body for rigid in self.bodies.by_name.values()),
-                    settings=self._settings,
-                    joints=tuple(held.joint for held in self.joints.by_name.values()),
-                    lesson=self._lesson,
-                )
-            )
-        return self._table
+        return self.lay_out(self._scene) if self._table is None else self._table
+
+    @property
+    def _scene(self) -> Scene:
+        return Scene(
+            bodies=tuple(rigid.body for rigid in self.bodies.by_name.values()),
+            settings=self._settings,
+            joints=tuple(held.joint for held in self.joints.by_name.values()),
+            lesson=self._lesson,
+        )
 
     def lay_out(self, scene: Scene) -> BodyTable:
         """Return a new table of the bodies, which the core steps from now on."""
@@ -405,8 +405,8 @@ class Space:
 
     def _laid_out(self) -> CoreWorld:
         """Return the core, which has the bodies and joints of now."""
-        table = self.table
-        assert table is self._table  # noqa: S101
+        if self._table is None:
+            self.lay_out(self._scene)
         return self.core
 
     def _change_gravity(self, old: Point, new: Point) -> None:

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 
 from compiler import machine_compiler
 from setuptools import build_meta
-from setuptools.build_meta import *  # noqa: F403 - the hooks of PEP 517 and PEP 660
+from setuptools.build_meta import *  # noqa: F401, F403 - the hooks of PEP 517 and PEP 660
 
 Settings = Mapping[str, object] | None
 

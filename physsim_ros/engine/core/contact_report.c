@@ -110,7 +110,7 @@ static void add_begun(World *world, Report *report, const Pair *pair) {
         free(world->begun);
         world->begun = begun;
     }
-    world->begun[world->begun_count++] = (Begun){pair->a, pair->b, world->frame_steps};
+    world->begun[world->begun_count++] = (Begun){{pair->a, pair->b}, world->frame_steps};
 }
 
 // Begin the step of a pair, unless another contact of it has.
@@ -241,24 +241,25 @@ void forget_contacts(World *world) {
     }
 }
 
-static int by_places(const void *one, const void *other) {
-    const Contact *x = one, *y = other;
-    return x->a != y->a ? x->a - y->a : x->b - y->b;
+static int by_number(int64_t x, int64_t y) { return (x > y) - (x < y); }
+
+static int by_rows(const void *one, const void *other) {
+    const int64_t *x = ((const Contact *)one)->rows, *y = ((const Contact *)other)->rows;
+    return x[0] != y[0] ? by_number(x[0], y[0]) : by_number(x[1], y[1]);
 }
 
-static int by_step_and_places(const void *one, const void *other) {
+static int by_step_and_rows(const void *one, const void *other) {
     const Begun *x = one, *y = other;
     if (x->step != y->step) {
-        return x->step - y->step;
+        return by_number(x->step, y->step);
     }
-    return x->a != y->a ? x->a - y->a : x->b - y->b;
+    return x->rows[0] != y->rows[0] ? by_number(x->rows[0], y->rows[0]) : by_number(x->rows[1], y->rows[1]);
 }
 
 static Contact contact_of(const World *world, const Pair *pair) {
     double size = length(pair->normals), count = pair->points > 0 ? (double)pair->points : 1.0;
     bool directed = size > opposed * count;
-    return (Contact){.a = pair->a,
-                     .b = pair->b == world->body_count - 1 ? -1 : pair->b,
+    return (Contact){.rows = {pair->a, pair->b == world->body_count - 1 ? -1 : pair->b},
                      .point = scaled(pair->places, 1.0 / count),
                      .normal = directed ? scaled(pair->normals, 1.0 / size) : pair->highest,
                      .impulse = pair->sum,
@@ -277,13 +278,13 @@ void core_take_contacts(World *world) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
         }
     }
-    qsort(world->contacts, (size_t)world->contact_count, sizeof(Contact), by_places);
+    qsort(world->contacts, (size_t)world->contact_count, sizeof(Contact), by_rows);
     if (world->begun_count > 0) {
-        qsort(world->begun, (size_t)world->begun_count, sizeof(Begun), by_step_and_places);
+        qsort(world->begun, (size_t)world->begun_count, sizeof(Begun), by_step_and_rows);
     }
     for (int number = 0; number < world->begun_count; number++) {
         Begun *begun = world->begun + number;
-        begun->b = begun->b == world->body_count - 1 ? -1 : begun->b;
+        begun->rows[1] = begun->rows[1] == world->body_count - 1 ? -1 : begun->rows[1];
     }
 }
 
@@ -318,8 +319,9 @@ void rename_contacts(World *world, const int32_t *former, int count) {
     int begun = 0;
     for (int number = 0; number < world->begun_count; number++) {
         Begun each = world->begun[number];
-        if (places[each.a] >= 0 && places[each.b] >= 0) {
-            world->begun[begun++] = (Begun){places[each.a], places[each.b], each.step};
+        int a = places[each.rows[0]], b = places[each.rows[1]];
+        if (a >= 0 && b >= 0) {
+            world->begun[begun++] = (Begun){{a, b}, each.step};
         }
     }
     world->begun_count = begun;
@@ -346,7 +348,7 @@ void core_copy_contacts(World *world, const World *old) {
     world->begun_count = 0;
     world->frame_steps = old->frame_steps;
     for (int number = 0; number < old->begun_count; number++) {
-        Pair pair = {.a = old->begun[number].a, .b = old->begun[number].b};
+        Pair pair = {.a = (int)old->begun[number].rows[0], .b = (int)old->begun[number].rows[1]};
         add_begun(world, report, &pair);
         world->begun[number].step = old->begun[number].step;
     }

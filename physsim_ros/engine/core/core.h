@@ -171,16 +171,17 @@ enum {
 
 // A pair of bodies that touched during a frame; -1, always second, is the background.
 typedef struct Contact {
-    int32_t a, b;   // places in the table, the lesser first
+    int64_t rows[2]; // of the two bodies, the lesser first; -1, always second, is the background
     cpVect point;   // mean of the latest contact points [m]
     cpVect normal;  // from the first to the second body
     cpVect impulse; // sum over the frame of what acts on the second body [N s]
-    int32_t points; // count of contact points; 0 for an overlap of a sensor
+    int64_t points; // count of contact points; 0 for an overlap of a sensor
 } Contact;
 
 // A pair of bodies that began to touch in a step of a frame, 1 and on.
 typedef struct Begun {
-    int32_t a, b, step;
+    int64_t rows[2]; // as those of a contact
+    int64_t step;
 } Begun;
 
 // A world: what Python sets, and what the core keeps between steps.

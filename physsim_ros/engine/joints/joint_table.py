@@ -43,7 +43,9 @@ class JointTable:
         forces = [each.joint.properties.max_force for each in joints for _ in each.parts]
         self.joints = np.zeros(len(joints), _JOINT)
         fields = [_joint_fields(each, each.joint.name in unstepped, dt) for each in joints]
-        _fill(self.joints, fields)
+        fields = [
+            _joint_fields(each, dt, unstepped=each.joint.name in unstepped) for each in joints
+        ]
         for first, count, counts in (
             ('first_part', 'part_count', [len(each.parts) for each in joints]),
             ('first_row', 'row_count', [each.row_count for each in joints]),
@@ -78,7 +80,7 @@ class JointTable:
         return {self.names[number] for number in np.flatnonzero(self.joints['unstepped'])}
 
 
-def _joint_fields(each: EngineJoint, unstepped: bool, dt: float) -> tuple[object, ...]:  # noqa: FBT001
+def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[object, ...]:
     """Return the first fields of a joint, in their order."""
     joint, seat, most = each.joint, each.joint.seat, each.joint.properties.break_force
     return (
