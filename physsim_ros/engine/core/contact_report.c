@@ -241,7 +241,9 @@ void forget_contacts(World *world) {
     }
 }
 
-static int by_number(int64_t x, int64_t y) { return (x > y) - (x < y); }
+static int by_number(int64_t x, int64_t y) {
+    return (x > y) - (x < y);
+}
 
 static int by_rows(const void *one, const void *other) {
     const int64_t *x = ((const Contact *)one)->rows, *y = ((const Contact *)other)->rows;

@@ -172,10 +172,10 @@ enum {
 // A pair of bodies that touched during a frame; -1, always second, is the background.
 typedef struct Contact {
     int64_t rows[2]; // of the two bodies, the lesser first; -1, always second, is the background
-    cpVect point;   // mean of the latest contact points [m]
-    cpVect normal;  // from the first to the second body
-    cpVect impulse; // sum over the frame of what acts on the second body [N s]
-    int64_t points; // count of contact points; 0 for an overlap of a sensor
+    cpVect point;    // mean of the latest contact points [m]
+    cpVect normal;   // from the first to the second body
+    cpVect impulse;  // sum over the frame of what acts on the second body [N s]
+    int64_t points;  // count of contact points; 0 for an overlap of a sensor
 } Contact;
 
 // A pair of bodies that began to touch in a step of a frame, 1 and on.

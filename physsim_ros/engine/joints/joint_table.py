@@ -42,10 +42,10 @@ class JointTable:
         parts = [part for each in joints for part in each.parts]
         forces = [each.joint.properties.max_force for each in joints for _ in each.parts]
         self.joints = np.zeros(len(joints), _JOINT)
-        fields = [_joint_fields(each, each.joint.name in unstepped, dt) for each in joints]
-        fields = [
+        known = [
             _joint_fields(each, dt, unstepped=each.joint.name in unstepped) for each in joints
         ]
+        _fill(self.joints, known)
         for first, count, counts in (
             ('first_part', 'part_count', [len(each.parts) for each in joints]),
             ('first_row', 'row_count', [each.row_count for each in joints]),
