@@ -30,7 +30,7 @@ FLAGS = [
     '-O2',
     '-ffp-contract=off',
     # GCC 12 fuses even so where it joins two sums into a vector, if CFLAGS allow it (PR 106902).
-    '-fno-tree-slp-vectorize',
+    '-fno-tree-vectorize',
     '-fno-math-errno',
     '-fvisibility=hidden',
 ]
