@@ -1,0 +1,49 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Copies of the source tree, in which the core is compiled otherwise than here."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+import shutil
+import subprocess
+import sys
+
+ROOT = Path(__file__).resolve().parents[1]
+# Left out of a copy: what was built, and what a clone does not have.
+_ANYWHERE = shutil.ignore_patterns('.*', '*.so', '__pycache__', '*.egg-info', '_build')
+_AT_THE_TOP = {'build', 'install', 'log', 'dist'}
+# Many times what a compiler takes, on a machine that is busy with other tests [s].
+_COMPILING = 300
+
+
+def _not_source(folder: str, names: list[str]) -> set[str]:
+    top = _AT_THE_TOP.intersection(names) if Path(folder) == ROOT else set()
+    return {*_ANYWHERE(folder, names), *top}
+
+
+def copy_source(place: Path) -> Path:
+    """Copy what a clone has, but for hidden files, to a folder that is not there yet."""
+    return Path(shutil.copytree(ROOT, place, ignore=_not_source))
+
+
+def compile_core(tree: Path, **variables: str) -> str:
+    """
+    Compile the core of a source tree within it, and return what was printed.
+
+    :param variables: CC, CFLAGS and so on
+    """
+    done = subprocess.run(
+        [sys.executable, 'setup.py', '--quiet', 'build_ext', '--inplace', '--force'],
+        cwd=tree,
+        env=os.environ | variables,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+        timeout=_COMPILING,
+    )
+    assert done.returncode == 0, done.stdout
+    return done.stdout
