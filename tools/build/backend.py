@@ -4,7 +4,8 @@
 """
 The build backend: that of setuptools, which asks for a C compiler from PyPI where there is none.
 
-`setup.py` has the rest. The package ziglang is a compiler of 101 MB in a wheel.
+`setup.py` has the rest. The package ziglang is a compiler of 101 MB in a wheel. During a build this
+folder comes first where modules are looked for, so none here may be named as a package is.
 """
 
 from __future__ import annotations
@@ -13,26 +14,7 @@ from collections.abc import Mapping
 
 from compiler import machine_compiler
 from setuptools import build_meta
-from setuptools.build_meta import (
-    build_editable,
-    build_sdist,
-    build_wheel,
-    get_requires_for_build_sdist,
-    prepare_metadata_for_build_editable,
-    prepare_metadata_for_build_wheel,
-)
-
-# The hooks of PEP 517 and PEP 660.
-__all__ = [
-    'build_editable',
-    'build_sdist',
-    'build_wheel',
-    'get_requires_for_build_editable',
-    'get_requires_for_build_sdist',
-    'get_requires_for_build_wheel',
-    'prepare_metadata_for_build_editable',
-    'prepare_metadata_for_build_wheel',
-]
+from setuptools.build_meta import *  # noqa: F403 - the hooks of PEP 517 and PEP 660
 
 Settings = Mapping[str, object] | None
 
