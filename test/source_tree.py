@@ -11,6 +11,8 @@ import shutil
 import subprocess
 import sys
 
+import pytest
+
 ROOT = Path(__file__).resolve().parents[1]
 # Left out of a copy: what was built, and what a clone does not have.
 _ANYWHERE = shutil.ignore_patterns('.*', '*.so', '__pycache__', '*.egg-info', '_build')
@@ -47,3 +49,8 @@ def compile_core(tree: Path, **variables: str) -> str:
     )
     assert done.returncode == 0, done.stdout
     return done.stdout
+
+
+def zig_cache(places: pytest.TempPathFactory) -> dict[str, str]:
+    """Return the variable by which all workers share the C library that ziglang builds, 60 MB."""
+    return {'ZIG_GLOBAL_CACHE_DIR': str(places.getbasetemp().parent / 'zig')}
