@@ -174,7 +174,7 @@ setup(
             # Check the core.
             'clang-format>=23,<24',
             'clang-tidy>=23,<24',
-            # A second compiler, by which it must move alike, and that of the released wheel: 101 MB.
+            # A second compiler of the core, and that of the released wheel: 101 MB.
             'ziglang',
             # With every rule selected, a new minor version of ruff is new rules.
             'ruff>=0.17,<0.18',
