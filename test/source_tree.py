@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+import runpy
 import shutil
 import subprocess
 import sys
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -31,24 +33,33 @@ def copy_source(place: Path) -> Path:
     return Path(shutil.copytree(ROOT, place, ignore=_not_source))
 
 
-def compile_core(tree: Path, **variables: str) -> str:
+def compile_core(tree: Path, **variables: str) -> None:
     """
-    Compile the core of a source tree within it, and return what was printed.
+    Compile the core of a source tree within it.
 
     :param variables: CC, CFLAGS and so on
+    :raises AssertionError: with what was printed
     """
-    done = subprocess.run(
-        [sys.executable, 'setup.py', '--quiet', 'build_ext', '--inplace', '--force'],
-        cwd=tree,
-        env=os.environ | variables,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        check=False,
-        timeout=_COMPILING,
-    )
+    with TemporaryDirectory(prefix='core_') as place:
+        command = [sys.executable, 'setup.py', '--quiet', 'build_ext', '--inplace']
+        done = subprocess.run(
+            [*command, '--build-temp', f'{place}/temp', '--build-lib', f'{place}/lib'],
+            cwd=tree,
+            env=os.environ | variables,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+            timeout=_COMPILING,
+        )
     assert done.returncode == 0, done.stdout
-    return done.stdout
+
+
+def is_compiled() -> bool:
+    """Return whether the core is compiled in this source tree, from the sources as they are."""
+    folder = ROOT / 'physsim_ros/engine/core'
+    sources = runpy.run_path(str(folder / 'sources.py'))['hash_of_sources'](folder)
+    return any(sources.encode() in path.read_bytes() for path in folder.glob('_core.*'))
 
 
 def zig_cache(places: pytest.TempPathFactory) -> dict[str, str]:
