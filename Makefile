@@ -99,8 +99,8 @@ lint-page:
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
 
-# HISTORIES=200 unless it is given; ARGS chooses other tests.
-sanitize: $(BUILT)  ## run laws and random histories with checks of memory and arithmetic in the core
+# With AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES=200 unless it is given; ARGS chooses other tests.
+sanitize: $(BUILT)  ## run laws and histories with a core that checks its memory
 	$(BIN)/python -m tools.sanitize $(ARGS)
 
 bench: $(BUILT)  ## measure times against the bare engine

@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-`make sanitize`: laws and random histories, while the core checks its memory and its arithmetic.
+`make sanitize`: tests and random histories with a core that checks its memory and arithmetic.
 
 The core is compiled by gcc in a copy of the source tree, with AddressSanitizer and
 UndefinedBehaviorSanitizer. Python takes its memory from the heap there piece by piece, so that the
 ends of its arrays are known, too. The first defect ends the run with the report of the sanitizer,
 and the exit code is 1.
 
-`HISTORIES=40 make sanitize` chooses the number of histories, which is 200, and
-`make sanitize ARGS='test/engine -k joint'` other tests.
+The tests are the laws and those of the engine, but for slow ones. `HISTORIES=40 make sanitize`
+chooses the number of histories, which is 200, and `make sanitize ARGS='test/drawing -k time'`
+other tests; those over ROS do not run there.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from test.source_tree import compile_core, copy_source, ROOT
 
 CHECKS = '-fsanitize=address,undefined,float-cast-overflow'
 FLAGS = f'-O1 -g -fno-omit-frame-pointer {CHECKS} -fno-sanitize-recover=all'
-TESTS = ['test/laws', 'test/simulation/test_histories.py']
+TESTS = ['test/laws', 'test/engine', 'test/simulation/test_histories.py']
 # How reports of the sanitizers begin.
 REPORTS = ('ERROR: AddressSanitizer', 'runtime error: ')
 CORE = Path('physsim_ros/engine/core')
