@@ -14,7 +14,26 @@ from collections.abc import Mapping
 
 from compiler import machine_compiler
 from setuptools import build_meta
-from setuptools.build_meta import *  # noqa: F403 - the hooks of PEP 517 and PEP 660
+from setuptools.build_meta import (
+    build_editable,
+    build_sdist,
+    build_wheel,
+    get_requires_for_build_sdist,
+    prepare_metadata_for_build_editable,
+    prepare_metadata_for_build_wheel,
+)
+
+# The hooks of PEP 517 and PEP 660.
+__all__ = [
+    'build_editable',
+    'build_sdist',
+    'build_wheel',
+    'get_requires_for_build_editable',
+    'get_requires_for_build_sdist',
+    'get_requires_for_build_wheel',
+    'prepare_metadata_for_build_editable',
+    'prepare_metadata_for_build_wheel',
+]
 
 Settings = Mapping[str, object] | None
 
