@@ -20,7 +20,7 @@ from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
 from physsim_ros.engine.contacts import take_contacts
-from physsim_ros.engine.core import dtype_of
+from physsim_ros.engine.core import dtype_of, lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.settings import make_space
@@ -171,7 +171,7 @@ class Space:
         if old.gravity != settings.gravity:
             self._change_gravity(old.gravity, settings.gravity)
         self.pm_space.damping = 1.0 - settings.damping
-        self.pm_space.iterations = settings.iterations
+        self.pm_space.iterations = -(-settings.iterations // lib.SUB_STEPS)
         walls = (settings.bounds, settings.friction, settings.elasticity)
         if walls != (old.bounds, old.friction, old.elasticity):
             # A rebuilt wall has no cached impulses; bodies on it would lose their warm start.

@@ -169,6 +169,8 @@ enum {
     STAGE_ALL = 8191
 };
 
+enum { SUB_STEPS = 4 };
+
 // A pair of bodies that touched during a frame; -1, always second, is the background.
 typedef struct Contact {
     int64_t rows[2]; // of the two bodies, the lesser first; -1, always second, is the background

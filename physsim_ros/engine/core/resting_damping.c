@@ -45,7 +45,7 @@ static bool sticks(const cpArbiter *arbiter) {
 }
 
 void damp_resting(World *world) {
-    int64_t period = llround(1.0 / (rate_of_damping * world->dt));
+    int64_t period = llround(1.0 / (rate_of_damping * world->dt * SUB_STEPS));
     if (world->age % (period > 1 ? period : 1) != 0 || !has_stage(world, STAGE_RESTING_DAMPING)) {
         return;
     }

@@ -33,6 +33,8 @@ void prepare_parts(World *world);
 // Between narrow phase and solver: contacts that begin (`first_touch.c`), contacts next to an impact
 // (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);
+void keep_loads(World *world);
+void restore_loads(World *world);
 void defer_contacts(World *world);
 void solve_impacts(World *world);
 

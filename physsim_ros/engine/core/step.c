@@ -44,6 +44,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
     correct_first_touches(world);
+    keep_loads(world);
     defer_contacts(world);
     solve_impacts(world);
 }
@@ -73,15 +74,19 @@ static void step(World *world) {
     } else {
         forget_contacts(world);
     }
-    world->step++;
-    world->age++;
+    restore_loads(world);
 }
 
 int32_t core_step(World *world, int32_t count) {
     world->own->kept = pow(world->space->damping, world->dt);
     for (int number = 0; number < count; number++) {
         world->own->call_step = number;
-        step(world);
+        world->frame_steps += world->reports_contacts;
+        for (int sub = 0; sub < SUB_STEPS; sub++) {
+            step(world);
+        }
+        world->step++;
+        world->age++;
         if (world->has_broken || world->has_lost) {
             return number + 1;
         }

@@ -27,6 +27,8 @@ typedef struct Private {
     struct Statics *statics;
     struct Touch *begun; // contacts that begin in this step
     int begun_count;
+    struct Load *loads; // that the next step starts from, after an impact
+    int load_count;
     int call_step; // number of the step in this call
     struct Report *report;
 } Private;

@@ -16,6 +16,7 @@ import math
 from typing import NamedTuple
 
 from physsim_ros.engine.body_pool import BodyPool
+from physsim_ros.engine.core import lib
 from physsim_ros.engine.checkpoint import checkpoint_of, restore_checkpoint, take_checkpoint
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -38,7 +39,7 @@ class LiveSpace:
 
     def __init__(self, settings: WorldSettings, physics_rate: float) -> None:
         self.physics_rate = physics_rate
-        self.dt = 1.0 / physics_rate
+        self.dt = 1.0 / physics_rate / lib.SUB_STEPS
         self.step_count = 0
         self._replace(Space(settings, self.dt), BodyPool())
 
