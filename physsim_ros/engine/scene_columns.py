@@ -53,7 +53,7 @@ def columns_of(scene: Scene, dt: float) -> SceneColumns:
     """
     Return the columns of a scene.
 
-    :param dt: of a step [s]
+    :param dt: of a sub-step [s]
     """
     rows = {name: row for row, name in enumerate(scene.names)}
     expiries: dict[int, list[str]] = {}

@@ -39,7 +39,7 @@ class Space:
     The bodies, joints and walls in the engine.
 
     :param settings: of the world
-    :param dt: of a step [s]
+    :param dt: of a sub-step [s]
     :param first_shape: number of the first wall of the boundary
     :param lesson: the task that belongs to the world; None is none
 

@@ -124,6 +124,7 @@ enum { PART_PIVOT, PART_PIN, PART_SLIDE, PART_GEAR, PART_ROTARY_LIMIT, PART_MOTO
 typedef struct Part {
     int32_t kind;
     cpConstraint *constraint;
+    cpVect total; // impulse on the second body of the joint in the last step, world axes; of a torque, the first number
 } Part;
 
 // A joint; its parts follow one another, and so do its rows.

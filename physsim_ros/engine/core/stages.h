@@ -40,6 +40,8 @@ void solve_impacts(World *world);
 
 // Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
 void solve_joints(World *world);
+void begin_totals(World *world);
+void add_totals(World *world);
 void find_broken(World *world);
 
 // Which bodies the step only accelerated (`half_step.c`), and which do not fall asleep (`sleeping.c`).

@@ -64,11 +64,10 @@ static void step(World *world) {
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
     solve_joints(world);
+    add_totals(world);
     find_pushes(world);
     find_free(world);
     keep_awake(world);
-    find_broken(world);
-    find_lost(world);
     if (world->reports_contacts) {
         report_contacts(world);
     } else {
@@ -81,10 +80,13 @@ int32_t core_step(World *world, int32_t count) {
     world->own->kept = pow(world->space->damping, world->dt);
     for (int number = 0; number < count; number++) {
         world->own->call_step = number;
+        begin_totals(world);
         world->frame_steps += world->reports_contacts;
         for (int sub = 0; sub < SUB_STEPS; sub++) {
             step(world);
         }
+        find_broken(world);
+        find_lost(world);
         world->step++;
         world->age++;
         if (world->has_broken || world->has_lost) {

@@ -15,7 +15,9 @@ from collections.abc import Iterable, Mapping
 import itertools
 import math
 
+import numpy as np
 from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints import stiffness
 from physsim_ros.engine.joints.joint_table import JointTable
@@ -35,7 +37,7 @@ class JointSet:
     :param pm_space: of the engine
     :param bodies: the bodies of the space by name
     :param core: of the space
-    :param dt: length of a step [s]
+    :param dt: length of a sub-step [s]
     """
 
     def __init__(
@@ -59,6 +61,8 @@ class JointSet:
         self._springs: Springs | None = None
         # Names of the joints whose first step was to come when the table was dropped.
         self._unstepped: set[str] = set()
+        # The impulses of each joint in the step before, from the same table.
+        self._totals: dict[str, Floats] = {}
 
     def names_on(self, body: str) -> tuple[str, ...]:
         """Return the names of a body's joints, in the order in which they were made."""
@@ -139,7 +143,9 @@ class JointSet:
         if not self.by_name:
             return
         if self._table is None:
-            self._table = JointTable(list(self.by_name.values()), self._unstepped, self._dt)
+            self._table = JointTable(
+                list(self.by_name.values()), self._unstepped, self._totals, self._dt
+            )
         self._table.place_ends(places)
         self._core.use_joints(self._table.joints, self._table.parts, self._table.rows)
 
@@ -151,7 +157,8 @@ class JointSet:
             bool: whether it pushed its bodies apart
         """
         impulses, pulls, pressing = self._core.read_joints()
-        return impulses / self._dt, pulls / self._dt, pressing
+        step = self._dt * lib.SUB_STEPS
+        return impulses / step, pulls / step, pressing
 
     def impulses(self) -> Floats:
         """Return (c, 2) float64: impulses from which the next step starts, of all constraints."""
@@ -161,6 +168,15 @@ class JointSet:
         """Set (c, 2) float64: impulses from which the next step starts; none of another number."""
         if len(impulses) == len(self._constraints()):
             self._core.write_impulses(impulses)
+
+    def totals(self) -> Floats:
+        """Return (c, 2) float64: impulses of the last step, of all constraints."""
+        return np.empty((0, 2)) if self._table is None else self._table.parts['total'].copy()
+
+    def set_totals(self, totals: Floats) -> None:
+        """Set (c, 2) float64: impulses of the last step; none of another number."""
+        if self._table is not None and len(totals) == len(self._table.parts):
+            self._table.parts['total'] = totals
 
     def unstepped(self) -> frozenset[str]:
         """Return the names of the joints whose first step is to come."""
@@ -224,6 +240,6 @@ class JointSet:
     def _drop_table(self) -> None:
         """Drop the table of all joints, as one of them comes or goes."""
         if self._table is not None:
-            self._unstepped = self._table.unstepped
+            self._unstepped, self._totals = self._table.unstepped, self._table.totals
         self._table = self._springs = None
         self._core.drop_joints()

@@ -10,9 +10,10 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.core import dtype_of
+from physsim_ros.engine.core import dtype_of, lib
 from physsim_ros.engine.core_world import address_of
 from physsim_ros.engine.joints.kinds import EngineJoint
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 import pymunk
 
@@ -27,7 +28,8 @@ class JointTable:
 
     :param joints: of the set
     :param unstepped: names of joints whose first step is to come
-    :param dt: of a step [s]
+    :param totals: (k, 2) float64 of each joint: impulses of its constraints in the last step
+    :param dt: of a sub-step [s]
 
     :ivar joints: (j,) `Joint`
     :ivar parts: (p,) `Part`: the constraints, joint by joint
@@ -35,7 +37,11 @@ class JointTable:
     """
 
     def __init__(
-        self, joints: Sequence[EngineJoint], unstepped: Collection[str], dt: float
+        self,
+        joints: Sequence[EngineJoint],
+        unstepped: Collection[str],
+        totals: Mapping[str, Floats],
+        dt: float,
     ) -> None:
         self.names = [each.joint.name for each in joints]
         self._ends = [each.ends for each in joints]
@@ -54,6 +60,10 @@ class JointTable:
             self.joints[first] = np.cumsum(counts) - counts
         self.parts = np.zeros(len(parts), _PART)
         _fill(self.parts, [(part.kind, address_of(part.constraint)) for part in parts])
+        for name, of_joint in zip(self.names, self._totals, strict=True):
+            # A joint of two anchored bodies has no constraints.
+            if len(former := totals.get(name, ())) == len(of_joint):
+                of_joint[:] = former
         rows = [
             (row.kind, number, component, row.lower, row.upper, row.below, row.above,
              math.inf if force is None else force * dt * abs(row.above))
@@ -75,6 +85,15 @@ class JointTable:
         return numbers
 
     @property
+    def totals(self) -> dict[str, Floats]:
+        """Return (k, 2) float64 of each joint: impulses of its constraints in the last step."""
+        return dict(zip(self.names, self._totals, strict=True))
+
+    @property
+    def _totals(self) -> list[Floats]:
+        return np.split(self.parts['total'], self.joints['first_part'][1:])
+
+    @property
     def unstepped(self) -> set[str]:
         """Return the names of the joints whose first step is to come."""
         return {self.names[number] for number in np.flatnonzero(self.joints['unstepped'])}
@@ -88,7 +107,7 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
         each.ends.at_b,
         (seat.ux, seat.uy),
         joint.number('ratio'),
-        math.inf if most is None else most * dt,
+        math.inf if most is None else most * dt * lib.SUB_STEPS,
         joint.kind.schema.has_axis,
         joint.kind in _PRESSING,
         unstepped,

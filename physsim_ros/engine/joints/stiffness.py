@@ -50,7 +50,7 @@ def check_stiffness(joints: Sequence[Joint], bodies: Mapping[str, Body], dt: flo
 
     :param joints: all of the bodies that change, and of their neighbours, or more
     :param bodies: by name
-    :param dt: of a step [s]
+    :param dt: of a sub-step [s]
     :raises BadProperty: of the greatest stiffness that the last such spring may have
     """
     springs = [joint for joint in joints if joint.kind is JointKind.SPRING]
