@@ -93,8 +93,8 @@ static int by_bodies(const void *one, const void *other) {
 // List the contacts that begin with an impact, by bodies.
 static int list_hits(World *world, Hit *hits) {
     int count = 0;
-    for (int number = 0; number < world->own->begun_count; number++) {
-        cpArbiter *each = world->own->begun[number].arbiter;
+    for (int number = 0; number < arbiter_count(world); number++) {
+        cpArbiter *each = arbiter_at(world, number);
         if (each->count > 0 && approach_of(each) > slowest_impact) {
             int a = moves(each->body_a) ? place_of(world, each->body_a) : world->body_count;
             int b = moves(each->body_b) ? place_of(world, each->body_b) : world->body_count;
@@ -312,7 +312,7 @@ void solve_impacts(World *world) {
     if (!has_stage(world, STAGE_BLOCK_SOLVER) || world->own->kept == 0.0) {
         return;
     }
-    Hit *hits = TAKE(&world->own->arena, Hit, world->own->begun_count);
+    Hit *hits = TAKE(&world->own->arena, Hit, arbiter_count(world));
     int count = list_hits(world, hits), last = 0;
     for (int first = 0; first < count; first = last) {
         for (last = first; last < count && hits[last].a == hits[first].a && hits[last].b == hits[first].b; last++) {
