@@ -57,8 +57,8 @@ class CoreWorld:
     :param pm_space: Pymunk's
     :param dt: of a sub-step [s]
 
-    :cvar left_out: stages that new worlds leave out, a sum of `STAGE_...` of `core.h`; to measure
-        what fails without them
+    :cvar left_out: stages that new worlds leave out, a sum of `STAGE_...` of
+        `engine/core/core.h`; to measure what fails without them
     """
 
     left_out = 0
@@ -99,7 +99,7 @@ class CoreWorld:
         self._tables['bodies'] = (bodies,)
 
     def use_joints(self, joints: Table, parts: Table, rows: Table) -> None:
-        """Have the core step these joints: `Joint`, `Part` and `Row` of `core.h`."""
+        """Have the core step these joints: `Joint`, `Part` and `Row` of `engine/core/core.h`."""
         tables = zip((joints, parts, rows), ('Joint', 'Part', 'Row'), strict=True)
         pointers = (each for table in tables for each in _pointer_and_count(*table))
         lib.core_use_joints(self._world, *pointers)

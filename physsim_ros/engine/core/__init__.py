@@ -4,9 +4,9 @@
 """
 The core: all that happens within a step, in C.
 
-Its sources are in this folder, one file a stage; `core.h` is what they share with Python. Not
-here: what is built once for a scene, which is Python's (`engine`). Start with `step.c`, then
-`core.h`.
+Its sources are in this folder, one file a stage; `engine/core/core.h` is what they share with
+Python. Not here: what is built once for a scene, which is Python's (`engine`). Start with
+`engine/core/step.c`, then `engine/core/core.h`.
 
 It is a plain shared library without any Python in it, so that one binary serves every Python; cffi
 calls it by its declarations (ABI mode), and lets other threads run meanwhile.

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Joints: Pymunk's constraints without their bias, and a direct solve after the engine's step.
+Joints: Pymunk's constraints without their bias, and the constraint rows that the core solves.
 
-A file a kind has its constraints and its constraint rows; `joint_solver` solves them together
-with the contacts of jointed bodies. Not here: properties and ranges of a kind (`model.joints`),
-and which bodies a joint is between (`simulation.world.joint_requests`). Start with `joint_set`,
-then `constraint_rows` and `axle`.
+`kinds` has the constraints and rows of each kind, `joint_set` the joints of a space, `joint_table`
+what the core reads of them. Not here: the solver (`engine/core/joint_solver.c`), properties and
+ranges of a kind (`model.joints`), and which bodies a joint is between
+(`simulation.world.joint_requests`). Start with `kinds`, then `joint_set`.
 """

@@ -38,7 +38,7 @@ class Row(NamedTuple):
     """
     A constraint row: lower <= x <= upper, both the same for an equality.
 
-    :ivar kind: which number x is, one of `ROW_X` ... of `core.h`
+    :ivar kind: which number x is, one of `ROW_X` ... of `engine/core/core.h`
     :ivar lower: least x [m, rad]
     :ivar upper: greatest x [m, rad]
     :ivar below: λ by the impulse that Chipmunk stores, where x is below its bounds
@@ -56,7 +56,7 @@ class Part(NamedTuple):
     """
     A constraint of Chipmunk and its rows.
 
-    :ivar kind: one of `PART_PIVOT` ... of `core.h`
+    :ivar kind: one of `PART_PIVOT` ... of `engine/core/core.h`
     :ivar constraint: Pymunk's
     :ivar rows: in the order of its impulses; none where Chipmunk alone solves it
     """
