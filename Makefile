@@ -32,13 +32,16 @@ endif
 # The core of the engine, and how it is compiled where only mistakes are looked for.
 CORE := $(wildcard physsim_ros/engine/core/*.[ch])
 BUILT := $(VENV)/.core-is-built
-STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -DCORE_SOURCES='""'
+# Of the C library, which clang-tidy wants and a machine without a compiler has not.
+HEADER := /usr/include/stdlib.h
+CHECKED := $(CORE) $(wildcard tools/sanitize/*.c)
+STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core -DCORE_SOURCES='""'
 
 # TypeScript's checker, for the types in the comments of the page.
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run class test test-all lint bench ablate evaluate gallery docs soak clean
+.PHONY: help run class test test-all lint sanitize bench ablate evaluate gallery docs soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
@@ -85,12 +88,20 @@ lint-imports:
 lint-style:
 	$(BIN)/python -m pytest -q -n0 test/style
 lint-core:
-	$(BIN)/clang-format --dry-run --Werror $(CORE)
-	$(BIN)/clang-tidy --quiet $(filter %.c,$(CORE)) -- $(STRICT)
-	@if command -v gcc >/dev/null; then gcc -fsyntax-only -O2 $(STRICT) $(filter %.c,$(CORE)); fi
+	@if [ -x $(BIN)/clang-format ]; then $(BIN)/clang-format --dry-run --Werror $(CHECKED); \
+	else echo 'clang-format is not installed: the layout of the core is not checked.'; fi
+	@if [ ! -x $(BIN)/clang-tidy ]; then echo 'clang-tidy is not installed: the core is not checked by it.'; \
+	elif [ ! -e $(HEADER) ]; then echo 'There is no $(HEADER): clang-tidy does not check the core.'; \
+	else $(BIN)/clang-tidy --quiet $(filter %.c,$(CHECKED)) -- $(STRICT); fi
+	@if command -v gcc >/dev/null; then gcc -fsyntax-only -O2 $(STRICT) $(filter %.c,$(CHECKED)); \
+	else echo 'gcc is not installed: the core is not checked for what it warns of.'; fi
 lint-page:
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
+
+# With AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES=200 unless it is given; ARGS chooses other tests.
+sanitize: $(BUILT)  ## run laws and histories with a core that checks its memory
+	$(BIN)/python -m tools.sanitize $(ARGS)
 
 bench: $(BUILT)  ## measure times against the bare engine
 	$(BIN)/python -m tools.bench $(ARGS)
@@ -131,8 +142,9 @@ $(STAMP): setup.py
 	@set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --editable '.[$(EXTRAS)]' | $(PROGRESS)
 	@touch $@ $(BUILT)
 
-# What the package needs to run: the environment, and the core as its sources are now.
-$(BUILT): $(STAMP) $(CORE)
+# What the package needs to run: the environment, and the core as its sources are now. The folder is newer where one was
+# renamed or is no more.
+$(BUILT): $(STAMP) $(CORE) physsim_ros/engine/core
 	@$(BIN)/python setup.py --quiet build_ext --inplace
 	@touch $@
 

@@ -30,7 +30,7 @@ FLAGS = [
     '-O2',
     '-ffp-contract=off',
     # GCC 12 fuses even so where it joins two sums into a vector, if CFLAGS allow it (PR 106902).
-    '-fno-tree-slp-vectorize',
+    '-fno-tree-vectorize',
     '-fno-math-errno',
     '-fvisibility=hidden',
 ]
@@ -174,6 +174,8 @@ setup(
             # Check the core.
             'clang-format>=23,<24',
             'clang-tidy>=23,<24',
+            # A second compiler of the core, and that of the released wheel: 101 MB.
+            'ziglang',
             # With every rule selected, a new minor version of ruff is new rules.
             'ruff>=0.17,<0.18',
             'import-linter>=2.5,<3',

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Fixtures of the tests over ROS, which tests are slow, and an end to tests that hang.
+Fixtures of the tests over ROS, which tests are slow, an end to tests that hang, and the core.
 
 What needs ROS is imported late: the core's tests run where there is no ROS.
 """
@@ -18,6 +18,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from .source_tree import compile_core, is_compiled, ROOT
+
 if TYPE_CHECKING:
     from physsim_ros.testing import PhysSim
 
@@ -29,6 +31,11 @@ PROCESSES = {'chromium', 'outside', 'server'}
 # For setup, call and teardown of a test each [s]: ten times what the slowest may take.
 LONGEST = 300.0
 STDERR = pytest.StashKey[int]()
+
+# `colcon test` runs the source tree, in which `colcon build` has compiled nothing. Not in a hook:
+# what other folders' conftest.py import needs it.
+if not is_compiled():
+    compile_core(ROOT)
 
 
 @pytest.hookimpl(tryfirst=True)

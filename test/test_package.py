@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The package as others get it: installed by pip, and built, run and tested by colcon.
+The package as others get it: packed, installed by pip, and built, run and tested by colcon.
 
 Everything happens in a copy of the source tree below pytest's temporary directory.
 """
@@ -14,30 +14,32 @@ from importlib.util import find_spec
 import os
 from pathlib import Path
 import queue
+import re
 import shutil
 import signal
 import subprocess
 import sys
+import tarfile
 import threading
 import time
 from xml.etree import ElementTree as ET
+from zipfile import ZipFile
 
 from packaging.requirements import Requirement
+from packaging.tags import sys_tags
+from packaging.utils import parse_wheel_filename
 from packaging.version import Version
 import pytest
 
+from .source_tree import copy_source, ROOT, zig_cache
+from .worlds.digests import digest_at, scene
+
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[1]
 CONFIG = sorted(path.relative_to(ROOT) for path in ROOT.glob('config/**/*.*'))
 
-# Left out of the copy: what was built, and what a clone does not have.
-NOT_SOURCE = shutil.ignore_patterns(
-    '.*', '__pycache__', '*.egg-info', 'build', 'install', 'log', 'dist'
-)
-
 # Many times what each takes here, on a machine that is busy with other tests, in seconds.
-BUILD = 200
+BUILD = 300
 TEST = 200
 READY = 100
 EXIT = 60
@@ -56,7 +58,7 @@ def _run(*command, **options):
 def workspace(tmp_path_factory):
     """Lay out a colcon workspace with this package in it as source."""
     workspace = tmp_path_factory.mktemp('workspace')
-    shutil.copytree(ROOT, workspace / 'src' / 'physsim_ros', ignore=NOT_SOURCE)
+    copy_source(workspace / 'src' / 'physsim_ros')
     return workspace
 
 
@@ -130,8 +132,7 @@ def installed(tmp_path_factory):
     """Let pip install a copy into a tree of its own, and no dependencies."""
     if find_spec('wheel') is None and Version(version('setuptools')) < Version('70.1'):
         pytest.skip('pip cannot build a wheel: it takes setuptools 70.1, or wheel')
-    source = tmp_path_factory.mktemp('source') / 'physsim_ros'
-    shutil.copytree(ROOT, source, ignore=NOT_SOURCE)
+    source = copy_source(tmp_path_factory.mktemp('source') / 'physsim_ros')
     prefix = tmp_path_factory.mktemp('prefix')
     offline = ['--no-index', '--no-deps', '--no-build-isolation']
     pip = [sys.executable, '-m', 'pip', '--disable-pip-version-check', 'install']
@@ -213,6 +214,153 @@ def test_pip_installs_every_world_the_manifest_and_the_marker(installed):
     assert missing == []
     assert (share / 'physsim_ros' / 'package.xml').is_file()
     assert (share / 'ament_index/resource_index/packages/physsim_ros').is_file()
+
+
+# What is packed
+
+
+@pytest.fixture(scope='module')
+def packed(tmp_path_factory):
+    """Let setuptools make a source distribution, and pip a wheel of it."""
+    if find_spec('wheel') is None and Version(version('setuptools')) < Version('70.1'):
+        pytest.skip('pip cannot build a wheel: it takes setuptools 70.1, or wheel')
+    source = copy_source(tmp_path_factory.mktemp('packed') / 'physsim_ros')
+    dist = source / 'dist'
+    _run(sys.executable, 'setup.py', '--quiet', 'sdist', cwd=source, timeout=BUILD)
+    (archive,) = dist.glob('*.tar.gz')
+    build = ['--no-index', '--no-deps', '--no-build-isolation', '--wheel-dir', dist, archive]
+    _run(sys.executable, '-m', 'pip', 'wheel', *build, timeout=BUILD)
+    (wheel,) = dist.glob('*.whl')
+    return archive, wheel
+
+
+def _sources_of_the_core():
+    return {path.name for path in ROOT.glob('physsim_ros/engine/core/*.[ch]')}
+
+
+def test_the_source_distribution_has_what_builds_the_package_and_no_tests(packed):
+    with tarfile.open(packed[0]) as archive:
+        names = {name.partition('/')[2] for name in archive.getnames()}
+
+    assert {'README.md', 'LICENSE', 'package.xml', 'pyproject.toml', 'setup.py'} <= names
+    assert {path.relative_to(ROOT).as_posix() for path in ROOT.glob('tools/build/*.py')} <= names
+    assert _sources_of_the_core() <= {Path(name).name for name in names}
+    assert not [name for name in names if name.startswith('test/') or name.endswith('.so')]
+
+
+def test_the_wheel_of_the_source_distribution_has_the_core_and_the_headers_that_are_read(packed):
+    with ZipFile(packed[1]) as wheel:
+        names = {Path(name) for name in wheel.namelist()}
+
+    core = {path.name for path in names if path.match('physsim_ros/engine/core/*')}
+    assert core == {'__init__.py', '_core.abi3.so', 'chipmunk.h', 'core.h', 'sources.py'}
+    assert not [path for path in names if path.suffix == '.c']
+
+
+def test_the_wheel_serves_this_python_and_all_later_ones_on_this_machine(packed):
+    *_, tags = parse_wheel_filename(packed[1].name)
+
+    (tag,) = tags
+    assert (tag.interpreter, tag.abi) == ('cp311', 'abi3')
+    assert tag.platform.startswith('linux_')
+    assert tag in set(sys_tags())
+
+
+@pytest.fixture(scope='module')
+def released(tmp_path_factory):
+    """Let the script of the workflow build the wheel that is released."""
+    if find_spec('ziglang') is None:
+        pytest.skip('ziglang is not installed')
+    source = copy_source(tmp_path_factory.mktemp('released') / 'physsim_ros')
+    script = source / 'tools/build/released_wheel.py'
+    _run(sys.executable, script, env=os.environ | zig_cache(tmp_path_factory), timeout=BUILD)
+    (wheel,) = source.glob('dist/*.whl')
+    return wheel
+
+
+def test_the_released_wheel_asks_for_no_newer_c_library_than_its_tag_says(released, tmp_path):
+    *_, tags = parse_wheel_filename(released.name)
+    (platform,) = {tag.platform for tag in tags}
+    with ZipFile(released) as wheel:
+        core = Path(wheel.extract('physsim_ros/engine/core/_core.abi3.so', tmp_path))
+
+    wanted = {int(minor) for minor in re.findall(rb'GLIBC_2\.(\d+)', core.read_bytes())}
+
+    promised = int(re.match(r'manylinux_2_(\d+)_', platform)[1])
+    assert 0 < max(wanted) <= promised
+
+
+# Prints where the package is, and the digest of a shipped world after a second.
+STEPPED = """
+from physsim_ros.files import find_world, load_world
+from physsim_ros.simulation.simulation import Simulation
+import physsim_ros
+
+simulation = Simulation(physics_rate=240.0, publish_rate=60.0)
+simulation.begin(load_world(find_world('dominoes')))
+while simulation.step < 240:
+    simulation.advance_frame()
+print(physsim_ros.__file__, simulation.world.digest())
+"""
+
+
+def _stepped(folder, **options):
+    """Step a world, not in the source tree; return where the package is, and the digest."""
+    place = folder / 'elsewhere'
+    place.mkdir()
+    printed = _run(sys.executable, '-c', STEPPED, cwd=place, timeout=READY, **options)
+    file, digest = printed.split()
+    return Path(file), digest
+
+
+def _with_prefix(prefix):
+    """Return the environment in which a package and its files are found below a prefix."""
+    (site,) = prefix.glob('lib/*/site-packages')
+    return os.environ | {'PYTHONPATH': str(site), 'AMENT_PREFIX_PATH': str(prefix)}
+
+
+@pytest.fixture(scope='module')
+def digest():
+    """Return the digest of the world here."""
+    return digest_at(scene('worlds/dominoes'), 1)
+
+
+def test_the_released_wheel_steps_a_world(released, digest, tmp_path):
+    prefix = tmp_path / 'prefix'
+    pip = [sys.executable, '-m', 'pip', '--disable-pip-version-check', 'install']
+    offline = ['--no-index', '--no-deps', '--ignore-installed', '--prefix', prefix]
+    _run(*pip, *offline, released, timeout=BUILD)
+
+    file, stepped = _stepped(tmp_path, env=_with_prefix(prefix))
+
+    assert file.is_relative_to(prefix)
+    assert stepped == digest
+
+
+def test_what_pip_installs_steps_a_world(installed, digest, tmp_path):
+    file, stepped = _stepped(tmp_path, env=_with_prefix(installed))
+
+    assert file.is_relative_to(installed)
+    assert stepped == digest
+
+
+def test_what_colcon_installs_steps_a_world(workspace, overlay, digest, tmp_path):
+    file, stepped = _stepped(tmp_path, env=overlay)
+
+    assert file.is_relative_to(workspace / 'install')
+    assert stepped == digest
+
+
+def test_colcon_compiles_the_core_beside_the_sources_that_it_links(colcon, digest, tmp_path):
+    source = copy_source(tmp_path / 'src' / 'physsim_ros')
+
+    _run(colcon, 'build', '--symlink-install', cwd=tmp_path, timeout=BUILD)
+
+    assert [*source.glob('physsim_ros/engine/core/_core.*')]
+    environment = os.environ | {'PYTHONPATH': str(source)}
+    file, stepped = _stepped(tmp_path, env=environment)
+    assert file.is_relative_to(source)
+    assert stepped == digest
 
 
 # Of the other project: its test asks for the fixture, and names nothing that finds the plugin.

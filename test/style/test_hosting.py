@@ -59,6 +59,25 @@ def test_the_container_has_a_python_that_the_package_takes():
     assert int(found) >= int(asked)
 
 
+def _is_left_out(path):
+    """Return whether .dockerignore names a path or a folder above it."""
+    for pattern in (ROOT / '.dockerignore').read_text('utf-8').splitlines():
+        for each in (path, *path.parents):
+            # What begins with **/ is meant at any depth, all else at the top.
+            if each.match(pattern[3:]) if pattern.startswith('**/') else str(each) == pattern:
+                return True
+    return False
+
+
+def test_the_container_gets_what_builds_the_package_and_nothing_that_was_built():
+    core = Path('physsim_ros/engine/core')
+    builds = ['pyproject.toml', 'setup.py', 'tools/build/backend.py', core / 'core.h']
+    built = ['build/temp/step.o', core / '_core.abi3.so', core / '__pycache__/sources.pyc']
+
+    assert [path for path in builds if _is_left_out(Path(path))] == []
+    assert [path for path in built if not _is_left_out(Path(path))] == []
+
+
 def test_the_devcontainer_asks_make_for_what_it_makes():
     settings = json.loads((ROOT / '.devcontainer/devcontainer.json').read_text(encoding='utf-8'))
 

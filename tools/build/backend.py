@@ -4,7 +4,8 @@
 """
 The build backend: that of setuptools, which asks for a C compiler from PyPI where there is none.
 
-`setup.py` has the rest. The package ziglang is a compiler of 101 MB in a wheel.
+`setup.py` has the rest. The package ziglang is a compiler of 101 MB in a wheel. In a build this
+folder comes first where modules are looked for: none here may be named as a package is.
 """
 
 from __future__ import annotations

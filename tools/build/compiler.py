@@ -12,6 +12,8 @@ import shutil
 import sys
 
 NAMES = ('cc', 'gcc', 'clang')
+# The C library that ziglang's compiler links for: that of Debian 10 and RHEL 8 (PEP 600).
+GLIBC = '2.28'
 
 
 def machine_compiler() -> list[str]:
@@ -21,6 +23,6 @@ def machine_compiler() -> list[str]:
 
 
 def zig_compiler() -> list[str]:
-    """Return the command of ziglang's compiler; it links for glibc 2.28 (PEP 600, Debian 10)."""
-    target = f'{platform.machine()}-linux-gnu.2.28'
+    """Return the command of ziglang's compiler."""
+    target = f'{platform.machine()}-linux-gnu.{GLIBC}'
     return [sys.executable, '-m', 'ziglang', 'cc', '-target', target]

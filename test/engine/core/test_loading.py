@@ -1,0 +1,63 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The compiled core is loaded where it belongs to the sources beside it, else the mend is told."""
+
+from pathlib import Path
+import shutil
+
+from physsim_ros.engine import core
+import pytest
+
+load = core._load  # noqa: SLF001 - what an import calls
+(COMPILED,) = Path(core.__file__).parent.glob('_core.*')
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Have the core looked for in an empty folder."""
+    monkeypatch.setattr(core, '_HERE', tmp_path)
+    return tmp_path
+
+
+def test_a_core_that_was_not_compiled_is_told_with_the_command_that_compiles_it(folder):
+    (folder / 'step.c').touch()
+
+    with pytest.raises(ImportError) as refused:
+        load()
+
+    assert str(refused.value) == (
+        'the core of the engine has not been compiled; run `pip install --editable .`'
+    )
+
+
+def test_a_core_of_other_sources_is_told_with_the_command_that_compiles_it(folder):
+    shutil.copy(COMPILED, folder)
+    (folder / 'step.c').touch()
+
+    with pytest.raises(ImportError) as refused:
+        load()
+
+    assert str(refused.value) == (
+        'the core of the engine was compiled from other sources; run `pip install --editable .`'
+    )
+
+
+@pytest.mark.parametrize('header', ['core.h', 'arena.h'])
+def test_a_changed_header_makes_other_sources(folder, header):
+    for path in (*COMPILED.parent.glob('*.[ch]'), COMPILED):
+        shutil.copy(path, folder)
+    load()
+
+    with (folder / header).open('a') as file:
+        file.write('// Changed.\n')
+
+    with pytest.raises(ImportError, match='from other sources'):
+        load()
+
+
+def test_an_installed_core_without_sources_is_loaded(folder):
+    shutil.copy(COMPILED, folder)
+    shutil.copy(COMPILED.with_name('core.h'), folder)
+
+    assert load().core_sources() != core.ffi.NULL

@@ -1,0 +1,66 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""`make sanitize` finds defects of the core where the laws hold in spite of them."""
+
+import os
+import shutil
+import subprocess
+import sys
+
+import pytest
+
+from ..source_tree import copy_source, ROOT
+
+# One of each sanitizer, at the end of a step.
+DEFECTS = {
+    'AddressSanitizer: heap-buffer-overflow': (
+        '{ volatile char *piece = TAKE(&world->own->arena, char, 3); piece[3] = 0; }'
+    ),
+    'runtime error: shift exponent': '{ volatile int places = 40; places = 1 << places; }',
+}
+STEP = 'world->age++;'
+
+
+def _sanitized(tree):
+    return subprocess.run(
+        [sys.executable, '-m', 'tools.sanitize', 'test/laws/test_flight.py', '-k', 'projectile'],
+        cwd=tree,
+        env=os.environ | {'PYTHONPATH': str(tree)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which('gcc') is None, reason='gcc is not installed')
+@pytest.mark.parametrize('report', DEFECTS)
+def test_a_defect_ends_the_run_with_its_report(report, tmp_path):
+    tree = copy_source(tmp_path / 'source')
+    path = tree / 'physsim_ros/engine/core/step.c'
+    text = path.read_text(encoding='utf-8')
+    assert STEP in text
+    path.write_text(text.replace(STEP, f'{STEP} {DEFECTS[report]}'), encoding='utf-8')
+
+    done = _sanitized(tree)
+
+    assert done.returncode == 1, done.stderr
+    assert report in done.stdout
+    assert 'physsim_ros/engine/core/step.c' in done.stdout
+    assert done.stdout.splitlines()[-1] == (
+        'sanitize: the core has a defect of memory or arithmetic; its report is above'
+    )
+
+
+def test_a_machine_without_gcc_is_told(tmp_path, monkeypatch):
+    monkeypatch.setenv('PATH', str(tmp_path))
+    done = subprocess.run(
+        [sys.executable, '-m', 'tools.sanitize'],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+    assert (done.returncode, done.stderr) == (1, 'sanitize: gcc is not installed\n')
