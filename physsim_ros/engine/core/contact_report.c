@@ -233,7 +233,9 @@ void core_clear_contacts(World *world) {
 void forget_contacts(World *world) {
     Report *report = world->own->report;
     if (report != NULL && (report->follows || report->count > 0)) {
-        memset(report->pairs, 0, (size_t)report->room * sizeof(Pair));
+        if (report->room > 0) {
+            memset(report->pairs, 0, (size_t)report->room * sizeof(Pair));
+        }
         report->count = 0;
         report->follows = false;
         world->frame_steps = world->begun_count = 0;
