@@ -66,6 +66,9 @@ typedef struct Body {
     Twist twist;     // with which Chipmunk begins
     Twist under;     // mean velocity of the floor under it
     Twist without;   // velocity that it would have after the step without contacts, on a floor
+    double left;     // of the step after continuous collision has stopped it [s]
+    Twist carried;   // way with what has stopped it, in that time [m, rad]
+    double since;    // its first impact, until it was stopped or the step ended [s]
 } Body;
 
 // A grip of a hand on a body; Box2D's mouse joint.

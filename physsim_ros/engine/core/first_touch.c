@@ -144,14 +144,9 @@ void correct_first_touches(World *world) {
     }
     world->own->begun = touches;
     world->own->begun_count = count;
-    bool *moved = TAKE(arena, bool, world->body_count);
-    if (has_stage(world, STAGE_PROJECTION)) {
-        project_touches(world, touches, count, moved);
-    }
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (arbiter->state == ARBITER_FIRST_COLLISION || moved[place_of(world, arbiter->body_a)] ||
-            moved[place_of(world, arbiter->body_b)]) {
+        if (arbiter->state == ARBITER_FIRST_COLLISION) {
             prepare_contact(world, arbiter);
         }
     }

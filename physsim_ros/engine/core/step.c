@@ -45,6 +45,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     World *world = hook->userData;
     correct_first_touches(world);
     keep_loads(world);
+    time_impacts(world);
     defer_contacts(world);
     solve_impacts(world);
 }
@@ -65,6 +66,7 @@ static void step(World *world) {
     world->own->hook->preSolve = NULL;
     solve_joints(world);
     add_totals(world);
+    finish_moves(world);
     find_pushes(world);
     find_free(world);
     keep_awake(world);
