@@ -69,6 +69,7 @@ typedef struct Body {
     double left;     // of the step after continuous collision has stopped it [s]
     Twist carried;   // way with what has stopped it, in that time [m, rad]
     double since;    // its first impact, until it was stopped or the step ended [s]
+    uint8_t parts;   // its impact lets it fly
 } Body;
 
 // A grip of a hand on a body; Box2D's mouse joint.

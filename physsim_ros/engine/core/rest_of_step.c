@@ -34,14 +34,18 @@ static double true_parting(const World *world, const cpArbiter *arbiter, const c
     return dot(sub(velocity_at(of_b, point->r2), velocity_at(of_a, point->r1)), arbiter->n);
 }
 
-// Have an impact take place when it did.
-static void set_bounce(const World *world, const cpArbiter *arbiter, double left) {
+// Have an impact take place when it did; return whether the bodies part. The velocity of what flies leads by half a step
+// (`half_step.c`).
+static bool set_bounce(const World *world, const cpArbiter *arbiter, double left) {
+    bool parts = false;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
         double rate = 0.0, parting = true_parting(world, arbiter, point, &rate);
         double then = parting + rate * (world->dt - left);
-        point->bounce = -greatest(-arbiter->e * then + rate * left, 0.0);
+        point->bounce = -greatest(-arbiter->e * then + rate * (left + world->dt / 2.0), 0.0);
+        parts = parts || point->bounce < 0.0;
     }
+    return parts;
 }
 
 static double deepest_of(const Touch *touch) {
@@ -57,7 +61,9 @@ void time_impacts(World *world) {
         }
         double since = clamped(deepest_of(touch) / approach, 0.0, world->dt);
         Body *a = body_of(touch->engines[0]), *b = body_of(touch->engines[1]);
-        set_bounce(world, touch->arbiter, least(since + greatest(a->left, b->left), world->dt));
+        bool parts = set_bounce(world, touch->arbiter, least(since + greatest(a->left, b->left), world->dt));
+        a->parts |= parts;
+        b->parts |= parts;
         a->since = greatest(a->since, since);
         b->since = greatest(b->since, since);
     }
@@ -69,7 +75,8 @@ static Twist way_left(const World *world, const Body *body) {
         return (Twist){0};
     }
     double left = body->since + body->left;
-    Twist mean = twist_sum(twist_of(body->engine), body->lead, -left / world->dt), way = twist_sum((Twist){0}, mean, left);
+    double ahead = body->parts ? left / world->dt + 1.0 : 0.0;
+    Twist mean = twist_sum(twist_of(body->engine), body->lead, -ahead), way = twist_sum((Twist){0}, mean, left);
     return twist_sum(twist_sum(way, body->twist, -body->since), body->carried, -1.0);
 }
 
