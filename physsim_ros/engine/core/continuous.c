@@ -83,9 +83,6 @@ void clamp_moves(World *world) {
     }
     int fast = 0;
     for (int place = 0; place < world->body_count; place++) {
-        world->bodies[place].left = world->bodies[place].since = 0.0;
-        world->bodies[place].carried = (Twist){0};
-        world->bodies[place].parts = false;
         fast += is_fast(world, world->bodies + place);
     }
     if (fast == 0) {

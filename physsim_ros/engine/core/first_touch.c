@@ -75,14 +75,15 @@ static Vec middle_of(const cpShape *shape) {
 }
 
 // Whether a face separates two shapes, and their normal is turned.
-static bool is_false(const Touch *touch) {
-    if (kind_of(touch->shapes[0]) == SHAPE_CIRCLE || kind_of(touch->shapes[1]) == SHAPE_CIRCLE ||
-        dot(sub(middle_of(touch->shapes[1]), middle_of(touch->shapes[0])), touch->normal) >= 0.0) {
+static bool is_false(cpArbiter *arbiter) {
+    if (kind_of(arbiter->a) == SHAPE_CIRCLE || kind_of(arbiter->b) == SHAPE_CIRCLE ||
+        dot(sub(middle_of(arbiter->b), middle_of(arbiter->a)), arbiter->n) >= 0.0) {
         return false;
     }
+    Touch touch = touch_of(arbiter);
     for (int side = 0; side < 2; side++) {
-        for (int face = 0; face < corner_count(touch->shapes[side]); face++) {
-            if (face_depth(touch, side, face) < 0.0) {
+        for (int face = 0; face < corner_count(touch.shapes[side]); face++) {
+            if (face_depth(&touch, side, face) < 0.0) {
                 return true;
             }
         }
@@ -121,16 +122,12 @@ void correct_first_touches(World *world) {
     int count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (!begins(arbiter)) {
-            continue;
-        }
-        arbiter->data = NULL;
-        arbiter->state = ARBITER_FIRST_COLLISION;
-        Touch touch = touch_of(arbiter);
-        if (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(&touch)) {
+        if (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter)) {
             ignore(arbiter);
-        } else {
-            touches[count++] = touch;
+        } else if (begins(arbiter)) {
+            arbiter->data = NULL;
+            arbiter->state = ARBITER_FIRST_COLLISION;
+            touches[count++] = touch_of(arbiter);
         }
     }
     for (int number = 0; number < count; number++) {

@@ -70,47 +70,54 @@ void time_impacts(World *world) {
 }
 
 // The way that a body has still to go: that of its new velocity since its impact, less that which it has gone.
-static Twist way_left(const World *world, const Body *body) {
-    if (body->since + body->left <= 0.0 || !body->dynamic || body->joined) {
+static Twist way_left(const Body *body, double dt) {
+    double left = body->since + body->left, ahead = body->parts ? left / dt + 1.0 : 0.0;
+    if (left <= 0.0 || !body->dynamic || body->joined) {
         return (Twist){0};
     }
-    double left = body->since + body->left;
-    double ahead = body->parts ? left / world->dt + 1.0 : 0.0;
-    Twist mean = twist_sum(twist_of(body->engine), body->lead, -ahead), way = twist_sum((Twist){0}, mean, left);
-    return twist_sum(twist_sum(way, body->twist, -body->since), body->carried, -1.0);
+    Twist mean = twist_sum(twist_of(body->engine), body->lead, -ahead), gone = body->carried;
+    gone = twist_sum(gone, body->twist, body->since);
+    return twist_sum(twist_sum((Twist){0}, mean, left), gone, -1.0);
+}
+
+// The same of bodies that could pass through something on it.
+static Twist far_way(const World *world, const Body *body) {
+    Twist way = way_left(body, world->dt);
+    bool is_far = length(way.v) + fabs(way.w) * body->turning_radius > body->safe_depth;
+    return is_far ? way : (Twist){0};
+}
+
+static bool goes(Twist way) {
+    return way.v.x != 0.0 || way.v.y != 0.0 || way.w != 0.0;
 }
 
 void finish_moves(World *world) {
-    Arena *arena = &world->own->arena;
-    int *late = TAKE(arena, int, world->body_count), count = 0;
-    bool fast = false;
+    int count = 0;
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;
-        if (body->since + body->left > 0.0 && body->dynamic && !body->joined) {
-            Twist way = way_left(world, body);
-            fast = fast || length(way.v) + fabs(way.w) * body->turning_radius > world->own->least_depth;
-            late[count++] = place;
+        Twist way = way_left(body, world->dt);
+        if (goes(far_way(world, body))) {
+            count++;
+        } else if (goes(way)) {
+            set_pose(body->engine, moved(pose_of(body->engine), way, 1.0));
         }
     }
-    if (!fast) {
-        for (int number = 0; number < count; number++) {
-            Body *body = world->bodies + late[number];
-            set_pose(body->engine, moved(pose_of(body->engine), way_left(world, body), 1.0));
-        }
+    if (count == 0) {
         return;
     }
-    Sweep sweep = sweep_of(world, way_left);
+    Sweep sweep = sweep_of(world, far_way);
+    int *far = TAKE(&world->own->arena, int, count);
     count = 0;
     for (int number = 0; number < sweep.count; number++) {
         Mover *mover = sweep.movers + number;
-        mover->movable = mover->rate.v.x != 0.0 || mover->rate.v.y != 0.0 || mover->rate.w != 0.0;
+        mover->movable = goes(mover->rate);
         if (mover->movable) {
-            late[count++] = number;
+            far[count++] = number;
         }
     }
-    join_impacts(&sweep, late, count);
+    join_impacts(&sweep, far, count);
     for (int number = 0; number < count; number++) {
-        const Mover *mover = sweep.movers + late[number];
+        const Mover *mover = sweep.movers + far[number];
         Vec pivot;
         set_pose(mover->body->engine, pose_at(mover, 1.0, &pivot));
     }

@@ -13,6 +13,9 @@ static void begin_bodies(World *world) {
         Body *body = world->bodies + place;
         body->begin = pose_of(body->engine);
         body->twist = twist_of(body->engine);
+        body->carried = (Twist){0};
+        body->left = body->since = 0.0;
+        body->parts = false;
     }
 }
 
