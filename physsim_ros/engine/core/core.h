@@ -45,6 +45,7 @@ typedef struct Body {
     double reach;          // greatest distance of a point of it from the centre of mass [m]
     double half_width;     // of its thinnest piece [m]
     double safe_depth;     // how far it may be entered in a step unseen [m]
+    double slop;           // how far it may overlap others at rest [m]
     double turning_radius; // how far out its turning counts for continuous collision [m]
     double corners;        // of its pieces, the cost of continuous collision
     double pieces;         // count of its pieces

@@ -97,20 +97,26 @@ static void ignore(cpArbiter *arbiter) {
     arbiter->count = 0;
 }
 
-void prepare_contact(const World *world, cpArbiter *arbiter) {
+// The velocity at which an overlap is pushed out; Chipmunk has one slop for bodies of all sizes.
+static void set_bias(const cpArbiter *arbiter, double push) {
+    for (int number = 0; number < arbiter->count; number++) {
+        cpContact *point = arbiter->contacts + number;
+        Vec apart = sub(add(arbiter->body_b->p, point->r2), add(arbiter->body_a->p, point->r1));
+        point->bias = -push * least(dot(apart, arbiter->n) + slop_of(arbiter), 0.0);
+        point->jBias = 0.0;
+    }
+}
+
+void prepare_contact(cpArbiter *arbiter) {
     const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
-    const cpSpace *space = world->space;
     Vec normal = arbiter->n, tangent = perpendicular(normal);
-    double push = (1.0 - pow(space->collisionBias, world->dt)) / world->dt, mass = a->m_inv + b->m_inv;
+    double mass = a->m_inv + b->m_inv;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
         double an = cross(point->r1, normal), bn = cross(point->r2, normal);
         double at = cross(point->r1, tangent), bt = cross(point->r2, tangent);
         point->nMass = 1.0 / (mass + a->i_inv * an * an + b->i_inv * bn * bn);
         point->tMass = 1.0 / (mass + a->i_inv * at * at + b->i_inv * bt * bt);
-        Vec apart = sub(add(b->p, point->r2), add(a->p, point->r1));
-        point->bias = -push * least(dot(apart, normal) + space->collisionSlop, 0.0);
-        point->jBias = 0.0;
         Vec parting = sub(velocity_at(twist_of(b), point->r2), velocity_at(twist_of(a), point->r1));
         point->bounce = dot(parting, normal) * arbiter->e;
     }
@@ -141,10 +147,12 @@ void correct_first_touches(World *world) {
     }
     world->own->begun = touches;
     world->own->begun_count = count;
+    double push = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
         if (arbiter->state == ARBITER_FIRST_COLLISION) {
-            prepare_contact(world, arbiter);
+            prepare_contact(arbiter);
         }
+        set_bias(arbiter, push);
     }
 }

@@ -17,8 +17,13 @@ typedef struct Load {
     double normal, friction;
 } Load;
 
+// A contact that bears nothing yet and is approached; one under load may tremble.
 static bool is_impact(const cpArbiter *arbiter) {
-    return arbiter->state == ARBITER_FIRST_COLLISION && arbiter->count > 0 && approach_of(arbiter) > slowest_impact;
+    bool bears = false;
+    for (int number = 0; number < arbiter->count && arbiter->state != ARBITER_FIRST_COLLISION; number++) {
+        bears = bears || arbiter->contacts[number].jnAcc > 0.0;
+    }
+    return arbiter->count > 0 && !bears && approach_of(arbiter) > slowest_impact;
 }
 
 void keep_loads(World *world) {

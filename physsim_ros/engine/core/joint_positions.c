@@ -120,7 +120,7 @@ static Displacement begin(Solve *solve) {
         const Bearing *touch = island->touches + number;
         Ends ends = island->ends[island->joint_row_count + number];
         Vec a = add(move.start[ends.a].p, touch->arm_a), b = add(move.start[ends.b].p, touch->arm_b);
-        double apart = dot(sub(b, a), touch->normal) + space->collisionSlop;
+        double apart = dot(sub(b, a), touch->normal) + touch->slop;
         move.apart[number] = apart - least(apart, 0.0) * stays;
     }
     return move;

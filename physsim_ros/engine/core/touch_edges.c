@@ -25,7 +25,7 @@ static bool is_near(Vec point, Vec corner, double reach) {
 }
 
 static double reach_of(const World *world, const Touch *touch, int side) {
-    return near_slops * world->space->collisionSlop + radius_of(touch->shapes[side]);
+    return near_slops * slop_of(touch->arbiter) + radius_of(touch->shapes[side]);
 }
 
 static bool is_at_corner(const World *world, const Touch *touch, int side) {
@@ -61,7 +61,7 @@ static void find_slide(const World *world, const Touch *touch, int side, Vec vel
         double approach = -dot(corner.normal, velocity) * sign;
         if (approach < best->approach && (is_near(point, corner.place, reach) || is_near(point, before, reach))) {
             double depth = face_depth(touch, side, face);
-            if (depth >= 0.0 && depth <= world->space->collisionSlop) {
+            if (depth >= 0.0 && depth <= slop_of(touch->arbiter)) {
                 *best = (Slide){side, approach, depth, corner.normal};
             }
         }

@@ -46,6 +46,12 @@ static inline int place_of(const World *world, const cpBody *engine) {
     return (int)(body_of(engine) - world->bodies);
 }
 
+// How far the bodies of a contact may overlap at rest [m].
+static inline double slop_of(const cpArbiter *arbiter) {
+    double a = body_of(arbiter->body_a)->slop, b = body_of(arbiter->body_b)->slop;
+    return a < b ? a : b;
+}
+
 static inline bool has_stage(const World *world, uint32_t stage) {
     return (world->stages & stage) != 0;
 }
