@@ -110,7 +110,7 @@ class WorldSettings(Checked):
 
     gravity: tuple[float, float] = (0.0, -9.81)
     damping: float = 0.0
-    iterations: int = 10
+    iterations: int = 16
     bounds: Bounds | None = None
     density: float = 1.0
     friction: float = 0.5

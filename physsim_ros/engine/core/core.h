@@ -110,16 +110,19 @@ enum {
     ROW_ANGLE,    // ratio yaw_b - yaw_a [rad]
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
-    ROW_ALONG     // way of the first anchor along that axis [m]
+    ROW_ALONG,    // way of the first anchor along that axis [m]
+    ROW_SPRING    // distance of the two anchors, as a spring and its damper give it [m]
 };
 
-// A constraint row: lower <= x <= upper, both the same for an equality.
+// A constraint row: lower <= x <= upper, both the same for an equality; a spring has its rest length in both.
 typedef struct Row {
     int32_t kind;
     int32_t part, component; // which impulse of which constraint is that of the row
     double lower, upper;     // [m, rad]
     double below, above;     // λ by that impulse, where x is below its bounds, and where it is not
     double most;             // greatest absolute value of λ in a step [N s, N m s]
+    double stiffness;        // of a spring [N/m]
+    double damping;          // of a spring, with what its stiffness adds to it [N s/m]
 } Row;
 
 // Kinds of constraints of Chipmunk.

@@ -46,10 +46,12 @@ static Solve begin(World *world, const Island *island) {
     solve.excess = TAKE(arena, double, island->joint_row_count);
     solve.jacobians = TAKE(arena, Jacobian, island->row_count);
     solve.holds = TAKE(arena, bool, island->joint_row_count);
+    solve.springs = TAKE(arena, bool, island->row_count);
     solve.system =
         system_of(arena, island->body_count, island->inverses, island->row_count, island->ends, island->groups);
     for (int row = 0; row < island->joint_row_count; row++) {
-        solve.holds[row] = true;
+        solve.holds[row] = island->rows[row]->kind != ROW_SPRING;
+        solve.springs[row] = !solve.holds[row];
     }
     read_rows(island, island->poses, solve.excess, solve.jacobians);
     int normal = island->joint_row_count, tangent = normal + island->touch_count;

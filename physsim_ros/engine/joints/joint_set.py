@@ -23,8 +23,9 @@ from physsim_ros.engine.joints import stiffness
 from physsim_ros.engine.joints.joint_table import JointTable
 from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.scene import Joint
 from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
@@ -76,19 +77,6 @@ class JointSet:
         """Return the count of a body's joints after a joint on it is added or replaced."""
         names = self._on.get(body, {})
         return len(names) + (joint.name not in names)
-
-    def check_springs(self, bodies: Mapping[str, Body], joint: Joint | None = None) -> None:
-        """
-        Refuse a change by which springs would be too stiff for the steps.
-
-        :param bodies: bodies that change, as they will be
-        :param joint: a joint to be added or replaced; None if there is none
-        :raises BadProperty: with the greatest stiffness that is possible
-        """
-        joints = self._joints_on(bodies, joint)
-        ends = {name for each in joints for name in (each.a, each.b)} - {WORLD}
-        known = {name: bodies.get(name) or self._bodies[name].body for name in ends}
-        stiffness.check_stiffness(joints, known, self._dt)
 
     def with_turns(self, rigid: RigidBody, pose: Pose) -> Pose:
         """Return a pose with the whole turns that a jointed body has made, which joints count."""
@@ -144,10 +132,26 @@ class JointSet:
             return
         if self._table is None:
             self._table = JointTable(
-                list(self.by_name.values()), self._unstepped, self._totals, self._dt
+                list(self.by_name.values()),
+                self._unstepped,
+                self._totals,
+                self._soft_springs(),
+                self._dt,
             )
         self._table.place_ends(places)
         self._core.use_joints(self._table.joints, self._table.parts, self._table.rows)
+
+    def _soft_springs(self) -> dict[str, float]:
+        """Return the dampings of the springs that Chipmunk does not solve, by name [N s/m]."""
+        springs = [
+            each.joint
+            for each in self.by_name.values()
+            if each.joint.kind is JointKind.SPRING and each.parts
+        ]
+        bodies = {name: rigid.body for name, rigid in self._bodies.items()}
+        dampings = stiffness.dampings_of(springs, bodies, self._dt)
+        named = zip(springs, dampings, strict=True)
+        return {spring.name: damping for spring, damping in named if damping > 0.0}
 
     def report(self) -> tuple[Floats, Floats, Flags]:
         """
@@ -200,21 +204,6 @@ class JointSet:
             return []
         names, forces = self._table.names, self.report()[0].tolist()
         return [(names[number], forces[number]) for number in broken]
-
-    def _joints_on(self, bodies: Iterable[str], joint: Joint | None) -> list[Joint]:
-        """
-        Return the joints on some bodies, in the order in which they were made.
-
-        :param bodies: names of the bodies
-        :param joint: a joint to be added or replaced, which counts with all joints on its bodies;
-            None if there is none
-        """
-        names = {*bodies, *(() if joint is None else (joint.a, joint.b))} - {WORLD}
-        on = {name for body in names for name in self._on.get(body, ())}
-        joints = [self.by_name[name].joint for name in sorted(on, key=self._serials.__getitem__)]
-        if joint is not None:
-            joints = [each for each in joints if each.name != joint.name] + [joint]
-        return joints
 
     def _constraints(self) -> list[pymunk.Constraint]:
         return [

@@ -29,6 +29,7 @@ class JointTable:
     :param joints: of the set
     :param unstepped: names of joints whose first step is to come
     :param totals: (k, 2) float64 of each joint: impulses of its constraints in the last step
+    :param soft: damping of the springs that Chipmunk does not solve, by name [N s/m]
     :param dt: of a sub-step [s]
 
     :ivar joints: (j,) `Joint`
@@ -41,20 +42,26 @@ class JointTable:
         joints: Sequence[EngineJoint],
         unstepped: Collection[str],
         totals: Mapping[str, Floats],
+        soft: Mapping[str, float],
         dt: float,
     ) -> None:
         self.names = [each.joint.name for each in joints]
         self._ends = [each.ends for each in joints]
         parts = [part for each in joints for part in each.parts]
-        forces = [each.joint.properties.max_force for each in joints for _ in each.parts]
+        counts = [len(each.parts) for each in joints]
+        firsts = np.cumsum(counts) - counts
         self.joints = np.zeros(len(joints), _JOINT)
+        rows = [
+            _rows_of(each, first, soft.get(each.joint.name, 0.0), dt)
+            for each, first in zip(joints, firsts, strict=True)
+        ]
         known = [
             _joint_fields(each, dt, unstepped=each.joint.name in unstepped) for each in joints
         ]
         _fill(self.joints, known)
         for first, count, counts in (
             ('first_part', 'part_count', [len(each.parts) for each in joints]),
-            ('first_row', 'row_count', [each.row_count for each in joints]),
+            ('first_row', 'row_count', [len(each) for each in rows]),
         ):
             self.joints[count] = counts
             self.joints[first] = np.cumsum(counts) - counts
@@ -64,14 +71,8 @@ class JointTable:
             # A joint of two anchored bodies has no constraints.
             if len(former := totals.get(name, ())) == len(of_joint):
                 of_joint[:] = former
-        rows = [
-            (row.kind, number, component, row.lower, row.upper, row.below, row.above,
-             math.inf if force is None else force * dt * abs(row.above))
-            for number, (part, force) in enumerate(zip(parts, forces, strict=True))
-            for component, row in enumerate(part.rows)
-        ]  # fmt: skip
-        self.rows = np.zeros(len(rows), _ROW)
-        _fill(self.rows, rows)
+        self.rows = np.zeros(sum(map(len, rows)), _ROW)
+        _fill(self.rows, [row for each in rows for row in each])
 
     def place_ends(self, places: Mapping[pymunk.Body, int]) -> None:
         """Set the places of bodies in the table of bodies, the background among them."""
@@ -112,6 +113,28 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
         joint.kind in _PRESSING,
         unstepped,
     )
+
+
+def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[tuple[object, ...]]:
+    """
+    Return the rows of a joint.
+
+    :param first: number of its first part
+    :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
+    """
+    force, rows = each.joint.properties.max_force, []
+    for number, part in enumerate(each.parts, first):
+        if part.kind == lib.PART_SPRING:
+            # One of the two gives its force.
+            part.constraint.stiffness = 0.0 if damping else each.joint.stiffness
+            if not damping:
+                continue
+        for component, row in enumerate(part.rows):
+            most = math.inf if force is None else force * dt * abs(row.above)
+            spring = (each.joint.stiffness, damping) if row.kind == lib.ROW_SPRING else (0.0, 0.0)
+            bounds = row.lower, row.upper, row.below, row.above, most
+            rows.append((row.kind, number, component, *bounds, *spring))
+    return rows
 
 
 def _fill(table: NDArray[np.void], records: Sequence[tuple[object, ...]]) -> None:

@@ -88,14 +88,10 @@ class LiveSpace:
 
         :param step: number of steps that the world has made then
         :raises WorldFull: the state is too large; nothing is changed
-        :raises BadProperty: springs are too stiff for the steps; nothing is changed
         """
         self.capacity.check_state(state)
         checkpoint = checkpoint_of(state, step, self._sub_step)
         space = restore_checkpoint(checkpoint, self._sub_step)
-        space.joints.check_springs(
-            {name: rigid.body for name, rigid in space.bodies.by_name.items()}
-        )
         self._replace(space, BodyPool(), _Fresh(checkpoint, space, space.changes))
         self.step_count = step
 
