@@ -28,7 +28,7 @@ class Motion(NamedTuple):
     The engine's state of a body, from which it continues to the bit.
 
     x, y [m], yaw [rad] of its centre of mass; vx, vy [m/s], spin [rad/s]; whether it is in free
-    flight, in which the engine's velocity leads the reported one by half a step.
+    flight, in which the engine's velocity leads the reported one by half a sub-step.
     """
 
     x: float

@@ -83,7 +83,7 @@ static Twist way_left(const Body *body, double dt) {
 // The same of bodies that could pass through something on it.
 static Twist far_way(const World *world, const Body *body) {
     Twist way = way_left(body, world->dt);
-    bool is_far = length(way.v) + fabs(way.w) * body->turning_radius > body->safe_depth;
+    bool is_far = length(way.v) + fabs(way.w) * body->turning_radius > world->own->least_depth;
     return is_far ? way : (Twist){0};
 }
 

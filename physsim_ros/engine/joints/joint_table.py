@@ -69,7 +69,7 @@ class JointTable:
         _fill(self.parts, [(part.kind, address_of(part.constraint)) for part in parts])
         for name, of_joint in zip(self.names, self._totals, strict=True):
             # A joint of two anchored bodies has no constraints.
-            if len(former := totals.get(name, ())) == len(of_joint):
+            if 0 < len(former := totals.get(name, ())) == len(of_joint):
                 of_joint[:] = former
         self.rows = np.zeros(sum(map(len, rows)), _ROW)
         _fill(self.rows, [row for each in rows for row in each])

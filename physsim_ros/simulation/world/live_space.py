@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from physsim_ros.engine.body_pool import BodyPool
 from physsim_ros.engine.checkpoint import checkpoint_of, restore_checkpoint, take_checkpoint
-from physsim_ros.engine.core import lib
+from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.settings import WorldSettings
@@ -40,7 +40,7 @@ class LiveSpace:
     def __init__(self, settings: WorldSettings, physics_rate: float) -> None:
         self.physics_rate = physics_rate
         self.dt = 1.0 / physics_rate
-        self._sub_step = self.dt / lib.SUB_STEPS
+        self._sub_step = sub_step_of(physics_rate)
         self.step_count = 0
         self._replace(Space(settings, self._sub_step), BodyPool())
 
