@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 import math
 from typing import Any
 
@@ -198,9 +199,9 @@ def energies(world: World, steps: int) -> list[float]:
 @pytest.mark.parametrize(
     ('said', 'least', 'most'),
     [
-        # 1 mm off: 0.0288 J, and an eighth more or less of that, half of the angle by which it swings
-        # in a sub-step, since the engine moves first and pulls then.
-        ({'stiffness': 57600.0, 'rest_length': 1.999}, 0.0251, 0.0329),
+        # 1 mm off: 0.0288 J, and a seventh more or less of that, since it swings by a quarter of a
+        # radian in a sub-step, and the engine moves first and pulls then.
+        ({'stiffness': 57600.0, 'rest_length': 1.999}, 0.0247, 0.033),
         # It pulls with 1 N over all of the two metres but the last centimetre.
         ({'stiffness': 100.0, 'max_force': 1.0, 'rest_length': 0.0}, 1.99, 2.0),
         ({'stiffness': 0.0, 'max_force': 1e12, 'rest_length': 0.0}, 0.0, 0.0),
@@ -256,11 +257,9 @@ def test_no_spring_is_too_stiff(stiffness: float, mass: float) -> None:
     assert world.snapshot().poses[0, 1] == pytest.approx(-sag, abs=2.0 * sag + 1e-9)
 
 
-@pytest.mark.parametrize('damping', [1.0, 20.0, 100.0, 1000.0, 1e6])
-def test_what_sinks_on_a_damper_has_the_speed_at_which_it_carries_the_weight(
-    damping: float,
-) -> None:
-    world = World(settings=WorldSettings(gravity=(0.0, -2.0)))
+@pytest.mark.parametrize('damping', [1.0, 20.0, 100.0, 1000.0, 1e5])
+def test_what_sinks_on_a_damper_is_as_fast_as_the_damper_carries_it(damping: float) -> None:
+    world = World(settings=replace(NOWHERE, gravity=(0.0, -2.0)))
     spawn(world, 'a/0', Disc(radius=0.1), (0.0, 0.0, 0.0), mass=1.0)
     line = [(0.0, 0.0), (0.0, 100.0)]
     world.apply(joining('spring', line, stiffness=0.0, damping=damping))

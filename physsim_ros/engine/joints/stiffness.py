@@ -4,12 +4,12 @@
 """
 Stiffness: which springs are soft constraints, solved with the loads that act on them.
 
-Chipmunk moves bodies first and lets springs pull then (symplectic Euler), which keeps the energy of
-what swings, and is stable while no body swings by more than two radians a sub-step. All springs on
-a body together swing it by less than one while sum of f k (1/m + r^2/I) <= 1 / dt^2, f = 2 where
-the other body is dynamic too, since (v_a - v_b)^2 <= 2 v_a^2 + 2 v_b^2. What exceeds that is taken
-where the sub-step ends (implicit Euler): no spring is too stiff, and one that swings faster than
-steps can show comes to rest. A damper is always taken there.
+Chipmunk moves bodies first and lets springs pull then (symplectic Euler), which keeps the energy
+of what swings, and is stable while no body swings by more than two radians a sub-step. All springs
+on a body together swing it by less than one while sum of f k (1/m + r^2/I) <= 1 / dt^2, f = 2
+where the other body is dynamic too, since (v_a - v_b)^2 <= 2 v_a^2 + 2 v_b^2. What exceeds that is
+taken where the sub-step ends (implicit Euler): no spring is too stiff, and one that swings faster
+than steps can show comes to rest. A damper is always taken there.
 """
 
 from __future__ import annotations

@@ -132,7 +132,8 @@ def test_two_fast_bodies_that_meet_head_on_do_not_pass_each_other(shape, speed, 
 
     last = sim.world.snapshot()
     assert math.dist(*last.centers) > 1.0
-    # No deeper than a pair may enter each other unseen; triangles turn by 0.25 rad a sub-step, tip into tip.
+    # No deeper than a pair may enter each other unseen; tips of triangles turn by 0.25 rad a
+    # sub-step into each other.
     assert deepest < (0.03 if shape is SHAPES['triangle'] else 0.0125)
     if shape is not SHAPES['triangle']:  # its slopes send one over the other
         assert last.centers[0, 0] < last.centers[1, 0]
