@@ -6,9 +6,8 @@
 // Problem: Chipmunk finds a contact where the step ends, up to a safe depth inside. Until then the line of centres of
 // two discs has turned, by v dt / (2 r) at most; a disc that hits a corner has come past it; a body that slides over
 // the seam of two tiles has gone less far past the side of the next one than it lies below its top ("ghost collision":
-// Catto, "Ghost Collisions", box2d.org 2020); the position bias takes many steps to push out what has been overshot.
-// And its GJK
-// (`GJKRecurse` in `src/cpCollision.c`) tests with rounded numbers whether the origin is in a triangle: one pair in ten
+// Catto, "Ghost Collisions", box2d.org 2020).
+// And its GJK (`GJKRecurse` in `src/cpCollision.c`) tests with rounded numbers whether the origin is in a triangle: one pair in ten
 // thousand of polygons that face each other exactly is said to have entered each other from the far sides, though they
 // are apart.
 //
@@ -20,14 +19,13 @@
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc first meets the
 //    other shape.
 // 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over.
-// 4. Projection (`touch_projection.c`): the overlap beyond the slop is taken back along the normal.
-// 5. What `cpArbiterPreStep` had made of the old contacts is made anew.
+// 4. What `cpArbiterPreStep` had made of the old contacts is made anew.
 //
 // Cost: 0.3 µs a contact that begins.
 //
 // Without part 1 law 3 (head-on impacts of squares) fails; without part 2 laws 6 (discs part along the normal of their
 // impact) and 35 (a fast bar hits all discs); without part 3 a body stumbles over seams
-// (`test/engine/stages/test_internal_edges.py`); without part 4 law 7 (penetration). Part 1 can go when GJK is exact.
+// (`test/engine/stages/test_internal_edges.py`). Part 1 can go when GJK is exact.
 
 #include "stages.h"
 #include "touch_stages.h"

@@ -14,7 +14,7 @@
 // Impulses act on both bodies alike, so that momentum is kept with all forces on.
 //
 // Cost: 20 ns an impact; where bodies are fast, 2 µs for each pair that could meet.
-// Without it laws 7 (penetration), 41 (momentum in flight) and 42 (pressure of a gas) fail.
+// Without it laws 7 (penetration), 45 (momentum in flight) and 46 (pressure of a gas) fail.
 
 #include "impact_islands.h"
 #include "impact_propagation.h"
@@ -56,7 +56,7 @@ void time_impacts(World *world) {
     for (int number = 0; number < world->own->begun_count; number++) {
         const Touch *touch = world->own->begun + number;
         double approach = approach_of(touch->arbiter);
-        if (approach <= slowest_impact || !has_stage(world, STAGE_PROJECTION)) {
+        if (approach <= slowest_impact || !has_stage(world, STAGE_REST_OF_STEP)) {
             continue;
         }
         double since = clamped(deepest_of(touch) / approach, 0.0, world->dt);
