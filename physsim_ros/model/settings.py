@@ -88,7 +88,7 @@ class WorldSettings(Checked):
 
     :param gravity: [m/s²]
     :param damping: share of velocity lost each second, 0 .. 1
-    :param iterations: of the engine's solver in a step
+    :param iterations: of the engine's solver in a step, shared out among its sub-steps
     :param bounds: xmin, ymin, xmax, ymax of the walls around the world [m]; None is no walls
     :param density: of bodies by default [kg/m²]
     :param friction: coefficient of bodies by default

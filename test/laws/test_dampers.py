@@ -17,7 +17,9 @@ def test_a_weight_on_a_damper_sinks_at_its_terminal_speed(report, mass, damping)
     sim = simulation()
     spawn(sim, 'weight/0', Disc(radius=0.1), (0.0, -2.0, 0.0), mass=mass)
     points = [(0.0, -2.0), (0.0, 0.0)]
-    join(sim, 'damper/0', 'spring', points, a='weight/0', b='world', stiffness=0.0, damping=damping)
+    join(
+        sim, 'damper/0', 'spring', points, a='weight/0', b='world', stiffness=0.0, damping=damping
+    )
 
     # Ten time constants, so that 5e-5 of the speed is still to come.
     end = run(sim, max(1.0, 10.0 * mass / damping))
@@ -29,7 +31,7 @@ def test_a_weight_on_a_damper_sinks_at_its_terminal_speed(report, mass, damping)
 
 def relaxation(stiffness, damping, mass, seconds):
     """
-    Return the displacement of a damped oscillator that is released at rest, as a share of the first.
+    Return the displacement of an overdamped oscillator, released at rest, as a share of the first.
 
     https://en.wikipedia.org/wiki/Damping#Damping_ratio
     """

@@ -42,7 +42,9 @@ def loaded_rope(ratio, link_mass):
         box = Box(width=math.dist(start, end), height=THICKNESS)
         spawn(sim, f'link/{number}', box, pose, mass=link_mass, group=1)
         if number:
-            join(sim, f'axle/{number}', 'axle', [start], a=f'link/{number - 1}', b=f'link/{number}')
+            join(
+                sim, f'axle/{number}', 'axle', [start], a=f'link/{number - 1}', b=f'link/{number}'
+            )
     for number, (point, link, mass) in enumerate(
         ((path[0], 0, 1.0), (path[-1], len(path) - 2, ratio))
     ):

@@ -75,7 +75,7 @@ def test_a_ball_comes_to_rest_without_sinking_in(report, size):
 @pytest.mark.parametrize('size', SIZES)
 def test_ten_coins_stand_on_each_other(report, size):
     sim = simulation()
-    ground(sim, 4.0 * size)
+    ground(sim, size)
     coin = Box(width=20.0 * size, height=size)
     heights = size * (np.arange(10) + 0.5)
     for number, height in enumerate(heights.tolist()):
