@@ -33,7 +33,7 @@ from physsim_ros.model.snapshot import Contacts, Snapshot
 # A logged request with its fields and its place in the log.
 _REQUEST = 600
 # The body of a request, with name, colour and material.
-_BODY = 1050
+_BODY = 1200
 # A piece of a shape, and each of its vertices and of those of its outline.
 _PIECE, _VERTEX = 400, 150
 # A string of a few letters, and its place in a tuple.
