@@ -56,7 +56,7 @@ def sub_step_of(physics_rate: float) -> float:
 
     :param physics_rate: steps a second [Hz]
     """
-    return 1.0 / physics_rate / lib.SUB_STEPS
+    return 1.0 / physics_rate / int(lib.SUB_STEPS)
 
 
 def dtype_of(struct: str) -> np.dtype[np.void]:

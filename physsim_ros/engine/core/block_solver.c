@@ -52,7 +52,7 @@ typedef struct Point {
     Vec normal;
     bool begins;
     double friction;
-    Vec slip; // velocity of the surfaces
+    Vec slip;              // velocity of the surfaces
     double added, added_t; // impulse that an impact next to it has given it in this step [N s]
 } Point;
 
@@ -208,8 +208,15 @@ static int list_points(const Island *island, Point *points) {
         for (int point = 0; point < each->count && (each->n.x != 0.0 || each->n.y != 0.0); point++) {
             bool begins = each->state == ARBITER_FIRST_COLLISION;
             cpContact *contact = each->contacts + point;
-            points[count++] =
-                (Point){contact, each->body_a, each->body_b, each->n, begins, each->u, each->surface_vr, begins ? contact->jnAcc : 0.0, begins ? contact->jtAcc : 0.0};
+            points[count++] = (Point){contact,
+                                      each->body_a,
+                                      each->body_b,
+                                      each->n,
+                                      begins,
+                                      each->u,
+                                      each->surface_vr,
+                                      begins ? contact->jnAcc : 0.0,
+                                      begins ? contact->jtAcc : 0.0};
         }
     }
     return count;
@@ -227,7 +234,8 @@ static void push(const Point *point, Vec impulse) {
 static double improve(const Point *point) {
     cpContact *contact = point->contact;
     Twist a = body_of(point->a)->without, b = body_of(point->b)->without;
-    Vec v = add(sub(velocity_at(b, contact->r2), velocity_at(a, contact->r1)), point->slip), tangent = perpendicular(point->normal);
+    Vec v = add(sub(velocity_at(b, contact->r2), velocity_at(a, contact->r1)), point->slip),
+        tangent = perpendicular(point->normal);
     double normal = contact->jnAcc, along = contact->jtAcc;
     contact->jnAcc = greatest(normal - (contact->bounce + dot(v, point->normal)) * contact->nMass, 0.0);
     double most = point->friction * contact->jnAcc;
@@ -267,7 +275,8 @@ static void solve(const World *world, const Island *island) {
     }
     for (int row = 0; row < count; row++) {
         Point *point = points + row;
-        push(point, add(scaled(point->normal, point->contact->jnAcc - point->added), scaled(perpendicular(point->normal), point->contact->jtAcc - point->added_t)));
+        push(point, add(scaled(point->normal, point->contact->jnAcc - point->added),
+                        scaled(perpendicular(point->normal), point->contact->jtAcc - point->added_t)));
     }
     for (int round = 0; round < ROUNDS; round++) {
         double most = 0.0;
@@ -282,7 +291,8 @@ static void solve(const World *world, const Island *island) {
         Point *point = points + row;
         // Chipmunk applies that of other contacts itself (`cpArbiterApplyCachedImpulse`).
         if (point->begins) {
-            Vec impulse = add(scaled(point->normal, point->contact->jnAcc - point->added), scaled(perpendicular(point->normal), point->contact->jtAcc - point->added_t));
+            Vec impulse = add(scaled(point->normal, point->contact->jnAcc - point->added),
+                              scaled(perpendicular(point->normal), point->contact->jtAcc - point->added_t));
             apply(world, point->a, negated(impulse), point->contact->r1);
             apply(world, point->b, impulse, point->contact->r2);
         }

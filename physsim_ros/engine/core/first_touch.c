@@ -7,9 +7,9 @@
 // two discs has turned, by v dt / (2 r) at most; a disc that hits a corner has come past it; a body that slides over
 // the seam of two tiles has gone less far past the side of the next one than it lies below its top ("ghost collision":
 // Catto, "Ghost Collisions", box2d.org 2020).
-// And its GJK (`GJKRecurse` in `src/cpCollision.c`) tests with rounded numbers whether the origin is in a triangle: one pair in ten
-// thousand of polygons that face each other exactly is said to have entered each other from the far sides, though they
-// are apart.
+// And its GJK (`GJKRecurse` in `src/cpCollision.c`) tests with rounded numbers whether the origin is in a triangle: one
+// pair in ten thousand of polygons that face each other exactly is said to have entered each other from the far sides,
+// though they are apart.
 //
 // Method: between Chipmunk's narrow phase and its solver, for all contacts that begin,
 //

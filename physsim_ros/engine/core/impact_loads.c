@@ -55,7 +55,8 @@ void keep_loads(World *world) {
     world->own->loads = TAKE(&world->own->arena, Load, points);
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *each = arbiter_at(world, number);
-        if (hit[root_of(parents, place_of(world, each->body_a))] || hit[root_of(parents, place_of(world, each->body_b))]) {
+        if (hit[root_of(parents, place_of(world, each->body_a))] ||
+            hit[root_of(parents, place_of(world, each->body_b))]) {
             for (int point = 0; point < each->count; point++) {
                 cpContact *contact = each->contacts + point;
                 world->own->loads[world->own->load_count++] = (Load){contact, contact->jnAcc, contact->jtAcc};

@@ -23,9 +23,9 @@ static const double softness = 1e-6;
 // side then have none.
 enum { ROUNDS = 30, FRICTION_ROUNDS = 10 };
 
-// Springs with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the impulse of
-// the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the damper; Catto,
-// "Soft Constraints", GDC 2011), with all loads and joints that act.
+// Springs with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the impulse
+// of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the damper;
+// Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
 
 // The rows of an island in velocities.
 typedef struct Impact {

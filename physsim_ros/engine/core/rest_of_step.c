@@ -34,7 +34,8 @@ static double true_parting(const World *world, const cpArbiter *arbiter, const c
     return dot(sub(velocity_at(of_b, point->r2), velocity_at(of_a, point->r1)), arbiter->n);
 }
 
-// Have an impact take place when it did; return whether the bodies part. The velocity of what flies leads by half a step
+// Have an impact take place when it did; return whether the bodies part. The velocity of what flies leads by half a
+// step
 // (`half_step.c`).
 static bool set_bounce(const World *world, const cpArbiter *arbiter, double left) {
     bool parts = false;

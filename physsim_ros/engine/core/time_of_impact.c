@@ -7,9 +7,9 @@
 // time in which they cannot meet. Both advance by it, again and again, until they overlap by the skin or the step ends
 // (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996, 2.3).
 //
-// An impact counts where the rest of the approach is more than the safe depth. A pair that overlaps from the start meets
-// where it has come deeper by the skin, so that it moves on until Chipmunk finds it to approach, too; not at all where
-// it overlaps by more than the lesser inner radius, since either side may be the nearer one then.
+// An impact counts where the rest of the approach is more than the safe depth. A pair that overlaps from the start
+// meets where it has come deeper by the skin, so that it moves on until Chipmunk finds it to approach, too; not at all
+// where it overlaps by more than the lesser inner radius, since either side may be the nearer one then.
 
 #include "time_of_impact.h"
 

@@ -122,7 +122,8 @@ def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[t
     :param first: number of its first part
     :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
     """
-    force, rows = each.joint.properties.max_force, []
+    force = each.joint.properties.max_force
+    rows: list[tuple[object, ...]] = []
     for number, part in enumerate(each.parts, first):
         if part.kind == lib.PART_SPRING:
             # One of the two gives its force.
