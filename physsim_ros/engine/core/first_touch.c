@@ -139,7 +139,7 @@ void correct_first_touches(World *world) {
             move_to_impact(world, touches + number);
         }
         if (has_stage(world, STAGE_EDGES)) {
-            slide_over_edge(world, touches + number);
+            slide_over_edge(touches + number);
         }
         write_touch(touches + number);
     }

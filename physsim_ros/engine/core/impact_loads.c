@@ -26,6 +26,13 @@ static bool is_impact(const cpArbiter *arbiter) {
     return arbiter->count > 0 && !bears && approach_of(arbiter) > slowest_impact;
 }
 
+// An impact reaches the island of a body that forces move.
+static void mark_hit(const World *world, int *parents, const cpBody *engine, bool *hit) {
+    if (engine->m_inv > 0.0) {
+        hit[root_of(parents, place_of(world, engine))] = true;
+    }
+}
+
 void keep_loads(World *world) {
     world->own->load_count = 0;
     bool any = false;
@@ -48,8 +55,8 @@ void keep_loads(World *world) {
         const cpArbiter *each = arbiter_at(world, number);
         points += each->count;
         if (is_impact(each)) {
-            hit[root_of(parents, place_of(world, each->body_a))] |= each->body_a->m_inv > 0.0;
-            hit[root_of(parents, place_of(world, each->body_b))] |= each->body_b->m_inv > 0.0;
+            mark_hit(world, parents, each->body_a, hit);
+            mark_hit(world, parents, each->body_b, hit);
         }
     }
     world->own->loads = TAKE(&world->own->arena, Load, points);

@@ -58,7 +58,6 @@ static void step(World *world) {
     begin_half_step(world);
     begin_bodies(world);
     pull_grips(world);
-    damp_resting(world);
     pull_by_floor(world);
     clamp_moves(world);
     tighten_boxes(world);
@@ -85,6 +84,8 @@ int32_t core_step(World *world, int32_t count) {
     world->own->kept = pow(world->space->damping, world->dt);
     for (int number = 0; number < count; number++) {
         world->own->call_step = number;
+        arena_reset(&world->own->arena);
+        damp_resting(world);
         begin_totals(world);
         world->frame_steps += world->reports_contacts;
         for (int sub = 0; sub < SUB_STEPS; sub++) {

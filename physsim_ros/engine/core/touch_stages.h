@@ -12,6 +12,6 @@
 void move_to_impact(const World *world, Touch *touch);
 
 // Replace a contact at a seam by one with the face that the shapes approach slowest.
-void slide_over_edge(const World *world, Touch *touch);
+void slide_over_edge(Touch *touch);
 
 #endif
