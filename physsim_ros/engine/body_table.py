@@ -31,7 +31,7 @@ class BodyTable:
     :param scene: of these bodies
     :param bodies: in spawn order
     :param background: Pymunk's static body, which has the walls
-    :param dt: length of a step [s]
+    :param dt: length of a sub-step [s]
 
     :ivar columns: what follows from the scene alone
     :ivar records: (n + 1,) `Body`; the last one is the background

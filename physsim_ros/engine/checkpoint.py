@@ -56,6 +56,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
                 without=shape_numbers(rigids[row] for row in np.flatnonzero(unsupported)),
                 joints=space.joints.impulses(),
             ),
+            totals=space.joints.totals(),
             pushes=table.pushes,
         ),
         grips=space.grips(),
@@ -108,7 +109,7 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
     Return the checkpoint at which a world begins with a state.
 
     :param step: steps that the world has made
-    :param dt: of a step [s]
+    :param dt: of a sub-step [s]
     """
     motions = [saved.motion or engine_motion(saved, state.settings, dt) for saved in state.bodies]
     bodies = (saved.body for saved in state.bodies)
@@ -165,7 +166,7 @@ def restore_checkpoint(
     """
     Build a space from a checkpoint.
 
-    :param dt: of a step [s]
+    :param dt: of a sub-step [s]
     :param pool: bodies built beforehand, by name
     """
     scene, first = checkpoint.scene, checkpoint.memory.walls
@@ -196,6 +197,7 @@ def restore_checkpoint(
     space.joints.set_unstepped(checkpoint.unstepped)
     space.lay_out_joints()
     space.joints.set_impulses(checkpoint.memory.joints)
+    space.joints.set_totals(checkpoint.memory.totals)
     for grip in checkpoint.grips:
         space.put_grip(grip)
     return space

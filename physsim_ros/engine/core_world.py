@@ -55,7 +55,7 @@ class CoreWorld:
     The core's part of a space.
 
     :param pm_space: Pymunk's
-    :param dt: of a step [s]
+    :param dt: of a sub-step [s]
 
     :cvar left_out: stages that new worlds leave out, a sum of `STAGE_...` of
         `engine/core/core.h`; to measure what fails without them

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.engine.core import dtype_of
 from physsim_ros.engine.core_world import Table
-from physsim_ros.engine.settings import COLLISION_SLOP
+from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
@@ -53,7 +53,7 @@ def columns_of(scene: Scene, dt: float) -> SceneColumns:
     """
     Return the columns of a scene.
 
-    :param dt: of a step [s]
+    :param dt: of a sub-step [s]
     """
     rows = {name: row for row, name in enumerate(scene.names)}
     expiries: dict[int, list[str]] = {}
@@ -88,6 +88,7 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     for name, values in zip(names, numbers.T, strict=True):
         own[name] = values
     own['safe_depth'] = [_safe_depth(body) for body in bodies]
+    own['slop'] = [_slop(body) for body in bodies]
     gravity = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
     own['lead'][:] = np.where(dynamic[:, None], gravity, 0.0)
     own['floor_friction'] = scene.floor_friction
@@ -97,6 +98,7 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     own['surface'][:] = [body.surface_velocity for body in bodies] or np.empty((0, 2))
     # The background has no inner radius: what meets its walls counts alone.
     records[-1]['anchored'], records[-1]['safe_depth'] = True, math.inf
+    records[-1]['slop'] = COLLISION_SLOP
     _mark_sprung(records, scene.joints, rows)
     return records
 
@@ -107,10 +109,14 @@ def _safe_depth(body: Body) -> float:
 
     An anchored chain does not count: what meets it keeps its own centre on its side.
     """
-    inner = body.shape.form.inner * SAFE_SHARE
-    if not body.anchored:
-        return inner
-    return math.inf if isinstance(body.shape, Chain) else max(inner, COLLISION_SLOP)
+    if body.anchored and isinstance(body.shape, Chain):
+        return math.inf
+    return body.shape.form.inner * SAFE_SHARE
+
+
+def _slop(body: Body) -> float:
+    """Return how far a body may overlap others at rest [m]."""
+    return min(COLLISION_SLOP, body.shape.form.inner * SLOP_SHARE)
 
 
 def _numbers_of(form: Form) -> tuple[float, float, float, int, int]:

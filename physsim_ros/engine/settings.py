@@ -10,6 +10,8 @@ import pymunk
 # Overlap that the engine leaves, so that contacts last [m]; Pymunk's own 0.1 is 10 cm in a metre
 # world.
 COLLISION_SLOP = 0.005
+# Overlap of small bodies at rest, as a share of the inner radius: 5 mm of a box of 10 cm.
+SLOP_SHARE = 0.1
 # Share of a deeper overlap that is left after a second: Pymunk's default, 0.9 after 1/60 s.
 COLLISION_BIAS = 0.9**60
 # An island sleeps when none of its bodies had more kinetic energy than at this speed [m/s]: a ball

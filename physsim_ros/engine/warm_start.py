@@ -198,7 +198,7 @@ def write_impulses(
 
     :param pm_space: its bodies where they were, and without velocities, which are spoiled
     :param shapes: in it, under the numbers that they had
-    :param dt: of its steps [s]
+    :param dt: of its sub-steps [s]
     """
     # A step in which nothing moves and nothing is pushed apart has the engine find the contacts.
     gravity, iterations, bias = pm_space.gravity, pm_space.iterations, pm_space.collision_bias

@@ -33,7 +33,10 @@ _KEYS = [each.name for each in fields(ImpulseCache)]
 
 def cache_entry(cache: ImpulseCache) -> dict[str, object]:
     """Return the entry of an impulse cache: numbers, and packed arrays."""
-    values = {key: getattr(cache, key) for key in _KEYS if key != 'pushes' or len(cache.pushes)}
+    values = {key: getattr(cache, key) for key in _KEYS}
+    for key in ('totals', 'pushes'):
+        if not len(values[key]):
+            del values[key]
     return {
         key: pack(value) if isinstance(value, np.ndarray) else value
         for key, value in values.items()
@@ -54,14 +57,13 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
     hashes = unpack(values.get('hashes'), 'hashes', np.uint64)
     impulses = unpack(values.get('impulses'), 'impulses', np.float64, 2)
     joints = unpack(values.get('joints'), 'joints', np.float64, 2)
-    # Older files have none.
-    pushes = (
-        unpack(values['pushes'], 'pushes', np.float64, 3)
-        if 'pushes' in values
-        else np.empty((0, 3))
+    # Older files have none of these.
+    totals, pushes = (
+        unpack(values[key], key, np.float64, width) if key in values else np.empty((0, width))
+        for key, width in (('totals', 2), ('pushes', 3))
     )
     # No other bound: the heaviest and fastest bodies make impulses of any size.
-    sound = all(bool(np.isfinite(each).all()) for each in (impulses, joints, pushes))
+    sound = all(bool(np.isfinite(each).all()) for each in (impulses, joints, totals, pushes))
     if not (len(pairs) == len(hashes) == len(impulses) and sound):
         raise BadProperty('memory is not what was saved', field='memory')
     scene = Scene(bodies=tuple(each.body for each in state.bodies), settings=state.settings)
@@ -86,6 +88,7 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
         hashes=hashes,
         impulses=impulses,
         joints=joints,
+        totals=totals,
         pushes=pushes,
     )
 

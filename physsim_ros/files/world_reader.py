@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
+from physsim_ros.engine.core import sub_step_of
 from physsim_ros.files.driven import driven_from
 from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import joints_from
@@ -152,7 +153,7 @@ def _body_state(
         state = replace(state, driven=driven_from(entry['driven'], body, physics_rate))
     if not saved:
         return state, False
-    lead = lead_of(body, wrench, settings.gravity, 1.0 / physics_rate)
+    lead = lead_of(body, wrench, settings.gravity, sub_step_of(physics_rate))
     resumed = _saved_state(state, entry, lead)
     if resumed is not None:
         return resumed, True
@@ -239,7 +240,7 @@ def _saved_state(state: BodyState, entry: Mapping[Any, Any], lead: Twist) -> Bod
     motion, pose = _motion(entry), _pose(entry)
     velocity = pair(entry.get('velocity', [0.0, 0.0]), 'velocity')
     twist = (*velocity, number(entry.get('spin', 0.0), 'spin'))
-    # In free flight the engine's velocity is half a step ahead of the reported one.
+    # In free flight the engine's velocity is half a sub-step ahead of the reported one.
     ahead = lead if motion.free else REST
     if state.body.anchored and any(twist):
         return None

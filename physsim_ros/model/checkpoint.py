@@ -28,7 +28,7 @@ class Motion(NamedTuple):
     The engine's state of a body, from which it continues to the bit.
 
     x, y [m], yaw [rad] of its centre of mass; vx, vy [m/s], spin [rad/s]; whether it is in free
-    flight, in which the engine's velocity leads the reported one by half a step.
+    flight, in which the engine's velocity leads the reported one by half a sub-step.
     """
 
     x: float
@@ -84,6 +84,7 @@ class WorldState:
 
 # The pushes of a world without a floor, in memory once.
 NO_PUSHES: Floats = np.empty((0, 3))
+NO_TOTALS: Floats = np.empty((0, 2))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -98,6 +99,8 @@ class ImpulseCache:
     :param hashes: (k,) uint64: feature ids of the contact points (Chipmunk: cpContact.hash)
     :param impulses: (k, 2) float64: normal and tangential, of the last step [N s]
     :param joints: (c, 2) float64: of the engine's constraints, joint by joint [N s, N m s]
+    :param totals: (c, 2) float64: impulses of the same in the last step, world axes; none if
+        unknown
     :param pushes: (k, 3) float64: changes of velocity [m/s] and spin [rad/s] by contacts and
         joints, of the bodies that a floor acts on
     """
@@ -109,6 +112,7 @@ class ImpulseCache:
     hashes: NDArray[np.uint64]
     impulses: Floats
     joints: Floats
+    totals: Floats = field(default_factory=lambda: NO_TOTALS)
     pushes: Floats = field(default_factory=lambda: NO_PUSHES)
 
 

@@ -88,7 +88,7 @@ class WorldSettings(Checked):
 
     :param gravity: [m/s²]
     :param damping: share of velocity lost each second, 0 .. 1
-    :param iterations: of the engine's solver in a step
+    :param iterations: of the engine's solver in a step, shared out among its sub-steps
     :param bounds: xmin, ymin, xmax, ymax of the walls around the world [m]; None is no walls
     :param density: of bodies by default [kg/m²]
     :param friction: coefficient of bodies by default
@@ -110,7 +110,7 @@ class WorldSettings(Checked):
 
     gravity: tuple[float, float] = (0.0, -9.81)
     damping: float = 0.0
-    iterations: int = 10
+    iterations: int = 16
     bounds: Bounds | None = None
     density: float = 1.0
     friction: float = 0.5

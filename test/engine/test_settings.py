@@ -111,7 +111,7 @@ def test_walls_are_made_of_the_default_material() -> None:
 
 @pytest.mark.parametrize(
     'changes',
-    [{'density': 2.0}, {'command_timeout': 2.0}, {'max_bodies': 99}, {'iterations': 10},
+    [{'density': 2.0}, {'command_timeout': 2.0}, {'max_bodies': 99}, {'iterations': 16},
      {'bounds': (-20.0, 0.0, 20.0, 40.0)}],
 )  # fmt: skip
 def test_a_stack_on_a_wall_does_not_stir_at_what_does_not_concern_it(

@@ -34,7 +34,7 @@ def test_the_defaults_are_those_of_the_contract() -> None:
     assert WorldSettings() == WorldSettings(
         gravity=(0.0, -9.81),
         damping=0.0,
-        iterations=10,
+        iterations=16,
         bounds=None,
         density=1.0,
         friction=0.5,

@@ -43,7 +43,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'world_dir': ('', 'read-only'),
     'physics_rate': (240.0, 'read-only'),
     'publish_rate': (60.0, 'read-only'),
-    'iterations': (10, 'live'),
+    'iterations': (16, 'live'),
     'speed': (1.0, 'live'),
     'fast_speed': (4.0, 'live'),
     'gravity': ([0.0, -9.81], 'live'),

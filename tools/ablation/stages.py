@@ -72,7 +72,7 @@ STAGES = (
     Stage('tight boxes', lib.STAGE_TIGHT_BOXES),
     Stage('false contacts', lib.STAGE_FALSE_CONTACTS),
     Stage('contact at impact', lib.STAGE_IMPACT),
-    Stage('contact projection', lib.STAGE_PROJECTION),
+    Stage('rest of the step', lib.STAGE_REST_OF_STEP),
     Stage('internal edges', lib.STAGE_EDGES),
     Stage('impact propagation', lib.STAGE_PROPAGATION),
     Stage('block solver', lib.STAGE_BLOCK_SOLVER),

@@ -50,6 +50,15 @@ def _load() -> Any:
     return library
 
 
+def sub_step_of(physics_rate: float) -> float:
+    """
+    Return the time of each of the equal parts in which a step is made [s].
+
+    :param physics_rate: steps a second [Hz]
+    """
+    return 1.0 / physics_rate / int(lib.SUB_STEPS)
+
+
 def dtype_of(struct: str) -> np.dtype[np.void]:
     """
     Return the type of NumPy that has the fields of a struct.

@@ -51,7 +51,9 @@ typedef struct Point {
     cpBody *a, *b;
     Vec normal;
     bool begins;
-    double added; // impulse that an impact next to it has given it in this step [N s]
+    double friction;
+    Vec slip;              // velocity of the surfaces
+    double added, added_t; // impulse that an impact next to it has given it in this step [N s]
 } Point;
 
 static bool moves(const cpBody *body) {
@@ -91,8 +93,8 @@ static int by_bodies(const void *one, const void *other) {
 // List the contacts that begin with an impact, by bodies.
 static int list_hits(World *world, Hit *hits) {
     int count = 0;
-    for (int number = 0; number < world->own->begun_count; number++) {
-        cpArbiter *each = world->own->begun[number].arbiter;
+    for (int number = 0; number < arbiter_count(world); number++) {
+        cpArbiter *each = arbiter_at(world, number);
         if (each->count > 0 && approach_of(each) > slowest_impact) {
             int a = moves(each->body_a) ? place_of(world, each->body_a) : world->body_count;
             int b = moves(each->body_b) ? place_of(world, each->body_b) : world->body_count;
@@ -206,12 +208,44 @@ static int list_points(const Island *island, Point *points) {
         for (int point = 0; point < each->count && (each->n.x != 0.0 || each->n.y != 0.0); point++) {
             bool begins = each->state == ARBITER_FIRST_COLLISION;
             cpContact *contact = each->contacts + point;
-            points[count++] =
-                (Point){contact, each->body_a, each->body_b, each->n, begins, begins ? contact->jnAcc : 0.0};
+            points[count++] = (Point){contact,
+                                      each->body_a,
+                                      each->body_b,
+                                      each->n,
+                                      begins,
+                                      each->u,
+                                      each->surface_vr,
+                                      begins ? contact->jnAcc : 0.0,
+                                      begins ? contact->jtAcc : 0.0};
         }
     }
     return count;
 }
+
+static void push(const Point *point, Vec impulse) {
+    Twist *a = &body_of(point->a)->without, *b = &body_of(point->b)->without;
+    a->v = sub(a->v, scaled(impulse, point->a->m_inv));
+    a->w -= cross(point->contact->r1, impulse) * point->a->i_inv;
+    b->v = add(b->v, scaled(impulse, point->b->m_inv));
+    b->w += cross(point->contact->r2, impulse) * point->b->i_inv;
+}
+
+// As `cpArbiterApplyImpulse`; returns the change of velocity
+static double improve(const Point *point) {
+    cpContact *contact = point->contact;
+    Twist a = body_of(point->a)->without, b = body_of(point->b)->without;
+    Vec v = add(sub(velocity_at(b, contact->r2), velocity_at(a, contact->r1)), point->slip),
+        tangent = perpendicular(point->normal);
+    double normal = contact->jnAcc, along = contact->jtAcc;
+    contact->jnAcc = greatest(normal - (contact->bounce + dot(v, point->normal)) * contact->nMass, 0.0);
+    double most = point->friction * contact->jnAcc;
+    contact->jtAcc = clamped(along - dot(v, tangent) * contact->tMass, -most, most);
+    double dn = contact->jnAcc - normal, dt = contact->jtAcc - along;
+    push(point, add(scaled(point->normal, dn), scaled(tangent, dt)));
+    return greatest(fabs(dn) / contact->nMass, fabs(dt) / contact->tMass);
+}
+
+enum { ROUNDS = 200 };
 
 // Set the normal impulses of an island, and add those of contacts that begin to velocities.
 static void solve(const World *world, const Island *island) {
@@ -227,15 +261,38 @@ static void solve(const World *world, const Island *island) {
             rates[row] -= matrix[row][column] * points[column].added;
         }
     }
-    if (count == 0 || !solve_lcp(count, matrix, rates, impulses)) {
+    if (count == 0) {
         return;
+    }
+    bool solved = solve_lcp(count, matrix, rates, impulses);
+    for (int row = 0; row < count; row++) {
+        Point *point = points + row;
+        body_of(point->a)->without = free_twist(world, point->a);
+        body_of(point->b)->without = free_twist(world, point->b);
+        if (solved) {
+            point->contact->jnAcc = impulses[row];
+        }
     }
     for (int row = 0; row < count; row++) {
         Point *point = points + row;
-        point->contact->jnAcc = impulses[row];
+        push(point, add(scaled(point->normal, point->contact->jnAcc - point->added),
+                        scaled(perpendicular(point->normal), point->contact->jtAcc - point->added_t)));
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        double most = 0.0;
+        for (int row = 0; row < count; row++) {
+            most = greatest(most, improve(points + row));
+        }
+        if (most < 1e-12) {
+            break;
+        }
+    }
+    for (int row = 0; row < count; row++) {
+        Point *point = points + row;
         // Chipmunk applies that of other contacts itself (`cpArbiterApplyCachedImpulse`).
         if (point->begins) {
-            Vec impulse = scaled(point->normal, impulses[row] - point->added);
+            Vec impulse = add(scaled(point->normal, point->contact->jnAcc - point->added),
+                              scaled(perpendicular(point->normal), point->contact->jtAcc - point->added_t));
             apply(world, point->a, negated(impulse), point->contact->r1);
             apply(world, point->b, impulse, point->contact->r2);
         }
@@ -253,7 +310,7 @@ static void solve_impact(const World *world, const Hit *impact, int count, Hit *
         }
     }
     add_neighbours(&island, impact, count);
-    if (!island.too_many && island.points > 1) {
+    if (!island.too_many) {
         solve(world, &island);
         for (int number = 0; number < hit_count; number++) {
             hits[number].done = hits[number].done || is_among(&island, hits[number].contact);
@@ -265,7 +322,7 @@ void solve_impacts(World *world) {
     if (!has_stage(world, STAGE_BLOCK_SOLVER) || world->own->kept == 0.0) {
         return;
     }
-    Hit *hits = TAKE(&world->own->arena, Hit, world->own->begun_count);
+    Hit *hits = TAKE(&world->own->arena, Hit, arbiter_count(world));
     int count = list_hits(world, hits), last = 0;
     for (int first = 0; first < count; first = last) {
         for (last = first; last < count && hits[last].a == hits[first].a && hits[last].b == hits[first].b; last++) {

@@ -198,7 +198,6 @@ static void read_sleeping(World *world, Report *report) {
 void report_contacts(World *world) {
     Report *report = report_of(world);
     report->stamp++;
-    world->frame_steps++;
     if (!report->follows) {
         read_sleeping(world, report);
     }

@@ -16,14 +16,9 @@
 
 #include "impact_islands.h"
 #include "stages.h"
-#include "work_correction.h"
 
 // Up to this many fast bodies, boxes are compared first: it saves time, and changes no result.
 enum { FEW = 8 };
-
-static bool is_solid(const Body *body) {
-    return !body->anchored && !body->sensor;
-}
 
 // Whether a body could meet others in a step unseen by Chipmunk.
 static bool is_fast(const World *world, const Body *body) {
@@ -31,23 +26,9 @@ static bool is_fast(const World *world, const Body *body) {
     return is_solid(body) && way * world->dt > world->own->least_depth;
 }
 
-static Mover mover_of(const World *world, Body *body) {
-    Twist twist = twist_of(body->engine);
-    Mover mover = {.body = body,
-                   .movable = body->dynamic,
-                   .pose = pose_of(body->engine),
-                   .pivot = body->engine->p,
-                   .depth = body->safe_depth,
-                   .turning = body->turning_radius,
-                   .corners = body->corners,
-                   .horizon = 1.0,
-                   .island = -1,
-                   .next = -1,
-                   .leader = -1};
-    // A turning disc covers the same ground.
-    mover.rate = (Twist){scaled(twist.v, world->dt), mover.turning > 0.0 ? twist.w * world->dt : 0.0};
-    fit_box(&mover);
-    return mover;
+// The way of a body in the coming step.
+static Twist way_of(const World *world, const Body *body) {
+    return twist_sum((Twist){0}, twist_of(body->engine), world->dt);
 }
 
 static bool stop(int number, void *data) {
@@ -62,7 +43,7 @@ static bool boxes_meet(World *world, const Statics *statics) {
     int count = 0;
     for (int place = 0; place < world->body_count; place++) {
         if (is_fast(world, world->bodies + place)) {
-            fast[count++] = mover_of(world, world->bodies + place);
+            fast[count++] = mover_of(world->bodies + place, way_of(world, world->bodies + place));
         }
     }
     bool meet = false;
@@ -72,7 +53,7 @@ static bool boxes_meet(World *world, const Statics *statics) {
     for (int place = 0; place < world->body_count && !meet; place++) {
         Body *body = world->bodies + place;
         if (is_solid(body)) {
-            Box box = mover_of(world, body).box;
+            Box box = mover_of(body, way_of(world, body)).box;
             for (int number = 0; number < count; number++) {
                 meet = meet || (fast[number].body != body && overlap(fast[number].box, box));
             }
@@ -81,37 +62,17 @@ static bool boxes_meet(World *world, const Statics *statics) {
     return meet;
 }
 
-static Sweep sweep_of(World *world, const Statics *statics) {
-    Arena *arena = &world->own->arena;
-    Sweep sweep = {.world = world, .statics = statics, .movers = TAKE(arena, Mover, world->body_count)};
-    sweep.followed = TAKE(arena, bool, world->body_count);
-    Box *boxes = TAKE(arena, Box, world->body_count);
-    for (int place = 0; place < world->body_count; place++) {
-        if (is_solid(world->bodies + place)) {
-            Mover mover = mover_of(world, world->bodies + place);
-            mover.island = sweep.count;
-            boxes[sweep.count] = mover.box;
-            sweep.movers[sweep.count++] = mover;
-        }
-    }
-    sweep.tree = tree_of(boxes, sweep.count, arena);
-    return sweep;
-}
-
 // Set a body back, so that Chipmunk moves it to its first impact and no further.
 static void set_back(World *world, const Mover *mover) {
     cpBody *engine = mover->body->engine;
-    Vec pivot, way = scaled(engine->v, world->dt);
+    Vec pivot;
     Pose end = pose_at(mover, 1.0, &pivot), free_end = moved(pose_of(engine), twist_of(engine), world->dt);
+    mover->body->left = mover->body->joined || !mover->body->dynamic ? 0.0 : (1.0 - mover->since) * world->dt;
+    mover->body->carried = (Twist){sub(end.p, mover->pose.p), end.yaw - mover->pose.yaw};
     Vec shift = sub(end.p, free_end.p);
     double turn = mover->turning > 0.0 ? end.yaw - free_end.yaw : 0.0;
     if (mover->body->engine->sleeping_root != NULL) {
         world->chipmunk.body_activate(engine);
-    }
-    // Correct only a body's own motion, not motion imparted by another body.
-    double share = clamped(-dot(way, shift) / greatest(dot(way, way), 1e-300), 0.0, 1.0);
-    if (!(mover->body->joined && mover->body->dynamic)) {
-        set_twist(engine, corrected_twist(world, engine, scaled(way, -share)));
     }
     set_pose(engine, (Pose){add(engine->p, shift), engine->a + turn});
 }
@@ -131,7 +92,7 @@ void clamp_moves(World *world) {
     size_t mark = arena_mark(arena);
     const Statics *statics = statics_of(world);
     if (fast > FEW || boxes_meet(world, statics)) {
-        Sweep sweep = sweep_of(world, statics);
+        Sweep sweep = sweep_of(world, way_of);
         int *changed = TAKE(arena, int, sweep.count), count = 0;
         for (int number = 0; number < sweep.count; number++) {
             if (is_fast(world, sweep.movers[number].body)) {

@@ -45,6 +45,7 @@ typedef struct Body {
     double reach;          // greatest distance of a point of it from the centre of mass [m]
     double half_width;     // of its thinnest piece [m]
     double safe_depth;     // how far it may be entered in a step unseen [m]
+    double slop;           // how far it may overlap others at rest [m]
     double turning_radius; // how far out its turning counts for continuous collision [m]
     double corners;        // of its pieces, the cost of continuous collision
     double pieces;         // count of its pieces
@@ -66,6 +67,10 @@ typedef struct Body {
     Twist twist;     // with which Chipmunk begins
     Twist under;     // mean velocity of the floor under it
     Twist without;   // velocity that it would have after the step without contacts, on a floor
+    double left;     // of the step after continuous collision has stopped it [s]
+    Twist carried;   // way with what has stopped it, in that time [m, rad]
+    double since;    // its first impact, until it was stopped or the step ended [s]
+    uint8_t parts;   // its impact lets it fly
 } Body;
 
 // A grip of a hand on a body; Box2D's mouse joint.
@@ -105,16 +110,19 @@ enum {
     ROW_ANGLE,    // ratio yaw_b - yaw_a [rad]
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
-    ROW_ALONG     // way of the first anchor along that axis [m]
+    ROW_ALONG,    // way of the first anchor along that axis [m]
+    ROW_SPRING    // distance of the two anchors, as a spring and its damper give it [m]
 };
 
-// A constraint row: lower <= x <= upper, both the same for an equality.
+// A constraint row: lower <= x <= upper, both the same for an equality; a spring has its rest length in both.
 typedef struct Row {
     int32_t kind;
     int32_t part, component; // which impulse of which constraint is that of the row
     double lower, upper;     // [m, rad]
     double below, above;     // λ by that impulse, where x is below its bounds, and where it is not
     double most;             // greatest absolute value of λ in a step [N s, N m s]
+    double stiffness;        // of a spring [N/m]
+    double damping;          // of a spring, with what its stiffness adds to it [N s/m]
 } Row;
 
 // Kinds of constraints of Chipmunk.
@@ -124,6 +132,7 @@ enum { PART_PIVOT, PART_PIN, PART_SLIDE, PART_GEAR, PART_ROTARY_LIMIT, PART_MOTO
 typedef struct Part {
     int32_t kind;
     cpConstraint *constraint;
+    cpVect total; // impulse on the second body of the joint in the last step, world axes; of a torque, the first number
 } Part;
 
 // A joint; its parts follow one another, and so do its rows.
@@ -161,13 +170,15 @@ enum {
     STAGE_TIGHT_BOXES = 32,
     STAGE_FALSE_CONTACTS = 64,
     STAGE_IMPACT = 128,
-    STAGE_PROJECTION = 256,
+    STAGE_REST_OF_STEP = 256,
     STAGE_EDGES = 512,
     STAGE_PROPAGATION = 1024,
     STAGE_BLOCK_SOLVER = 2048,
     STAGE_JOINTS = 4096,
     STAGE_ALL = 8191
 };
+
+enum { SUB_STEPS = 4 };
 
 // A pair of bodies that touched during a frame; -1, always second, is the background.
 typedef struct Contact {

@@ -91,7 +91,7 @@ void reckon_odometry(World *world) {
         Vec way = scaled(robot->mean.v, world->dt), told = way;
         double turn = body->engine->a - body->begin.yaw, drift = 0.0, distance = length(way);
         if (robot->noise != NULL) {
-            const cpVect noise = robot->noise[world->own->call_step];
+            const cpVect noise = scaled(robot->noise[world->own->call_step], 1.0 / sqrt(SUB_STEPS));
             double share = distance > 0.0 ? 1.0 + noise.x * robot->slip[0] / sqrt(distance) : 1.0;
             told = scaled(way, share);
             drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));

@@ -6,11 +6,10 @@
 // Problem: Chipmunk finds a contact where the step ends, up to a safe depth inside. Until then the line of centres of
 // two discs has turned, by v dt / (2 r) at most; a disc that hits a corner has come past it; a body that slides over
 // the seam of two tiles has gone less far past the side of the next one than it lies below its top ("ghost collision":
-// Catto, "Ghost Collisions", box2d.org 2020); the position bias takes many steps to push out what has been overshot.
-// And its GJK
-// (`GJKRecurse` in `src/cpCollision.c`) tests with rounded numbers whether the origin is in a triangle: one pair in ten
-// thousand of polygons that face each other exactly is said to have entered each other from the far sides, though they
-// are apart.
+// Catto, "Ghost Collisions", box2d.org 2020).
+// And its GJK (`GJKRecurse` in `src/cpCollision.c`) tests with rounded numbers whether the origin is in a triangle: one
+// pair in ten thousand of polygons that face each other exactly is said to have entered each other from the far sides,
+// though they are apart.
 //
 // Method: between Chipmunk's narrow phase and its solver, for all contacts that begin,
 //
@@ -20,14 +19,13 @@
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc first meets the
 //    other shape.
 // 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over.
-// 4. Projection (`touch_projection.c`): the overlap beyond the slop is taken back along the normal.
-// 5. What `cpArbiterPreStep` had made of the old contacts is made anew.
+// 4. What `cpArbiterPreStep` had made of the old contacts is made anew.
 //
 // Cost: 0.3 µs a contact that begins.
 //
 // Without part 1 law 3 (head-on impacts of squares) fails; without part 2 laws 6 (discs part along the normal of their
 // impact) and 35 (a fast bar hits all discs); without part 3 a body stumbles over seams
-// (`test/engine/stages/test_internal_edges.py`); without part 4 law 7 (penetration). Part 1 can go when GJK is exact.
+// (`test/engine/stages/test_internal_edges.py`). Part 1 can go when GJK is exact.
 
 #include "stages.h"
 #include "touch_stages.h"
@@ -75,14 +73,15 @@ static Vec middle_of(const cpShape *shape) {
 }
 
 // Whether a face separates two shapes, and their normal is turned.
-static bool is_false(const Touch *touch) {
-    if (kind_of(touch->shapes[0]) == SHAPE_CIRCLE || kind_of(touch->shapes[1]) == SHAPE_CIRCLE ||
-        dot(sub(middle_of(touch->shapes[1]), middle_of(touch->shapes[0])), touch->normal) >= 0.0) {
+static bool is_false(cpArbiter *arbiter) {
+    if (kind_of(arbiter->a) == SHAPE_CIRCLE || kind_of(arbiter->b) == SHAPE_CIRCLE ||
+        dot(sub(middle_of(arbiter->b), middle_of(arbiter->a)), arbiter->n) >= 0.0) {
         return false;
     }
+    Touch touch = touch_of(arbiter);
     for (int side = 0; side < 2; side++) {
-        for (int face = 0; face < corner_count(touch->shapes[side]); face++) {
-            if (face_depth(touch, side, face) < 0.0) {
+        for (int face = 0; face < corner_count(touch.shapes[side]); face++) {
+            if (face_depth(&touch, side, face) < 0.0) {
                 return true;
             }
         }
@@ -96,20 +95,26 @@ static void ignore(cpArbiter *arbiter) {
     arbiter->count = 0;
 }
 
-void prepare_contact(const World *world, cpArbiter *arbiter) {
+// The velocity at which an overlap is pushed out; Chipmunk has one slop for bodies of all sizes.
+static void set_bias(const cpArbiter *arbiter, double push) {
+    for (int number = 0; number < arbiter->count; number++) {
+        cpContact *point = arbiter->contacts + number;
+        Vec apart = sub(add(arbiter->body_b->p, point->r2), add(arbiter->body_a->p, point->r1));
+        point->bias = -push * least(dot(apart, arbiter->n) + slop_of(arbiter), 0.0);
+        point->jBias = 0.0;
+    }
+}
+
+void prepare_contact(cpArbiter *arbiter) {
     const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
-    const cpSpace *space = world->space;
     Vec normal = arbiter->n, tangent = perpendicular(normal);
-    double push = (1.0 - pow(space->collisionBias, world->dt)) / world->dt, mass = a->m_inv + b->m_inv;
+    double mass = a->m_inv + b->m_inv;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
         double an = cross(point->r1, normal), bn = cross(point->r2, normal);
         double at = cross(point->r1, tangent), bt = cross(point->r2, tangent);
         point->nMass = 1.0 / (mass + a->i_inv * an * an + b->i_inv * bn * bn);
         point->tMass = 1.0 / (mass + a->i_inv * at * at + b->i_inv * bt * bt);
-        Vec apart = sub(add(b->p, point->r2), add(a->p, point->r1));
-        point->bias = -push * least(dot(apart, normal) + space->collisionSlop, 0.0);
-        point->jBias = 0.0;
         Vec parting = sub(velocity_at(twist_of(b), point->r2), velocity_at(twist_of(a), point->r1));
         point->bounce = dot(parting, normal) * arbiter->e;
     }
@@ -121,16 +126,12 @@ void correct_first_touches(World *world) {
     int count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (!begins(arbiter)) {
-            continue;
-        }
-        arbiter->data = NULL;
-        arbiter->state = ARBITER_FIRST_COLLISION;
-        Touch touch = touch_of(arbiter);
-        if (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(&touch)) {
+        if (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter)) {
             ignore(arbiter);
-        } else {
-            touches[count++] = touch;
+        } else if (begins(arbiter)) {
+            arbiter->data = NULL;
+            arbiter->state = ARBITER_FIRST_COLLISION;
+            touches[count++] = touch_of(arbiter);
         }
     }
     for (int number = 0; number < count; number++) {
@@ -138,21 +139,18 @@ void correct_first_touches(World *world) {
             move_to_impact(world, touches + number);
         }
         if (has_stage(world, STAGE_EDGES)) {
-            slide_over_edge(world, touches + number);
+            slide_over_edge(touches + number);
         }
         write_touch(touches + number);
     }
     world->own->begun = touches;
     world->own->begun_count = count;
-    bool *moved = TAKE(arena, bool, world->body_count);
-    if (has_stage(world, STAGE_PROJECTION)) {
-        project_touches(world, touches, count, moved);
-    }
+    double push = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (arbiter->state == ARBITER_FIRST_COLLISION || moved[place_of(world, arbiter->body_a)] ||
-            moved[place_of(world, arbiter->body_b)]) {
-            prepare_contact(world, arbiter);
+        if (arbiter->state == ARBITER_FIRST_COLLISION) {
+            prepare_contact(arbiter);
         }
+        set_bias(arbiter, push);
     }
 }

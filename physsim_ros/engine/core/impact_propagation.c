@@ -118,8 +118,8 @@ static int find_weaker(World *world, const double *impacts, Weaker *found) {
         int a = place_of(world, each->body_a), b = place_of(world, each->body_b);
         double approach = approach_of(each);
         double impact = is_grazing(each) ? 2.0 * approach : greatest(impacts[a], impacts[b]);
-        // One that is deeper than a step of the impact takes it is solved with the others.
-        double deepest = world->space->collisionSlop + impact * world->dt;
+        // One that is deeper than two steps of the impact take it is solved with the others.
+        double deepest = slop_of(each) + 2.0 * impact * world->dt;
         if (approach < alike * impact && depth_of(each) < deepest) {
             bool first = each->body_a->m_inv > 0.0;
             found[count++] = (Weaker){first ? each->body_a : each->body_b, first ? each->body_b : each->body_a,

@@ -52,6 +52,7 @@ static void add_contact(World *world, Touches *touches, const cpArbiter *arbiter
                                                     .a = place_of(world, arbiter->body_a),
                                                     .b = place_of(world, arbiter->body_b),
                                                     .shapes = {arbiter->a->hashid, arbiter->b->hashid},
+                                                    .slop = slop_of(arbiter),
                                                     .arm_a = point->r1,
                                                     .arm_b = point->r2,
                                                     .normal = arbiter->n,

@@ -14,6 +14,7 @@ typedef struct Bearing {
     uintptr_t shapes[2];
     Vec arm_a, arm_b, normal; // world axes [m]; the normal leads from the first to the second body
     double friction;
+    double slop;  // overlap that stays [m]
     double slide; // velocity across the normal of the surfaces against their bodies [m/s]
 } Bearing;
 

@@ -90,8 +90,7 @@ void core_write_impulses(World *world, const cpVect *impulses) {
 static double greatest_impulse(const World *world, const Joint *joint) {
     double most = 0.0;
     for (int number = 0; number < joint->part_count; number++) {
-        // That of a spring is negative where it pulls.
-        most = greatest(most, length(impulse_of(world->parts + joint->first_part + number)));
+        most = greatest(most, length(world->parts[joint->first_part + number].total));
     }
     return most;
 }
@@ -124,32 +123,49 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     return 2.0 * way < limit->min + limit->max ? axis : negated(axis);
 }
 
-// The linear impulse of a joint on its second body [N s]. Chipmunk keeps that of a pivot as a vector, that of a rod, a
-// rope, a spring or a limit as a number along the line from one anchor to the other.
-static Vec pull_of(const World *world, const Joint *joint) {
-    Vec pull = {0.0, 0.0};
-    for (int number = 0; number < joint->part_count; number++) {
-        const Part *part = world->parts + joint->first_part + number;
-        Vec impulse = impulse_of(part);
-        if (part->kind == PART_PIVOT) {
-            pull = add(pull, impulse);
-        } else if (part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING) {
-            // The anchors of these three lie in the same place.
-            const cpPinJoint *axial = (cpPinJoint *)part->constraint;
-            Vec line = joint->has_axis ? by_axis(world, joint, part)
-                                       : between(part->constraint, axial->anchorA, axial->anchorB);
-            pull = add(pull, scaled(line, impulse.x));
+// Whether a part acts along the line from one anchor to the other: that of a rod, a rope, a spring or a limit.
+static bool is_axial(const Part *part) {
+    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING;
+}
+
+// The impulse of a part on the second body of its joint; of one that acts on the turn of the bodies, the first number.
+static Vec pull_of(const World *world, const Joint *joint, const Part *part) {
+    Vec impulse = impulse_of(part);
+    if (!is_axial(part)) {
+        return impulse;
+    }
+    // The anchors of all three kinds lie in the same place.
+    const cpPinJoint *axial = (cpPinJoint *)part->constraint;
+    Vec line =
+        joint->has_axis ? by_axis(world, joint, part) : between(part->constraint, axial->anchorA, axial->anchorB);
+    return scaled(line, impulse.x);
+}
+
+void begin_totals(World *world) {
+    for (int number = 0; number < world->part_count; number++) {
+        world->parts[number].total = vec(0.0, 0.0);
+    }
+}
+
+void add_totals(World *world) {
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        for (Part *part = world->parts + joint->first_part, *end = part + joint->part_count; part < end; part++) {
+            part->total = add(part->total, pull_of(world, joint, part));
         }
     }
-    return pull;
 }
 
 void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8_t *pressing) {
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
         impulses[number] = greatest_impulse(world, joint);
-        pulls[number] = pull_of(world, joint);
         const Part *first = world->parts + joint->first_part;
+        pulls[number] = vec(0.0, 0.0);
+        for (const Part *part = first; part < first + joint->part_count; part++) {
+            bool is_linear = part->kind == PART_PIVOT || is_axial(part);
+            pulls[number] = is_linear ? add(pulls[number], part->total) : pulls[number];
+        }
         pressing[number] = joint->presses && joint->part_count > 0 && *impulse_at(first, 0) > 0.0;
     }
 }

@@ -120,7 +120,7 @@ static Displacement begin(Solve *solve) {
         const Bearing *touch = island->touches + number;
         Ends ends = island->ends[island->joint_row_count + number];
         Vec a = add(move.start[ends.a].p, touch->arm_a), b = add(move.start[ends.b].p, touch->arm_b);
-        double apart = dot(sub(b, a), touch->normal) + space->collisionSlop;
+        double apart = dot(sub(b, a), touch->normal) + touch->slop;
         move.apart[number] = apart - least(apart, 0.0) * stays;
     }
     return move;
@@ -177,7 +177,7 @@ static Solution newton_step(Solve *solve, const Displacement *move) {
         }
         solution.sides[row] = side_of(move->impulses[row], lower[row], upper[row]);
     }
-    Problem problem = {move->jacobians, wanted, lower, upper, soft};
+    Problem problem = {move->jacobians, wanted, lower, upper, soft, NULL};
     solve_problem(&solve->system, &problem, &solution, arena);
     return solution;
 }

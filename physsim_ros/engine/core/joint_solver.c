@@ -46,10 +46,12 @@ static Solve begin(World *world, const Island *island) {
     solve.excess = TAKE(arena, double, island->joint_row_count);
     solve.jacobians = TAKE(arena, Jacobian, island->row_count);
     solve.holds = TAKE(arena, bool, island->joint_row_count);
+    solve.springs = TAKE(arena, bool, island->row_count);
     solve.system =
         system_of(arena, island->body_count, island->inverses, island->row_count, island->ends, island->groups);
     for (int row = 0; row < island->joint_row_count; row++) {
-        solve.holds[row] = true;
+        solve.holds[row] = island->rows[row]->kind != ROW_SPRING;
+        solve.springs[row] = !solve.holds[row];
     }
     read_rows(island, island->poses, solve.excess, solve.jacobians);
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
@@ -62,16 +64,27 @@ static Solve begin(World *world, const Island *island) {
     return solve;
 }
 
+// Whether springs and dampers alone join an island: sleeping.c finds whether it rests.
+static bool of_springs(const Island *island) {
+    for (int row = 0; row < island->joint_row_count; row++) {
+        if (island->rows[row]->kind != ROW_SPRING) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static void solve_island(World *world, const Island *island) {
     size_t mark = arena_mark(&world->own->arena);
     Solve solve = begin(world, island);
     solve_velocities(&solve);
     solve_positions(&solve);
+    bool may_sleep = of_springs(island);
     for (int body = 0; body < island->body_count; body++) {
         if (island->inverses[body].mass > 0.0) {
             set_pose(island->engine[body], island->poses[body]);
             // A slow swing would fall asleep at its turn.
-            island->engine[body]->idle_time = 0.0;
+            island->engine[body]->idle_time = may_sleep ? island->engine[body]->idle_time : 0.0;
         }
     }
     arena_release(&world->own->arena, mark);

@@ -18,6 +18,7 @@ typedef struct Solve {
     double *excess;      // (joint_row_count): C [m, rad]
     Jacobian *jacobians; // (row_count): where the step of Chipmunk ends
     bool *holds;         // (joint_row_count): rows of joints that have not reached their greatest force
+    bool *springs;       // (row_count)
 } Solve;
 
 // Read the rows of joints at some poses: C, and J as the first of `jacobians`.
@@ -30,11 +31,11 @@ static inline double sign_of(const Row *row, double excess) {
 
 // Bounds of λ of a row of a joint, without its greatest force.
 static inline double lower_bound(const Row *row, bool holds, double excess) {
-    return holds && (row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
+    return row->kind == ROW_SPRING || (holds && (row->lower == row->upper || excess > 0.0)) ? -INFINITY : 0.0;
 }
 
 static inline double upper_bound(const Row *row, bool holds, double excess) {
-    return holds && (row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
+    return row->kind == ROW_SPRING || (holds && (row->lower == row->upper || excess < 0.0)) ? INFINITY : 0.0;
 }
 
 // The side of a row by a guess of λ.

@@ -23,6 +23,10 @@ static const double softness = 1e-6;
 // side then have none.
 enum { ROUNDS = 30, FRICTION_ROUNDS = 10 };
 
+// Springs with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the impulse
+// of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the damper;
+// Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
+
 // The rows of an island in velocities.
 typedef struct Impact {
     Problem problem;
@@ -31,6 +35,17 @@ typedef struct Impact {
     double *given;                  // (row_count): λ of Chipmunk
     double *bounce;                 // (touch_count): least velocity along the normal that Chipmunk seeks [m/s]
 } Impact;
+
+static double softness_of(const Solve *solve, int row) {
+    const Row *of_joint = solve->island->rows[row];
+    if (of_joint->kind != ROW_SPRING) {
+        return softness;
+    }
+    Ends ends = solve->island->ends[row];
+    const Inverse *inverses = solve->island->inverses;
+    double own = inverse_effective_mass(solve->jacobians[row], inverses[ends.a], inverses[ends.b]);
+    return 1.0 / (solve->dt * of_joint->damping * own);
+}
 
 static Impact begin(Solve *solve, const Twist *without) {
     const Island *island = solve->island;
@@ -42,13 +57,13 @@ static Impact begin(Solve *solve, const Twist *without) {
                      .bounce = TAKE(arena, double, island->touch_count)};
     double *soft = TAKE(arena, double, island->row_count);
     for (int row = 0; row < island->row_count; row++) {
-        soft[row] = softness;
+        soft[row] = row < island->joint_row_count ? softness_of(solve, row) : softness;
         impact.rates[row] = rate(solve->jacobians[row], island->ends[row], without);
     }
     for (int number = 0; number < island->touch_count; number++) {
         impact.bounce[number] = -island->touches[number].point->bounce;
     }
-    impact.problem = (Problem){solve->jacobians, impact.wanted, impact.lower, impact.upper, soft};
+    impact.problem = (Problem){solve->jacobians, impact.wanted, impact.lower, impact.upper, soft, solve->springs};
     return impact;
 }
 
@@ -120,6 +135,9 @@ static Solution solve_impact(Solve *solve, Impact *impact, const double *bounce)
         impact->upper[row] = row >= normal && row < tangent ? INFINITY : 0.0;
         if (row < normal) {
             const Row *of_joint = island->rows[row];
+            if (of_joint->kind == ROW_SPRING) {
+                impact->wanted[row] -= of_joint->stiffness * solve->excess[row] / of_joint->damping;
+            }
             impact->lower[row] = greatest(lower_bound(of_joint, true, solve->excess[row]), -of_joint->most);
             impact->upper[row] = least(upper_bound(of_joint, true, solve->excess[row]), of_joint->most);
         }
@@ -147,7 +165,8 @@ static double work_of(const Solve *solve, const Impact *impact, const Solution *
         if (row >= normal && row < tangent && impact->bounce[row - normal] > 0.0) {
             before = least(before, -impact->bounce[row - normal]);
         }
-        work += solution->impulses[row] * (before + after) / 2.0;
+        // A spring gives back what it has taken.
+        work += row < normal && solve->springs[row] ? 0.0 : solution->impulses[row] * (before + after) / 2.0;
     }
     return work;
 }
@@ -219,7 +238,7 @@ static void bend(Solve *solve, Solution *solution, Twist *velocities) {
     read_rows(island, halfway, excess, jacobians);
     for (int row = 0; row < normal; row++) {
         Ends ends = island->ends[row];
-        if (island->rows[row]->lower == island->rows[row]->upper && solution->sides[row] == 0) {
+        if (is_equality(island->rows[row]) && solution->sides[row] == 0) {
             wanted[row] = rate(solve->jacobians[row], ends, velocities) - rate(jacobians[row], ends, velocities);
         }
     }
@@ -246,11 +265,11 @@ static void write_impulses(Solve *solve, const Solution *solution) {
     }
 }
 
-// A joint of which an equality has reached its greatest force does not hold.
+// A joint of which a row has reached its greatest force does not hold.
 static void find_yielded(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
     for (int row = 0; row < island->joint_row_count; row++) {
-        if (island->rows[row]->lower == island->rows[row]->upper && solution->sides[row] != 0) {
+        if (fabs(solution->impulses[row]) >= island->rows[row]->most) {
             for (int other = 0; other < island->joint_row_count; other++) {
                 if (island->joint_of_row[other] == island->joint_of_row[row]) {
                     solve->holds[other] = false;

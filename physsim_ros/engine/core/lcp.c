@@ -19,7 +19,7 @@ static const double rounding = 1e-8;
 // Greatest λ in units of the effective masses, as a multiple of the greatest rate. A single point has 1, a body on
 // another of an eighth of its mass 9. A problem that no λ solves exceeds it, as that of a body wedged between two that
 // do not move.
-static const double greatest_impulse = 10.0;
+static const double greatest_impulse = 1e6;
 // Greatest count of exchanges: nearly all impacts take one or two, and at most five were seen.
 enum { EXCHANGES = 10 };
 

@@ -336,7 +336,13 @@ void refine(System *system, const Problem *problem, Solution *solution, Arena *a
     double *left = TAKE(arena, double, system->row_count), *impulses = TAKE(arena, double, system->row_count);
     Twist *changes = TAKE(arena, Twist, system->body_count);
     for (int row = 0; row < system->row_count; row++) {
-        left[row] = problem->wanted[row] - rate(problem->jacobians[row], system->ends[row], solution->changes);
+        Ends ends = system->ends[row];
+        left[row] = problem->wanted[row] - rate(problem->jacobians[row], ends, solution->changes);
+        if (problem->springs != NULL && problem->springs[row]) {
+            const Inverse *inverses = system->inverses;
+            double own = inverse_effective_mass(problem->jacobians[row], inverses[ends.a], inverses[ends.b]);
+            left[row] -= problem->softness[row] * own * solution->impulses[row];
+        }
     }
     solve_active(system, solution->sides, left, impulses, changes);
     for (int row = 0; row < system->row_count; row++) {

@@ -15,6 +15,8 @@
 // A body on a spring that accelerates by no more than this is at rest [m/s², rad/s²]: one that swings in 40 s is then
 // within 1 mm of where it rests.
 static const double rest_acceleration = 2.5e-5;
+// One that sinks on a damper by no more than this is at rest [m/s, rad/s]: 1 mm in 100 s.
+static const double rest_speed = 1e-5;
 
 static double most_of(Twist twist) {
     return greatest(fabs(twist.v.x), greatest(fabs(twist.v.y), fabs(twist.w)));
@@ -29,7 +31,8 @@ static bool moves_on(const World *world, const Body *body) {
         return false;
     }
     double change = most_of(twist_sum(now, body->twist, -1.0));
-    return (body->free && most_of(now) > 0.0) || (body->on_spring && change > rest_acceleration * world->dt);
+    bool drifts = change > rest_acceleration * world->dt || most_of(now) > rest_speed;
+    return (body->free && most_of(now) > 0.0) || (body->on_spring && drifts);
 }
 
 void keep_awake(World *world) {

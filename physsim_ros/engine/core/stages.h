@@ -25,6 +25,7 @@ void reckon_odometry(World *world);
 
 // Fast bodies end their step where they first hit something (`continuous.c`), and keep small boxes (`tight_boxes.c`).
 void clamp_moves(World *world);
+void finish_moves(World *world);
 void tighten_boxes(World *world);
 
 // Constraints are put where the step needs them (`joint_parts.c`).
@@ -33,11 +34,16 @@ void prepare_parts(World *world);
 // Between narrow phase and solver: contacts that begin (`first_touch.c`), contacts next to an impact
 // (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);
+void keep_loads(World *world);
+void restore_loads(World *world);
 void defer_contacts(World *world);
 void solve_impacts(World *world);
+void time_impacts(World *world);
 
 // Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
 void solve_joints(World *world);
+void begin_totals(World *world);
+void add_totals(World *world);
 void find_broken(World *world);
 
 // Which bodies the step only accelerated (`half_step.c`), and which do not fall asleep (`sleeping.c`).

@@ -13,6 +13,9 @@ static void begin_bodies(World *world) {
         Body *body = world->bodies + place;
         body->begin = pose_of(body->engine);
         body->twist = twist_of(body->engine);
+        body->carried = (Twist){0};
+        body->left = body->since = 0.0;
+        body->parts = false;
     }
 }
 
@@ -44,6 +47,8 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
     correct_first_touches(world);
+    keep_loads(world);
+    time_impacts(world);
     defer_contacts(world);
     solve_impacts(world);
 }
@@ -53,7 +58,6 @@ static void step(World *world) {
     begin_half_step(world);
     begin_bodies(world);
     pull_grips(world);
-    damp_resting(world);
     pull_by_floor(world);
     clamp_moves(world);
     tighten_boxes(world);
@@ -63,25 +67,34 @@ static void step(World *world) {
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
     solve_joints(world);
+    add_totals(world);
+    finish_moves(world);
     find_pushes(world);
     find_free(world);
     keep_awake(world);
-    find_broken(world);
-    find_lost(world);
     if (world->reports_contacts) {
         report_contacts(world);
     } else {
         forget_contacts(world);
     }
-    world->step++;
-    world->age++;
+    restore_loads(world);
 }
 
 int32_t core_step(World *world, int32_t count) {
     world->own->kept = pow(world->space->damping, world->dt);
     for (int number = 0; number < count; number++) {
         world->own->call_step = number;
-        step(world);
+        arena_reset(&world->own->arena);
+        damp_resting(world);
+        begin_totals(world);
+        world->frame_steps += world->reports_contacts;
+        for (int sub = 0; sub < SUB_STEPS; sub++) {
+            step(world);
+        }
+        find_broken(world);
+        find_lost(world);
+        world->step++;
+        world->age++;
         if (world->has_broken || world->has_lost) {
             return number + 1;
         }

@@ -184,3 +184,39 @@ bool come_near(const Mover *one, const Mover *other) {
     narrow(gap.y, way.y, reach.y, &enters, &leaves);
     return since <= until && enters <= least(leaves, 1.0) && leaves >= 0.0;
 }
+
+// A body that moves by a way in the step.
+Mover mover_of(Body *body, Twist way) {
+    Mover mover = {.body = body,
+                   .movable = body->dynamic,
+                   .pose = pose_of(body->engine),
+                   .pivot = body->engine->p,
+                   .depth = body->safe_depth,
+                   .turning = body->turning_radius,
+                   .corners = body->corners,
+                   .horizon = 1.0,
+                   .island = -1,
+                   .next = -1,
+                   .leader = -1};
+    // A turning disc covers the same ground.
+    mover.rate = (Twist){way.v, mover.turning > 0.0 ? way.w : 0.0};
+    fit_box(&mover);
+    return mover;
+}
+
+Sweep sweep_of(World *world, Way *way_of) {
+    Arena *arena = &world->own->arena;
+    Sweep sweep = {.world = world, .statics = statics_of(world), .movers = TAKE(arena, Mover, world->body_count)};
+    sweep.followed = TAKE(arena, bool, world->body_count);
+    Box *boxes = TAKE(arena, Box, world->body_count);
+    for (int place = 0; place < world->body_count; place++) {
+        if (is_solid(world->bodies + place)) {
+            Mover mover = mover_of(world->bodies + place, way_of(world, world->bodies + place));
+            mover.island = sweep.count;
+            boxes[sweep.count] = mover.box;
+            sweep.movers[sweep.count++] = mover;
+        }
+    }
+    sweep.tree = tree_of(boxes, sweep.count, arena);
+    return sweep;
+}

@@ -30,6 +30,19 @@ static inline Mover *mover_at(const Sweep *sweep, int number) {
 // Return the shapes that never move, but sensors.
 const Statics *statics_of(World *world);
 
+// The way and the turn of a body [m, rad].
+typedef Twist Way(const World *world, const Body *body);
+
+static inline bool is_solid(const Body *body) {
+    return !body->anchored && !body->sensor;
+}
+
+// A body that moves by a way in the step.
+Mover mover_of(Body *body, Twist way);
+
+// All bodies, each with its way in the step.
+Sweep sweep_of(World *world, Way *way_of);
+
 // Bound the way of a body from where its motion begins to its horizon.
 void fit_box(Mover *mover);
 

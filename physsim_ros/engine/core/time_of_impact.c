@@ -7,9 +7,9 @@
 // time in which they cannot meet. Both advance by it, again and again, until they overlap by the skin or the step ends
 // (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996, 2.3).
 //
-// An impact counts where the rest of the approach is more than the safe depth. A pair that overlaps deeper from the
-// start meets at once if it comes deeper, and later if it leaves and comes back; not at all where it overlaps by more
-// than the lesser inner radius, since either side may be the nearer one then.
+// An impact counts where the rest of the approach is more than the safe depth. A pair that overlaps from the start
+// meets where it has come deeper by the skin, so that it moves on until Chipmunk finds it to approach, too; not at all
+// where it overlaps by more than the lesser inner radius, since either side may be the nearer one then.
 
 #include "time_of_impact.h"
 
@@ -138,11 +138,12 @@ static double advance(Side *a, Side *b, double radii, double skin, double depth)
         Separation found = separation_of(a, b);
         double distance = found.distance - radii;
         bool met = distance <= target + tolerance * skin;
-        if (number == 0) {
-            target = met ? distance - depth : target;
+        if (number == 0 && met) {
             if (distance < -skin - depth / safe_share) {
                 return INFINITY;
             }
+            target = distance - skin;
+            met = false;
         }
         // A pair that leaves its overlap may not come back as deep.
         target = greatest(target, least(-skin, distance - depth));

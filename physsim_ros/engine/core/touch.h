@@ -38,6 +38,6 @@ static inline Vec velocity_on(const Touch *touch, int side, Vec place) {
 double face_depth(const Touch *touch, int side, int face);
 
 // Make effective masses, bias and bounce of a contact anew, as `cpArbiterPreStep` has made them of the old one.
-void prepare_contact(const World *world, cpArbiter *arbiter);
+void prepare_contact(cpArbiter *arbiter);
 
 #endif

@@ -24,12 +24,12 @@ static bool is_near(Vec point, Vec corner, double reach) {
     return length(sub(corner, point)) <= reach;
 }
 
-static double reach_of(const World *world, const Touch *touch, int side) {
-    return near_slops * world->space->collisionSlop + radius_of(touch->shapes[side]);
+static double reach_of(const Touch *touch, int side) {
+    return near_slops * slop_of(touch->arbiter) + radius_of(touch->shapes[side]);
 }
 
-static bool is_at_corner(const World *world, const Touch *touch, int side) {
-    double reach = reach_of(world, touch, side);
+static bool is_at_corner(const Touch *touch, int side) {
+    double reach = reach_of(touch, side);
     for (int number = 0; number < corner_count(touch->shapes[side]); number++) {
         if (is_near(touch->places[0][side], corner_in_world(touch->shapes[side], number).place, reach)) {
             return true;
@@ -51,25 +51,25 @@ static Vec relative_velocity(const Touch *touch) {
 }
 
 // Look for the face of one shape that is approached slowest.
-static void find_slide(const World *world, const Touch *touch, int side, Vec velocity, Slide *best) {
+static void find_slide(const Touch *touch, int side, Vec velocity, Slide *best) {
     const cpShape *shape = touch->shapes[side];
     int count = corner_count(shape);
-    double reach = reach_of(world, touch, side), sign = side == 0 ? 1.0 : -1.0;
+    double reach = reach_of(touch, side), sign = side == 0 ? 1.0 : -1.0;
     for (int face = 0; face < count && count > 1; face++) {
         Corner corner = corner_in_world(shape, face);
         Vec before = corner_in_world(shape, (face + count - 1) % count).place, point = touch->places[0][side];
         double approach = -dot(corner.normal, velocity) * sign;
         if (approach < best->approach && (is_near(point, corner.place, reach) || is_near(point, before, reach))) {
             double depth = face_depth(touch, side, face);
-            if (depth >= 0.0 && depth <= world->space->collisionSlop) {
+            if (depth >= 0.0 && depth <= slop_of(touch->arbiter)) {
                 *best = (Slide){side, approach, depth, corner.normal};
             }
         }
     }
 }
 
-void slide_over_edge(const World *world, Touch *touch) {
-    if (!is_at_corner(world, touch, 0) || !is_at_corner(world, touch, 1)) {
+void slide_over_edge(Touch *touch) {
+    if (!is_at_corner(touch, 0) || !is_at_corner(touch, 1)) {
         return;
     }
     Vec velocity = relative_velocity(touch);
@@ -78,8 +78,8 @@ void slide_over_edge(const World *world, Touch *touch) {
         return;
     }
     Slide slide = {.side = -1, .approach = least(approach, grazing * length(velocity))};
-    find_slide(world, touch, 0, velocity, &slide);
-    find_slide(world, touch, 1, velocity, &slide);
+    find_slide(touch, 0, velocity, &slide);
+    find_slide(touch, 1, velocity, &slide);
     if (slide.side < 0) {
         return;
     }

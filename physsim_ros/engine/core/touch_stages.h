@@ -12,9 +12,6 @@
 void move_to_impact(const World *world, Touch *touch);
 
 // Replace a contact at a seam by one with the face that the shapes approach slowest.
-void slide_over_edge(const World *world, Touch *touch);
-
-// Set bodies apart that touch for the first time, along the normals of their contacts; mark those that are `moved`.
-void project_touches(World *world, const Touch *touches, int count, bool *moved);
+void slide_over_edge(Touch *touch);
 
 #endif

@@ -27,6 +27,8 @@ typedef struct Private {
     struct Statics *statics;
     struct Touch *begun; // contacts that begin in this step
     int begun_count;
+    struct Load *loads; // that the next step starts from, after an impact
+    int load_count;
     int call_step; // number of the step in this call
     struct Report *report;
 } Private;
@@ -42,6 +44,12 @@ static inline Body *body_of(const cpBody *engine) {
 
 static inline int place_of(const World *world, const cpBody *engine) {
     return (int)(body_of(engine) - world->bodies);
+}
+
+// How far the bodies of a contact may overlap at rest [m].
+static inline double slop_of(const cpArbiter *arbiter) {
+    double a = body_of(arbiter->body_a)->slop, b = body_of(arbiter->body_b)->slop;
+    return a < b ? a : b;
 }
 
 static inline bool has_stage(const World *world, uint32_t stage) {

@@ -15,14 +15,17 @@ from collections.abc import Iterable, Mapping
 import itertools
 import math
 
+import numpy as np
 from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints import stiffness
 from physsim_ros.engine.joints.joint_table import JointTable
 from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.scene import Joint
 from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
@@ -35,7 +38,7 @@ class JointSet:
     :param pm_space: of the engine
     :param bodies: the bodies of the space by name
     :param core: of the space
-    :param dt: length of a step [s]
+    :param dt: length of a sub-step [s]
     """
 
     def __init__(
@@ -59,6 +62,8 @@ class JointSet:
         self._springs: Springs | None = None
         # Names of the joints whose first step was to come when the table was dropped.
         self._unstepped: set[str] = set()
+        # The impulses of each joint in the step before, from the same table.
+        self._totals: dict[str, Floats] = {}
 
     def names_on(self, body: str) -> tuple[str, ...]:
         """Return the names of a body's joints, in the order in which they were made."""
@@ -72,19 +77,6 @@ class JointSet:
         """Return the count of a body's joints after a joint on it is added or replaced."""
         names = self._on.get(body, {})
         return len(names) + (joint.name not in names)
-
-    def check_springs(self, bodies: Mapping[str, Body], joint: Joint | None = None) -> None:
-        """
-        Refuse a change by which springs would be too stiff for the steps.
-
-        :param bodies: bodies that change, as they will be
-        :param joint: a joint to be added or replaced; None if there is none
-        :raises BadProperty: with the greatest stiffness that is possible
-        """
-        joints = self._joints_on(bodies, joint)
-        ends = {name for each in joints for name in (each.a, each.b)} - {WORLD}
-        known = {name: bodies.get(name) or self._bodies[name].body for name in ends}
-        stiffness.check_stiffness(joints, known, self._dt)
 
     def with_turns(self, rigid: RigidBody, pose: Pose) -> Pose:
         """Return a pose with the whole turns that a jointed body has made, which joints count."""
@@ -139,9 +131,27 @@ class JointSet:
         if not self.by_name:
             return
         if self._table is None:
-            self._table = JointTable(list(self.by_name.values()), self._unstepped, self._dt)
+            self._table = JointTable(
+                list(self.by_name.values()),
+                self._unstepped,
+                self._totals,
+                self._soft_springs(),
+                self._dt,
+            )
         self._table.place_ends(places)
         self._core.use_joints(self._table.joints, self._table.parts, self._table.rows)
+
+    def _soft_springs(self) -> dict[str, float]:
+        """Return the dampings of the springs that Chipmunk does not solve, by name [N s/m]."""
+        springs = [
+            each.joint
+            for each in self.by_name.values()
+            if each.joint.kind is JointKind.SPRING and each.parts
+        ]
+        bodies = {name: rigid.body for name, rigid in self._bodies.items()}
+        dampings = stiffness.dampings_of(springs, bodies, self._dt)
+        named = zip(springs, dampings, strict=True)
+        return {spring.name: damping for spring, damping in named if damping > 0.0}
 
     def report(self) -> tuple[Floats, Floats, Flags]:
         """
@@ -151,7 +161,8 @@ class JointSet:
             bool: whether it pushed its bodies apart
         """
         impulses, pulls, pressing = self._core.read_joints()
-        return impulses / self._dt, pulls / self._dt, pressing
+        step = self._dt * lib.SUB_STEPS
+        return impulses / step, pulls / step, pressing
 
     def impulses(self) -> Floats:
         """Return (c, 2) float64: impulses from which the next step starts, of all constraints."""
@@ -161,6 +172,15 @@ class JointSet:
         """Set (c, 2) float64: impulses from which the next step starts; none of another number."""
         if len(impulses) == len(self._constraints()):
             self._core.write_impulses(impulses)
+
+    def totals(self) -> Floats:
+        """Return (c, 2) float64: impulses of the last step, of all constraints."""
+        return np.empty((0, 2)) if self._table is None else self._table.parts['total'].copy()
+
+    def set_totals(self, totals: Floats) -> None:
+        """Set (c, 2) float64: impulses of the last step; none of another number."""
+        if self._table is not None and len(totals) == len(self._table.parts):
+            self._table.parts['total'] = totals
 
     def unstepped(self) -> frozenset[str]:
         """Return the names of the joints whose first step is to come."""
@@ -184,21 +204,6 @@ class JointSet:
             return []
         names, forces = self._table.names, self.report()[0].tolist()
         return [(names[number], forces[number]) for number in broken]
-
-    def _joints_on(self, bodies: Iterable[str], joint: Joint | None) -> list[Joint]:
-        """
-        Return the joints on some bodies, in the order in which they were made.
-
-        :param bodies: names of the bodies
-        :param joint: a joint to be added or replaced, which counts with all joints on its bodies;
-            None if there is none
-        """
-        names = {*bodies, *(() if joint is None else (joint.a, joint.b))} - {WORLD}
-        on = {name for body in names for name in self._on.get(body, ())}
-        joints = [self.by_name[name].joint for name in sorted(on, key=self._serials.__getitem__)]
-        if joint is not None:
-            joints = [each for each in joints if each.name != joint.name] + [joint]
-        return joints
 
     def _constraints(self) -> list[pymunk.Constraint]:
         return [
@@ -224,6 +229,6 @@ class JointSet:
     def _drop_table(self) -> None:
         """Drop the table of all joints, as one of them comes or goes."""
         if self._table is not None:
-            self._unstepped = self._table.unstepped
+            self._unstepped, self._totals = self._table.unstepped, self._table.totals
         self._table = self._springs = None
         self._core.drop_joints()

@@ -10,9 +10,10 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.core import dtype_of
+from physsim_ros.engine.core import dtype_of, lib
 from physsim_ros.engine.core_world import address_of
 from physsim_ros.engine.joints.kinds import EngineJoint
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 import pymunk
 
@@ -27,7 +28,9 @@ class JointTable:
 
     :param joints: of the set
     :param unstepped: names of joints whose first step is to come
-    :param dt: of a step [s]
+    :param totals: (k, 2) float64 of each joint: impulses of its constraints in the last step
+    :param soft: damping of the springs that Chipmunk does not solve, by name [N s/m]
+    :param dt: of a sub-step [s]
 
     :ivar joints: (j,) `Joint`
     :ivar parts: (p,) `Part`: the constraints, joint by joint
@@ -35,33 +38,41 @@ class JointTable:
     """
 
     def __init__(
-        self, joints: Sequence[EngineJoint], unstepped: Collection[str], dt: float
+        self,
+        joints: Sequence[EngineJoint],
+        unstepped: Collection[str],
+        totals: Mapping[str, Floats],
+        soft: Mapping[str, float],
+        dt: float,
     ) -> None:
         self.names = [each.joint.name for each in joints]
         self._ends = [each.ends for each in joints]
         parts = [part for each in joints for part in each.parts]
-        forces = [each.joint.properties.max_force for each in joints for _ in each.parts]
+        counts = [len(each.parts) for each in joints]
+        firsts = np.cumsum(counts) - counts
         self.joints = np.zeros(len(joints), _JOINT)
+        rows = [
+            _rows_of(each, first, soft.get(each.joint.name, 0.0), dt)
+            for each, first in zip(joints, firsts, strict=True)
+        ]
         known = [
             _joint_fields(each, dt, unstepped=each.joint.name in unstepped) for each in joints
         ]
         _fill(self.joints, known)
         for first, count, counts in (
             ('first_part', 'part_count', [len(each.parts) for each in joints]),
-            ('first_row', 'row_count', [each.row_count for each in joints]),
+            ('first_row', 'row_count', [len(each) for each in rows]),
         ):
             self.joints[count] = counts
             self.joints[first] = np.cumsum(counts) - counts
         self.parts = np.zeros(len(parts), _PART)
         _fill(self.parts, [(part.kind, address_of(part.constraint)) for part in parts])
-        rows = [
-            (row.kind, number, component, row.lower, row.upper, row.below, row.above,
-             math.inf if force is None else force * dt * abs(row.above))
-            for number, (part, force) in enumerate(zip(parts, forces, strict=True))
-            for component, row in enumerate(part.rows)
-        ]  # fmt: skip
-        self.rows = np.zeros(len(rows), _ROW)
-        _fill(self.rows, rows)
+        for name, of_joint in zip(self.names, self._totals, strict=True):
+            # A joint of two anchored bodies has no constraints.
+            if 0 < len(former := totals.get(name, ())) == len(of_joint):
+                of_joint[:] = former
+        self.rows = np.zeros(sum(map(len, rows)), _ROW)
+        _fill(self.rows, [row for each in rows for row in each])
 
     def place_ends(self, places: Mapping[pymunk.Body, int]) -> None:
         """Set the places of bodies in the table of bodies, the background among them."""
@@ -73,6 +84,15 @@ class JointTable:
         """Return the numbers of the joints that broke in the last step."""
         numbers: list[int] = np.flatnonzero(self.joints['broken']).tolist()
         return numbers
+
+    @property
+    def totals(self) -> dict[str, Floats]:
+        """Return (k, 2) float64 of each joint: impulses of its constraints in the last step."""
+        return dict(zip(self.names, self._totals, strict=True))
+
+    @property
+    def _totals(self) -> list[Floats]:
+        return np.split(self.parts['total'], self.joints['first_part'][1:])
 
     @property
     def unstepped(self) -> set[str]:
@@ -88,11 +108,34 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
         each.ends.at_b,
         (seat.ux, seat.uy),
         joint.number('ratio'),
-        math.inf if most is None else most * dt,
+        math.inf if most is None else most * dt * lib.SUB_STEPS,
         joint.kind.schema.has_axis,
         joint.kind in _PRESSING,
         unstepped,
     )
+
+
+def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[tuple[object, ...]]:
+    """
+    Return the rows of a joint.
+
+    :param first: number of its first part
+    :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
+    """
+    force = each.joint.properties.max_force
+    rows: list[tuple[object, ...]] = []
+    for number, part in enumerate(each.parts, first):
+        if part.kind == lib.PART_SPRING:
+            # One of the two gives its force.
+            part.constraint.stiffness = 0.0 if damping else each.joint.stiffness
+            if not damping:
+                continue
+        for component, row in enumerate(part.rows):
+            most = math.inf if force is None else force * dt * abs(row.above)
+            spring = (each.joint.stiffness, damping) if row.kind == lib.ROW_SPRING else (0.0, 0.0)
+            bounds = row.lower, row.upper, row.below, row.above, most
+            rows.append((row.kind, number, component, *bounds, *spring))
+    return rows
 
 
 def _fill(table: NDArray[np.void], records: Sequence[tuple[object, ...]]) -> None:

@@ -157,10 +157,10 @@ def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
 def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """Return a pull or push in proportion to its strain, which is damped."""
-    rest, stiffness, damping = joint.rest_length, joint.stiffness, joint.number('damping')
+    rest, stiffness = joint.rest_length, joint.stiffness
     anchors = ends.at_a, ends.at_b
-    spring = pymunk.DampedSpring(ends.a, ends.b, *anchors, rest, stiffness, damping)
-    return (Part(lib.PART_SPRING, spring),)
+    spring = pymunk.DampedSpring(ends.a, ends.b, *anchors, rest, stiffness, damping=0.0)
+    return (Part(lib.PART_SPRING, spring, (Row(lib.ROW_SPRING, rest, rest),)),)
 
 
 def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:

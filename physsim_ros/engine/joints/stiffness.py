@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Stiffness: how stiff springs may be for the steps.
+Stiffness: which springs are soft constraints, solved with the loads that act on them.
 
-Pymunk moves bodies first and lets springs pull then (symplectic Euler), which is stable while no
-body swings by more than two radians a step. All springs on a body together keep it below one:
-sum of f k (1/m + r^2/I) <= 1 / dt^2, f = 2 where the other body is dynamic too, since
-(v_a - v_b)^2 <= 2 v_a^2 + 2 v_b^2. `check_stiffness` raises beyond that.
+Chipmunk moves bodies first and lets springs pull then (symplectic Euler), which keeps the energy
+of what swings, and is stable while no body swings by more than two radians a sub-step. All springs
+on a body together swing it by less than one while sum of f k (1/m + r^2/I) <= 1 / dt^2, f = 2
+where the other body is dynamic too, since (v_a - v_b)^2 <= 2 v_a^2 + 2 v_b^2. What exceeds that is
+taken where the sub-step ends (implicit Euler): no spring is too stiff, and one that swings faster
+than steps can show comes to rest. A damper is always taken there.
 """
 
 from __future__ import annotations
@@ -17,13 +19,9 @@ import math
 
 import numpy as np
 from physsim_ros.engine.joints.kinds import EngineJoint
-from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.snapshot import Springs
-
-# Share of the bound by which rounding may exceed it.
-_ROUNDING = 1e-9
 
 
 def springs_of(joints: Sequence[EngineJoint]) -> Springs:
@@ -44,35 +42,23 @@ def springs_of(joints: Sequence[EngineJoint]) -> Springs:
     return Springs(np.array(numbers, np.int64), stiffness, rest, reach)
 
 
-def check_stiffness(joints: Sequence[Joint], bodies: Mapping[str, Body], dt: float) -> None:
+def dampings_of(springs: Sequence[Joint], bodies: Mapping[str, Body], dt: float) -> list[float]:
     """
-    Refuse springs that are too stiff for the steps.
+    Return the damping of each spring, with what its stiffness adds to it [N s/m].
 
-    :param joints: all of the bodies that change, and of their neighbours, or more
     :param bodies: by name
-    :param dt: of a step [s]
-    :raises BadProperty: of the greatest stiffness that the last such spring may have
+    :param dt: of a sub-step [s]
     """
-    springs = [joint for joint in joints if joint.kind is JointKind.SPRING]
     total: dict[str, float] = {}
-    shares = [dict(_softness(spring, bodies)) for spring in springs]
-    for spring, softness in zip(springs, shares, strict=True):
-        for name, share in softness.items():
-            total[name] = total.get(name, 0.0) + spring.stiffness * share
-    bound = 1.0 / (dt * dt)
-    for spring, softness in zip(reversed(springs), reversed(shares), strict=True):
-        if any(total[name] > bound * (1.0 + _ROUNDING) for name in softness):
-            most = min(
-                spring.stiffness + (bound - total[name]) / share
-                for name, share in softness.items()
-            )
-            tightest = min(softness, key=lambda name: bound - total[name])
-            raise BadProperty(
-                f'stiffness of {spring.name} is {spring.stiffness:g} N/m; steps of {dt:g} s can '
-                f'follow {max(math.floor(most), 0):d} N/m with what {tightest} weighs and what '
-                'other springs are on it',
-                field='stiffness',
-            )
+    for spring in springs:
+        for name, share in _softness(spring, bodies):
+            total[name] = total.get(name, 0.0) + spring.stiffness * share * dt * dt
+    dampings = []
+    for spring in springs:
+        swing = max((total[name] for name, _ in _softness(spring, bodies)), default=0.0)
+        ahead = max(0.0, 1.0 - 1.0 / swing) if swing > 0.0 else 0.0
+        dampings.append(spring.number('damping') + ahead * dt * spring.stiffness)
+    return dampings
 
 
 def _softness(spring: Joint, bodies: Mapping[str, Body]) -> Iterator[tuple[str, float]]:

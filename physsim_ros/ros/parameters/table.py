@@ -204,7 +204,7 @@ _OF_NODE = {
 }
 # Parameters of the world and of drawing, whose defaults and ranges are those of the settings.
 _MEANINGS = {
-    'iterations': 'solver iterations',
+    'iterations': 'solver iterations of a step, shared out among its four sub-steps',
     'gravity': f'acceleration, of a length up to {STRONGEST:g} [m/s²]',
     'damping': 'share of velocity lost to the air each second',
     'bounds': '[xmin, ymin, xmax, ymax] of walls around the world, each '

@@ -16,7 +16,7 @@ import sys
 from typing import Any
 
 from numpy.typing import NDArray
-from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.checkpoint import Checkpoint, ImpulseCache, WorldState
 from physsim_ros.model.requests import (
     ChangeBody,
     Command,
@@ -33,15 +33,15 @@ from physsim_ros.model.snapshot import Contacts, Snapshot
 # A logged request with its fields and its place in the log.
 _REQUEST = 600
 # The body of a request, with name, colour and material.
-_BODY = 1050
+_BODY = 1200
 # A piece of a shape, and each of its vertices and of those of its outline.
 _PIECE, _VERTEX = 400, 150
 # A string of a few letters, and its place in a tuple.
 _NAME = 70
 # A checkpoint without its arrays; a wrench in it.
 _CHECKPOINT, _WRENCH = 2100, 250
-# A frame without its arrays.
-_FRAME = 870
+# A frame without its arrays; the views of its contacts.
+_FRAME, _VIEWS = 870, 700
 # A body in a scene: its place among bodies and names, inertia and centroid.
 _PLACE = 48
 # Number of tuples of names that commands of a log share: one a publisher.
@@ -99,7 +99,7 @@ def state_size(state: WorldState) -> int:
     size = shapes + labels + (_BODY + _REQUEST) * len(state.bodies) + _BODY * len(state.joints)
     memory = state.memory
     if memory is not None:
-        size += _nbytes((memory.pairs, memory.hashes, memory.impulses, memory.joints, memory.ids))
+        size += _nbytes(_memory_arrays(memory))
     return size
 
 
@@ -110,15 +110,8 @@ def checkpoint_size(checkpoint: Checkpoint, before: Checkpoint | None = None) ->
     :param before: the checkpoint before it, with which it may share the scene
     """
     memory = checkpoint.memory
-    arrays = (
-        checkpoint.state,
-        checkpoint.free,
-        memory.ids,
-        memory.pairs,
-        memory.hashes,
-        memory.impulses,
-    )
-    size = _CHECKPOINT + _nbytes((*arrays, memory.joints, memory.pushes, *checkpoint.robots))
+    arrays = (checkpoint.state, checkpoint.free, *_memory_arrays(memory), memory.pushes)
+    size = _CHECKPOINT + _nbytes((*arrays, *checkpoint.robots))
     size += _WRENCH * len(checkpoint.wrenches) + _NAME * len(checkpoint.unstepped)
     if before is None or before.scene is not checkpoint.scene:
         # The digest of a checkpoint makes the scene's checkpoint.
@@ -133,7 +126,7 @@ def scene_size(scene: Scene) -> int:
 
 def frame_size(snapshot: Snapshot, contacts: Contacts | None) -> int:
     """Return the memory of a frame, without its scene."""
-    return _FRAME + snapshot.nbytes + (0 if contacts is None else contacts.nbytes)
+    return _FRAME + snapshot.nbytes + (0 if contacts is None else _VIEWS + contacts.nbytes)
 
 
 def _shape_size(shape: Shape) -> int:
@@ -141,6 +134,11 @@ def _shape_size(shape: Shape) -> int:
     vertices = sum(len(each.vertices) for each in pieces if isinstance(each, Convex))
     vertices += len(getattr(shape, 'outline', ()))
     return _PIECE * len(pieces) + _VERTEX * vertices
+
+
+def _memory_arrays(memory: ImpulseCache) -> tuple[NDArray[Any], ...]:
+    contacts = memory.ids, memory.pairs, memory.hashes, memory.impulses
+    return *contacts, memory.joints, memory.totals
 
 
 def _nbytes(arrays: Iterable[NDArray[Any]]) -> int:

@@ -63,7 +63,6 @@ def join(live: LiveSpace, request: Join) -> Done:
     joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=properties)
     if old is None or old.joint != joint:
         live.capacity.check_joint(joint)
-        space.joints.check_springs({}, joint)
         # Only if it differs: a joint that is built anew has no cached impulses to warm start from.
         space.join(joint)
     other = 'the background' if b == WORLD else b

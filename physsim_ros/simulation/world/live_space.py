@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from physsim_ros.engine.body_pool import BodyPool
 from physsim_ros.engine.checkpoint import checkpoint_of, restore_checkpoint, take_checkpoint
+from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.settings import WorldSettings
@@ -39,8 +40,9 @@ class LiveSpace:
     def __init__(self, settings: WorldSettings, physics_rate: float) -> None:
         self.physics_rate = physics_rate
         self.dt = 1.0 / physics_rate
+        self._sub_step = sub_step_of(physics_rate)
         self.step_count = 0
-        self._replace(Space(settings, self.dt), BodyPool())
+        self._replace(Space(settings, self._sub_step), BodyPool())
 
     @property
     def settings(self) -> WorldSettings:
@@ -62,7 +64,7 @@ class LiveSpace:
         if self._fresh is not None and self._fresh.is_unchanged(self.space, self.step_count):
             return self._fresh.checkpoint
         checkpoint = take_checkpoint(self.space, self.step_count)
-        space = restore_checkpoint(checkpoint, self.dt, pool=self._pool.bodies)
+        space = restore_checkpoint(checkpoint, self._sub_step, pool=self._pool.bodies)
         space.copy_reports(self.space)
         self._replace(space, BodyPool(self.space))
         return checkpoint
@@ -74,7 +76,7 @@ class LiveSpace:
         :param going_over: whether the world is at that moment now, with the same bodies; the
             contacts of the unfinished frame are kept then
         """
-        space = restore_checkpoint(checkpoint, self.dt)
+        space = restore_checkpoint(checkpoint, self._sub_step)
         if going_over:
             space.copy_reports(self.space)
         self._replace(space, BodyPool())
@@ -86,14 +88,10 @@ class LiveSpace:
 
         :param step: number of steps that the world has made then
         :raises WorldFull: the state is too large; nothing is changed
-        :raises BadProperty: springs are too stiff for the steps; nothing is changed
         """
         self.capacity.check_state(state)
-        checkpoint = checkpoint_of(state, step, self.dt)
-        space = restore_checkpoint(checkpoint, self.dt)
-        space.joints.check_springs(
-            {name: rigid.body for name, rigid in space.bodies.by_name.items()}
-        )
+        checkpoint = checkpoint_of(state, step, self._sub_step)
+        space = restore_checkpoint(checkpoint, self._sub_step)
         self._replace(space, BodyPool(), _Fresh(checkpoint, space, space.changes))
         self.step_count = step
 

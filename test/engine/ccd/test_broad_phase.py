@@ -59,14 +59,14 @@ def test_of_a_crowd_that_falls_nobody_is_swept_before_the_ground() -> None:
     world = World(settings=WorldSettings(bounds=(-10.0, 0.0, 10.0, 30.0)))
     for number in range(100):
         row, column = divmod(number, 20)
-        pose = (0.15 * column, 5.0 + 0.15 * row, 0.0)
+        pose = (0.15 * column, 12.0 + 0.15 * row, 0.0)
         spawn(world, f'small/{number}', Disc(radius=0.05), pose)
-    # Faster than a quarter of their radius a step after a third of a second, down after one.
-    world.step(220)
+    # Faster than a quarter of their radius a sub-step after 1.22 s, down after 1.56 s.
+    world.step(290)
     assert swept(world) == 0
-    world.step(60)
+    world.step(90)
     assert swept(world) > 0
-    # A quarter of the radius may go unseen in a step, and 5 mm is left standing.
+    # A quarter of the radius may go unseen in a sub-step, and 5 mm is left standing.
     assert world.snapshot().poses[:, 1].min() > 0.05 - 0.0125 - 0.005
 
 

@@ -1,0 +1,100 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Law 49: dampers, damped springs and greatest forces of joints obey their formulas."""
+
+import math
+
+from physsim_ros.model.shapes import Disc
+import pytest
+
+from .scenes import DT, G, join, NOWHERE, run, simulation, spawn, steps
+
+
+@pytest.mark.parametrize('damping', [5.0, 20.0, 100.0, 500.0, 1000.0])
+@pytest.mark.parametrize('mass', [1.0, 3.0])
+def test_a_weight_on_a_damper_sinks_at_its_terminal_speed(report, mass, damping):
+    sim = simulation()
+    spawn(sim, 'weight/0', Disc(radius=0.1), (0.0, -2.0, 0.0), mass=mass)
+    points = [(0.0, -2.0), (0.0, 0.0)]
+    join(
+        sim, 'damper/0', 'spring', points, a='weight/0', b='world', stiffness=0.0, damping=damping
+    )
+
+    # Ten time constants, so that 5e-5 of the speed is still to come.
+    end = run(sim, max(1.0, 10.0 * mass / damping))
+
+    exact = mass * G / damping
+    what = 'weight on a damper of 5 to 1,000 N s/m, speed'
+    report.check(49, what, -end.twists[0, 1], exact, 1e-3, 'm/s', relative=True)
+
+
+def relaxation(stiffness, damping, mass, seconds):
+    """
+    Return the displacement of an overdamped oscillator, released at rest, as a share of the first.
+
+    https://en.wikipedia.org/wiki/Damping#Damping_ratio
+    """
+    middle = damping / (2 * mass)
+    spread = math.sqrt(middle**2 - stiffness / mass)
+    slow, fast = middle - spread, middle + spread
+    return (fast * math.exp(-slow * seconds) - slow * math.exp(-fast * seconds)) / (fast - slow)
+
+
+# Stiffness [N/m] and damping [N s/m] at 1 kg: time constants of 0.1 to 1 s.
+@pytest.mark.parametrize(
+    ('stiffness', 'damping'), [(20.0, 10.0), (100.0, 100.0), (1000.0, 500.0), (5000.0, 1000.0)]
+)
+def test_an_overdamped_spring_relaxes_as_its_exact_solution(report, stiffness, damping):
+    sim = simulation(gravity=NOWHERE)
+    spawn(sim, 'mass/0', Disc(radius=0.1), (3.0, 0.0, 0.0), mass=1.0)
+    said = {'stiffness': stiffness, 'damping': damping, 'rest_length': 2.0}
+    join(sim, 'spring/0', 'spring', [(3.0, 0.0), (0.0, 0.0)], a='mass/0', b='world', **said)
+    constant = damping / stiffness
+
+    for number, now in enumerate(steps(sim, round(2.0 * constant / DT)), 1):
+        exact = relaxation(stiffness, damping, 1.0, number * DT)
+        what = f'spring of {stiffness:g} N/m, {damping:g} N s/m, displacement from 1 m'
+        report.check(49, what, now.poses[0, 0] - 2.0, exact, 0.01, 'm')
+    last = now.poses[0, 0] - 2.0
+    what = 'overdamped springs, displacement after two time constants'
+    report.check(49, what, last, exact, 0.01, 'm', relative=True)
+
+
+@pytest.mark.parametrize(
+    ('kind', 'end', 'said'),
+    [('rod', 0.0, {}), ('rope', 0.0, {}), ('slider', -3.0, {'upper': 0.0})],
+)
+@pytest.mark.parametrize('max_force', [0.0, 10.0, 20.0])
+def test_a_joint_that_is_too_weak_brakes_a_fall_with_its_greatest_force(
+    report, max_force, kind, end, said
+):
+    sim = simulation()
+    spawn(sim, 'weight/0', Disc(radius=0.1), (0.0, -2.0, 0.0), mass=3.0)
+    points = [(0.0, -2.0), (0.0, end)]
+    join(sim, 'j/0', kind, points, a='weight/0', b='world', max_force=max_force, **said)
+
+    now = run(sim, 1.0)
+
+    exact = (G - max_force / 3.0) / 2
+    what = f'3 kg on a {kind} of too little force, fall in 1 s'
+    report.check(49, what, -2.0 - now.poses[0, 1], exact, 0.01, 'm', relative=True)
+    what = f'3 kg on a {kind} of too little force, force'
+    report.check(49, what, now.forces[0], max_force, 0.01, 'N')
+
+
+@pytest.mark.parametrize(
+    ('kind', 'end', 'said'),
+    [('rod', 0.0, {}), ('rope', 0.0, {}), ('slider', -3.0, {'upper': 0.0})],
+)
+def test_a_joint_that_is_strong_enough_holds(report, kind, end, said):
+    sim = simulation()
+    spawn(sim, 'weight/0', Disc(radius=0.1), (0.0, -2.0, 0.0), mass=3.0)
+    points = [(0.0, -2.0), (0.0, end)]
+    join(sim, 'j/0', kind, points, a='weight/0', b='world', max_force=32.0, **said)
+
+    now = run(sim, 1.0)
+
+    what = f'3 kg on a {kind} of a little more force'
+    report.check(49, f'{what}, fall in 1 s', -2.0 - now.poses[0, 1], 0.0, 1e-3, 'm')
+    report.check(49, f'{what}, force', now.forces[0], 3.0 * G, 0.01, 'N', relative=True)

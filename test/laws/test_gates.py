@@ -1,0 +1,53 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Law 50: a sensor reports each body that crosses it, however fast."""
+
+from physsim_ros.model.shapes import Box, Disc
+import pytest
+
+from .scenes import DT, NOWHERE, simulation, spawn
+
+CROSSINGS = 20
+SHAPES = {'disc': Disc(radius=0.02), 'box': Box(width=0.03, height=0.05)}
+
+
+def reports(speed, shape, phase):
+    """
+    Return how many times a gate of 1 cm reports that a body has come.
+
+    :param phase: share of a step by which the body arrives later, 0 .. 1
+    """
+    sim = simulation(gravity=NOWHERE)
+    sim.reports_contacts = True
+    spawn(sim, 'gate/0', Box(width=0.01, height=2.0), anchored=True, sensor=True)
+    start = -0.5 - phase * speed * DT
+    body = spawn(sim, 'body/0', shape, (start, 0.0, 0.3), velocity=(speed, 0.0))
+    begun = 0
+    for _ in range(int(60 / speed) + 4):
+        frame = sim.advance_frame()
+        begun += len(frame.contacts.begun)
+    assert frame.snapshot.poses[body, 0] > 0.1, 'it has not crossed the gate'
+    assert frame.snapshot.twists[body, 0] == speed
+    return begun
+
+
+@pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())
+@pytest.mark.parametrize('speed', [1.0, 10.0, 14.0, 20.0, 40.0])
+def test_a_sensor_reports_each_body_that_crosses_it_once(report, speed, shape):
+    begun = [reports(speed, shape, number / CROSSINGS) for number in range(CROSSINGS)]
+
+    seen = sum(number > 0 for number in begun)
+    report.check(50, 'gate of 1 cm, bodies seen at 1 to 40 m/s', seen, CROSSINGS, 0, 'bodies')
+    report.check(50, 'gate of 1 cm, reports of a crossing', max(begun), 1, 0, 'reports')
+
+
+def test_a_sensor_does_not_report_what_passes_by(report):
+    sim = simulation(gravity=NOWHERE)
+    sim.reports_contacts = True
+    spawn(sim, 'gate/0', Box(width=0.01, height=2.0), anchored=True, sensor=True)
+    spawn(sim, 'ball/0', Disc(radius=0.02), (-0.5, 1.03, 0.0), velocity=(40.0, 0.0))
+
+    seen = sum(len(sim.advance_frame().contacts.pairs) for _ in range(6))
+
+    report.check(50, 'gate of 1 cm, reports of what passes by', seen, 0, 0, 'reports')
