@@ -15,8 +15,10 @@ from functools import partial
 from pathlib import Path
 import sys
 import time
+from typing import Any
 
 from physsim_ros.drawing import DrawingSession, Tool
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
@@ -43,6 +45,8 @@ from physsim_ros.sketchpad import WorldControl
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.parameter import Parameter
+import rclpy.service
+from rclpy.subscription import Subscription
 
 # Time after which a tick simulates no further publish period [ns]: requests, services and signals
 # wait at most so long, which a person hardly notices. At speed 64 a frame has 64 periods.
@@ -58,6 +62,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     :param parameter_overrides: values that override those of the command line
     :raises PhysSimError: a parameter or the world file is refused
 
+    :ivar boundary: where unexpected errors of messages and outputs end
     :ivar simulation: the world and its time
     :ivar world_files: reads and writes the world file of parameter `world_file`
     :ivar outputs: the topics, the viewer and the sketchpad
@@ -84,6 +89,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         except rclpy_implementation.RCLError as error:
             # As for a namespace of the command line that is longer than a name of DDS may be.
             raise PhysSimError(str(error)) from error
+        self.boundary = ErrorBoundary(self.get_logger().error, time.thread_time)
         self._closing = ExitStack()
         try:
             self._set_up()
@@ -110,16 +116,18 @@ class PhysSimNode(NodeWithoutQosEvents):
             speed=self._values['speed'],
             history=self._values['history'],
             history_memory=self._values['history_memory'],
+            boundary=self.boundary,
         )
         self._session = DrawingSession(
             parameters.drawing_settings(self._values), Tool(self._values['tool'])
         )
         self.world_files = WorldFiles(self.simulation, self._values, self.get_logger().info)
-        self.outputs = FrameOutputs(self, self._values, self._session)
+        self.outputs = FrameOutputs(self, self._values, self._session, self.boundary)
         self._closing.callback(self.outputs.close)
-        self.fleet = Fleet(self, self._values, self.simulation.requests)
+        self.fleet = Fleet(self, self._values, self.simulation.requests, self.boundary)
         if self._values['world_file']:
-            self.world_files.begin_with()
+            with self.boundary.reading('world_file'):
+                self.world_files.begin_with()
         self.outputs.topics.timeline.publish(self.simulation.status, moving=False)
         self._create_subscriptions()
         self._create_services()
@@ -135,6 +143,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             },
             prepare={'sketchpad': self._pages.open_for},
             on_change=self.outputs.publish_preview,
+            boundary=self.boundary,
         )
         self._live_parameters.mirror_settings()
         self._pages.open_for(self._values['sketchpad'])
@@ -142,9 +151,9 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _create_subscriptions(self) -> None:
         frame_id = self._values['frame_id']
-        self.requests = RequestSubscriptions(self, self.simulation.requests)
+        self.requests = RequestSubscriptions(self, self.simulation.requests, self.boundary)
         self._diagnostics = DiagnosticsPublisher(
-            self, self.simulation, self.outputs, self.requests
+            self, self.simulation, self.outputs, self.requests, self.boundary
         )
         RequestTopics(self.requests, self.simulation.requests, frame_id)
         self._drawing_topics = DrawingTopics(
@@ -178,11 +187,12 @@ class PhysSimNode(NodeWithoutQosEvents):
             'save_world': Service(self.world_files.save, Wait.FOR_SEEK),
         }
         deferred_calls = DeferredCalls(simulation.requests, self._apply_up_to_seek)
-        self._reply_pacer = ReplyPacer(self)
-        calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer)
+        self._reply_pacer = ReplyPacer(self, self.boundary)
+        calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer, self.boundary)
         create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
         control = WorldControl(
+            boundary=self.boundary,
             simulation=simulation,
             values=self._values,
             set_parameter=partial(parameters.set_value, self),
@@ -234,6 +244,27 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Open the viewer of parameter `viewer`, once the node has started."""
         if self._started:
             self.outputs.open_viewer()
+
+    def create_subscription(self, *args: Any, **options: Any) -> Subscription:
+        """Create a subscription, as `Node.create_subscription` does, behind the boundary."""
+        kind, topic, callback, *others = args
+
+        def receive(message: Any) -> None:
+            with self.boundary.output(topic):
+                callback(message)
+
+        return super().create_subscription(kind, topic, receive, *others, **options)
+
+    def create_service(self, *args: Any, **options: Any) -> rclpy.service.Service:
+        """Create a service, as `Node.create_service` does; after an error, its reply is empty."""
+        kind, name, callback, *others = args
+
+        def respond(request: Any, response: Any) -> Any:
+            with self.boundary.output(name):
+                return callback(request, response)
+            return response
+
+        return super().create_service(kind, name, respond, *others, **options)
 
     def destroy_node(self) -> None:
         """Close the viewer and the sketchpad, and destroy the node."""

@@ -17,6 +17,7 @@ from numbers import Integral
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import shown, Within
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
@@ -48,6 +49,7 @@ class Simulation:
     :param history: length of the past that is kept [s of simulation time]
     :param history_memory: budget of the past [MB]; when it is spent, the oldest is dropped
     :param checkpoints: from one checkpoint to the next [s]
+    :param boundary: of the requests; None lets unexpected errors pass
     :raises BadProperty: a rate or the memory is out of range, or publish_rate does not divide
         physics_rate
 
@@ -66,6 +68,7 @@ class Simulation:
         history: float = 600.0,
         history_memory: float = DEFAULT_MEMORY,
         checkpoints: float = CHECKPOINTS,
+        boundary: ErrorBoundary | None = None,
     ) -> None:
         physics_rate = _RATE(physics_rate, 'physics_rate')
         publish_rate = _RATE(publish_rate, 'publish_rate')
@@ -85,6 +88,7 @@ class Simulation:
             length=history,
             checkpoints=checkpoints,
             memory=HistoryMemory(history_memory),
+            boundary=boundary or ErrorBoundary(),
         )
         self.playback = Playback(self.past, speed=speed)
         self.requests = RequestQueue()

@@ -27,6 +27,7 @@ from physsim_ros.files import (
     worlds_in,
     write_file,
 )
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
@@ -59,7 +60,7 @@ BY_DIFFICULTY = (
 )
 
 
-def gallery_content(own_worlds: OwnWorlds) -> dict[str, Any]:
+def gallery_content(own_worlds: OwnWorlds, boundary: ErrorBoundary) -> dict[str, Any]:
     """Return the message of all worlds and lessons, the shipped ones and the user's own."""
     known = worlds_in(shipped_worlds())
     names = sorted(known, key=lambda name: (*BY_DIFFICULTY, name).index(name))
@@ -71,7 +72,7 @@ def gallery_content(own_worlds: OwnWorlds) -> dict[str, Any]:
     return {
         'type': 'worlds',
         'worlds': list(worlds.values()),
-        'lessons': lesson_list(own_worlds.directory),
+        'lessons': lesson_list(own_worlds.directory, boundary),
     }
 
 

@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Malformed, Refusal
 from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests.cdr_reader import Truncated
@@ -40,22 +41,26 @@ class RequestSubscriptions:
 
     :param node: that owns them
     :param requests: the queue that answers refused messages
+    :param boundary: of the node
+
     :ivar undecodable: number of messages that could not be decoded
     :ivar queue: of messages that wait to be decoded
     """
 
-    def __init__(self, node: Node, requests: RequestQueue) -> None:
+    def __init__(self, node: Node, requests: RequestQueue, boundary: ErrorBoundary) -> None:
         self.undecodable = 0
         self.queue = MessageQueue(node)
         self._node = node
         self._requests = requests
+        self._boundary = boundary
 
     def add(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
         """Subscribe to messages of a type; a `Refusal` that the callback raises is answered."""
 
         def handle(data: bytes) -> None:
             try:
-                callback(self._decoded(data, kind))
+                with self._boundary.message(topic):
+                    callback(self._decoded(data, kind))
             except Refusal as refusal:
                 self._requests.refuse(refusal, topic=topic, subject='')
 

@@ -10,7 +10,7 @@ from functools import partial
 
 from physsim_ros.files import check_world_name, text_of
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
-from physsim_ros.model.errors import BadProperty, BadWorldFile, WorldFull
+from physsim_ros.model.errors import BadProperty, BadWorldFile, Refusal
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.request_handler import Wait
@@ -172,8 +172,9 @@ def share(page: PageSession, origin: Origin) -> None:
     def send_text() -> list[Answer]:
         simulation = page.world.simulation
         try:
-            text = text_of(simulation.save(), simulation.physics_rate, longest=MOST_SHARED)
-        except WorldFull as refusal:
+            with page.world.boundary.message(origin.topic):
+                text = text_of(simulation.save(), simulation.physics_rate, longest=MOST_SHARED)
+        except Refusal as refusal:
             page.answer_page(origin, str(refusal), code=refusal.code)
         else:
             page.answer_page(origin, 'the world as text', values=(('yaml', text),))
