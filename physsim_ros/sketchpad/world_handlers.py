@@ -20,7 +20,11 @@ from urllib.parse import quote
 from physsim_ros.files import (
     find_world,
     load_mapping,
+    make_directory,
+    MOST_BYTES,
     OwnWorlds,
+    read_bytes,
+    read_parts,
     shipped_pictures,
     shipped_worlds,
     title_of,
@@ -119,12 +123,16 @@ class Download(_OfWorlds):
         """Answer with the file."""
         try:
             path = self.world_path(name)
-            content = path.read_bytes()
+            self.set_header('Content-Type', TYPES['.yaml'])
+            # RFC 6266 and 8187: a name of any letters.
+            file = quote(path.name, safe='')
+            self.set_header('Content-Disposition', f"attachment; filename*=UTF-8''{file}")
+            for part in read_parts(path, MOST_BYTES):
+                self.write(part)
+                # As fast as the browser reads.
+                await self.flush()
         except (Refusal, OSError):
             self.refuse(404, 'there is no such world')
-        self.set_header('Content-Type', TYPES['.yaml'])
-        self.set_header('Content-Disposition', f'attachment; filename="{path.name}"')
-        self.finish(content)
 
 
 class Picture(_OfWorlds):
@@ -144,7 +152,7 @@ class Picture(_OfWorlds):
     async def get(self, name: str) -> None:
         """Answer with the picture."""
         try:
-            content = self.own_worlds.picture(name).read_bytes()
+            content = read_bytes(self.own_worlds.picture(name), MOST_PICTURE)
         except (Refusal, OSError):
             self.refuse(404, 'there is no such picture')
         self.set_header('Content-Type', TYPES['.png'])
@@ -160,7 +168,7 @@ class Picture(_OfWorlds):
         try:
             path = self.own_worlds.picture(name)
             self.world_path(name)
-            path.parent.mkdir(parents=True, exist_ok=True)
+            make_directory(path.parent)
             write_file(path, content)
         except (Refusal, OSError):
             self.refuse(404, 'there is no such world')
@@ -180,7 +188,7 @@ class Unsaved(Guarded):
         self.require_drawing()
         try:
             content = self._autosave.unsaved_text()
-        except (OSError, UnicodeDecodeError):
+        except OSError:
             self.refuse(404, 'there is no unsaved world')
         self.set_header('Content-Type', TYPES['.yaml'])
         self.finish(content)

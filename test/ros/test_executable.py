@@ -17,7 +17,7 @@ from typing import Any
 from physsim_ros.ros.parameters import SPECS
 import pytest
 
-from ..outside import Outside, PATIENCE, ROOT
+from ..outside import installed_program, Outside, PATIENCE, ROOT
 
 SHAPES = ('circle: {radius: 0.3}', 'box: {width: 0.5, height: 0.5}')
 # A grid of discs and boxes, which fall apart over each other.
@@ -172,6 +172,16 @@ def test_a_bug_in_a_step_ends_it_loudly_and_leaves_no_viewer_running(outside: Ou
         each.kill()
     assert 'ZeroDivisionError' in ''.join(world.lines)
     assert not left
+
+
+@pytest.mark.parametrize('output', ['/dev/full', '>(true)'])
+def test_nobody_has_to_read_what_it_prints(outside: Outside, output: str) -> None:
+    words = '--ros-args -p viewer:=none -p sketchpad:=serve -p sketchpad_port:=0'
+    command = f'exec {installed_program("physsim")} {words} > {output}'
+    with outside.start('bash', '-c', command) as world:
+        world.wait_for('failure 1, sketchpad')
+        world.wait_for('ready')
+        assert world.interrupt() == 0
 
 
 def test_its_first_pose_is_seen_by_another_process(outside: Outside) -> None:

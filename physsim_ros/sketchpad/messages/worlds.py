@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
 
 from physsim_ros.files import check_world_name, text_of
@@ -111,8 +112,9 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     """
 
     def save() -> str:
-        page.own_worlds.check_free(check_world_name(name), replace=replace)
-        page.own_worlds.keep(name)
+        with _reaching(name):
+            page.own_worlds.check_free(check_world_name(name), replace=replace)
+            page.own_worlds.keep(name)
         return page.world.perform_on('save_world', name)
 
     page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
@@ -154,15 +156,25 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
     """Change the files of own worlds, and send all pages the list."""
 
     def manage() -> str:
-        try:
+        with _reaching(name):
             done = action()
-        except OSError as error:
-            reason = error.strerror or error
-            raise BadWorldFile(f'{name}: {reason}', field='name') from error
         page.list_worlds()
         return done
 
     page.perform(origin, manage)
+
+
+@contextmanager
+def _reaching(name: str) -> Iterator[None]:
+    """
+    Refuse the files of a world that cannot be reached.
+
+    :raises BadWorldFile: the system has refused it, as a name that is too long or a full disk
+    """
+    try:
+        yield
+    except OSError as error:
+        raise BadWorldFile(f'{name}: {error.strerror or error}', field='name') from error
 
 
 @message('share', '~/save_world', Right.DRAW)
