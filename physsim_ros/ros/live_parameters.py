@@ -49,7 +49,7 @@ class LiveParameters:
         session: DrawingSession,
         *,
         effects: Mapping[str, Callable[[], None]],
-        prepare: Mapping[str, Callable[[Any], None]],
+        prepare: Mapping[str, Callable[[Any], object]],
         on_change: Callable[[], None],
         boundary: ErrorBoundary,
     ) -> None:

@@ -54,7 +54,7 @@ class Autosave:
         except OSError:
             return 0.0
 
-    def unsaved_text(self) -> bytes:
+    def unsaved_content(self) -> bytes:
         """
         Return the unsaved world of the last start, as the text of a world file.
 

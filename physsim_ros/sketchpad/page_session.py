@@ -85,7 +85,7 @@ class PageSession:
         self.own_worlds = own_worlds
         self.autosave = autosave
         self.list_worlds = list_worlds
-        self.drawing = DrawingSession(world.drawing_settings())
+        self.drawing = DrawingSession(world.drawing_settings(), clock=time.thread_time)
         self.hand = f'page {number}'
         self.driven = '', 0
         self.followed: frozenset[str] = frozenset()

@@ -187,7 +187,7 @@ class Unsaved(Guarded):
         """Answer with the file."""
         self.require_drawing()
         try:
-            content = self._autosave.unsaved_text()
+            content = self._autosave.unsaved_content()
         except OSError:
             self.refuse(404, 'there is no unsaved world')
         self.set_header('Content-Type', TYPES['.yaml'])

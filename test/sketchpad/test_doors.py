@@ -140,7 +140,7 @@ REQUESTS: dict[str, tuple[object, str]] = {
     '/session': (CookieCheck, 'get'),
     '/world/demo.yaml': (world_handlers, 'find_world'),
     '/picture/demo': (OwnWorlds, 'picture'),
-    '/unsaved': (Autosave, 'unsaved_text'),
+    '/unsaved': (Autosave, 'unsaved_content'),
 }
 
 

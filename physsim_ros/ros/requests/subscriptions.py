@@ -12,7 +12,7 @@ arrived (`message_queue`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from physsim_ros.model.error_boundary import ErrorBoundary
@@ -54,13 +54,32 @@ class RequestSubscriptions:
         self._requests = requests
         self._boundary = boundary
 
-    def add(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
-        """Subscribe to messages of a type; a `Refusal` that the callback raises is answered."""
+    def add(
+        self, kind: type, topic: str, callback: Callable[[Any], Iterator[None] | None]
+    ) -> None:
+        """
+        Subscribe to messages of a type.
 
-        def handle(data: bytes) -> None:
+        :param callback: handles a message, or returns the pieces of that; a `Refusal` that it
+            raises is answered
+        """
+
+        def handle(data: bytes) -> Iterator[None] | None:
             try:
                 with self._boundary.message(topic):
-                    callback(self._decoded(data, kind))
+                    pieces = callback(self._decoded(data, kind))
+            except Refusal as refusal:
+                self._requests.refuse(refusal, topic=topic, subject='')
+                return None
+            return None if pieces is None else in_pieces(pieces)
+
+        def in_pieces(pieces: Iterator[None]) -> Iterator[None]:
+            is_left = True
+            try:
+                while is_left:
+                    with self._boundary.message(topic):
+                        is_left = next(pieces, self) is not self
+                    yield
             except Refusal as refusal:
                 self._requests.refuse(refusal, topic=topic, subject='')
 
