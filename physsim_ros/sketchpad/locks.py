@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from fnmatch import translate
 from functools import lru_cache
 import re
@@ -33,7 +33,7 @@ class Locks:
     :raises BadProperty: more than `MOST_PATTERNS` are patterns
     """
 
-    def __init__(self, names: Iterable[str]) -> None:
+    def __init__(self, names: Collection[str]) -> None:
         patterns = {name for name in names if any(sign in name for sign in '*?[')}
         self._names = frozenset(names) - patterns
         if len(patterns) > MOST_PATTERNS:

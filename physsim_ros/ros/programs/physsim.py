@@ -105,8 +105,8 @@ def end_process() -> NoReturn:
     """
     End the process with exit code 0, whoever reads what it prints.
 
-    The interpreter would free each space of the engine piece by piece (`spacefree` of Pymunk 7.3),
-    for seconds in a crowded world, when it has no threads any more that could end it.
+    The interpreter would free each space of the engine piece by piece, as Pymunk 7.3 does it, for
+    seconds in a crowded world, when it has no threads any more that could end it.
     """
     with suppress(OSError):
         sys.stdout.flush()

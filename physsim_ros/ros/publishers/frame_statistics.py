@@ -15,6 +15,8 @@ _SMOOTHING = 1.0
 _COST_SHARE = 1 / 6
 # Wait of messages above which the diagnostics warn [s].
 LONG_DELAY = 1.0
+# CPU time of a message above which they do [s]: six frames at 60 Hz.
+LONG_MESSAGE = 0.1
 # Real-time factor over speed, below which late frames are an error and not a warning [1].
 FAR_BEHIND = 0.5
 
@@ -144,6 +146,9 @@ class FrameStatistics:
             )
         if message_delay > LONG_DELAY:
             concerns.append(f'requests wait {message_delay:.1f} s: send fewer of them')
+        if longest[1] > LONG_MESSAGE:
+            name, took = longest
+            concerns.append(f'{name} took {took:.1f} s, in which time stood: send less at once')
         if lost > 0:
             concerns.append(f'{lost} messages cannot be decoded: check their publishers')
         if failed > 0:

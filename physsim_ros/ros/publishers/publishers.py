@@ -116,7 +116,7 @@ class Publishers:
         """Publish the answers of a frame, and those of its streams that have subscribers."""
         for answer in frame.answers:
             self.publish_answer(answer)
-        self.events.flush()
+        self._flush_events()
         self._frame = frame
         for stream in (*self._state_streams, self.contacts):
             stream.publish(frame)
@@ -128,9 +128,14 @@ class Publishers:
         with self._boundary.output('~/events'):
             self.events.publish(answer)
 
+    def _flush_events(self) -> None:
+        """Publish the answers that have waited, as far as their readers take them."""
+        with self._boundary.output('~/events'):
+            self.events.flush()
+
     def publish_to_late_subscribers(self) -> None:
         """Publish the last frame to later subscribers; called at ticks without a frame."""
-        self.events.flush()
+        self._flush_events()
         if self._frame is not None:
             for stream in self._state_streams:
                 stream.publish_to_late_subscribers(self._frame)
