@@ -135,8 +135,8 @@ setup(
         # Calls the core; Pymunk needs it, too.
         'cffi>=1.17',
         'numpy>=2',
-        # Reads the images of maps; Rerun needs it, too.
-        'Pillow>=10',
+        # Reads the images of maps; Rerun needs it, too. Earlier ones have known holes.
+        'Pillow>=12.3',
         # As recent as Rerun wants it.
         'pyarrow',
         'pymunk>=7.3,<8',
@@ -146,8 +146,8 @@ setup(
         'scipy>=1.13',
         # Reads SVG; pure Python, and needs nothing itself.
         'svgelements>=1.9,<2',
-        # Serves the page; needs nothing itself.
-        'tornado>=6.4,<7',
+        # Serves the page; needs nothing itself. Earlier ones have known holes.
+        'tornado>=6.5.10,<7',
     ],
     extras_require={
         # ROS 2 Jazzy as wheels. Without fastrtps importing rclpy fails: it brings the only

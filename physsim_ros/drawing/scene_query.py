@@ -20,7 +20,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import contains, Piece
+from physsim_ros.model.shapes import contain_each, contains_each
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import (
@@ -98,11 +98,12 @@ class SceneQuery:
         """
         offsets = self.snapshot.centers - point
         near = np.hypot(offsets[:, 0], offsets[:, 1]) <= self._outer_radii + slack
-        return tuple(
-            self.names[row]
-            for row in np.flatnonzero(near)[::-1]
-            if self._covers(row, point, slack)
-        )
+        rows = np.flatnonzero(near)[::-1]
+        forms = [self.snapshot.scene.bodies[row].shape.form for row in rows]
+        poses = self.snapshot.poses[rows]
+        local = rotated_each(point - poses[:, :2], -poses[:, 2])
+        covering = rows[contain_each(forms, local[:, 0], local[:, 1], slack)]
+        return tuple(self.names[row] for row in covering)
 
     def covers(self, name: str, points: Floats) -> Flags:
         """
@@ -113,7 +114,8 @@ class SceneQuery:
         row = self._rows[name]
         x, y, yaw = self.snapshot.poses[row].tolist()
         local = rotated_each(points - (x, y), -yaw)
-        return contains(self._pieces(row), local[:, 0], local[:, 1])
+        form = self.snapshot.scene.bodies[row].shape.form
+        return contains_each(form, local[:, 0], local[:, 1])
 
     def local(self, name: str, point: Point) -> Point:
         """Return a point of the world in the frame of a body [m]."""
@@ -172,16 +174,10 @@ class SceneQuery:
         """(n,) float64: outer radius of each body about its centre of mass [m]."""
         return np.array([body.shape.form.outer for body in self.snapshot.scene.bodies])
 
-    def _pieces(self, row: int) -> tuple[Piece, ...]:
-        return self.snapshot.scene.bodies[row].shape.form.pieces
-
-    def _covers(self, row: int, point: Point, slack: float) -> bool:
-        local = world_to_local(point, self.snapshot.poses[row].tolist())
-        return contains(self._pieces(row), *local, slack)
-
 
 def _next_number(names: Iterable[str]) -> int:
     """Return the lowest number above those of all drawn names among these."""
-    numbers = (split_name(name) for name in names)
+    # Of thousands of names, few are drawn.
+    numbers = (split_name(name) for name in names if name.startswith(DRAWN))
     drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _NUMBER_LIMIT)
     return 1 + max(drawn, default=-1)

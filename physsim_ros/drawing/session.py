@@ -10,7 +10,7 @@ Law: a session changes only itself; it returns ordinary requests, to be submitte
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 import math
 from typing import Any
@@ -38,7 +38,7 @@ from physsim_ros.drawing.strokes.meanings import Outcome
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import no_body, NotRecognised
+from physsim_ros.model.errors import Malformed, no_body, NotRecognised
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import (
@@ -64,12 +64,21 @@ class DrawingSession:
 
     :param settings: of drawing; may be changed at any time
     :param tool: that clicks use
+    :param clock: returns the CPU time of the thread [s], by which the reading of strokes together
+        is limited; the default one stands still
 
     :ivar preview: the unfinished gesture, or the last stroke as it was read
     """
 
-    def __init__(self, settings: DrawingSettings, tool: Tool = Tool.NONE) -> None:
+    def __init__(
+        self,
+        settings: DrawingSettings,
+        tool: Tool = Tool.NONE,
+        *,
+        clock: Callable[[], float] = lambda: 0.0,
+    ) -> None:
         self.settings = settings
+        self._clock = clock
         self.preview: Preview = NO_PREVIEW
         self._gesture = Gesture(tool)
         # The last figures, the earliest first.
@@ -134,7 +143,7 @@ class DrawingSession:
         if marked_solid(self._figures, figure, self.settings):
             # The solid stays the last figure: another reading of it may follow.
             return self._shown(_mark_reading(figure))
-        group = likeliest_group(self._figures, figure, self.settings)
+        group = likeliest_group(self._figures, figure, self.settings, self._clock)
         if group is not None:
             figure = group
             while self._figures and self._figures[-1].began >= figure.began:
@@ -215,22 +224,22 @@ class DrawingSession:
         :param by: vector from each body to its copy [m]
         :param snapshot: of the world
         :raises UnknownBody: there is no such body
+        :raises Malformed: one is named twice
         """
         scene, requests = self._query(snapshot), list[Request]()
+        poses = {name: scene.pose(name) for name in _known(names, scene)}
+        _, number = split_name(scene.next_body())
         copies = {WORLD: WORLD}
-        for name in names:
-            if name not in scene.names:
-                raise no_body(name, scene.names, 'names')
-            x, y, _ = scene.pose(name)
-            spawn = self.copy(name, (x + by[0], y + by[1]), snapshot)
-            copies[name] = spawn.name
-            requests.append(spawn)
-        poses = {name: scene.pose(name) for name in names}
+        for each, (name, (x, y, yaw)) in enumerate(poses.items(), number):
+            copies[name] = copied = f'{DRAWN}/{each}'
+            pose = x + by[0], y + by[1], yaw
+            requests.append(body_requests.copy(copied, scene.body(name), pose))
+        _, number = split_name(scene.next_joint())
         for joint in scene.joints:
             if joint.a in copies and joint.b in copies:
                 points, lengths = drawn_points(joint, poses), joint.drawn_values()
                 join = Join(
-                    name=self._query(snapshot).next_joint(),
+                    name=f'{DRAWN}/{number}',
                     kind=joint.kind,
                     points=tuple((x + by[0], y + by[1]) for x, y in points),
                     a=copies[joint.a],
@@ -238,8 +247,9 @@ class DrawingSession:
                     # Lengths that were measured when it was drawn are those of the copy, too.
                     properties=replace(joint.properties, **dict[str, Any](lengths)),
                 )
-                self._reserve_names((join,))
+                number += 1
                 requests.append(join)
+        self._reserve_names(requests)
         return tuple(requests)
 
     def _query(self, snapshot: Snapshot) -> SceneQuery:
@@ -253,6 +263,22 @@ class DrawingSession:
                     self._next_body = max(self._next_body, 1 + split_name(name)[1])
                 case Join(name=name) if split_name(name)[0] == DRAWN:
                     self._next_joint = max(self._next_joint, 1 + split_name(name)[1])
+
+
+def _known(names: Sequence[str], scene: SceneQuery) -> Sequence[str]:
+    """
+    Return names of bodies.
+
+    :raises UnknownBody: there is no such body
+    :raises Malformed: one is named twice
+    """
+    known = set(scene.names)
+    for name in names:
+        if name not in known:
+            raise no_body(name, scene.names, 'names')
+    if len(set(names)) < len(names):
+        raise Malformed('a body is named twice', field='names')
+    return names
 
 
 def submit_reading(

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.scene import Joint
-from physsim_ros.model.shapes import contains
-from physsim_ros.model.transform import Point, world_to_local
+from physsim_ros.model.shapes import contains_each
+from physsim_ros.model.transform import Point, rotated_each
 
 # Kinds of joints whose end on the background is a point that a body can cover.
 _KINDS = {JointKind.AXLE, JointKind.PIN, JointKind.ROD, JointKind.ROPE, JointKind.SPRING}
@@ -33,18 +34,26 @@ def requests_with_waiting_joints(
 
 
 def _joins_of(body: Spawn, scene: SceneQuery) -> Iterator[Join]:
-    for joint in scene.joints:
-        if joint.b != WORLD or split_name(joint.name)[0] != DRAWN or joint.kind not in _KINDS:
-            continue
-        end = joint.seat.bx, joint.seat.by
-        if contains(body.shape.form.pieces, *world_to_local(end, body.pose)):
-            yield Join(
-                name=joint.name,
-                kind=joint.kind,
-                points=_points(joint, end, scene),
-                a=joint.a,
-                b=body.name,
-            )
+    waiting = [
+        joint
+        for joint in scene.joints
+        if joint.b == WORLD and joint.kind in _KINDS and split_name(joint.name)[0] == DRAWN
+    ]
+    if not waiting:
+        return
+    x, y, yaw = body.pose
+    ends = np.array([(joint.seat.bx, joint.seat.by) for joint in waiting])
+    local = rotated_each(ends - (x, y), -yaw)
+    covered = contains_each(body.shape.form, local[:, 0], local[:, 1])
+    for number in np.flatnonzero(covered):
+        joint = waiting[number]
+        yield Join(
+            name=joint.name,
+            kind=joint.kind,
+            points=_points(joint, (joint.seat.bx, joint.seat.by), scene),
+            a=joint.a,
+            b=body.name,
+        )
 
 
 def _points(joint: Joint, end: Point, scene: SceneQuery) -> tuple[Point, ...]:

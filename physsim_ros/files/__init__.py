@@ -10,13 +10,14 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 
 from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, load_drawing, Pace
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
-from physsim_ros.files.regular_file import write_file
+from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import shipped, shipped_pictures, title_of, user_directory
 from physsim_ros.files.robots import shipped_robot, shipped_robots, with_shipped_robot
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,
     load_world,
+    MOST_BYTES,
     save_world,
     shipped_lessons,
     shipped_worlds,
@@ -30,6 +31,7 @@ from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_mapping
 
 __all__ = [
+    'MOST_BYTES',
     'PARAMETERS',
     'PROPERTIES',
     'SETTINGS',
@@ -44,6 +46,9 @@ __all__ = [
     'load_drawing',
     'load_mapping',
     'load_world',
+    'make_directory',
+    'read_bytes',
+    'read_parts',
     'save_world',
     'shipped',
     'shipped_lessons',

@@ -147,7 +147,10 @@ def _occupied(path: Path, *, negate: bool, threshold: float) -> Flags:
                 sums, most = _brightness(image)
     except UnidentifiedImageError as error:
         raise _unreadable(path, 'it is neither a PGM nor a PNG', 'image') from error
-    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+    except BadProperty:
+        raise
+    except Exception as error:
+        # Decoders of Pillow raise whatever they stumble over.
         raise _unreadable(path, error, 'image') from error
     shades = np.arange(most + 1) / most
     dark = (shades if negate else 1.0 - shades) > threshold

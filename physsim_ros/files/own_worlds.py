@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from physsim_ros.files.regular_file import make_directory
 from physsim_ros.files.resources import is_plain
 from physsim_ros.files.world_file import is_shipped
 from physsim_ros.model.errors import BadWorldFile, Exists
@@ -119,5 +120,5 @@ class OwnWorlds:
 
     def _kept(self, name: str) -> Path:
         directory = self.directory / _KEPT
-        directory.mkdir(parents=True, exist_ok=True)
+        make_directory(directory)
         return directory / self._path(name).name

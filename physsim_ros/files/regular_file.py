@@ -4,17 +4,21 @@
 """
 Reading and writing regular files: bounded, whole, and without waiting.
 
-Law: reading never waits. A FIFO, a device, a directory, and a file that is larger than its limit
-are errors at once.
+Laws: reading never waits. A FIFO, a device, a directory, and a file that is larger than its limit
+are errors at once. What is made here is for this user alone.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 import errno
 import os
 from pathlib import Path
 import secrets
 import stat
+
+# Size of a part of a file [bytes].
+_PART = 2**18
 
 
 def read_file(path: Path, most: int) -> str:
@@ -37,19 +41,38 @@ def read_bytes(path: Path, most: int) -> bytes:
     :param most: greatest size [bytes]
     :raises OSError: it cannot be read, is not a regular file, or is larger
     """
+    return b''.join(read_parts(path, most))
+
+
+def read_parts(path: Path, most: int) -> Iterator[bytes]:
+    """
+    Yield the content of a file in parts; see `read_bytes`.
+
+    A file whose size tells that it is larger is an error before the first part.
+    """
     # Looked at before it is opened too: opening a device may do something.
-    _check_kind(path.stat())
+    _check(path.stat(), most)
     descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
     with os.fdopen(descriptor, 'rb', buffering=0) as file:
-        _check_kind(os.fstat(file.fileno()))
+        _check(os.fstat(file.fileno()), most)
         # Files of /proc have a size of 0, whatever they hold.
-        parts, left = [], most + 1
-        while left > 0 and (part := os.read(file.fileno(), min(left, 2**20))):
-            parts.append(part)
+        left = most
+        while part := os.read(file.fileno(), _PART):
             left -= len(part)
-    if left <= 0:
-        raise OSError(errno.EFBIG, f'it is larger than {most / 2**20:g} MiB')
-    return b''.join(parts)
+            if left < 0:
+                raise _too_large(most)
+            yield part
+
+
+def make_directory(path: Path) -> None:
+    """
+    Make a directory, and those above it that are missing, as the XDG specification has it.
+
+    :raises OSError: it cannot be made
+    """
+    if not path.is_dir():
+        make_directory(path.parent)
+        path.mkdir(mode=0o700, exist_ok=True)
 
 
 def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:
@@ -58,20 +81,18 @@ def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:
 
     :param path: of the file, without symbolic links
     :param data: that it has then
-    :param mode: that it has then; None is that of the file that is there
+    :param mode: that it has then; None is that of the file that is there, or 0600
     :raises OSError: it cannot be written, and is as it was
     """
     # Short, since the name of a file has 255 bytes at most.
     temporary = path.parent / f'.{secrets.token_hex(8)}.tmp'
-    if mode is None and path.exists():
-        mode = stat.S_IMODE(path.stat().st_mode)
-    # Readable by no other user before it has its mode; the umask applies to a new one only.
-    created = 0o666 if mode is None else 0o600
-    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, created)
+    if mode is None:
+        mode = stat.S_IMODE(path.stat().st_mode) if path.exists() else 0o600
+    # Readable by no other user before it has its mode.
+    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
     try:
         with os.fdopen(descriptor, 'wb') as file:
-            if mode is not None:
-                os.fchmod(file.fileno(), mode)
+            os.fchmod(file.fileno(), mode)
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
@@ -81,6 +102,12 @@ def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:
         raise
 
 
-def _check_kind(status: os.stat_result) -> None:
+def _check(status: os.stat_result, most: int) -> None:
     if not stat.S_ISREG(status.st_mode):
         raise OSError(errno.EINVAL, 'it is not a regular file')
+    if status.st_size > most:
+        raise _too_large(most)
+
+
+def _too_large(most: int) -> OSError:
+    return OSError(errno.EFBIG, f'it is larger than {most / 2**20:g} MiB')

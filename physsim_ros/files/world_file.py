@@ -17,7 +17,7 @@ import re
 
 from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.files.map_file import with_map_walls
-from physsim_ros.files.regular_file import read_file, write_file
+from physsim_ros.files.regular_file import make_directory, read_file, write_file
 from physsim_ros.files.resources import files_by_name, is_plain, shipped, user_directory
 from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import FORMAT
@@ -205,7 +205,7 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
                 field='world_file',
             )
         text = text_of(state, physics_rate)
-        world_dir.mkdir(parents=True, exist_ok=True)
+        make_directory(world_dir)
         write_file(path, text.encode())
     except OSError as error:
         reason = error.strerror or error

@@ -111,6 +111,7 @@ def _body_states(
     check_limit('max_bodies', len(entries), settings)
     bodies: dict[str, BodyState] = {}
     unmoved: set[str] = set()
+    pieces = 0
     for count, entry in enumerate(entries, 1):
         with naming(entry, 'body', count):
             state, is_unmoved = _body_state(entry, settings, physics_rate)
@@ -119,6 +120,9 @@ def _body_states(
             bodies[state.body.name] = state
             if is_unmoved:
                 unmoved.add(state.body.name)
+        # As they are read: they take longer than their text, which aliases repeat in no time.
+        pieces += len(state.body.shape.form.pieces)
+        check_limit('max_shapes', pieces, settings)
         if progress is not None:
             progress(count, len(entries))
     return tuple(bodies.values()), unmoved

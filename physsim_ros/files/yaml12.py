@@ -1,7 +1,12 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""A YAML loader with the numbers of YAML 1.2 (1e5 is one), no dates and no custom tags."""
+"""
+A YAML loader with the numbers of YAML 1.2 (1e5 is one), no dates and no custom tags.
+
+Laws: keys are texts, so that no two differ only by their hashes; what aliases repeat is counted
+while the text is read, and ends it beyond `MOST_REPEATED`.
+"""
 
 from __future__ import annotations
 
@@ -15,6 +20,8 @@ import yaml
 from yaml.composer import Composer
 
 _TAG = 'tag:yaml.org,2002:'
+# Scalars, lists and mappings that aliases repeat: 300 outlines of 100 points.
+MOST_REPEATED = 100_000
 
 
 class NotYaml(Malformed):
@@ -43,7 +50,7 @@ class Located(dict[Any, Any]):
 
 
 def _construct_located(loader: yaml.SafeLoader, node: yaml.MappingNode) -> Iterator[Located]:
-    """Construct a mapping in two steps, as PyYAML does, since it may hold itself."""
+    """Construct a mapping in two steps, as PyYAML does: its depth costs no stack."""
     mapping = Located(node.start_mark.line + 1)
     yield mapping
     mapping.update(loader.construct_mapping(node))
@@ -70,25 +77,54 @@ class Loader(Composer, yaml.CSafeLoader):
     def __init__(self, stream: str) -> None:
         yaml.CSafeLoader.__init__(self, stream)
         Composer.__init__(self)
+        # Nodes up to now, those of aliases too, and of these alone.
+        self._nodes = self._repeated = 0
+        # Number of nodes below the anchor of each name, itself included.
+        self._sizes: dict[str, int] = {}
 
-    def flatten_mapping(self, node: yaml.MappingNode) -> None:
-        """Ignore merge keys: YAML 1.2 has none, and nested merges exhaust the memory."""
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        """Return the next node; what aliases repeat is bounded."""
+        event: Any = self.peek_event()
+        before = self._nodes
+        anchor = getattr(event, 'anchor', None)
+        node = super().compose_node(parent, index)
+        if isinstance(event, yaml.AliasEvent):
+            # Where an alias is a part of what it stands for, that has no size yet.
+            self._repeated += self._sizes.get(str(anchor), MOST_REPEATED + 1)
+            self._nodes += self._sizes.get(str(anchor), 0)
+        else:
+            self._nodes += 1
+        if anchor is not None:
+            self._sizes[anchor] = self._nodes - before
+        if self._repeated > MOST_REPEATED:
+            problem = f'aliases repeat more than {MOST_REPEATED} values'
+            raise yaml.composer.ComposerError(problem=problem, problem_mark=event.start_mark)
+        return node
 
     def construct_mapping(
         self,
         node: yaml.MappingNode,
         deep: bool = False,  # noqa: FBT001, FBT002 - PyYAML's own
     ) -> dict[Any, Any]:
-        """Return the mapping of a node; a duplicate key is an error."""
-        entries = node.value if isinstance(node, yaml.MappingNode) else ()
-        keys = set()
-        for key in (key for key, _ in entries if isinstance(key, yaml.ScalarNode)):
-            if key.value in keys:
-                raise yaml.constructor.ConstructorError(
-                    None, None, f'{key.value} appears twice', key.start_mark
-                )
-            keys.add(key.value)
-        return super().construct_mapping(node, deep)
+        """
+        Return the mapping of a node; a duplicate key, or one that is no scalar, is an error.
+
+        A merge key is one like others: YAML 1.2 has none, and nested merges exhaust the memory.
+        """
+        mapping: dict[Any, Any] = {}
+        if not isinstance(node, yaml.MappingNode):
+            raise _refused('this is no mapping', node)
+        for key, value in node.value:
+            if not isinstance(key, yaml.ScalarNode) or key.tag not in self.yaml_constructors:
+                raise _refused('a key is no text', key)
+            if key.value in mapping:
+                raise _refused(f'{key.value} appears twice', key)
+            mapping[key.value] = self.construct_object(value, deep=deep)
+        return mapping
+
+
+def _refused(problem: str, node: yaml.Node) -> yaml.constructor.ConstructorError:
+    return yaml.constructor.ConstructorError(None, None, problem, node.start_mark)
 
 
 def _bool(text: str) -> bool:
@@ -106,9 +142,7 @@ def _scalar(make: Callable[[str], object]) -> Callable[[Loader, yaml.ScalarNode]
         try:
             return make(str(loader.construct_scalar(node)))
         except ValueError as error:
-            raise yaml.constructor.ConstructorError(
-                None, None, str(error), node.start_mark
-            ) from error
+            raise _refused(str(error), node) from error
 
     return construct
 

@@ -215,6 +215,16 @@ class Busy(Refusal):
     code = 'busy'
 
 
+class Failed(Refusal):
+    """An error that nobody expected; the log has its traceback (`error_boundary`)."""
+
+    code = 'failed'
+
+
+class StepFailed(BaseException):
+    """An error inside of a step, which leaves no world: no `except Exception` catches it."""
+
+
 def no_body(name: str, known: Iterable[str], field: str) -> UnknownBody:
     """
     Return the refusal of the name of no body.

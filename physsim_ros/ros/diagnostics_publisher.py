@@ -11,6 +11,7 @@ events, whether `/diagnostics` has subscribers or not.
 from __future__ import annotations
 
 from diagnostic_msgs.msg import DiagnosticArray
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.frame_outputs import FrameOutputs
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents, SAME_NAME_REMEDY
@@ -29,6 +30,7 @@ class DiagnosticsPublisher:
     :param simulation: of the node
     :param outputs: of the node, with the statistics of frames
     :param subscriptions: of requests
+    :param boundary: of the node
     """
 
     def __init__(
@@ -37,6 +39,7 @@ class DiagnosticsPublisher:
         simulation: Simulation,
         outputs: FrameOutputs,
         subscriptions: RequestSubscriptions,
+        boundary: ErrorBoundary,
     ) -> None:
         self._node = node
         self._name = node.get_fully_qualified_name()
@@ -45,6 +48,7 @@ class DiagnosticsPublisher:
         self._simulation = simulation
         self._outputs = outputs
         self._subscriptions = subscriptions
+        self._boundary = boundary
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._due = 0
 
@@ -58,8 +62,15 @@ class DiagnosticsPublisher:
         if now_ns < self._due:
             return
         self._due = now_ns + _PERIOD
-        outputs = self._outputs
-        outputs.report_answers((*outputs.viewer.poll(), *self._new_namesakes()))
+        with self._boundary.output('/diagnostics'):
+            self._publish(message_delay)
+
+    def _publish(self, message_delay: float) -> None:
+        outputs, boundary = self._outputs, self._boundary
+        longest = boundary.take_longest()
+        outputs.report_answers(
+            (*outputs.viewer.poll(), *self._new_namesakes(), *boundary.take_events())
+        )
         if outputs.frame is None or self._publisher.get_subscription_count() == 0:
             return
         simulation, events = self._simulation, outputs.topics.events
@@ -77,6 +88,8 @@ class DiagnosticsPublisher:
                 waiting_answers=events.waiting,
                 stopped_subscriber=events.stopped,
                 memory=simulation.past.memory.in_megabytes,
+                failures=boundary.failures,
+                longest=longest,
             )
         )
 

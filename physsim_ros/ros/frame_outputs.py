@@ -16,6 +16,7 @@ import time
 from typing import Any
 
 from physsim_ros.drawing import DrawingSession
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros import parameters
@@ -37,6 +38,7 @@ class FrameOutputs:
     :param node: that owns the publishers
     :param values: of the parameters of the node, by name, always up to date
     :param session: the drawing session, whose preview is added to each frame
+    :param boundary: of each output
 
     :ivar topics: the publishers of the world
     :ivar viewer: of the world
@@ -46,14 +48,21 @@ class FrameOutputs:
     :ivar records_contacts: whether `frame` has contacts even without subscriber, viewer and page
     """
 
-    def __init__(self, node: Node, values: Mapping[str, Any], session: DrawingSession) -> None:
+    def __init__(
+        self,
+        node: Node,
+        values: Mapping[str, Any],
+        session: DrawingSession,
+        boundary: ErrorBoundary,
+    ) -> None:
         self.topics = Publishers(
             node,
+            boundary,
             frame_id=values['frame_id'],
             map_resolution=lambda: values['map_resolution'],
             publish_tf=values['publish_tf'],
         )
-        self.viewer = Viewer()
+        self.viewer = Viewer(boundary)
         self.sketchpad: Sketchpad | None = None
         self.statistics = FrameStatistics()
         self.frame: Frame | None = None
@@ -61,6 +70,7 @@ class FrameOutputs:
         self._node = node
         self._values = values
         self._session = session
+        self._boundary = boundary
         # Whether the last frame is one of the past.
         self._in_past = False
         self.update_clock()
@@ -88,7 +98,8 @@ class FrameOutputs:
         self._in_past = frame.past
         self.update_clock()
         self.topics.publish_frame(frame)
-        self.topics.timeline.publish(status, moving=frame.moved)
+        with self._boundary.output('~/timeline'):
+            self.topics.timeline.publish(status, moving=frame.moved)
         self._show(frame)
 
     def republish(self) -> None:
@@ -105,9 +116,10 @@ class FrameOutputs:
     def report_answers(self, answers: tuple[Answer, ...]) -> None:
         """Publish and log answers that no frame carries."""
         if answers and self.sketchpad is not None:
-            self.sketchpad.report(answers)
+            with self._boundary.output('page'):
+                self.sketchpad.report(answers)
         for answer in answers:
-            self.topics.events.publish(answer)
+            self.topics.publish_answer(answer)
             self._log_answer(answer)
 
     def update_clock(self) -> None:
@@ -141,9 +153,11 @@ class FrameOutputs:
             title=Path(self._values['world_file']).stem or 'empty world',
             traced=parameters.listed_names(self._values['trace']),
         )
-        self.viewer.show(frame, context=context)
+        with self._boundary.output('viewer'):
+            self.viewer.show(frame, context=context)
         if self.sketchpad is not None:
-            self.sketchpad.show(frame)
+            with self._boundary.output('page'):
+                self.sketchpad.show(frame)
 
     def _log_answer(self, answer: Answer) -> None:
         if answer.code:

@@ -15,6 +15,7 @@ from dataclasses import replace
 from typing import Any
 
 from physsim_ros.drawing import DrawingSession, Tool
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.settings import WorldSettings
@@ -37,6 +38,7 @@ class LiveParameters:
     :param prepare: called with the value that a parameter is to have, by its name, if no other
         check refuses it; raises a Refusal where the value cannot have its effect
     :param on_change: called when any parameter has been set
+    :param boundary: of the node
     """
 
     def __init__(
@@ -47,8 +49,9 @@ class LiveParameters:
         session: DrawingSession,
         *,
         effects: Mapping[str, Callable[[], None]],
-        prepare: Mapping[str, Callable[[Any], None]],
+        prepare: Mapping[str, Callable[[Any], object]],
         on_change: Callable[[], None],
+        boundary: ErrorBoundary,
     ) -> None:
         self._node = node
         self._values = values
@@ -57,10 +60,11 @@ class LiveParameters:
         self._effects = effects
         self._prepare = prepare
         self._on_change = on_change
+        self._boundary = boundary
         # The settings of the world that the parameters have; None where they may differ.
         self._mirrored: WorldSettings | None = parameters.world_settings(values)
         node.add_on_set_parameters_callback(self._check)
-        node.add_post_set_parameters_callback(self._apply)
+        node.add_post_set_parameters_callback(self._note_set)
 
     def mirror_settings(self) -> None:
         """Set the parameters to the settings and speed of the world."""
@@ -74,17 +78,30 @@ class LiveParameters:
 
     def _check(self, changed: list[Parameter]) -> SetParametersResult:
         try:
-            for parameter in changed:
-                parameters.check(parameter)
-            replace(self._simulation.settings, **parameters.world_changes(changed))
-            values = {parameter.name: parameter.value for parameter in changed}
-            parameters.drawing_settings(self._values | values)
-            for name, prepare in self._prepare.items():
-                if name in values:
-                    prepare(values[name])
+            with self._boundary.reading('parameters'):
+                self._check_and_prepare(changed)
         except Refusal as refusal:
             return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
         return SetParametersResult(successful=True)
+
+    def _check_and_prepare(self, changed: list[Parameter]) -> None:
+        """
+        Check parameters that are to be set, and prepare what takes effect with them.
+
+        :raises Refusal: a value is out of range, or cannot have its effect
+        """
+        for parameter in changed:
+            parameters.check(parameter)
+        replace(self._simulation.settings, **parameters.world_changes(changed))
+        values = {parameter.name: parameter.value for parameter in changed}
+        parameters.drawing_settings(self._values | values)
+        for name, prepare in self._prepare.items():
+            if name in values:
+                prepare(values[name])
+
+    def _note_set(self, changed: list[Parameter]) -> None:
+        with self._boundary.output('parameters'):
+            self._apply(changed)
 
     def _apply(self, changed: list[Parameter]) -> None:
         for parameter in changed:

@@ -15,8 +15,10 @@ from functools import partial
 from pathlib import Path
 import sys
 import time
+from typing import Any
 
 from physsim_ros.drawing import DrawingSession, Tool
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
@@ -28,6 +30,7 @@ from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.pages import Pages
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.ros.requests.drawing_topics import DrawingTopics
+from physsim_ros.ros.requests.message_queue import PIECE
 from physsim_ros.ros.requests.parameter_services import ParameterServices
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer
 from physsim_ros.ros.requests.request_topics import RequestTopics
@@ -39,14 +42,38 @@ from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
 from physsim_ros.simulation.request_handler import DeferredCalls, Wait
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import WorldControl
+from physsim_ros.sketchpad import locks_of, WorldControl
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.parameter import Parameter
+import rclpy.service
+from rclpy.subscription import Subscription
 
 # Time after which a tick simulates no further publish period [ns]: requests, services and signals
 # wait at most so long, which a person hardly notices. At speed 64 a frame has 64 periods.
 MOST_TICK_NS = 100_000_000
+# Time after which no further request is applied in a tick [ns]; or as long as the rest of the last
+# tick took, since in a crowded world each tick with a request makes the scene anew.
+MOST_REQUESTS_NS = 10_000_000
+
+
+class _RequestTime:
+    """
+    The time for requests, from now on.
+
+    :param rest_ns: duration of the last tick without its requests [ns]
+
+    :ivar ended: steady time at which the last request was applied [ns]
+    """
+
+    def __init__(self, rest_ns: int) -> None:
+        self.ended = time.perf_counter_ns()
+        self._until = self.ended + max(MOST_REQUESTS_NS, rest_ns)
+
+    def is_spent(self) -> bool:
+        """Return whether there is no time for a further request; called after each."""
+        self.ended = time.perf_counter_ns()
+        return self.ended > self._until
 
 
 class PhysSimNode(NodeWithoutQosEvents):
@@ -58,6 +85,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     :param parameter_overrides: values that override those of the command line
     :raises PhysSimError: a parameter or the world file is refused
 
+    :ivar boundary: where unexpected errors of messages and outputs end
     :ivar simulation: the world and its time
     :ivar world_files: reads and writes the world file of parameter `world_file`
     :ivar outputs: the topics, the viewer and the sketchpad
@@ -84,6 +112,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         except rclpy_implementation.RCLError as error:
             # As for a namespace of the command line that is longer than a name of DDS may be.
             raise PhysSimError(str(error)) from error
+        self.boundary = ErrorBoundary(self.get_logger().error, time.thread_time)
         self._closing = ExitStack()
         try:
             self._set_up()
@@ -99,6 +128,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         :raises PhysSimError: a parameter or the world file is refused
         """
         self._started = False
+        # Duration of the last tick with a frame, without its requests [ns].
+        self._rest_ns = 0
         self.message_delay = 0.0
         self._values = parameters.declare(self)
         # rclpy 7.1 has no public name for the values that it was started with.
@@ -110,16 +141,20 @@ class PhysSimNode(NodeWithoutQosEvents):
             speed=self._values['speed'],
             history=self._values['history'],
             history_memory=self._values['history_memory'],
+            boundary=self.boundary,
         )
         self._session = DrawingSession(
-            parameters.drawing_settings(self._values), Tool(self._values['tool'])
+            parameters.drawing_settings(self._values),
+            Tool(self._values['tool']),
+            clock=time.thread_time,
         )
         self.world_files = WorldFiles(self.simulation, self._values, self.get_logger().info)
-        self.outputs = FrameOutputs(self, self._values, self._session)
+        self.outputs = FrameOutputs(self, self._values, self._session, self.boundary)
         self._closing.callback(self.outputs.close)
-        self.fleet = Fleet(self, self._values, self.simulation.requests)
+        self.fleet = Fleet(self, self._values, self.simulation.requests, self.boundary)
         if self._values['world_file']:
-            self.world_files.begin_with()
+            with self.boundary.reading('world_file'):
+                self.world_files.begin_with()
         self.outputs.topics.timeline.publish(self.simulation.status, moving=False)
         self._create_subscriptions()
         self._create_services()
@@ -133,8 +168,12 @@ class PhysSimNode(NodeWithoutQosEvents):
                 'sketchpad': self._pages.update,
                 'viewer': self._open_viewer,
             },
-            prepare={'sketchpad': self._pages.open_for},
+            prepare={
+                'sketchpad': self._pages.open_for,
+                'sketchpad_locked': lambda value: locks_of(parameters.listed_names(value)),
+            },
             on_change=self.outputs.publish_preview,
+            boundary=self.boundary,
         )
         self._live_parameters.mirror_settings()
         self._pages.open_for(self._values['sketchpad'])
@@ -142,9 +181,9 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _create_subscriptions(self) -> None:
         frame_id = self._values['frame_id']
-        self.requests = RequestSubscriptions(self, self.simulation.requests)
+        self.requests = RequestSubscriptions(self, self.simulation.requests, self.boundary)
         self._diagnostics = DiagnosticsPublisher(
-            self, self.simulation, self.outputs, self.requests
+            self, self.simulation, self.outputs, self.requests, self.boundary
         )
         RequestTopics(self.requests, self.simulation.requests, frame_id)
         self._drawing_topics = DrawingTopics(
@@ -178,11 +217,12 @@ class PhysSimNode(NodeWithoutQosEvents):
             'save_world': Service(self.world_files.save, Wait.FOR_SEEK),
         }
         deferred_calls = DeferredCalls(simulation.requests, self._apply_up_to_seek)
-        self._reply_pacer = ReplyPacer(self)
-        calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer)
+        self._reply_pacer = ReplyPacer(self, self.boundary)
+        calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer, self.boundary)
         create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
         control = WorldControl(
+            boundary=self.boundary,
             simulation=simulation,
             values=self._values,
             set_parameter=partial(parameters.set_value, self),
@@ -223,6 +263,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
         self._started = self._reply_pacer.paced = True
+        self.requests.queue.piece = PIECE
         self._pages.print_addresses()
         # A viewer that is opened begins a recording anew that has failed.
         self._open_viewer()
@@ -234,6 +275,27 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Open the viewer of parameter `viewer`, once the node has started."""
         if self._started:
             self.outputs.open_viewer()
+
+    def create_subscription(self, *args: Any, **options: Any) -> Subscription:
+        """Create a subscription, as `Node.create_subscription` does, behind the boundary."""
+        kind, topic, callback, *others = args
+
+        def receive(message: Any) -> None:
+            with self.boundary.output(topic):
+                callback(message)
+
+        return super().create_subscription(kind, topic, receive, *others, **options)
+
+    def create_service(self, *args: Any, **options: Any) -> rclpy.service.Service:
+        """Create a service, as `Node.create_service` does; after an error, its reply is empty."""
+        kind, name, callback, *others = args
+
+        def respond(request: Any, response: Any) -> Any:
+            with self.boundary.output(name):
+                return callback(request, response)
+            return response
+
+        return super().create_service(kind, name, respond, *others, **options)
 
     def destroy_node(self) -> None:
         """Close the viewer and the sketchpad, and destroy the node."""
@@ -270,6 +332,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._handle_pages()
         self._submit_commands()
         frames: tuple[Frame, ...] = ()
+        request_time = _RequestTime(self._rest_ns)
         # While time goes back, no command counts, and controllers may be silent.
         if self.simulation.speed < 0.0 or not self.fleet.is_waiting:
             frames = self.simulation.advance(
@@ -277,6 +340,7 @@ class PhysSimNode(NodeWithoutQosEvents):
                 is_overdue=lambda: (
                     self.fleet.in_lockstep or time.perf_counter_ns() - began > MOST_TICK_NS
                 ),
+                is_spent=request_time.is_spent,
             )
         stepped = time.perf_counter_ns()
         for frame in frames:
@@ -285,6 +349,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             self._report_answers()
             self.outputs.republish()
             return
+        self._rest_ns = time.perf_counter_ns() - request_time.ended
         last = frames[-1]
         if last.moved:
             self.outputs.statistics.add(
@@ -339,14 +404,16 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _apply_up_to_seek(self) -> bool:
         """
-        Apply the requests before a seek; return whether no seek is under way.
+        Apply the requests before a seek that there is time for; return whether none waits.
 
         Before `start` nothing is applied, and True is returned.
         """
-        return not self._started or self.simulation.apply_up_to_seek()
+        if not self._started:
+            return True
+        return self.simulation.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
 
     def _current_snapshot(self) -> Snapshot:
-        """Return the snapshot that is shown, with the waiting requests but during a seek."""
+        """Return the snapshot that is shown, with the waiting requests if they are applied."""
         if self._apply_up_to_seek():
             self.apply_requests()
         return self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot

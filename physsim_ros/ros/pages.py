@@ -80,7 +80,9 @@ class Pages:
 
     def print_addresses(self) -> None:
         """Print the addresses of the page, for the person at the terminal."""
-        if (sketchpad := self._outputs.sketchpad) is not None:
+        if (sketchpad := self._outputs.sketchpad) is None:
+            return
+        with self._control.boundary.output('sketchpad'):
             sys.stdout.write(
                 '\n'
                 '  The page is at\n\n'

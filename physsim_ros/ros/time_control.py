@@ -27,7 +27,7 @@ class TimeControl:
     :param node: whose parameter `speed` is the speed
     :param simulation: of the node
     :param values: of the parameters of the node, by name, always up to date
-    :param apply_up_to_seek: applies the requests before a seek; returns whether none is under way
+    :param apply_up_to_seek: applies requests before a seek; returns whether the world is there
     :param advance_frame: advances the world by one frame, and publishes it
     :param on_seek: called before time jumps
     """

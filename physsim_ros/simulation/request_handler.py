@@ -55,9 +55,13 @@ class RequestHandler:
         """Apply the requests that wait, and collect their answers."""
         self._apply(self._queue.take())
 
-    def apply_up_to_seek(self) -> None:
-        """Apply the requests that wait up to a seek; those after it wait for its end."""
-        self._apply(self._queue.take(lambda: self._playback.is_there))
+    def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> None:
+        """
+        Apply the requests that wait up to a seek; those after it wait for its end.
+
+        :param is_spent: whether there is no time for a further request, which waits, too
+        """
+        self._apply(self._queue.take(lambda: self._playback.is_there, is_spent))
 
     def _apply(self, entries: Iterator[Waiting]) -> None:
         for waiting in entries:
@@ -191,7 +195,7 @@ class DeferredCalls:
     Carries out calls, or queues them among the requests.
 
     :param requests: queue of requests and answers
-    :param apply_up_to_seek: applies the requests before a seek; returns whether none is under way
+    :param apply_up_to_seek: applies requests before a seek; returns whether the world is there
     """
 
     def __init__(self, requests: RequestQueue, apply_up_to_seek: Callable[[], bool]) -> None:

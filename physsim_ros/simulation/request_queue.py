@@ -145,6 +145,8 @@ class RequestQueue:
         # Memory of the requests that wait [bytes].
         self._size = 0
         self._is_taken = False
+        # Gesture of the last request that was taken.
+        self._taken = 0
         # The waiting move of each hand, and the waiting seek, which a later one replaces.
         self._moves: dict[str, Waiting] = {}
         self._seek: Waiting | None = None
@@ -158,6 +160,18 @@ class RequestQueue:
     def has_requests(self) -> bool:
         """Return whether an entry waits that is applied to the world."""
         return any(each.is_for_world for each in self._waiting)
+
+    @property
+    def is_in_gesture(self) -> bool:
+        """
+        Return whether the next request belongs to the gesture of the last one that was taken.
+
+        Commands of robots join a gesture for an undo alone.
+        """
+        following = next((each for each in self._waiting if each.is_for_world), None)
+        if following is None or isinstance(following.request, DriveRobot):
+            return False
+        return following.gesture == self._taken
 
     def begin_gesture(self) -> int:
         """Return the number of a new gesture."""
@@ -273,7 +287,11 @@ class RequestQueue:
             waiting.request = Busy(f'{self._untold} more answers are not told, too many wait')
         self._waiting.append(waiting)
 
-    def take(self, is_there: Callable[[], bool] = lambda: True) -> Iterator[Waiting]:
+    def take(
+        self,
+        is_there: Callable[[], bool] = lambda: True,
+        is_spent: Callable[[], bool] = lambda: False,
+    ) -> Iterator[Waiting]:
         """
         Remove and yield the entries in order.
 
@@ -282,6 +300,7 @@ class RequestQueue:
 
         :param is_there: whether the world can take a request; else the next one for the world and
             all entries after it wait
+        :param is_spent: whether there is no time for a further entry; asked after each
         """
         if self._is_taken:
             return
@@ -295,6 +314,10 @@ class RequestQueue:
                         del self._moves[hand]
                     case Seek() if self._seek is waiting:
                         self._seek = None
+                if waiting.is_for_world:
+                    self._taken = waiting.gesture
                 yield waiting
+                if is_spent():
+                    return
         finally:
             self._is_taken = False

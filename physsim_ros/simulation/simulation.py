@@ -17,6 +17,7 @@ from numbers import Integral
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import shown, Within
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
@@ -48,6 +49,7 @@ class Simulation:
     :param history: length of the past that is kept [s of simulation time]
     :param history_memory: budget of the past [MB]; when it is spent, the oldest is dropped
     :param checkpoints: from one checkpoint to the next [s]
+    :param boundary: of the requests; None lets unexpected errors pass
     :raises BadProperty: a rate or the memory is out of range, or publish_rate does not divide
         physics_rate
 
@@ -66,6 +68,7 @@ class Simulation:
         history: float = 600.0,
         history_memory: float = DEFAULT_MEMORY,
         checkpoints: float = CHECKPOINTS,
+        boundary: ErrorBoundary | None = None,
     ) -> None:
         physics_rate = _RATE(physics_rate, 'physics_rate')
         publish_rate = _RATE(publish_rate, 'publish_rate')
@@ -85,6 +88,7 @@ class Simulation:
             length=history,
             checkpoints=checkpoints,
             memory=HistoryMemory(history_memory),
+            boundary=boundary or ErrorBoundary(),
         )
         self.playback = Playback(self.past, speed=speed)
         self.requests = RequestQueue()
@@ -254,10 +258,15 @@ class Simulation:
 
     # Time
 
-    def apply_up_to_seek(self) -> bool:
-        """Apply the requests up to a seek; return whether no seek is under way."""
-        self._handler.apply_up_to_seek()
-        return self.playback.is_there
+    def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
+        """
+        Apply the requests up to a seek.
+
+        :param is_spent: whether there is no time for a further one
+        :return: whether no seek is under way, and no request waits
+        """
+        self._handler.apply_up_to_seek(is_spent)
+        return self.playback.is_there and not self.requests.has_requests
 
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
@@ -276,14 +285,22 @@ class Simulation:
         return self._play_frame(self.playback.steps_to_period)
 
     def advance(
-        self, now_ns: int, *, is_overdue: Callable[[], bool] = lambda: False
+        self,
+        now_ns: int,
+        *,
+        is_overdue: Callable[[], bool] = lambda: False,
+        is_spent: Callable[[], bool] = lambda: False,
     ) -> tuple[Frame, ...]:
         """
         Apply the requests that wait, and advance, or rewind, by the steps that are due.
 
+        Where the time for requests is spent within a gesture, as in an array of thousands of
+        bodies, time stands until a later call has applied the rest of the gesture.
+
         :param now_ns: steady time, never going back [ns]
         :param is_overdue: whether the call has taken too long; a frame that advances then ends at
             the next publish period, however many steps are due, so that requests do not wait
+        :param is_spent: whether there is no time for a further request in this call
         :return: the frames, in the order in which they are shown; empty where nothing is due and
             nothing has changed
         """
@@ -292,8 +309,11 @@ class Simulation:
             playback.seek_shown()
         if not playback.continue_seek(is_overdue):
             return ()
-        self._handler.apply_up_to_seek()
+        self._handler.apply_up_to_seek(is_spent)
         if not playback.continue_seek(is_overdue):
+            return ()
+        if self.requests.is_in_gesture or (playback.frames_due and self.requests.has_requests):
+            playback.clock.restart()
             return ()
         if playback.frames_due:
             playback.frames_due -= 1

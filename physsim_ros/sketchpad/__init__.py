@@ -12,7 +12,8 @@ browser runs. Other folders import the names below.
 
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.class_server import ClassServer, World
+from physsim_ros.sketchpad.locks import locks_of
 from physsim_ros.sketchpad.sketchpad import Sketchpad
 from physsim_ros.sketchpad.world_control import WorldControl
 
-__all__ = ['ClassServer', 'Role', 'Sketchpad', 'World', 'WorldControl']
+__all__ = ['ClassServer', 'Role', 'Sketchpad', 'World', 'WorldControl', 'locks_of']

@@ -23,7 +23,7 @@ import socket
 import stat
 from urllib.parse import urlsplit
 
-from physsim_ros.files import user_directory, write_file
+from physsim_ros.files import make_directory, user_directory, write_file
 from tornado.web import create_signed_value, decode_signed_value
 
 # Random bytes of a token: too many to be guessed.
@@ -146,7 +146,7 @@ def cookie_key() -> bytes:
     """Return the key of the user, made at first; one for this run where it cannot be kept."""
     directory = user_directory('XDG_STATE_HOME', '.local', 'state')
     try:
-        directory.mkdir(mode=0o700, parents=True, exist_ok=True)
+        make_directory(directory)
         return _read_key(directory / _KEY_FILE) or _make_key(directory / _KEY_FILE)
     except OSError:
         # Without the file, pages log in again after a restart.

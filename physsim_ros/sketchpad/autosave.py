@@ -15,7 +15,7 @@ from contextlib import suppress
 from pathlib import Path
 import time
 
-from physsim_ros.files import write_file
+from physsim_ros.files import make_directory, read_bytes, write_file
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
@@ -54,13 +54,14 @@ class Autosave:
         except OSError:
             return 0.0
 
-    def unsaved_text(self) -> str:
+    def unsaved_content(self) -> bytes:
         """
-        Return the unsaved world of the last start.
+        Return the unsaved world of the last start, as the text of a world file.
 
         :raises OSError: there is no such world
         """
-        return self._unsaved.read_text()
+        # A character has up to four bytes.
+        return read_bytes(self._unsaved, 4 * LONGEST)
 
     def forget_unsaved(self) -> str:
         """Delete the unsaved world of the last start, and return a message about it."""
@@ -101,7 +102,7 @@ class Autosave:
         self._changed = False
         with suppress(OSError, WorldFull):
             text = self._text(LONGEST)
-            self._file.parent.mkdir(parents=True, exist_ok=True)
+            make_directory(self._file.parent)
             write_file(self._file, text.encode())
         took = time.thread_time() - began
         self._due = time.monotonic() + max(PERIOD, SHARE * took)

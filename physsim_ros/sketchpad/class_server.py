@@ -17,9 +17,11 @@ from collections.abc import Callable, Sequence
 from functools import partial
 import json
 import secrets
+import sys
 from typing import NamedTuple
 from urllib.parse import quote
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.guarded import Guarded
@@ -104,6 +106,7 @@ class ClassServer:
                 ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
             ],
             access=self._access,
+            boundary=ErrorBoundary(lambda text: sys.stderr.write(f'{text}\n')),
             compress_response=True,
             default_handler_class=Missing,
             log_function=lambda _: None,
@@ -118,9 +121,7 @@ class ClassServer:
         asyncio.run(self._serve(is_over))
 
     async def _serve(self, is_over: Callable[[], bool]) -> None:
-        server = BoundedServer(
-            self._application, max_body_size=_MOST_BYTES, idle_connection_timeout=10.0
-        )
+        server = BoundedServer(self._application, max_body_size=_MOST_BYTES)
         server.add_sockets(self._sockets)
         # It is asked, since a signal handler of a thread sets it.
         while not is_over():  # noqa: ASYNC110

@@ -15,9 +15,11 @@ from http import HTTPStatus
 import time
 from typing import Any, NoReturn
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.sketchpad.access import Access, headers_for, Role
+from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError, RequestHandler
-from tornado.websocket import WebSocketHandler
+from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 # Content types by suffix; the machine's own table may lack some.
 TYPES = {
@@ -34,6 +36,8 @@ TYPES = {
 # Rate of the messages of a socket in the long run [1/s], and messages at once. A pen and a hand
 # send one message each frame of the page, at 60 to 144 Hz.
 RATE, BURST = 200.0, 400.0
+# Errors of a client that has left.
+LEFT = (StreamClosedError, WebSocketClosedError)
 # Codes of closing, RFC 6455, section 7.4.1; the last one is this server's own.
 POLICY_VIOLATION, TOO_BIG, REPLACED = 1008, 1009, 4000
 
@@ -78,6 +82,12 @@ class Guarded(RequestHandler):
         for name, value in headers_for(known).items():
             self.set_header(name, value)
 
+    @property
+    def boundary(self) -> ErrorBoundary:
+        """Return the error boundary of the node."""
+        boundary: ErrorBoundary = self.settings['boundary']
+        return boundary
+
     async def prepare(self) -> None:
         """Refuse a foreign host, and a request without the cookie."""
         if not self.access.allows_host(self.request.host):
@@ -103,9 +113,10 @@ class Guarded(RequestHandler):
         raise HTTPError(status)
 
     def log_exception(self, *details: Any) -> None:
-        """Log the errors of this server, not those of its clients."""
-        if not isinstance(details[1], HTTPError):
-            super().log_exception(*details)
+        """Note the unexpected errors of this server, not those of its clients."""
+        error = details[1]
+        if not isinstance(error, (HTTPError, *LEFT)):
+            self._refusal = str(self.boundary.failed('page', error))
 
     def write_error(self, status_code: int, **_: Any) -> None:
         """Write the reason of a refusal, or the meaning of the status; nothing of the request."""

@@ -30,6 +30,14 @@ _REFUSAL = (
     'Content-Type: text/plain; charset=utf-8\r\n'
     f'Content-Length: {len(_SENTENCE)}\r\n\r\n{_SENTENCE}'
 ).encode()
+# Size of the lines before the body of a request [bytes].
+_MOST_HEADER = 2**16
+# Time until a connection without a request, or a request without the rest of it, is closed [s].
+LIMITS = {
+    'idle_connection_timeout': 10.0,
+    'body_timeout': 10.0,
+    'max_header_size': _MOST_HEADER,
+}
 # Ports that are tried after the given one.
 _MORE_PORTS = 20
 
@@ -41,11 +49,11 @@ def most_connections() -> int:
 
 
 class BoundedServer(HTTPServer):
-    """A server that refuses connections beyond a number."""
+    """A server that refuses connections beyond a number, and closes those that stand idle."""
 
     def initialize(self, *arguments: Any, **options: Any) -> None:
         """Begin without a connection, as `HTTPServer` does."""
-        super().initialize(*arguments, **options)
+        super().initialize(*arguments, **(LIMITS | options))
         self._refused: set[asyncio.Task[None]] = set()
 
     def handle_stream(self, stream: IOStream, address: Any) -> None:
@@ -72,7 +80,7 @@ async def _refuse(stream: IOStream) -> None:
         with suppress(StreamClosedError, UnsatisfiableReadError, TimeoutError):
             async with asyncio.timeout(_REFUSING):
                 # A connection with unread bytes would be reset, and the answer with it.
-                await stream.read_until(b'\r\n\r\n', max_bytes=2**16)
+                await stream.read_until(b'\r\n\r\n', max_bytes=_MOST_HEADER)
                 await stream.write(_REFUSAL)
     finally:
         stream.close()

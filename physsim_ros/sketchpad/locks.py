@@ -5,12 +5,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from fnmatch import fnmatchcase
+from collections.abc import Collection, Iterable
+from fnmatch import translate
+from functools import lru_cache
+import re
 
 from physsim_ros.drawing import SceneQuery
 from physsim_ros.model import requests
-from physsim_ros.model.errors import Frozen
+from physsim_ros.model.errors import BadProperty, Frozen
 from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
@@ -19,6 +21,40 @@ from physsim_ros.sketchpad.world_control import WorldControl
 
 # Requests that concern every body of the world.
 _OF_ALL = (requests.DeleteAll, requests.UnjoinAll, requests.Restore)
+# Names with wildcards: each is compiled, and compared with each name of a request.
+MOST_PATTERNS = 50
+
+
+class Locks:
+    """
+    Names of locked bodies.
+
+    :param names: of the bodies, or patterns as in a shell
+    :raises BadProperty: more than `MOST_PATTERNS` are patterns
+    """
+
+    def __init__(self, names: Collection[str]) -> None:
+        patterns = {name for name in names if any(sign in name for sign in '*?[')}
+        self._names = frozenset(names) - patterns
+        if len(patterns) > MOST_PATTERNS:
+            raise BadProperty(
+                f'at most {MOST_PATTERNS} names have wildcards, not {len(patterns)}', field='names'
+            )
+        self._patterns = [re.compile(translate(pattern)) for pattern in patterns]
+
+    def has(self, name: str) -> bool:
+        """Return whether a body is locked."""
+        return name in self._names or any(each.match(name) for each in self._patterns)
+
+
+@lru_cache(maxsize=2)
+def locks_of(names: tuple[str, ...]) -> Locks:
+    """
+    Return the locks of names and patterns.
+
+    :raises BadProperty: there are too many patterns
+    """
+    return Locks(names)
 
 
 def check_locked(role: Role, wanted: Iterable[Request], world: WorldControl) -> None:
@@ -27,13 +63,14 @@ def check_locked(role: Role, wanted: Iterable[Request], world: WorldControl) -> 
 
     :raises Frozen: one of them does
     """
-    patterns = world.locked_bodies()
-    if not patterns or role is Role.TEACH:
+    names = world.locked_bodies()
+    if not names or role is Role.TEACH:
         return
+    locks = locks_of(names)
     snapshot = world.current_snapshot()
     for request in wanted:
         for name in _bodies_of(request, snapshot):
-            if any(fnmatchcase(name, pattern) for pattern in patterns):
+            if locks.has(name):
                 raise Frozen(f'{shown_name(name)} is locked by a teacher', field='name')
 
 

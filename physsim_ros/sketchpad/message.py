@@ -18,6 +18,7 @@ import json
 from typing import Any, NamedTuple, TypeVar
 
 from physsim_ros.model.checks import check_key, shown
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
@@ -115,7 +116,7 @@ def message(
     return declare
 
 
-def read_message(text: str, role: Role) -> tuple[str, Message | Refusal]:
+def read_message(text: str, role: Role, boundary: ErrorBoundary) -> tuple[str, Message | Refusal]:
     """
     Return the identifier of a message ('' if it cannot be read), and the message or its refusal.
 
@@ -123,12 +124,14 @@ def read_message(text: str, role: Role) -> tuple[str, Message | Refusal]:
     or the page has not the right to the message.
 
     :param role: of the page
+    :param boundary: of the server
     """
     request = ''
     try:
-        fields = _mapping_from(text)
-        request = _request_from(fields.pop('id', ''))
-        return request, _checked(request, fields.pop('type', None), fields, role)
+        with boundary.reading('page'):
+            fields = _mapping_from(text)
+            request = _request_from(fields.pop('id', ''))
+            return request, _checked(request, fields.pop('type', None), fields, role)
     except Refusal as refusal:
         return request, refusal
 

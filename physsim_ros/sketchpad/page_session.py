@@ -18,6 +18,7 @@ from physsim_ros.drawing import DrawingSession
 from physsim_ros.files import OwnWorlds
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
@@ -84,7 +85,7 @@ class PageSession:
         self.own_worlds = own_worlds
         self.autosave = autosave
         self.list_worlds = list_worlds
-        self.drawing = DrawingSession(world.drawing_settings())
+        self.drawing = DrawingSession(world.drawing_settings(), clock=time.thread_time)
         self.hand = f'page {number}'
         self.driven = '', 0
         self.followed: frozenset[str] = frozenset()
@@ -100,8 +101,9 @@ class PageSession:
         kind = KINDS[message.kind]
         origin = Origin(self.number, message.request, kind.topic)
         try:
-            check_right(kind.right, self.role, frozen=self.world.is_frozen)
-            kind.handle(self, origin, **message.arguments)
+            with self.world.boundary.message(kind.topic):
+                check_right(kind.right, self.role, frozen=self.world.is_frozen)
+                kind.handle(self, origin, **message.arguments)
         except Refusal as refusal:
             self.refuse(origin, refusal)
         self._send_preview()
@@ -213,7 +215,8 @@ class PageSession:
         :param action: returns a message about it; raises a PhysSimError where it is refused
         :param wait: time of the action
         """
-        self.call(origin, lambda: [answer_of(origin, action)], wait)
+        boundary = self.world.boundary
+        self.call(origin, lambda: [answer_of(origin, action, boundary)], wait)
 
     def call(self, origin: Origin, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
         """Make a call at its time, or refuse it where too many wait."""
@@ -235,11 +238,12 @@ class PageSession:
         self.send({'type': 'preview', 'lines': lines, 'label': preview.label})
 
 
-def answer_of(origin: Origin, action: Callable[[], str]) -> Answer:
+def answer_of(origin: Origin, action: Callable[[], str], boundary: ErrorBoundary) -> Answer:
     """Perform an action; return the answer with its message, or with its refusal."""
     topic, asker = origin.topic, origin.asker
     try:
-        return Answer(topic=topic, message=action(), asker=asker)
+        with boundary.message(topic):
+            return Answer(topic=topic, message=action(), asker=asker)
     except Refusal as refusal:
         return Answer.refused(refusal, topic=topic, asker=asker)
     except PhysSimError as error:

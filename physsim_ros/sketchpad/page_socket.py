@@ -70,7 +70,7 @@ class PageSocket(GuardedSocket):
             return
         # Binary messages are no JSON either.
         text = message if isinstance(message, str) else ''
-        request, checked = read_message(text, self.role)
+        request, checked = read_message(text, self.role, self.boundary)
         if isinstance(checked, Refusal):
             self._refuse(request, checked)
         elif checked.kind == 'show':

@@ -14,12 +14,15 @@ from collections import deque
 from collections.abc import Callable
 from functools import partial
 import threading
+from typing import Any
 
 from physsim_ros.files import OwnWorlds, shipped_pictures
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.frame_feed import FrameFeed
+from physsim_ros.sketchpad.guarded import LEFT
 from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.message import Content
@@ -63,6 +66,7 @@ class Server:
     :param autosave: of the world
     :param recordings: the viewer
     :param inbox: receives the messages of the pages
+    :param boundary: of the node
     :raises PhysSimError: it cannot listen there
 
     :ivar port: that it listens on
@@ -77,7 +81,9 @@ class Server:
         autosave: Autosave,
         recordings: Recordings,
         inbox: Inbox,
+        boundary: ErrorBoundary,
     ) -> None:
+        self._boundary = boundary
         self._address = address
         self._own_worlds = own_worlds
         self._sockets = listening_sockets(address, port)
@@ -105,6 +111,7 @@ class Server:
                 *recording_routes(recordings),
             ],
             access=self._access,
+            boundary=boundary,
             compress_response=True,
             default_handler_class=Missing,
             websocket_max_message_size=MOST_BYTES,
@@ -155,7 +162,7 @@ class Server:
 
     def list_worlds(self, page: int | None = None) -> None:
         """Send the list of worlds to a page, or to all."""
-        self.send(partial(gallery_content, self._own_worlds), page)
+        self.send(partial(gallery_content, self._own_worlds, self._boundary), page)
 
     def close(self) -> None:
         """Close all pages, and end the thread."""
@@ -179,19 +186,25 @@ class Server:
 
     def _run(self) -> None:
         asyncio.set_event_loop(self._loop)
+        self._loop.set_exception_handler(self._note_error)
         try:
             self._loop.run_until_complete(self._serve())
         finally:
             self._loop.close()
+
+    def _note_error(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        """Note an unexpected error of a callback of the loop; a page that has left is none."""
+        match context.get('exception'):
+            case None:
+                loop.default_exception_handler(context)
+            case error if not isinstance(error, LEFT):
+                self._boundary.failed('page', error)
 
     async def _serve(self) -> None:
         server = BoundedServer(
             self._application,
             max_body_size=MOST_BYTES,
             max_buffer_size=2 * MOST_BYTES,
-            max_header_size=2**16,
-            idle_connection_timeout=10.0,
-            body_timeout=10.0,
         )
         server.add_sockets(self._sockets)
         await self._ended.wait()
@@ -204,7 +217,8 @@ class Server:
         """Make the calls that the world's thread has left here, and send the newest frame."""
         self._scheduled = False
         while self._outbox:
-            self._outbox.popleft()()
+            with self._boundary.output('page'):
+                self._outbox.popleft()()
         self._feed.send_frame()
 
     def _show(self, frame: Frame, ghost: Snapshot | None, timeline: Content | None) -> None:

@@ -26,10 +26,10 @@ from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
 from physsim_ros.sketchpad.frame_codec import VERSION
-from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened, Upload, UPLOADERS
+from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.last_contacts import LastContacts
 from physsim_ros.sketchpad.locks import check_locked
-from physsim_ros.sketchpad.message import Origin
+from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession
 from physsim_ros.sketchpad.recording_handlers import Recordings
 from physsim_ros.sketchpad.rights import check_right, Right
@@ -64,6 +64,7 @@ class Sketchpad:
         wake: Callable[[], None],
     ) -> None:
         self._world = world
+        self._boundary = world.boundary
         self._simulation = world.simulation
         self._recordings = recordings
         self._inbox = Inbox(wake)
@@ -78,6 +79,7 @@ class Sketchpad:
             autosave=self._autosave,
             recordings=recordings,
             inbox=self._inbox,
+            boundary=self._boundary,
         )
         self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
@@ -100,25 +102,31 @@ class Sketchpad:
     def handle_messages(self) -> None:
         """Carry out the messages of pages that have come, as many as there is time for."""
         now = time.monotonic()
-        self._do_periodic_work(now)
+        with self._boundary.output('page'):
+            self._do_periodic_work(now)
         self._handle_until(now + BUDGET)
-        self._send_class()
+        with self._boundary.output('page'):
+            self._send_class()
 
     def _handle_until(self, end: float) -> None:
         """Carry out messages until a steady time [s]."""
         while (entry := self._inbox.take()) is not None:
-            match entry:
-                case page, Opened() as opened:
-                    self._open(page, opened)
-                case page, Closed():
-                    if (session := self._sessions.pop(page, None)) is not None:
-                        session.close()
-                case _, Upload() as upload:
-                    self._replace_world(upload)
-                case page, message:
-                    self._sessions[page].handle(message)
+            with self._boundary.output('page'):
+                self._handle(*entry)
             if time.monotonic() > end:
                 return
+
+    def _handle(self, page: int, entry: Entry) -> None:
+        match entry:
+            case Opened():
+                self._open(page, entry)
+            case Closed():
+                if (session := self._sessions.pop(page, None)) is not None:
+                    session.close()
+            case Upload():
+                self._replace_world(entry)
+            case Message():
+                self._sessions[page].handle(entry)
 
     def show(self, frame: Frame) -> None:
         """Send a frame, its answers and the timeline to all pages; never blocks."""
@@ -179,7 +187,8 @@ class Sketchpad:
             self._server.send(content)
 
     def _save_unsaved(self) -> tuple[Answer, ...]:
-        self._autosave.save()
+        with self._boundary.output('autosave'):
+            self._autosave.save()
         return ()
 
     def _world_text(self, longest: int) -> str:
@@ -204,7 +213,7 @@ class Sketchpad:
             return simulation.load(state_from(content, settings, rate))
 
         def answers() -> list[Answer]:
-            answer = answer_of(origin, load)
+            answer = answer_of(origin, load, self._boundary)
             upload.reply(answer)
             return [answer]
 

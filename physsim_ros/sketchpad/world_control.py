@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.simulation.simulation import Simulation
@@ -26,6 +27,7 @@ class WorldControl:
     """
     The actions of a node; a returned text is a message about it.
 
+    :param boundary: of the node
     :param simulation: the world and its time
     :param values: of the parameters of the node, by name, always up to date
     :param set_parameter: sets a parameter by its name; raises a Refusal
@@ -44,6 +46,7 @@ class WorldControl:
     :param locked_bodies: returns patterns of the names of bodies that pupils do not change
     """
 
+    boundary: ErrorBoundary
     simulation: Simulation
     values: Mapping[str, Any]
     set_parameter: Callable[[str, str | bool], None]

@@ -20,13 +20,18 @@ from urllib.parse import quote
 from physsim_ros.files import (
     find_world,
     load_mapping,
+    make_directory,
+    MOST_BYTES,
     OwnWorlds,
+    read_bytes,
+    read_parts,
     shipped_pictures,
     shipped_worlds,
     title_of,
     worlds_in,
     write_file,
 )
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.access import Role
@@ -59,7 +64,7 @@ BY_DIFFICULTY = (
 )
 
 
-def gallery_content(own_worlds: OwnWorlds) -> dict[str, Any]:
+def gallery_content(own_worlds: OwnWorlds, boundary: ErrorBoundary) -> dict[str, Any]:
     """Return the message of all worlds and lessons, the shipped ones and the user's own."""
     known = worlds_in(shipped_worlds())
     names = sorted(known, key=lambda name: (*BY_DIFFICULTY, name).index(name))
@@ -71,7 +76,7 @@ def gallery_content(own_worlds: OwnWorlds) -> dict[str, Any]:
     return {
         'type': 'worlds',
         'worlds': list(worlds.values()),
-        'lessons': lesson_list(own_worlds.directory),
+        'lessons': lesson_list(own_worlds.directory, boundary),
     }
 
 
@@ -118,12 +123,16 @@ class Download(_OfWorlds):
         """Answer with the file."""
         try:
             path = self.world_path(name)
-            content = path.read_bytes()
+            self.set_header('Content-Type', TYPES['.yaml'])
+            # RFC 6266 and 8187: a name of any letters.
+            file = quote(path.name, safe='')
+            self.set_header('Content-Disposition', f"attachment; filename*=UTF-8''{file}")
+            for part in read_parts(path, MOST_BYTES):
+                self.write(part)
+                # As fast as the browser reads.
+                await self.flush()
         except (Refusal, OSError):
             self.refuse(404, 'there is no such world')
-        self.set_header('Content-Type', TYPES['.yaml'])
-        self.set_header('Content-Disposition', f'attachment; filename="{path.name}"')
-        self.finish(content)
 
 
 class Picture(_OfWorlds):
@@ -143,7 +152,7 @@ class Picture(_OfWorlds):
     async def get(self, name: str) -> None:
         """Answer with the picture."""
         try:
-            content = self.own_worlds.picture(name).read_bytes()
+            content = read_bytes(self.own_worlds.picture(name), MOST_PICTURE)
         except (Refusal, OSError):
             self.refuse(404, 'there is no such picture')
         self.set_header('Content-Type', TYPES['.png'])
@@ -159,7 +168,7 @@ class Picture(_OfWorlds):
         try:
             path = self.own_worlds.picture(name)
             self.world_path(name)
-            path.parent.mkdir(parents=True, exist_ok=True)
+            make_directory(path.parent)
             write_file(path, content)
         except (Refusal, OSError):
             self.refuse(404, 'there is no such world')
@@ -178,8 +187,8 @@ class Unsaved(Guarded):
         """Answer with the file."""
         self.require_drawing()
         try:
-            content = self._autosave.unsaved_text()
-        except (OSError, UnicodeDecodeError):
+            content = self._autosave.unsaved_content()
+        except OSError:
             self.refuse(404, 'there is no unsaved world')
         self.set_header('Content-Type', TYPES['.yaml'])
         self.finish(content)

@@ -25,9 +25,12 @@ class SettlingExecutor:
     An events executor that spins until messages have arrived.
 
     :param context: of the nodes
+
+    :ivar errors: to be raised where nodes spin, from whatever thread they are
     """
 
     def __init__(self, context: Context) -> None:
+        self.errors: list[BaseException] = []
         self._executor = EventsExecutor(context=context)
         self._nodes: list[Node] = []
 
@@ -49,7 +52,9 @@ class SettlingExecutor:
         :raises TimeoutError: nodes keep answering each other
         """
         for _ in range(_MOST_ROUNDS):
-            if self._spin_to_barrier() <= 1:
+            spins = self._spin_to_barrier()
+            self.raise_error()
+            if spins <= 1:
                 return
         raise TimeoutError('nodes keep answering each other while time is paused')
 
@@ -69,6 +74,12 @@ class SettlingExecutor:
             if time.monotonic() > deadline:
                 raise TimeoutError(otherwise)
             self._executor.spin_once(timeout_sec=0.01)
+            self.raise_error()
+
+    def raise_error(self) -> None:
+        """Raise the first of the errors that no call has raised."""
+        if self.errors:
+            raise self.errors.pop(0)
 
     def _spin_to_barrier(self) -> int:
         """Spin until all events queued now are handled, and return the number of spins."""

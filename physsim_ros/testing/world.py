@@ -53,6 +53,7 @@ class PhysSim(ObservedWorld):
         self._robots: list[Robot] = []
         self._executor = SettlingExecutor(context)
         self._executor.add_node(self.node)
+        self.node.boundary.on_error = self._executor.errors.append
         self._client = RequestClient(context, self.node, self._executor)
 
     # Time
@@ -202,7 +203,11 @@ class PhysSim(ObservedWorld):
         self.seek(self.time - seconds)
 
     def settle(self) -> None:
-        """Spin until all messages have arrived, those in reaction to them too."""
+        """
+        Spin until all messages have arrived, those in reaction to them too.
+
+        Any unexpected error of the node, which would only be logged outside of a test, is raised.
+        """
         self._executor.settle()
 
     # Requests
@@ -351,11 +356,13 @@ class PhysSim(ObservedWorld):
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         # The executor goes before its nodes, whose waitables it has.
         self._executor.shutdown()
         self._client.node.destroy_node()
         self.node.destroy_node()
+        if kind is None:
+            self._executor.raise_error()
 
 
 def _stamped(point: PointStamped | tuple[float, float]) -> PointStamped:

@@ -17,6 +17,7 @@ import sys
 import threading
 import time
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.sinks.endpoints import (
@@ -46,9 +47,14 @@ class ViewerMode(Enum):
 
 
 class Viewer:
-    """Shows frames in at most one viewer, and records them in at most one file."""
+    """
+    Shows frames in at most one viewer, and records them in at most one file.
 
-    def __init__(self) -> None:
+    :param boundary: of the threads of viewers and files; None lets unexpected errors pass
+    """
+
+    def __init__(self, boundary: ErrorBoundary | None = None) -> None:
+        self._boundary = boundary or ErrorBoundary()
         self._events: deque[Answer] = deque(maxlen=ANSWERS)
         self._file: SinkWorker | None = None
         self._file_path = Path()
@@ -201,7 +207,7 @@ class Viewer:
 
         :param after: a worker that has to end first
         """
-        worker = SinkWorker(endpoint, report=self._events.append, after=after)
+        worker = SinkWorker(endpoint, self._boundary, report=self._events.append, after=after)
         if self._shown is not None:
             frame, context = self._shown
             worker.put_frame(frame, context=context)

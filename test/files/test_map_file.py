@@ -242,3 +242,26 @@ def test_a_body_of_the_same_name_as_a_wall_is_refused(folder):
 
     with pytest.raises(BadWorldFile, match='twice'):
         load(path)
+
+
+def chunk(kind, content=b''):
+    checked = kind + content
+    return struct.pack('>I', len(content)) + checked + struct.pack('>I', zlib.crc32(checked))
+
+
+@pytest.mark.parametrize(
+    'late', [(b'iCCP',), (b'iCCP', b'x\0'), (b'tRNS',), (b'pHYs',), (b'eXIf', b'x'), (b'acTL',)]
+)
+def test_a_png_that_a_decoder_stumbles_over_is_refused_or_read(folder, late):
+    header = struct.pack('>IIBBBBB', 3, 2, 8, 0, 0, 0, 0)
+    rows = zlib.compress(b''.join(b'\0' + row.tobytes() for row in PIXELS))
+    parts = [chunk(b'IHDR', header), chunk(b'IDAT', rows), chunk(*late), chunk(b'IEND')]
+    path = add_map(folder, pixels=None, image='maze.png')
+    (folder / 'maze.png').write_bytes(b'\x89PNG\r\n\x1a\n' + b''.join(parts))
+
+    try:
+        state = load(path)
+    except BadWorldFile as refused:
+        assert refused.field == 'image'  # noqa: PT017 - some decoders read it
+    else:
+        assert both_ways(boxes(state))

@@ -15,8 +15,11 @@ from physsim_ros.files import (
     load_mapping,
     PARAMETERS,
     SETTINGS,
+    world_reader,
 )
+from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.model.errors import BadWorldFile, Malformed, WorldFull
+from physsim_ros.model.requests import Spawn
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.simulation.world import World
 import pytest
@@ -332,6 +335,34 @@ def test_a_name_that_no_file_can_have_is_refused(
     assert list(folder.iterdir()) == []
 
 
+# Lines in JSON
+
+LINE = '  - {"name": "a/0", "circle": {"radius": 1}}'
+
+
+@pytest.mark.parametrize('tag', ['!line-of-json', '!line%2Dof-json', '!entry-00000000', '!entry'])
+def test_no_tag_of_a_text_stands_for_a_line(folder: Path, tag: str) -> None:
+    text = f'format: 1\nbodies:\n{LINE}\ndensity: {tag} 3\n'
+    assert refusal_of(text, folder).cause == 'malformed'
+
+
+@pytest.mark.parametrize(
+    ('text', 'value'),
+    [
+        (f'x: |\n{LINE}\n', f'{LINE.strip()}\n'),
+        (f'x: >-\n{LINE}\n\n{LINE}\n', f'{LINE.strip()}\n{LINE.strip()}'),
+        (f"x: '\n{LINE}\n '", f' {LINE.strip()} '),
+        (f'x:\n{LINE}\n', [{'name': 'a/0', 'circle': {'radius': 1}}]),
+        (f'x: &x\n{LINE}\ny: *x\n', [{'name': 'a/0', 'circle': {'radius': 1}}]),
+    ],
+)
+def test_a_line_in_a_text_is_text(text: str, value: object) -> None:
+    # With another line that is an entry.
+    content = load_entries(f'bodies:\n{LINE}\n{text}', field='text')
+    assert content['x'] == value == load_mapping(text, field='text')['x']
+    assert content['bodies'] == [{'name': 'a/0', 'circle': {'radius': 1}}]
+
+
 # Text of YAML
 
 
@@ -358,6 +389,62 @@ def test_not_a_number_is_read_as_one() -> None:
 @pytest.mark.parametrize('text', ['', '   ', '# nothing', '---', '{}', 'null'])
 def test_no_text_is_an_empty_mapping(text: str) -> None:
     assert load_mapping(text, field='text') == {}
+
+
+POINTS = ', '.join(f'[{each}, {each % 2}]' for each in range(1000))
+WALL = f'chain: &wall {{points: [{POINTS}], thickness: 0.1}}'
+
+
+def repeating(count: int) -> str:
+    """Return a world with as many walls of 1,000 points, whose text has these once."""
+    walls = ''.join(f'  - {{name: a/{each}, chain: *wall}}\n' for each in range(1, count))
+    return f'format: 1\nbodies:\n  - {{name: a/0, {WALL}}}\n{walls}'
+
+
+def test_an_outline_may_be_repeated(folder: Path) -> None:
+    assert len(load(write(folder, repeating(20))).bodies) == 20
+
+
+@pytest.mark.parametrize(
+    'text',
+    [
+        repeating(1500),
+        # Each line has ten times as many values as the one before.
+        'a0: &a0 [x]\n'
+        + ''.join(f'a{n}: &a{n} [{", ".join([f"*a{n - 1}"] * 10)}]\n' for n in range(1, 30)),
+        '{a: &a [*a]}',
+        '{a: &a {b: *a}}',
+        '{? &a b : &c [*c], *a : 1}',
+    ],
+    ids=['walls', 'tenfold', 'list in itself', 'mapping in itself', 'by a key'],
+)
+def test_aliases_end_while_they_are_read(
+    text: str, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr('physsim_ros.files.world_file.state_from', pytest.fail)
+    assert 'aliases repeat more than 100000 values' in str(refusal_of(text, folder))
+
+
+def test_pieces_are_counted_while_bodies_are_read(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = list[str]()
+    new_body = world_reader.new_body
+
+    def noted(spawn: Spawn, *details: Any) -> Any:
+        made.append(spawn.name)
+        return new_body(spawn, *details)
+
+    monkeypatch.setattr(world_reader, 'new_body', noted)
+    with pytest.raises(WorldFull, match='the world would have 2997 convex pieces'):
+        load(write(folder, repeating(20)), max_shapes=2000)
+    assert made == ['a/0', 'a/1', 'a/2']
+
+
+def test_keys_are_texts() -> None:
+    text = '{1: 2, true: 3, ~: 4, 1.5: 5, "x": 6, &a y: 7, z: *a}'
+    content = load_mapping(text, field='text')
+    assert content == {'1': 2, 'true': 3, '~': 4, '1.5': 5, 'x': 6, 'y': 7, 'z': 'y'}
 
 
 @settings(deadline=None, max_examples=300)

@@ -24,6 +24,7 @@ CODES = {
     'NotRecognised': 'not_recognised',
     'WorldFull': 'world_full',
     'BadWorldFile': 'bad_world_file',
+    'Failed': 'failed',
 }
 
 

@@ -139,6 +139,8 @@ def test_a_world_far_behind_is_an_error_and_tells_the_factor_of_that_second() ->
     [
         ({'message_delay': 3.2}, 'requests wait 3.2 s'),
         ({'undecodable': 7}, '7 messages cannot be decoded'),
+        ({'failures': 2}, '2 unexpected errors'),
+        ({'longest': ('~/walls', 0.31)}, '~/walls took 0.3 s'),
         ({'stopped_subscriber': True}, 'has stopped'),
     ],
 )

@@ -17,7 +17,7 @@ from typing import Any
 from physsim_ros.ros.parameters import SPECS
 import pytest
 
-from ..outside import Outside, PATIENCE, ROOT
+from ..outside import installed_program, Outside, PATIENCE, ROOT
 
 SHAPES = ('circle: {radius: 0.3}', 'box: {width: 0.5, height: 0.5}')
 # A grid of discs and boxes, which fall apart over each other.
@@ -26,19 +26,21 @@ THOUSAND = 'format: 1\nbodies:\n' + ''.join(
     for each in range(1000)
 )
 
-# The program with a bug, which shows when there is a viewer.
+# The program with a bug in a step, which shows when there is a viewer.
 BUG = """
 import psutil
-from physsim_ros.ros.frame_outputs import FrameOutputs
+from physsim_ros.engine.space import Space
 from physsim_ros.ros.programs.physsim import main
 
 
-def fail(*_):
-    print('CHILDREN', *(each.pid for each in psutil.Process().children()), flush=True)
-    raise ZeroDivisionError
+def fail(*words, **options):
+    if children := psutil.Process().children():
+        print('CHILDREN', *(each.pid for each in children), flush=True)
+        raise ZeroDivisionError
+    return step(*words, **options)
 
 
-FrameOutputs._log_answer = fail
+step, Space.step = Space.step, fail
 main()
 """
 
@@ -157,7 +159,7 @@ def test_a_record_file_that_blocks_does_not_keep_it_from_starting(outside: Outsi
         assert world.interrupt() == 0
 
 
-def test_a_bug_ends_it_loudly_and_leaves_no_viewer_running(outside: Outside) -> None:
+def test_a_bug_in_a_step_ends_it_loudly_and_leaves_no_viewer_running(outside: Outside) -> None:
     psutil = pytest.importorskip('psutil')
     words = ('--ros-args', '-p', 'viewer:=web')
     with outside.start(sys.executable, '-c', BUG, *words) as world:
@@ -170,6 +172,16 @@ def test_a_bug_ends_it_loudly_and_leaves_no_viewer_running(outside: Outside) -> 
         each.kill()
     assert 'ZeroDivisionError' in ''.join(world.lines)
     assert not left
+
+
+@pytest.mark.parametrize('output', ['/dev/full', '>(true)'])
+def test_nobody_has_to_read_what_it_prints(outside: Outside, output: str) -> None:
+    words = '--ros-args -p viewer:=none -p sketchpad:=serve -p sketchpad_port:=0'
+    command = f'exec {installed_program("physsim")} {words} > {output}'
+    with outside.start('bash', '-c', command) as world:
+        world.wait_for('failure 1, sketchpad')
+        world.wait_for('ready')
+        assert world.interrupt() == 0
 
 
 def test_its_first_pose_is_seen_by_another_process(outside: Outside) -> None:

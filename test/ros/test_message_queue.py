@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from types import SimpleNamespace
 from typing import Any
@@ -124,3 +124,45 @@ def test_small_messages_and_calls_behind_a_large_one_are_bounded_too(
     # Half a kilobyte each is what they take.
     assert len(handled) < 2**17 / 500
     assert len(handled) + busy == 1001
+
+
+def test_a_message_is_handled_in_pieces_and_those_behind_it_wait() -> None:
+    tasks: list[Callable[[], None]] = []
+    node: Any = SimpleNamespace(executor=SimpleNamespace(create_task=tasks.append))
+    queue, handled = message_queue.MessageQueue(node), list[str]()
+    queue.piece = 0.0
+
+    def in_pieces(data: bytes) -> Iterator[None]:
+        for number in range(3):
+            handled.append(f'{data.decode()}{number}')
+            yield
+
+    queue.add_message(in_pieces, b'a')
+    queue.add_message(lambda data: handled.append(data.decode()), b'b')
+    queue.add_message(in_pieces, b'c')
+    assert handled == ['a0']
+    while tasks:
+        # Between two pieces the executor does what else has come.
+        assert len(tasks) == 1
+        before = len(handled)
+        tasks.pop()()
+        assert len(handled) <= before + 1
+    assert handled == ['a0', 'a1', 'a2', 'b', 'c0', 'c1', 'c2']
+    queue.add_call(lambda: handled.append('d'))
+    assert handled[-1] == 'd'
+
+
+def test_an_array_in_pieces_is_one_gesture_and_keeps_its_place(
+    physsim: PhysSim, client: Client
+) -> None:
+    physsim.node.requests.queue.piece = 0.0
+    client.publish('~/spawn_array', array(0, 30))
+    client.publish('~/spawn', messages.delete('disc/7'))
+    client.publish('~/spawn', messages.disc('disc/99', at=(0.0, -5.0)))
+    client.spin_until(lambda: len(physsim.node.simulation.requests) == 32)
+    physsim.node.apply_requests()
+    assert len(physsim.names) == 30
+    assert 'disc/7' not in physsim.names
+    for left in (29, 30, 0):
+        assert client.call('~/undo').success
+        assert len(physsim.names) == left

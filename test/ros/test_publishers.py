@@ -11,6 +11,7 @@ import time
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 import numpy as np
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
@@ -52,7 +53,9 @@ class Bench:
         self.listener = Node('listener', context=context)
         self.executor.add_node(self.world)
         self.executor.add_node(self.listener)
-        self.streams = Publishers(self.world, frame_id='map', map_resolution=lambda: 0.05)
+        self.streams = Publishers(
+            self.world, ErrorBoundary(), frame_id='map', map_resolution=lambda: 0.05
+        )
         self.publishers = {publisher.topic_name: publisher for publisher in self.world.publishers}
 
     def listen(self, topic, durability=DurabilityPolicy.VOLATILE):

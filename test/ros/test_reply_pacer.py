@@ -8,6 +8,7 @@ from __future__ import annotations
 from types import SimpleNamespace
 from typing import Any
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.ros.requests.reply_pacer import BURST, ReplyPacer
 from rclpy.task import Future
 from std_srvs.srv import Empty, Trigger
@@ -20,7 +21,7 @@ def test_a_reply_is_sent_when_it_is_finished_even_if_it_says_nothing() -> None:
         srv_name='/physsim/clear',
         send_response=lambda response, header: sent.append((response, header)),
     )
-    pacer = ReplyPacer(node)
+    pacer = ReplyPacer(node, ErrorBoundary())
     pacer.add(service)
     replies = [Future() for _ in range(4)]
     # Finished before the executor asks for it, as where no message waits.
@@ -43,7 +44,7 @@ def test_replies_that_are_paced_keep_the_order_in_which_they_were_finished() -> 
     service: Any = SimpleNamespace(
         srv_name='/physsim/pause', send_response=lambda _, header: sent.append(header)
     )
-    pacer = ReplyPacer(node)
+    pacer = ReplyPacer(node, ErrorBoundary())
     pacer.paced = True
     pacer.add(service)
     for header in range(2 * BURST):

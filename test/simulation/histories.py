@@ -30,6 +30,7 @@ import numpy as np
 from physsim_ros.files import load_mapping, state_from, text_of
 from physsim_ros.files.world_schema import LIMITS
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand, Request, Restore
 from physsim_ros.model.settings import WorldSettings
@@ -515,6 +516,7 @@ class Player:
             length=1e6,
             checkpoints=self.checkpoints,
             memory=HistoryMemory(1e6),
+            boundary=ErrorBoundary(),
         )
         past.begin(state)
         timeline = past.timeline

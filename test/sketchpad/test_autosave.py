@@ -40,7 +40,7 @@ def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> Non
 
     again = Autosave(tmp_path, lambda _: '')
     assert abs(again.unsaved_at - time.time()) < 3600.0
-    assert again.unsaved_text() == 'a/0'
+    assert again.unsaved_content() == b'a/0'
     again.forget_unsaved()
     assert again.unsaved_at == 0.0
     autosave.save()

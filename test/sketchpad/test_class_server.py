@@ -5,16 +5,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import ExitStack
+from http.client import HTTPConnection, HTTPResponse
+import json
+from pathlib import Path
 import re
+import socket
+import threading
 from typing import Any
+from urllib.parse import urlsplit
 
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.ros.programs.physsim_class import shares
+from physsim_ros.sketchpad import ClassServer, listening, Role
 from physsim_ros.sketchpad.class_server import Seats, World
 import pytest
 
 from .chromium import circle, Sheet
-from ..outside import Outside
+from ..outside import Outside, PATIENCE
 
 WORLDS = [World(pupil=f'http://p/{each}', teacher=f'http://t/{each}') for each in range(2)]
 
@@ -39,6 +48,66 @@ def test_worlds_are_shared_out_evenly_from_one(pupils: int, processes: int) -> N
     sizes = [len(part) for part in parts]
     assert max(sizes) - min(sizes) <= 1
     assert len(parts) == min(pupils, processes)
+
+
+@pytest.fixture
+def class_address(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[str]:
+    """Give a test the address of pupils of a class, which is served on a thread."""
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
+    monkeypatch.setitem(listening.LIMITS, 'body_timeout', 0.2)
+    is_over = threading.Event()
+    server = ClassServer(WORLDS, address='127.0.0.1', port=0)
+    thread = threading.Thread(target=server.run, args=(is_over.is_set,))
+    thread.start()
+    yield server.url(Role.DRAW)
+    is_over.set()
+    thread.join()
+
+
+def fetch(url: str, method: str = 'GET', body: str = '', **headers: str) -> HTTPResponse:
+    """Return the response to a request, whatever its status."""
+    parts = urlsplit(url)
+    connection = HTTPConnection(parts.netloc, timeout=PATIENCE)
+    connection.request(method, f'{parts.path}?{parts.query}', body, headers)
+    return connection.getresponse()
+
+
+def post_without_body(address: str) -> socket.socket:
+    """Return a connection with a request whose body does not come, as anybody can open it."""
+    parts = urlsplit(address)
+    connection = socket.create_connection((parts.hostname, parts.port))
+    connection.sendall(
+        f'POST /join HTTP/1.1\r\nHost: {parts.netloc}\r\nContent-Length: 100\r\n\r\n'.encode()
+    )
+    connection.settimeout(PATIENCE)
+    return connection
+
+
+def test_requests_without_a_body_do_not_shut_the_class_page(
+    class_address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(listening, 'MOST_CONNECTIONS', 3)
+    with ExitStack() as closing:
+        held = [closing.enter_context(post_without_body(class_address)) for _ in range(3)]
+        # They are closed after a time, and others have their places.
+        assert [connection.recv(1) for connection in held] == [b''] * 3
+        assert fetch(class_address).status == 302
+
+
+def test_an_error_that_nobody_expected_is_answered(
+    class_address: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError('by zero')
+
+    monkeypatch.setattr(Seats, 'join', fail)
+    base = class_address.partition('/login')[0]
+    cookie = fetch(class_address).headers['Set-Cookie'].partition(';')[0]
+    failed = fetch(f'{base}/join', 'POST', '{"name": "Anna"}', Origin=base, Cookie=cookie)
+    assert failed.status == 500
+    assert b'failure 1 in the log' in failed.read()
+    assert 'ZeroDivisionError: by zero' in capsys.readouterr().err
+    assert json.load(fetch(f'{base}/seats', Cookie=cookie))['seats'] == []
 
 
 def come(chromium: Any, address: str, name: str) -> Sheet:

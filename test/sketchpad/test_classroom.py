@@ -9,7 +9,7 @@ import json
 from typing import Any
 from urllib.parse import quote
 
-from physsim_ros.sketchpad import Role
+from physsim_ros.sketchpad import locks, Role
 from physsim_ros.sketchpad.access import Access
 import pytest
 from rcl_interfaces.msg import SetParametersResult
@@ -93,6 +93,19 @@ def test_freezing_and_locking_are_parameters_that_scripts_have_too(browser: Brow
         answer = boss.ask(kind, **fields)
         assert (answer['code'], answer['message']) == ('bad_property', 'not now')
     assert boss.ask('service', name='save_world', world='a')['code'] == 'bad_property'
+
+
+def test_thousands_of_names_may_be_locked_and_some_patterns(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    names = [f'a/{number}' for number in range(5000)]
+    patterns = [f'b{number}/*' for number in range(locks.MOST_PATTERNS)]
+    assert boss.ask('lock', names=[*names, *patterns])['ok']
+    for name in ('a/4999', 'b49/3'):
+        assert spawn(pupil, name, 0.0)['code'] == 'frozen'
+    refused = boss.ask('lock', names=[*patterns, 'c/?'])
+    assert (refused['code'], 'wildcards' in refused['message']) == ('bad_property', True)
+    assert spawn(pupil, 'c/1', 0.0)['ok']
+    assert spawn(pupil, 'a/1', 0.0)['code'] == 'frozen'
 
 
 def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:

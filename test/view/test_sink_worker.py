@@ -8,9 +8,9 @@ from __future__ import annotations
 import threading
 import weakref
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.view.sinks.sink import Endpoint
 from physsim_ros.view.sinks.sink_worker import SinkWorker
-import pytest
 
 from .viewers import CONTEXT, frame, PATIENCE
 
@@ -41,7 +41,7 @@ class Blocked(Endpoint):
 
 def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers():
     endpoint, told = Blocked(), []
-    worker = SinkWorker(endpoint, report=told.append)
+    worker = SinkWorker(endpoint, ErrorBoundary(), report=told.append)
     worker.put_frame(frame(0, 'answer 0'), context=CONTEXT)
     assert endpoint.entered.wait(PATIENCE)
 
@@ -60,7 +60,7 @@ def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers():
 
 def test_closing_gives_up_on_one_that_never_draws():
     endpoint = Blocked()
-    worker = SinkWorker(endpoint, report=lambda _: None)
+    worker = SinkWorker(endpoint, ErrorBoundary(), report=lambda _: None)
     worker.put_frame(frame(0), context=CONTEXT)
     assert endpoint.entered.wait(PATIENCE)
 
@@ -70,7 +70,6 @@ def test_closing_gives_up_on_one_that_never_draws():
     endpoint.release.set()
 
 
-@pytest.mark.filterwarnings('ignore::pytest.PytestUnhandledThreadExceptionWarning')
 def test_a_bug_in_drawing_is_told_and_nothing_is_open_any_more():
     class Buggy(Endpoint):
         kind = 'buggy'
@@ -78,14 +77,16 @@ def test_a_bug_in_drawing_is_told_and_nothing_is_open_any_more():
         def open_sink(self):
             raise ZeroDivisionError('by zero')
 
-    told = []
-    worker = SinkWorker(Buggy(), report=told.append)
+    told, log = [], []
+    worker = SinkWorker(Buggy(), ErrorBoundary(log.append), report=told.append)
 
     assert worker.join()
     assert not worker.is_open
     (answer,) = told
     assert answer.code == 'viewer_lost'
-    assert 'ZeroDivisionError: by zero' in answer.message
+    assert 'failure 1' in answer.message
+    assert 'failure 1' in log[0]
+    assert 'ZeroDivisionError: by zero' in log[0]
 
 
 def test_what_waited_for_a_way_that_failed_is_let_go():
@@ -100,7 +101,7 @@ def test_what_waited_for_a_way_that_failed_is_let_go():
             raise ConnectionError('there never can be one')
 
     endpoint = Failing()
-    worker = SinkWorker(endpoint, report=lambda _: None)
+    worker = SinkWorker(endpoint, ErrorBoundary(), report=lambda _: None)
     waiting = frame(0, 'answer')
     kept = weakref.ref(waiting.snapshot)
     worker.put_frame(waiting, context=CONTEXT)

@@ -13,7 +13,7 @@ Law: a figure changes nothing in the world.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 import itertools
@@ -40,7 +40,9 @@ from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.transform import norms
 
 # The greatest number of strokes of one figure.
-MOST_STROKES = 12
+MOST_STROKES = 8
+# The greatest CPU time for reading strokes together [s]: a reading takes some 3 ms.
+MOST_TIME = 0.01
 # Meanings of open lines that join nothing.
 _LOOSE = frozenset({'wall', 'hatching'})
 # Meanings that several strokes never have together.
@@ -139,17 +141,24 @@ class Figure:
 
 
 def likeliest_group(
-    figures: Sequence[Figure], last: Figure, settings: DrawingSettings
+    figures: Sequence[Figure],
+    last: Figure,
+    settings: DrawingSettings,
+    clock: Callable[[], float],
 ) -> Figure | None:
     """
     Return the last strokes as one figure, if that is better than each stroke by itself.
 
     :param figures: drawn before, the earliest first
     :param last: the new one, of a single stroke
+    :param clock: returns a time [s]; after `MOST_TIME` the stroke is read by itself
     """
     if not last.is_line:
         return None
+    began = clock()
     for group in _groups(figures, last, settings):
+        if clock() > began + MOST_TIME:
+            return None
         walls = {
             each.name
             for figure in group

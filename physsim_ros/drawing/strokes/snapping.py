@@ -52,18 +52,19 @@ def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:
     """
     start, end = point_of(points[0]), point_of(points[-1])
     scene, snap = context.scene, context.settings.snap
-    first, last = _bodies_near(start, scene, snap), _bodies_near(end, scene, snap)
-    pairs = [(a, b) for a in first or (WORLD,) for b in last or (WORLD,) if a != b]
-    for a, b in pairs:
-        ends = (
-            End(_snapped(start, a, scene, snap), a),
-            End(_snapped(end, b, scene, snap), b),
-        )
-        if a != WORLD and scene.body(a).dynamic:
-            return ends
-        if b != WORLD and scene.body(b).dynamic:
-            return ends[::-1]
+    first = _bodies_near(start, scene, snap) or (WORLD,)
+    last = _bodies_near(end, scene, snap) or (WORLD,)
+    moving = next((b for b in last if _is_dynamic(b, scene)), None)
+    for a in first:
+        b = next((b for b in last if b != a), None) if _is_dynamic(a, scene) else moving
+        if b is not None:
+            ends = End(_snapped(start, a, scene, snap), a), End(_snapped(end, b, scene, snap), b)
+            return ends if _is_dynamic(a, scene) else ends[::-1]
     return None
+
+
+def _is_dynamic(name: str, scene: SceneQuery) -> bool:
+    return name != WORLD and scene.body(name).dynamic
 
 
 def axle_pivot(center: Point, context: Context) -> tuple[Point, tuple[str, ...]]:

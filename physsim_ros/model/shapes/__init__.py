@@ -14,7 +14,7 @@ from typing import get_args
 from physsim_ros.model.shapes.box import Box
 from physsim_ros.model.shapes.chain import Chain
 from physsim_ros.model.shapes.compound import Compound
-from physsim_ros.model.shapes.containment import contains
+from physsim_ros.model.shapes.containment import contain_each, contains, contains_each
 from physsim_ros.model.shapes.disc import Disc
 from physsim_ros.model.shapes.form import (
     Capsule,
@@ -52,7 +52,9 @@ __all__ = [
     'Polygon',
     'Shape',
     'Triangles',
+    'contain_each',
     'contains',
+    'contains_each',
     'crosses_itself',
     'extent_of',
     'is_convex',

@@ -199,7 +199,7 @@ _OF_NODE = {
     'sketchpad_locked': Spec(
         default='',
         meaning='names of bodies, separated by commas, that pages of pupils do not change; with '
-        '*, ? and [] as in a shell',
+        '*, ? and [] as in a shell, in at most 50 names',
     ),
 }
 # Parameters of the world and of drawing, whose defaults and ranges are those of the settings.

@@ -19,6 +19,7 @@ from physsim_ros.files import user_worlds
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.programs.physsim import (
+    end_process,
     limit_fragmentation,
     open_closed_streams,
     reduce_latency,
@@ -85,9 +86,7 @@ def main() -> None:
     gc.freeze()
     is_over = lambda: watch.requested or os.getppid() != parent  # noqa: E731
     RealTimeLoop(nodes, executor, is_over).run()
-    sys.stdout.flush()
-    # As in `physsim`: the interpreter would free each space piece by piece.
-    os._exit(0)
+    end_process()
 
 
 if __name__ == '__main__':

@@ -20,6 +20,7 @@ import signal
 import socket
 import sys
 import threading
+from typing import NoReturn
 
 # Time for an orderly end after the first signal [s]. With that of the interpreter itself it is
 # less than 3 s.
@@ -100,6 +101,18 @@ def open_closed_streams() -> None:
     sys.stderr = sys.stderr or os.fdopen(2, 'w')
 
 
+def end_process() -> NoReturn:
+    """
+    End the process with exit code 0, whoever reads what it prints.
+
+    The interpreter would free each space of the engine piece by piece, as Pymunk 7.3 does it, for
+    seconds in a crowded world, when it has no threads any more that could end it.
+    """
+    with suppress(OSError):
+        sys.stdout.flush()
+    os._exit(0)
+
+
 class _Usage(ArgumentParser):
     """A parser whose help ends with the worlds and parameters there are."""
 
@@ -173,7 +186,4 @@ def main() -> None:
         executor.shutdown()
         node.destroy_node()
         rclpy.shutdown()
-    # The interpreter would free each space of the engine piece by piece (`spacefree` of Pymunk
-    # 7.3), for seconds in a crowded world, when it has no threads any more that could end it.
-    sys.stdout.flush()
-    os._exit(0)
+    end_process()

@@ -15,6 +15,8 @@ _SMOOTHING = 1.0
 _COST_SHARE = 1 / 6
 # Wait of messages above which the diagnostics warn [s].
 LONG_DELAY = 1.0
+# CPU time of a message above which they do [s]: six frames at 60 Hz.
+LONG_MESSAGE = 0.1
 # Real-time factor over speed, below which late frames are an error and not a warning [1].
 FAR_BEHIND = 0.5
 
@@ -35,6 +37,7 @@ class FrameStatistics:
         self._simulated_ns = 0
         self._late_reported = 0
         self._undecodable_reported = 0
+        self._failures_reported = 0
 
     def add(self, *, now_ns: int, stamp: int, step_ns: int, frame_ns: int) -> None:
         """
@@ -80,6 +83,8 @@ class FrameStatistics:
         waiting_answers: int = 0,
         stopped_subscriber: bool = False,
         memory: tuple[float, float] = (0.0, 0.0),
+        failures: int = 0,
+        longest: tuple[str, float] = ('', 0.0),
     ) -> DiagnosticArray:
         """
         Return the message of the last second, and begin the next.
@@ -95,10 +100,13 @@ class FrameStatistics:
         :param waiting_answers: number of answers that wait for acknowledgements
         :param stopped_subscriber: whether a subscriber of `~/events` has stopped
         :param memory: memory of the past, and its budget [MB]
+        :param failures: number of unexpected errors, since the node started
+        :param longest: the message that took the longest, and its CPU time [s]
         """
         late, self._late_reported = late_frames - self._late_reported, late_frames
         lost = undecodable - self._undecodable_reported
         self._undecodable_reported = undecodable
+        failed, self._failures_reported = failures - self._failures_reported, failures
         factor = self._simulated_ns / self._elapsed_ns if self._elapsed_ns else 0.0
         count = self._frames
         frames = max(1, count)
@@ -115,7 +123,9 @@ class FrameStatistics:
             'frame cost [ms]': f'{self._frame_ns / frames * 1e-6:.3f}',
             'wait of requests [s]': f'{message_delay:.3f}',
             'requests that wait': waiting_requests,
+            'longest message [ms]': f'{longest[1] * 1e3:.1f} {longest[0]}'.rstrip(),
             'undecodable messages': undecodable,
+            'unexpected errors': failures,
             'answers that wait': waiting_answers,
             'memory of the past [MB]': '{:.1f} of {:g}'.format(*memory),
             'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
@@ -136,8 +146,13 @@ class FrameStatistics:
             )
         if message_delay > LONG_DELAY:
             concerns.append(f'requests wait {message_delay:.1f} s: send fewer of them')
+        if longest[1] > LONG_MESSAGE:
+            name, took = longest
+            concerns.append(f'{name} took {took:.1f} s, in which time stood: send less at once')
         if lost > 0:
             concerns.append(f'{lost} messages cannot be decoded: check their publishers')
+        if failed > 0:
+            concerns.append(f'{failed} unexpected errors: report them with the log of the node')
         if stopped_subscriber:
             concerns.append('a subscriber of ~/events has stopped and loses answers: end it')
         if viewer_failure:

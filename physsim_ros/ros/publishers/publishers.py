@@ -19,8 +19,9 @@ from typing import Any, Protocol
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from nav_msgs.msg import OccupancyGrid
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
+from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.ros.encoders.clock import ClockEncoder
 from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.map import MapEncoder
@@ -49,6 +50,7 @@ class Publishers:
     The publishers of the world.
 
     :param node: that owns them
+    :param boundary: of each of them
     :param frame_id: name of the world frame
     :param map_resolution: returns the side of a cell of `~/map` [m]
     :param publish_tf: whether poses are published on `/tf`, too
@@ -63,13 +65,14 @@ class Publishers:
     def __init__(
         self,
         node: Node,
+        boundary: ErrorBoundary,
         *,
         frame_id: str,
         map_resolution: Callable[[], float],
         publish_tf: bool = False,
     ) -> None:
         def stream(kind: Any, topic: str, depth: int, encoder: Encoder) -> Stream:
-            return Stream(node.create_publisher(kind, topic, depth), encoder)
+            return Stream(node.create_publisher(kind, topic, depth), encoder, boundary)
 
         def latched(kind: Any, topic: str) -> Publisher:
             qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -82,9 +85,11 @@ class Publishers:
             self.clock,
             stream(PoseArray, '~/poses', 5, PosesEncoder(frame_id)),
             stream(MultiDOFJointState, '~/states', 5, StatesEncoder(frame_id)),
-            LatchedStream(latched(MarkerArray, '~/markers'), MarkersEncoder(frame_id)),
+            LatchedStream(latched(MarkerArray, '~/markers'), MarkersEncoder(frame_id), boundary),
             # DDS keeps the last map for late subscribers; there is another one when it changes.
-            Stream(latched(OccupancyGrid, '~/map'), MapEncoder(frame_id, map_resolution)),
+            Stream(
+                latched(OccupancyGrid, '~/map'), MapEncoder(frame_id, map_resolution), boundary
+            ),
         )
         if publish_tf:
             message = tf_message_type()
@@ -100,6 +105,7 @@ class Publishers:
         self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'))
         self._preview_publisher = latched(MarkerArray, '~/preview')
         self._frame_id = frame_id
+        self._boundary = boundary
         self._preview: Preview = NO_PREVIEW
         self._frame: Frame | None = None
         self.events = EventPublisher(
@@ -109,16 +115,27 @@ class Publishers:
     def publish_frame(self, frame: Frame) -> None:
         """Publish the answers of a frame, and those of its streams that have subscribers."""
         for answer in frame.answers:
-            self.events.publish(answer)
-        self.events.flush()
+            self.publish_answer(answer)
+        self._flush_events()
         self._frame = frame
         for stream in (*self._state_streams, self.contacts):
             stream.publish(frame)
-        self._interactive_markers.publish(frame)
+        with self._boundary.output('~/drag/update'):
+            self._interactive_markers.publish(frame)
+
+    def publish_answer(self, answer: Answer) -> None:
+        """Publish an answer on `~/events`."""
+        with self._boundary.output('~/events'):
+            self.events.publish(answer)
+
+    def _flush_events(self) -> None:
+        """Publish the answers that have waited, as far as their readers take them."""
+        with self._boundary.output('~/events'):
+            self.events.flush()
 
     def publish_to_late_subscribers(self) -> None:
         """Publish the last frame to later subscribers; called at ticks without a frame."""
-        self.events.flush()
+        self._flush_events()
         if self._frame is not None:
             for stream in self._state_streams:
                 stream.publish_to_late_subscribers(self._frame)
@@ -128,8 +145,9 @@ class Publishers:
         if preview != self._preview:
             self._preview = preview
             stamp = self._frame.snapshot.stamp if self._frame else 0
-            message = preview_message(preview, frame_id=self._frame_id, stamp=stamp)
-            self._preview_publisher.publish(message)
+            with self._boundary.output('~/preview'):
+                message = preview_message(preview, frame_id=self._frame_id, stamp=stamp)
+                self._preview_publisher.publish(message)
 
 
 class Encoder(Protocol):
@@ -145,12 +163,14 @@ class Stream:
 
     :param publisher: of the topic
     :param encoder: of frames
+    :param boundary: of both
 
     :ivar open: whether frames are published at all
     """
 
-    def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
+    def __init__(self, publisher: Publisher, encoder: Encoder, boundary: ErrorBoundary) -> None:
         self.open = True
+        self._boundary = boundary
         self._publisher = publisher
         self._encoder = encoder
         # Number of subscriptions at the last frame.
@@ -174,16 +194,17 @@ class Stream:
             self._send(frame)
 
     def _send(self, frame: Frame) -> None:
-        message = self._encoder.encode(frame)
-        if message is not None:
-            self._publisher.publish(message)
+        with self._boundary.output(self._publisher.topic_name):
+            message = self._encoder.encode(frame)
+            if message is not None:
+                self._publisher.publish(message)
 
 
 class LatchedStream(Stream):
     """A stream whose last message DDS keeps for late subscribers."""
 
-    def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
-        super().__init__(publisher, encoder)
+    def __init__(self, publisher: Publisher, encoder: Encoder, boundary: ErrorBoundary) -> None:
+        super().__init__(publisher, encoder, boundary)
         self._latched: Frame | None = None
         self._age = 0
 

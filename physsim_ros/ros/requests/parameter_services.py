@@ -102,11 +102,11 @@ class ParameterServices(ParameterService):
     ) -> Future:
         if len(messages) > MOST_PARAMETERS:
             refusal = Malformed(f'a call sets at most {MOST_PARAMETERS} parameters')
-            return self._calls.add(response, lambda _: fill(refusal), Wait.BEHIND_REQUESTS)
+            return self._calls.add(_TOPIC, response, lambda _: fill(refusal), Wait.BEHIND_REQUESTS)
         _replace_unknown_types(messages)
         changes_world = any(is_world_setting(each.name) for each in messages)
         wait = Wait.FOR_SEEK if changes_world else Wait.BEHIND_REQUESTS
-        return self._calls.add(response, fill, wait)
+        return self._calls.add(_TOPIC, response, fill, wait)
 
     def _answers(
         self, messages: Iterable[ParameterMessage], results: Iterable[SetParametersResult]

@@ -18,6 +18,7 @@ from functools import partial
 import time
 from typing import Any
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rclpy.service import Service
@@ -36,10 +37,12 @@ class ReplyPacer:
     Delays the replies of services; their actions are not delayed.
 
     :param node: that offers the services
+    :param boundary: of the node
     """
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Node, boundary: ErrorBoundary) -> None:
         self.paced = False
+        self._boundary = boundary
         self._node = node
         # Replies that are finished: the name of the service, and the call that sends it.
         self._finished: deque[tuple[str, Callable[[], None]]] = deque()
@@ -75,4 +78,5 @@ class ReplyPacer:
                 return
             self._read = max(self._read, now) + pause
             self._finished.popleft()
-            send()
+            with self._boundary.output(service):
+                send()

@@ -10,7 +10,7 @@ are taken by the simulation.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 from typing import Any
 
@@ -60,12 +60,17 @@ class RequestTopics:
         subscriptions.add(MarkerArray, '~/spawn_array', self._spawn_array)
         subscriptions.add(OccupancyGrid, '~/walls', self._make_walls)
 
-    def _spawn_array(self, message: MarkerArray) -> None:
+    def _spawn_array(self, message: MarkerArray) -> Iterator[None]:
+        """Convert the markers in pieces, then submit them together."""
         topic = '~/spawn_array'
         if not message.markers:
             self._requests.tell(Answer(topic=topic, message='the array is empty'))
-        for number, marker in enumerate(message.markers):
-            self._submit(marker, topic=topic, convert=conversions.body_request, joined=number > 0)
+        converted: list[Request | Refusal] = []
+        for marker in message.markers:
+            converted.append(self._converted(marker, conversions.body_request))
+            yield
+        for number, (marker, request) in enumerate(zip(message.markers, converted, strict=True)):
+            self._submit_converted(request, marker, topic=topic, joined=number > 0)
 
     def _make_walls(self, message: OccupancyGrid) -> None:
         requests = conversions.walls_requests(message, frame_id=self._frame_id)
@@ -78,19 +83,39 @@ class RequestTopics:
         *,
         topic: str,
         convert: _Conversion,
-        joined: bool = False,
         field: str = '',
     ) -> None:
         """
         Submit the request of a message.
 
-        :param joined: whether it is undone together with the one before
         :param field: the one field of the message, to be named by a refusal; '' is several
         """
+        converted = self._converted(message, convert)
+        self._submit_converted(converted, message, topic=topic, field=field)
+
+    def _converted(self, message: Any, convert: _Conversion) -> Request | Refusal:
+        """Return the request of a message, or the refusal of the message."""
         try:
-            request = convert(message, frame_id=self._frame_id)
+            return convert(message, frame_id=self._frame_id)
         except Refusal as refusal:
+            return refusal
+
+    def _submit_converted(
+        self,
+        request: Request | Refusal,
+        message: Any,
+        *,
+        topic: str,
+        joined: bool = False,
+        field: str = '',
+    ) -> None:
+        """
+        Submit a request, or a refusal, of a message; other parameters are those of `_submit`.
+
+        :param joined: whether it is undone together with the one before
+        """
+        if isinstance(request, Refusal):
             subject = conversions.subject_of(message, joint=topic == '~/join')
-            self._requests.refuse(refusal, topic=topic, subject=subject, joined=joined)
-            return
-        self._requests.submit(request, topic=topic, joined=joined, field=field)
+            self._requests.refuse(request, topic=topic, subject=subject, joined=joined)
+        else:
+            self._requests.submit(request, topic=topic, joined=joined, field=field)

@@ -14,7 +14,8 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
-from physsim_ros.model.errors import Busy, Refusal
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.message_queue import MessageQueue
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
@@ -26,8 +27,8 @@ from std_srvs.srv import Trigger
 
 # Carries out a service, and returns a message about it; raises a Refusal where it cannot.
 Action = Callable[[], str]
-# Fills in a response, with a refusal where too many wait, and returns the answers.
-Fill = Callable[[Busy | None], Iterable[Answer]]
+# Fills in a response, with a refusal where the call is not carried out, and returns the answers.
+Fill = Callable[[Refusal | None], Iterable[Answer]]
 
 
 class Service(NamedTuple):
@@ -49,35 +50,53 @@ class ServiceCalls:
     :param queue: of messages; a call waits behind the messages that came before it
     :param calls: the calls that wait among the requests
     :param pacer: of their replies
+    :param boundary: of the node
     """
 
-    def __init__(self, queue: MessageQueue, calls: DeferredCalls, pacer: ReplyPacer) -> None:
+    def __init__(
+        self,
+        queue: MessageQueue,
+        calls: DeferredCalls,
+        pacer: ReplyPacer,
+        boundary: ErrorBoundary,
+    ) -> None:
         self._queue = queue
         self._calls = calls
         self._pacer = pacer
+        self._boundary = boundary
         self.delay_replies = pacer.add
 
-    def add(self, response: Any, fill: Fill, wait: Wait) -> Future:
+    def fill(self, topic: str, fill: Fill, refusal: Refusal | None = None) -> Iterable[Answer]:
+        """Fill in a response now, and return the answers."""
+        try:
+            with self._boundary.message(topic):
+                return fill(refusal)
+        except Failed as failed:
+            return fill(failed)
+
+    def add(self, topic: str, response: Any, fill: Fill, wait: Wait) -> Future:
         """
         Fill in a response when the turn of its call comes, and return its future.
 
+        :param topic: name of the service
         :param wait: what the call waits for
         """
         reply = Future()
 
-        def finish(refusal: Busy | None = None) -> Iterable[Answer]:
-            answers = fill(refusal)
+        def finish(refusal: Refusal | None = None) -> Iterable[Answer]:
+            answers = self.fill(topic, fill, refusal)
             self._pacer.finish(reply, response)
             return answers
 
-        def unless_busy(call: Callable[[], None]) -> None:
+        def unless_refused(call: Callable[[], None]) -> None:
             try:
-                call()
-            except Busy as refusal:
+                with self._boundary.reading(topic):
+                    call()
+            except (Busy, Failed) as refusal:
                 self._calls.tell(finish(refusal))
 
-        submit = partial(unless_busy, partial(self._calls.submit, finish, wait))
-        unless_busy(partial(self._queue.add_call, submit))
+        submit = partial(unless_refused, partial(self._calls.submit, finish, wait))
+        unless_refused(partial(self._queue.add_call, submit))
         return reply
 
 
@@ -97,22 +116,23 @@ def create_services(
     :param on_success: called after each service that was not refused
     """
 
-    def fill(name: str, response: Trigger.Response, busy: Busy | None) -> list[Answer]:
+    def fill(name: str, response: Trigger.Response, refused: Refusal | None) -> list[Answer]:
         topic = f'~/{name}'
         try:
-            if busy is not None:
-                raise busy
+            if refused is not None:
+                raise refused
             response.message = services[name].perform()
+            on_success()
         except Refusal as refusal:
             response.message = f'{refusal.code}: {refusal}'
             return [Answer.refused(refusal, topic=topic)]
         response.success = True
-        on_success()
         return [Answer(topic=topic, message=response.message)]
 
     def create_service(name: str) -> rclpy.service.Service:
         def callback(_: Trigger.Request, response: Trigger.Response) -> Future:
-            return calls.add(response, partial(fill, name, response), services[name].wait)
+            call = partial(fill, name, response)
+            return calls.add(f'~/{name}', response, call, services[name].wait)
 
         return node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS)
 

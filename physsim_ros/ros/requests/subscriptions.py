@@ -12,9 +12,10 @@ arrived (`message_queue`).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Malformed, Refusal
 from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests.cdr_reader import Truncated
@@ -40,22 +41,45 @@ class RequestSubscriptions:
 
     :param node: that owns them
     :param requests: the queue that answers refused messages
+    :param boundary: of the node
+
     :ivar undecodable: number of messages that could not be decoded
     :ivar queue: of messages that wait to be decoded
     """
 
-    def __init__(self, node: Node, requests: RequestQueue) -> None:
+    def __init__(self, node: Node, requests: RequestQueue, boundary: ErrorBoundary) -> None:
         self.undecodable = 0
         self.queue = MessageQueue(node)
         self._node = node
         self._requests = requests
+        self._boundary = boundary
 
-    def add(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
-        """Subscribe to messages of a type; a `Refusal` that the callback raises is answered."""
+    def add(
+        self, kind: type, topic: str, callback: Callable[[Any], Iterator[None] | None]
+    ) -> None:
+        """
+        Subscribe to messages of a type.
 
-        def handle(data: bytes) -> None:
+        :param callback: handles a message, or returns the pieces of that; a `Refusal` that it
+            raises is answered
+        """
+
+        def handle(data: bytes) -> Iterator[None] | None:
             try:
-                callback(self._decoded(data, kind))
+                with self._boundary.message(topic):
+                    pieces = callback(self._decoded(data, kind))
+            except Refusal as refusal:
+                self._requests.refuse(refusal, topic=topic, subject='')
+                return None
+            return None if pieces is None else in_pieces(pieces)
+
+        def in_pieces(pieces: Iterator[None]) -> Iterator[None]:
+            is_left = True
+            try:
+                while is_left:
+                    with self._boundary.message(topic):
+                        is_left = next(pieces, self) is not self
+                    yield
             except Refusal as refusal:
                 self._requests.refuse(refusal, topic=topic, subject='')
 

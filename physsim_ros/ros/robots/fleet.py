@@ -16,6 +16,7 @@ from functools import partial
 import time
 from typing import Any
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, Refusal
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
@@ -38,16 +39,24 @@ class Fleet:
     :param node: that owns their topics
     :param values: of the parameters of the node, by name, always up to date
     :param requests: the queue that commands are submitted to
+    :param boundary: of the node
 
     :ivar robots: topics of each, by the name of its body, in the order of the scene
     :ivar view: the last frame, as the sensors of all robots see it; None before the first
     """
 
-    def __init__(self, node: Node, values: Mapping[str, Any], requests: RequestQueue) -> None:
+    def __init__(
+        self,
+        node: Node,
+        values: Mapping[str, Any],
+        requests: RequestQueue,
+        boundary: ErrorBoundary,
+    ) -> None:
         self.robots: dict[str, RobotTopics] = {}
         self._node = node
         self._values = values
         self._requests = requests
+        self._boundary = boundary
         self._scene: Scene | None = None
         self.view: View | None = None
         self._look_due = 0.0
@@ -75,7 +84,8 @@ class Fleet:
         for body, robot in self.robots.items():
             commands, topic = robot.commands, robot.commands.topic
             try:
-                request = commands.take()
+                with self._boundary.message('cmd_vel'):
+                    request = commands.take()
                 if request is None:
                     continue
                 if in_past:
@@ -97,7 +107,8 @@ class Fleet:
         now = time.monotonic()
         if now >= self._look_due:
             self._look_due = now + _LOOK_PERIOD
-            self.match_publishers()
+            with self._boundary.output('cmd_vel'):
+                self.match_publishers()
 
     def _refuse(self, body: str, refusal: Refusal, topic: str) -> None:
         self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
@@ -153,12 +164,11 @@ class Fleet:
         if stands or frozen or not self.robots:
             return
         self._waiting_since = None
-        rows = snapshot.scene.robot_rows
-        for number, (row, robot) in enumerate(
-            zip(rows.tolist(), self.robots.values(), strict=True)
-        ):
-            if robot.publish(view, row, number):
-                robot.commands.awaited = snapshot.stamp
+        for number, row in enumerate(snapshot.scene.robot_rows.tolist()):
+            robot = self.robots.get(snapshot.scene.names[row])
+            with self._boundary.output('robots'):
+                if robot is not None and robot.publish(view, row, number):
+                    robot.commands.awaited = snapshot.stamp
 
     def _update(self, scene: Scene) -> None:
         """Make topics for robots that have come, and take those of others back."""
@@ -167,10 +177,11 @@ class Fleet:
         for body in [*self.robots]:
             if self.robots[body].robot != there.get(body):
                 self.robots.pop(body).close()
+        before, self.robots = self.robots, {}
         # In the order of the scene.
-        self.robots = {
-            body: self.robots.get(body) or self._make(body, robot) for body, robot in there.items()
-        }
+        for body, robot in there.items():
+            with self._boundary.output('robots'):
+                self.robots[body] = before.get(body) or self._make(body, robot)
 
     def _make(self, body: str, robot: Robot) -> RobotTopics:
         return RobotTopics(

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from physsim_ros.model.errors import Busy, Refusal, UnknownBody
+from physsim_ros.model.errors import Refusal, UnknownBody
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.reply_pacer import SERVICE_QOS
 from physsim_ros.ros.requests.services import ServiceCalls
@@ -68,20 +68,25 @@ class SimulationServices:
     def _create(self, node: Node, topic: str, kind: Any, perform: _Perform) -> None:
         def callback(request: Any, response: Any) -> Future:
             fill = partial(self._fill, topic, perform, request, response)
-            return self._calls.add(response, fill, Wait.FOR_SEEK)
+            return self._calls.add(topic, response, fill, Wait.FOR_SEEK)
 
         service = node.create_service(kind, topic, callback, qos_profile=SERVICE_QOS)
         self._calls.delay_replies(service)
 
     def _fill(
-        self, topic: str, perform: _Perform, request: Any, response: Any, busy: Busy | None
+        self,
+        topic: str,
+        perform: _Perform,
+        request: Any,
+        response: Any,
+        refused: Refusal | None,
     ) -> list[Answer]:
         """Fill in a response, and return the answer; what only reads has none."""
         # Of all but one service.
         result = getattr(response, 'result', Result())
         try:
-            if busy is not None:
-                raise busy
+            if refused is not None:
+                raise refused
             message = perform(request, response)
         except Failed as failure:
             refusal, result.result = failure.refusal, failure.result
@@ -115,7 +120,8 @@ class SimulationServices:
             return message
 
         topic = '~/simulation/simulate_steps'
-        for answer in self._fill(topic, perform, goal.request, response, None):
+        fill = partial(self._fill, topic, perform, goal.request, response)
+        for answer in self._calls.fill(topic, fill):
             self._control.simulation.requests.tell(answer)
         if response.result.result == Result.RESULT_OK:
             goal.succeed()

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
@@ -46,6 +47,7 @@ class Past:
     :param length: of the past that is kept [s of simulation time]
     :param checkpoints: from one checkpoint to the next [s]
     :param memory: the budget
+    :param boundary: of the requests
 
     :ivar timeline: the world on the line in force
     :ivar frame_cache: frames of that line
@@ -62,6 +64,7 @@ class Past:
         length: float,
         checkpoints: float,
         memory: HistoryMemory,
+        boundary: ErrorBoundary,
     ) -> None:
         self.physics_rate = physics_rate
         self.frame_steps = frame_steps
@@ -80,7 +83,7 @@ class Past:
             World(physics_rate=physics_rate, frame_steps=frame_steps) for _ in range(2)
         )
         self.timeline = Timeline(
-            self._worlds[0], history, self.reports, WorldState(settings=settings)
+            self._worlds[0], history, self.reports, WorldState(settings=settings), boundary
         )
         self.frame_cache = FrameCache(Replay(self._worlds[1], history, self.reports), memory)
         self.course = self._courses = 1

@@ -16,7 +16,8 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.errors import OutOfHistory, Refusal
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
@@ -67,12 +68,19 @@ class Timeline(Replay):
     :param history: of the world
     :param reports: of events without a request, to which it adds
     :param state: at time 0
+    :param boundary: of the requests
     """
 
     def __init__(
-        self, world: World, history: History, reports: list[Answer], state: WorldState
+        self,
+        world: World,
+        history: History,
+        reports: list[Answer],
+        state: WorldState,
+        boundary: ErrorBoundary,
     ) -> None:
         super().__init__(world, history, reports)
+        self._boundary = boundary
         self._seek: _Seek | None = None
         self.begin(state)
 
@@ -181,7 +189,13 @@ class Timeline(Replay):
         self.continue_seek()
         # A replay will carry it out in that space, too.
         self._enter_checkpoint()
-        done = self.world.apply(request)
+        try:
+            with self._boundary.message(type(request).__name__):
+                done = self.world.apply(request)
+        except Failed:
+            # Half of it may be done: the world is built again from the checkpoint before it.
+            self.seek_moment(*self.moment, elsewhere=True)
+            raise
         if self.world.changed:
             self.history.add_request(
                 self.moment,

@@ -19,6 +19,7 @@ import numpy as np
 from physsim_ros.engine.checkpoint import saved_state
 from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
@@ -222,15 +223,19 @@ class World(LiveSpace):
         Make a number of steps.
 
         :return: bodies that left the range of numbers and were removed
+        :raises StepFailed: in place of any error
         """
         lost: list[str] = []
         end = self.step_count + count
         while self.step_count < end:
-            made, gone = self.space.step(
-                self.step_count,
-                end - self.step_count,
-                reports_contacts=self.reports_contacts,
-            )
+            try:
+                made, gone = self.space.step(
+                    self.step_count,
+                    end - self.step_count,
+                    reports_contacts=self.reports_contacts,
+                )
+            except Exception as error:
+                raise StepFailed(f'step {self.step_count + 1} failed: {error}') from error
             self.step_count += made
             lost += gone
         return tuple(lost)

@@ -12,6 +12,7 @@ from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies, Unjoin
 from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.sketchpad.locks import locks_of
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession, UNNAMED
@@ -23,6 +24,8 @@ def _patterns(value: object, name: str) -> tuple[str, ...]:
     patterns = fields.names(value, name) if value != [] else ()
     if any(',' in each for each in patterns):
         raise BadProperty(f'a name in {name} has no comma', field=name)
+    # Compiled here, on the server's thread.
+    locks_of(patterns)
     return patterns
 
 

@@ -5,16 +5,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import partial
+from typing import Any
 
 from physsim_ros.files import check_world_name, text_of
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
-from physsim_ros.model.errors import BadProperty, BadWorldFile, WorldFull
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.request_handler import Wait
-from physsim_ros.sketchpad.message import message, Optional, Origin
+from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
@@ -82,7 +86,7 @@ def set_speed(page: PageSession, origin: Origin, speed: float) -> None:
 @message('seek', '~/seek', time=_stamp)
 def seek(page: PageSession, origin: Origin, time: int) -> None:
     """Go to a simulation time [ns]."""
-    page.perform(origin, partial(page.world.seek, time))
+    page.perform(origin, partial(page.world.seek, time), Wait.BEHIND_REQUESTS)
 
 
 @message('course', '~/timeline', course=Whole(0, 2**31))
@@ -111,8 +115,9 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     """
 
     def save() -> str:
-        page.own_worlds.check_free(check_world_name(name), replace=replace)
-        page.own_worlds.keep(name)
+        with _reaching(name):
+            page.own_worlds.check_free(check_world_name(name), replace=replace)
+            page.own_worlds.keep(name)
         return page.world.perform_on('save_world', name)
 
     page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
@@ -154,15 +159,25 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
     """Change the files of own worlds, and send all pages the list."""
 
     def manage() -> str:
-        try:
+        with _reaching(name):
             done = action()
-        except OSError as error:
-            reason = error.strerror or error
-            raise BadWorldFile(f'{name}: {reason}', field='name') from error
         page.list_worlds()
         return done
 
     page.perform(origin, manage)
+
+
+@contextmanager
+def _reaching(name: str) -> Iterator[None]:
+    """
+    Refuse the files of a world that cannot be reached.
+
+    :raises BadWorldFile: the system has refused it, as a name that is too long or a full disk
+    """
+    try:
+        yield
+    except OSError as error:
+        raise BadWorldFile(f'{name}: {error.strerror or error}', field='name') from error
 
 
 @message('share', '~/save_world', Right.DRAW)
@@ -170,13 +185,29 @@ def share(page: PageSession, origin: Origin) -> None:
     """Send this page the world as the text of a world file."""
 
     def send_text() -> list[Answer]:
-        simulation = page.world.simulation
+        boundary, simulation = page.world.boundary, page.world.simulation
         try:
-            text = text_of(simulation.save(), simulation.physics_rate, longest=MOST_SHARED)
-        except WorldFull as refusal:
-            page.answer_page(origin, str(refusal), code=refusal.code)
+            with boundary.message(origin.topic):
+                state = simulation.save()
+        except Failed as failed:
+            page.refuse(origin, failed)
         else:
-            page.answer_page(origin, 'the world as text', values=(('yaml', text),))
+            # The server's thread writes the text.
+            page.send(partial(_text_content, origin, state, simulation.physics_rate, boundary))
         return []
 
     page.call(origin, send_text, Wait.FOR_SEEK)
+
+
+def _text_content(
+    origin: Origin, state: WorldState, physics_rate: float, boundary: ErrorBoundary
+) -> dict[str, Any]:
+    """Return the answer with the text of a world, or with its refusal."""
+    try:
+        with boundary.reading(origin.topic):
+            text = text_of(state, physics_rate, longest=MOST_SHARED)
+    except Refusal as refusal:
+        answer = Answer.refused(refusal, topic='page')
+    else:
+        answer = Answer(topic='page', message='the world as text', values=(('yaml', text),))
+    return answer_content(answer, origin.request)

@@ -12,6 +12,7 @@ from __future__ import annotations
 import threading
 import time
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.view.frame_context import FrameContext
 from physsim_ros.view.sinks.frame_queue import FrameQueue
@@ -31,14 +32,21 @@ class SinkWorker:
     A thread that logs frames to the sinks of an endpoint.
 
     :param endpoint: to log to
+    :param boundary: of the thread
     :param report: takes answers about the endpoint, from any thread
     :param after: a worker that has to end before this one begins
     """
 
     def __init__(
-        self, endpoint: Endpoint, *, report: Report, after: SinkWorker | None = None
+        self,
+        endpoint: Endpoint,
+        boundary: ErrorBoundary,
+        *,
+        report: Report,
+        after: SinkWorker | None = None,
     ) -> None:
         self._endpoint = endpoint
+        self._boundary = boundary
         self._report = report
         self._before = after
         self._queue = FrameQueue(endpoint.capacity)
@@ -151,10 +159,10 @@ class SinkWorker:
             # Rerun may be missing, or be of another version.
             self._status = f'failed ({error})'
             self._report(self._endpoint.lost_answer(str(error)))
-        except BaseException as error:
+        except BaseException as error:  # noqa: BLE001 - a panic of Rerun (0.41) is no Exception
             self._status = 'broken'
-            self._report(self._endpoint.lost_answer(f'{type(error).__name__}: {error}'))
-            raise
+            failed = self._boundary.failed(f'viewer {self._endpoint.kind}', error)
+            self._report(self._endpoint.lost_answer(str(failed)))
         finally:
             self._endpoint.close()
             self._queue.drop_all()

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.model.shapes import Box, contains
+from physsim_ros.model.shapes import Box, Chain, contain_each, contains, contains_each
 from physsim_ros.model.transform import Point
 import pytest
 
@@ -75,3 +75,26 @@ def test_arrays_have_the_points_that_numbers_have(kind: str, slack: float) -> No
     one_by_one = [contains(pieces, *point, slack) for point in points.tolist()]
     assert contains(pieces, *points.T, slack).tolist() == one_by_one
     assert any(one_by_one)
+
+
+@pytest.mark.parametrize('slack', [0.0, 0.05])
+def test_many_forms_have_the_points_that_each_of_them_has(slack: float) -> None:
+    long = Chain(
+        points=tuple((0.01 * each, 0.1 * (each % 2)) for each in range(200)), thickness=0.02
+    )
+    forms = [shape.form for shape in (*SHAPES.values(), long)] * 40
+    points = np.random.default_rng(3).uniform(-1.5, 2.5, (len(forms), 2))
+    one_by_one = [
+        contains(form.pieces, *point, slack)
+        for form, point in zip(forms, points.tolist(), strict=True)
+    ]
+    assert contain_each(forms, *points.T, slack).tolist() == one_by_one
+    assert any(one_by_one)
+    assert contain_each([], np.empty(0), np.empty(0)).tolist() == []
+
+
+@pytest.mark.parametrize('kind', SHAPES)
+def test_a_form_has_the_points_that_its_pieces_have(kind: str) -> None:
+    form = SHAPES[kind].form
+    points = np.random.default_rng(3).uniform(-1.5, 2.5, (500, 2))
+    assert contains_each(form, *points.T).tolist() == contains(form.pieces, *points.T).tolist()

@@ -1,0 +1,130 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The error boundary: an error that nobody expected ends one message or one output, not the world.
+
+It stands where something enters the node or leaves it: topics, services, parameters, pages, files,
+outputs. Laws: a refusal passes it. Any other exception is logged with its traceback and a number,
+once for each place where it arises, and counted; a message is answered `failed` with that number.
+An error inside of a step is no `Exception` (`StepFailed`): it passes, and ends the world.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from itertools import count
+import traceback
+
+from physsim_ros.model.errors import Failed, PhysSimError
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.texts import abbreviated
+
+# Length of a line of the log [characters], and number of events that wait.
+_LONGEST_LINE, _MOST_EVENTS = 500, 100
+# Type of an error, and the lines of code by which it came, each once: a recursion has few.
+_Place = tuple[type, frozenset[tuple[str, int]]]
+
+
+class ErrorBoundary:
+    """
+    The boundary of a node; its methods may be called on any thread.
+
+    :param log: takes the traceback of an error; without it, errors pass the boundary
+    :param clock: returns the CPU time of the thread that calls it [s]
+
+    :ivar failures: number of unexpected errors
+    :ivar on_error: called with each unexpected error, as a test wants to be
+    """
+
+    def __init__(
+        self,
+        log: Callable[[str], object] | None = None,
+        clock: Callable[[], float] = lambda: 0.0,
+    ) -> None:
+        self.failures = 0
+        self.on_error: Callable[[BaseException], object] = lambda _: None
+        self._log = log
+        self._clock = clock
+        self._counter = count(1)
+        # Number of the first error of each place.
+        self._numbers: dict[_Place, int] = {}
+        self._events: deque[Answer] = deque(maxlen=_MOST_EVENTS)
+        self._longest = '', 0.0
+
+    @contextmanager
+    def message(self, name: str) -> Iterator[None]:
+        """
+        Carry out a message on the world's thread in the block, and measure it.
+
+        :param name: of its topic, service or parameter
+        :raises Failed: in place of an unexpected error
+        """
+        began = self._clock()
+        try:
+            with self.reading(name):
+                yield
+        finally:
+            took = self._clock() - began
+            if took > self._longest[1]:
+                self._longest = name, took
+
+    @contextmanager
+    def reading(self, name: str) -> Iterator[None]:
+        """
+        Read in the block what others have written, on any thread.
+
+        :raises Failed: in place of an unexpected error
+        """
+        try:
+            yield
+        except PhysSimError:
+            raise
+        except Exception as error:
+            raise self.failed(name, error) from error
+
+    @contextmanager
+    def output(self, name: str) -> Iterator[None]:
+        """Make an output in the block; an unexpected error ends the block, and is an event."""
+        try:
+            yield
+        except Exception as error:  # noqa: BLE001 - the boundary
+            number, is_new = self._note(name, error)
+            if is_new:
+                self._events.append(Answer.refused(_failed(number), topic=name))
+
+    def failed(self, name: str, error: BaseException) -> Failed:
+        """Note an unexpected error, and return the refusal of its message."""
+        number, _ = self._note(name, error)
+        return _failed(number)
+
+    def take_events(self) -> tuple[Answer, ...]:
+        """Return the events about outputs since the last call."""
+        return tuple(self._events.popleft() for _ in range(len(self._events)))
+
+    def take_longest(self) -> tuple[str, float]:
+        """Return the message that took the longest since the last call, and its CPU time [s]."""
+        longest, self._longest = self._longest, ('', 0.0)
+        return longest
+
+    def _note(self, name: str, error: BaseException) -> tuple[int, bool]:
+        """Count an error; log it and return its number, and whether it is the first there."""
+        if self._log is None:
+            raise error
+        self.failures = current = next(self._counter)
+        lines = traceback.walk_tb(error.__traceback__)
+        place = type(error), frozenset((each.f_code.co_filename, line) for each, line in lines)
+        number = self._numbers.setdefault(place, current)
+        if number == current:
+            # Its message may repeat a stranger's text.
+            text = ''.join(traceback.format_exception(error)).splitlines()
+            shown = '\n'.join(abbreviated(each, _LONGEST_LINE) for each in text)
+            self._log(f'failure {number}, {name}:\n{shown}')
+        self.on_error(error)
+        return number, number == current
+
+
+def _failed(number: int) -> Failed:
+    return Failed(f'an unexpected error; failure {number} in the log of the node has its cause')

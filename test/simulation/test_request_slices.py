@@ -1,0 +1,131 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Thousands of requests are applied in slices: time goes on between them, but in no gesture."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.request_handler import DeferredCalls, Wait
+from physsim_ros.simulation.simulation import Simulation
+
+from ..building import BOX, NOWHERE, spawning
+
+FRAME = 10**9 // 60
+COUNT, SLICE = 100, 10
+
+
+def submit(simulation: Simulation, *, joined: bool) -> None:
+    for number in range(COUNT):
+        body = spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0))
+        simulation.requests.submit(body, topic='~/spawn_array', joined=joined and number > 0)
+
+
+def spent_after(count: int) -> Callable[[], bool]:
+    """Return whether there is no time left, which lasts for a number of requests."""
+    asked = 0
+
+    def is_spent() -> bool:
+        nonlocal asked
+        asked += 1
+        return asked >= count
+
+    return is_spent
+
+
+def tick(simulation: Simulation, number: int) -> int:
+    """Tick with time for a slice; return the number of frames."""
+    return len(simulation.advance(number * FRAME, is_spent=spent_after(SLICE)))
+
+
+def test_time_goes_on_between_requests() -> None:
+    simulation = Simulation(settings=NOWHERE)
+    tick(simulation, 0)
+    submit(simulation, joined=False)
+    for number in range(1, COUNT // SLICE + 1):
+        assert tick(simulation, number) == 1
+        assert len(simulation.world) == SLICE * number
+    assert simulation.step == 4 * COUNT // SLICE
+
+
+def test_time_stands_within_a_gesture() -> None:
+    simulation = Simulation(settings=NOWHERE)
+    tick(simulation, 0)
+    step = simulation.step
+    submit(simulation, joined=True)
+    for number in range(1, COUNT // SLICE):
+        assert tick(simulation, number) == 0
+        assert simulation.step == step
+    # The time that it stood for is not made up for.
+    assert tick(simulation, COUNT // SLICE) == 1
+    assert len(simulation.world) == COUNT
+    assert simulation.step <= step + 4
+    assert simulation.undo().startswith('undid')
+    assert len(simulation.world) == 0
+
+
+def test_each_request_of_a_slice_is_answered_once_and_in_order() -> None:
+    simulation = Simulation(settings=NOWHERE)
+    submit(simulation, joined=True)
+    answers: list[Answer] = []
+    for number in range(COUNT // SLICE + 1):
+        for frame in simulation.advance(number * FRAME, is_spent=spent_after(SLICE)):
+            answers += frame.answers
+        answers += simulation.take_answers()
+    assert [answer.subject for answer in answers] == [f'a/{each}' for each in range(COUNT)]
+
+
+def test_commands_of_robots_do_not_stop_time() -> None:
+    """They join the gesture before them, so that an undo takes them back with it."""
+    simulation = Simulation(settings=NOWHERE)
+    tick(simulation, 0)
+    for _ in range(COUNT):
+        drive = DriveRobot(name='r/0', velocity=(1.0, 0.0, 0.0))
+        simulation.requests.submit(drive, topic='cmd_vel', joined=True)
+    assert tick(simulation, 1) == 1
+
+
+def test_a_call_behind_requests_waits_for_them() -> None:
+    simulation = Simulation(settings=NOWHERE)
+    calls = DeferredCalls(
+        simulation.requests, lambda: simulation.apply_up_to_seek(spent_after(SLICE))
+    )
+    submit(simulation, joined=True)
+    seen: list[int] = []
+
+    def call() -> list[Answer]:
+        seen.append(len(simulation.world))
+        return [Answer(topic='~/undo')]
+
+    calls.submit(call, Wait.BEHIND_REQUESTS)
+    assert seen == []
+    calls.submit(call, Wait.NONE)
+    assert seen == [SLICE]
+    for number in range(COUNT // SLICE + 1):
+        tick(simulation, number)
+    assert seen == [SLICE, COUNT]
+
+
+def test_a_single_frame_of_a_paused_world_waits_for_all_requests() -> None:
+    simulation = Simulation(settings=NOWHERE, speed=0.0)
+    tick(simulation, 0)
+    submit(simulation, joined=False)
+    simulation.playback.queue_frame()
+    for number in range(1, COUNT // SLICE):
+        assert tick(simulation, number) == 0
+    (frame,) = simulation.advance(10**9, is_spent=spent_after(SLICE + 1))
+    assert frame.moved
+    assert len(frame.snapshot.scene.bodies) == COUNT
+
+
+def test_a_refused_request_is_no_hold() -> None:
+    simulation = Simulation(settings=NOWHERE)
+    tick(simulation, 0)
+    for _ in range(COUNT):
+        simulation.requests.refuse(Refusal('no'), topic='~/spawn', subject='', joined=True)
+    # Refusals are answers: none of them waits for the world.
+    assert tick(simulation, 1) == 1
