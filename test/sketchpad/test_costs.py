@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+import gc
 import json
 import math
 import time
@@ -126,7 +127,11 @@ def crowded(
         (directory / 'crowded.yaml').write_text(world_text())
         physsim.load(directory / 'crowded.yaml')
         physsim.step(2)
+        # What other tests have left would be collected within a message.
+        gc.collect()
+        gc.freeze()
         yield physsim
+        gc.unfreeze()
 
 
 def test_no_message_takes_the_thread_of_the_world_for_long(crowded: PhysSim) -> None:
