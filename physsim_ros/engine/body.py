@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 import math
 import operator
 
-from physsim_ros.engine.core_world import address_of
+from physsim_ros.engine.layout import address_of
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.robot_states import RobotState, SPAWNED
 from physsim_ros.model.scene import Body

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
-from physsim_ros.engine.core_world import address_of
+from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.scene_columns import columns_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.noise import normals

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.core import dtype_of, ffi, lib
+from physsim_ros.engine.layout import address_of, check_layout
 from physsim_ros.model.arrays import Flags, Floats
 import pymunk
 from pymunk._chipmunk_cffi import ffi as pymunk_ffi
@@ -34,20 +35,7 @@ _ARRAYS = {
         *('double', 'uint8_t', 'int32_t'),
     )
 }
-
-
-def address_of(it: pymunk.Space | pymunk.Body | pymunk.Shape | pymunk.Constraint) -> int:
-    """Return the address of Chipmunk's struct of an object of Pymunk."""
-    match it:
-        case pymunk.Body():
-            struct = it._body  # noqa: SLF001 - Pymunk has no public way to its structs
-        case pymunk.Constraint():
-            struct = it._constraint  # noqa: SLF001
-        case pymunk.Shape():
-            struct = it._shape  # noqa: SLF001
-        case _:
-            struct = it._space  # noqa: SLF001
-    return int(pymunk_ffi.cast('uintptr_t', struct))
+check_layout()
 
 
 class CoreWorld:

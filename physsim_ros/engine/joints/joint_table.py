@@ -11,8 +11,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.core import dtype_of, lib
-from physsim_ros.engine.core_world import address_of
 from physsim_ros.engine.joints.kinds import EngineJoint
+from physsim_ros.engine.layout import address_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 import pymunk
