@@ -48,6 +48,7 @@ void find_broken(World *world);
 
 // Which bodies the step only accelerated (`half_step.c`), and which do not fall asleep (`sleeping.c`).
 void find_free(World *world);
+void forgive_trembling(World *world);
 void keep_awake(World *world);
 
 // What touched, and how it pressed (`contact_report.c`).
