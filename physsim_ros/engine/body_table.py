@@ -149,7 +149,8 @@ class BodyTable:
         self._blocks = {key: kept[key] if key in kept else self._noise_of(*key) for key in wanted}
         rows = np.stack([self._blocks[key] for key in wanted]).reshape(len(noisy), -1)
         # Kept while the core reads it.
-        self._noise = rows[:, 2 * (step - first * _BLOCK) :]
+        begin = 2 * (step - first * _BLOCK)
+        self._noise = rows[:, begin:]
         for row, number in enumerate(noisy):
             self.robots[number]['noise'] = self._noise[row].ctypes.data
 

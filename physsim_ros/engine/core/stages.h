@@ -51,6 +51,10 @@ void find_free(World *world);
 void forgive_trembling(World *world);
 void keep_awake(World *world);
 
+// Which sensors were crossed within the sub-step (`sensors.c`).
+typedef void Crossing(World *world, const Body *body, const Body *sensor);
+void find_crossings(World *world, Crossing *found);
+
 // What touched, and how it pressed (`contact_report.c`).
 void report_contacts(World *world);
 void forget_contacts(World *world);
