@@ -36,7 +36,11 @@ from .worlds.digests import digest_at, scene
 
 pytestmark = pytest.mark.slow
 
-CONFIG = sorted(path.relative_to(ROOT) for path in ROOT.glob('config/**/*.*'))
+SHIPPED = [
+    path.relative_to(ROOT)
+    for pattern in ('config/**/*.*', 'examples/*.py')
+    for path in sorted(ROOT.glob(pattern))
+]
 
 # Many times what each takes here, on a machine that is busy with other tests, in seconds.
 BUILD = 300
@@ -204,10 +208,10 @@ def test_pip_and_ros_are_told_the_same_version_and_licence(distribution):
     )
 
 
-def test_pip_installs_every_world_the_manifest_and_the_marker(installed):
+def test_pip_installs_every_world_and_example_the_manifest_and_the_marker(installed):
     share = installed / 'share'
 
-    missing = [str(path) for path in CONFIG if not (share / 'physsim_ros' / path).is_file()]
+    missing = [str(path) for path in SHIPPED if not (share / 'physsim_ros' / path).is_file()]
 
     assert missing == []
     assert (share / 'physsim_ros' / 'package.xml').is_file()
@@ -481,7 +485,7 @@ def test_the_manifest_names_every_ros_package_that_is_imported():
 def test_colcon_installs_every_world(workspace, overlay):
     share = Path(overlay['AMENT_PREFIX_PATH'].split(os.pathsep)[0]) / 'share' / 'physsim_ros'
 
-    missing = [str(path) for path in CONFIG if not (share / path).is_file()]
+    missing = [str(path) for path in SHIPPED if not (share / path).is_file()]
 
     assert share.is_relative_to(workspace)
     assert missing == []
