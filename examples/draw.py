@@ -29,14 +29,14 @@ except BadDrawing as refusal:
 rclpy.init()
 node = rclpy.create_node('draw')
 events = []
-node.create_subscription(DiagnosticStatus, '/physsim/events', events.append, 1000)
+heard = node.create_subscription(DiagnosticStatus, '/physsim/events', events.append, 1000)
 pen = node.create_publisher(Path, '/physsim/stroke', 10)
 clients = {name: node.create_client(Trigger, f'/physsim/{name}') for name in ('pause', 'play')}
 
 
 def call(service):
     """Call a service, again each second: a client is not answered before it is discovered."""
-    for _ in range(20):
+    for _ in range(30):
         future = clients[service].call_async(Trigger.Request())
         rclpy.spin_until_future_complete(node, future, timeout_sec=1.0)
         if future.done():
@@ -53,8 +53,10 @@ def answer():
             return event
 
 
-# The world has discovered the publisher and the subscription when it answers the later clients.
+# The world answers when it has discovered this node's ends, which were created before the clients.
 call('pause')
+while not (pen.get_subscription_count() and heard.get_publisher_count()):
+    rclpy.spin_once(node, timeout_sec=0.1)
 began = node.get_clock().now()
 refused = 0
 for number, (name, points) in enumerate(strokes):

@@ -19,15 +19,15 @@ def draw(outside: Outside, *words: object) -> Program:
     return outside.start(sys.executable, ROOT / 'examples' / 'draw.py', *words)
 
 
-def test_strokes_build_a_car_while_time_stands_still_and_then_it_rolls(outside: Outside) -> None:
+def test_strokes_build_a_car_that_rolls(outside: Outside) -> None:
     with outside.start_world() as world:
         world.wait_for('ready')
         with draw(outside, 'car', '--at', -1, 0.5) as program:
             assert program.finish() == 0, program.lines
         seen = outside.run_program('watch', 1.5)
         assert world.interrupt() == 0
-    assert program.lines[0] == 'ground: a wall of 15.5 m\n'
-    assert program.lines[-1] == 'front axle: joined drawn/3 to drawn/1 by axle drawn/1\n'
+    assert 'ground: a wall of 15.5 m\n' in program.lines
+    assert 'front axle: joined drawn/3 to drawn/1 by axle drawn/1\n' in program.lines
     first, last = seen['first'], seen['last']
     road, body, rear, front = (f'drawn/{number}' for number in range(4))
     assert set(first) == set(last) == {road, body, rear, front}
@@ -49,10 +49,10 @@ def test_a_stroke_that_is_refused_is_told_and_the_others_are_drawn(
     with outside.start_world() as world:
         world.wait_for('ready')
         with draw(outside, path) as program:
-            assert program.finish() == 1
+            assert program.finish() == 1, program.lines
         assert world.interrupt() == 0
-    assert program.lines[-2] == '1: spawned drawn/0\n'
-    assert program.lines[-1] == 'draw.py: 1 of 2 strokes were refused\n'
+    assert '1: spawned drawn/0\n' in program.lines
+    assert 'draw.py: 1 of 2 strokes were refused\n' in program.lines
 
 
 def test_a_drawing_that_cannot_be_read_is_told_at_once(outside: Outside) -> None:
