@@ -121,10 +121,11 @@ setup(
         (SHARE, ['package.xml']),
         (f'{SHARE}/config', sorted(glob('config/*.*'))),
         (f'{SHARE}/config/sros2', sorted(glob('config/sros2/*.xml'))),
-        (f'{SHARE}/config/drawings', sorted(glob('config/drawings/*'))),
+        (f'{SHARE}/config/drawings', sorted(glob('config/drawings/*.json'))),
         (f'{SHARE}/config/lessons', sorted(glob('config/lessons/*.yaml'))),
         (f'{SHARE}/config/robots', sorted(glob('config/robots/*.yaml'))),
         (f'{SHARE}/config/worlds', sorted(glob('config/worlds/*.yaml'))),
+        (f'{SHARE}/examples', sorted(glob('examples/*.py'))),
         (f'{SHARE}/launch', sorted(glob('launch/*.launch.py'))),
         (f'{SHARE}/docs/worlds', sorted(glob('docs/worlds/*.png'))),
     ],
@@ -144,8 +145,6 @@ setup(
         'rerun-sdk>=0.41,<0.42',
         # Partitions maps into rectangles.
         'scipy>=1.13',
-        # Reads SVG; pure Python, and needs nothing itself.
-        'svgelements>=1.9,<2',
         # Serves the page; needs nothing itself. Earlier ones have known holes.
         'tornado>=6.5.10,<7',
     ],
@@ -206,7 +205,6 @@ setup(
         'console_scripts': [
             'physsim = physsim_ros.ros.programs.physsim:main',
             'physsim_class = physsim_ros.ros.programs.physsim_class:main',
-            'physsim_draw = physsim_ros.ros.programs.physsim_draw:main',
         ],
         'pytest11': ['physsim = physsim_ros.testing.plugin'],
     },

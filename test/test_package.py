@@ -36,7 +36,11 @@ from .worlds.digests import digest_at, scene
 
 pytestmark = pytest.mark.slow
 
-CONFIG = sorted(path.relative_to(ROOT) for path in ROOT.glob('config/**/*.*'))
+SHIPPED = [
+    path.relative_to(ROOT)
+    for pattern in ('config/**/*.*', 'examples/*.py')
+    for path in sorted(ROOT.glob(pattern))
+]
 
 # Many times what each takes here, on a machine that is busy with other tests, in seconds.
 BUILD = 300
@@ -156,10 +160,9 @@ def test_pip_installs_the_executable_and_the_pytest_plugin(installed, distributi
             'physsim_class',
             'physsim_ros.ros.programs.physsim_class:main',
         ),
-        ('console_scripts', 'physsim_draw', 'physsim_ros.ros.programs.physsim_draw:main'),
         ('pytest11', 'physsim', 'physsim_ros.testing.plugin'),
     }
-    for program in ('physsim', 'physsim_draw'):
+    for program in ('physsim', 'physsim_class'):
         assert (installed / 'bin' / program).is_file()
 
 
@@ -177,7 +180,6 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
         'pyyaml',
         'rerun-sdk',
         'scipy',
-        'svgelements',
         'tornado',
     }
     assert set(always) == named
@@ -206,10 +208,10 @@ def test_pip_and_ros_are_told_the_same_version_and_licence(distribution):
     )
 
 
-def test_pip_installs_every_world_the_manifest_and_the_marker(installed):
+def test_pip_installs_every_world_and_example_the_manifest_and_the_marker(installed):
     share = installed / 'share'
 
-    missing = [str(path) for path in CONFIG if not (share / 'physsim_ros' / path).is_file()]
+    missing = [str(path) for path in SHIPPED if not (share / 'physsim_ros' / path).is_file()]
 
     assert missing == []
     assert (share / 'physsim_ros' / 'package.xml').is_file()
@@ -483,7 +485,7 @@ def test_the_manifest_names_every_ros_package_that_is_imported():
 def test_colcon_installs_every_world(workspace, overlay):
     share = Path(overlay['AMENT_PREFIX_PATH'].split(os.pathsep)[0]) / 'share' / 'physsim_ros'
 
-    missing = [str(path) for path in CONFIG if not (share / path).is_file()]
+    missing = [str(path) for path in SHIPPED if not (share / path).is_file()]
 
     assert share.is_relative_to(workspace)
     assert missing == []
@@ -524,7 +526,7 @@ def test_the_overlay_hides_the_source_tree(workspace, overlay, tmp_path):
 # None of those here, which would start over.
 SUBSET = (
     'test/style/test_xmllint.py::test_the_manifest_keeps_the_rules_of_rep_149',
-    'test/ros/test_physsim_draw.py::test_every_stroke_is_drawn_and_its_answers_are_told',
+    'test/ros/test_draw_example.py::test_strokes_build_a_car_that_rolls',
     'test/testing/test_plugin.py::test_a_robot_of_others_is_tested_with_the_same_bits_every_time',
 )
 

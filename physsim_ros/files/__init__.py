@@ -8,7 +8,7 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 (`drawing`). Start with `world_file`, then `world_reader` and `world_writer`.
 """
 
-from physsim_ros.files.drawing_file import BadDrawing, drawings, find_drawing, load_drawing, Pace
+from physsim_ros.files.drawing_file import BadDrawing, drawings, load_drawing
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import shipped, shipped_pictures, title_of, user_directory
@@ -37,10 +37,8 @@ __all__ = [
     'SETTINGS',
     'BadDrawing',
     'OwnWorlds',
-    'Pace',
     'check_world_name',
     'drawings',
-    'find_drawing',
     'find_world',
     'hides_shipped',
     'load_drawing',

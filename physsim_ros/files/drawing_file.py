@@ -2,170 +2,88 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Drawing files: strokes from SVG, as editors write it, and from JSON.
+Drawing files: JSON with strokes of a pen, in the order in which they are drawn.
 
-Laws: the strokes are the lines that a browser shows, one for each subpath, in the order of the
-file. Corners are samples; between them a pen of constant speed is sampled.
+`{"about": "...", "strokes": [{"name": "rod", "points": [[8, 7.98], [10.6, 3.4]]}, ...]}`
+
+Laws: each point of a file is a sample of its stroke. A file is read, or refused as `BadDrawing`,
+whatever it holds.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 import json
-import math
 from pathlib import Path
 from typing import Any
-from xml.etree.ElementTree import ParseError
 
 import numpy as np
-from numpy.typing import NDArray
+from physsim_ros.files.regular_file import read_file
 from physsim_ros.files.resources import files_by_name, is_plain, shipped
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import FARTHEST
-from physsim_ros.model.errors import PhysSimError
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.settings import MOST_SAMPLES
-from physsim_ros.model.texts import nearest_name
+from physsim_ros.model.texts import abbreviated, nearest_name
 
-# Metres for each user unit of SVG: a page of 1600 by 1000 is a world of 16 m by 10 m.
-SVG_SCALE = 0.01
-# Change of direction above which a point is a corner, not part of a curve [rad].
-_CORNER = 0.2
-# Least number of samples of a stroke: people draw small figures more slowly.
-_FEWEST = 30
-# Greatest duration of a stroke [s]: four months.
-_LONGEST = 1e7
-# Suffixes of drawings.
-_SUFFIXES = ('.svg', '.json')
+# Greatest size of a drawing file [bytes]: 200 times that of the largest shipped one.
+_MOST_BYTES = 2**20
+# Greatest number of strokes of a drawing [1]: the largest shipped one has 14.
+_MOST_STROKES = 1_000
 
 
-class BadDrawing(PhysSimError):
-    """A drawing that cannot be read."""
+class BadDrawing(Refusal):
+    """A drawing file that cannot be read, or whose content is no drawing."""
+
+    code = 'bad_drawing'
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Pace:
+def drawings() -> tuple[str, ...]:
+    """Return the plain names of the shipped drawings."""
+    return tuple(files_by_name(shipped('drawings'), '.json'))
+
+
+def load_drawing(drawing: str) -> list[tuple[str, Floats]]:
     """
-    Speed and sample rate of the pen.
+    Return the strokes of a drawing in order, each with its name.
 
-    :param speed: along the stroke [m/s]
-    :param rate: of samples [Hz]
+    :param drawing: path of a JSON file, or the plain name of a shipped drawing
+    :return: name, '' if it has none, and (n, 3) float64: x, y [m], time [s], which is 0
+    :raises BadDrawing: the file cannot be read, or its content is no drawing
     """
-
-    speed: float = 4.0
-    rate: float = 100.0
-
-
-def drawings() -> dict[str, Path]:
-    """Return the shipped drawings by their plain names."""
-    return files_by_name(shipped('drawings'), *_SUFFIXES)
-
-
-def find_drawing(name: str) -> Path:
-    """
-    Return the file of a path, or of the plain name of a shipped drawing.
-
-    :raises BadDrawing: there is none
-    """
-    paths = [Path(name)]
-    looked = [str(Path(name).absolute().parent)]
-    if is_plain(name):
-        paths += [shipped('drawings') / f'{name}{suffix}' for suffix in _SUFFIXES]
-        looked.append(str(shipped('drawings')))
-    for path in paths:
-        if path.is_file():
-            return path
-    raise BadDrawing(
-        f'there is no drawing {name!r} in {" and ".join(looked)}'
-        f'{nearest_name(Path(name).stem, drawings())}'
-    )
-
-
-def load_drawing(
-    path: Path, *, scale: float | None = None, pace: Pace | None = None
-) -> list[Floats]:
-    """
-    Return the strokes of a drawing.
-
-    :param path: of an SVG file, whose origin is the page's lower left corner, y up; or of JSON, a
-        list of strokes, each a list of [x, y] or of [x, y, t], y up
-    :param scale: metres for each unit of the file; None is 0.01 for SVG and 1 for JSON
-    :param pace: of the pen, for strokes without times
-    :return: (n, 3) float64 each: x, y [m] and time from the first sample [s]
-    :raises BadDrawing: it cannot be read, or contains no stroke
-    """
+    plain = is_plain(drawing)
+    path = shipped('drawings') / f'{drawing}.json' if plain else Path(drawing)
     try:
-        if path.suffix == '.json':
-            lines = _from_json(json.loads(path.read_text(encoding='utf-8')))
-            unit = 1.0
-        else:
-            # svgelements is a twentieth of the imports of a node, which draws no file.
-            from physsim_ros.files.svg_lines import svg_lines  # noqa: PLC0415
-
-            lines = svg_lines(path)
-            unit = SVG_SCALE
-    except (OSError, ValueError, ParseError) as error:
-        raise BadDrawing(f'cannot read {path}: {error}') from error
-    except RecursionError as error:
-        raise BadDrawing(f'cannot read {path}: it is nested too deeply, or in itself') from error
-    factor = unit if scale is None else scale
-    # Infinite coordinates are refused below.
-    with np.errstate(over='ignore'):
-        sampled = [_sampled(line, factor, pace or Pace()) for line in lines if len(line)]
-    strokes = [stroke for stroke in sampled if len(stroke)]
-    if not strokes:
-        raise BadDrawing(f'{path} contains no stroke')
-    if not all((np.abs(stroke[:, 2]) <= _LONGEST).all() for stroke in strokes):
-        raise BadDrawing(f'a stroke takes longer than {_LONGEST:g} s')
-    return strokes
+        content = json.loads(read_file(path, _MOST_BYTES))
+    except (OSError, ValueError, RecursionError) as error:
+        near = nearest_name(drawing, drawings()) if plain else ''
+        raise BadDrawing(f'cannot read {path}: {error}{near}') from error
+    strokes = content.get('strokes') if isinstance(content, dict) else None
+    if not isinstance(strokes, list) or not 1 <= len(strokes) <= _MOST_STROKES:
+        message = f'strokes must be a list of 1 to {_MOST_STROKES:,} strokes'
+        raise BadDrawing(message, field='strokes')
+    return [_stroke(entry, f'strokes[{number}]') for number, entry in enumerate(strokes)]
 
 
-def _from_json(content: Any) -> list[Floats]:
-    """Return (n, 2) or (n, 3) float64 of each stroke: x, y, and time [s] if the file has it."""
-    if isinstance(content, dict):
-        content = content.get('strokes')
-    if not isinstance(content, list):
-        raise BadDrawing('the file must contain a list of strokes')
-    lines = []
-    for number, entry in enumerate(content):
-        try:
-            line = np.array(entry, dtype=np.float64)
-        except (OverflowError, TypeError, ValueError) as error:
-            raise BadDrawing(f'stroke {number} is not a list of points') from error
-        if line.ndim != 2 or line.shape[1] not in (2, 3) or not np.isfinite(line).all():
-            raise BadDrawing(f'stroke {number} must be a list of [x, y] or of [x, y, t]')
-        if (line[:, :2] == line[0, :2]).all():
-            raise BadDrawing(f'stroke {number} is a single point')
-        lines.append(line)
-    return lines
+def _stroke(entry: Any, field: str) -> tuple[str, Floats]:
+    if not isinstance(entry, dict):
+        raise BadDrawing(f'{field} must be a mapping with points', field=field)
+    name, points = entry.get('name', ''), entry.get('points')
+    if not isinstance(name, str):
+        raise BadDrawing(f'{field}.name must be a text', field=f'{field}.name')
+    if not isinstance(points, list) or not 2 <= len(points) <= MOST_SAMPLES:
+        message = f'{field}.points must be a list of 2 to {MOST_SAMPLES:,} points'
+        raise BadDrawing(message, field=f'{field}.points')
+    for number, point in enumerate(points):
+        if not _is_point(point):
+            each = f'{field}.points[{number}]'
+            raise BadDrawing(f'{each} must be [x, y], each within {FARTHEST:g} m', field=each)
+    return abbreviated(name), np.array([(x, y, 0.0) for x, y in points], dtype=np.float64)
 
 
-def _sampled(line: Floats, scale: float, pace: Pace) -> Floats:
-    """Return the samples of the pen along a line: (n, 3) float64: x, y [m], time [s]."""
-    points = line[:, :2] * scale
-    if not (np.abs(points) <= FARTHEST).all():
-        raise BadDrawing(f'a stroke reaches further than {FARTHEST:g} m')
-    if line.shape[1] == 3:
-        return np.column_stack((points, line[:, 2] - line[0, 2]))
-    steps = np.hypot(*np.diff(points, axis=0).T)
-    kept = np.concatenate(((True,), steps > 0.0))
-    points, steps = points[kept], steps[steps > 0.0]
-    if len(points) < 2:
-        return np.empty((0, 3))
-    reached = np.concatenate(((0.0,), np.cumsum(steps)))
-    length = float(reached[-1])
-    # Evenly spaced samples and corners together are less than MOST_SAMPLES.
-    count = math.ceil(min(length / pace.speed * pace.rate, MOST_SAMPLES // 2))
-    count = max(count, _FEWEST)
-    corners = reached[_is_corner(points)][: MOST_SAMPLES // 3]
-    along = np.union1d(np.linspace(0.0, length, count + 1), corners)
-    x = np.interp(along, reached, points[:, 0])
-    y = np.interp(along, reached, points[:, 1])
-    return np.column_stack((x, y, along / pace.speed))
-
-
-def _is_corner(points: Floats) -> NDArray[np.bool_]:
-    """Return (n,) bool: whether each point of a line is a corner."""
-    steps = np.diff(points, axis=0)
-    headings = np.arctan2(steps[:, 1], steps[:, 0])
-    turns = np.abs((np.diff(headings) + math.pi) % math.tau - math.pi)
-    return np.concatenate(((False,), turns > _CORNER, (False,)))
+def _is_point(point: Any) -> bool:
+    # NaN is not less than anything, and a boolean is no number here.
+    return (
+        isinstance(point, list)
+        and len(point) == 2
+        and all(type(number) in {int, float} and abs(number) <= FARTHEST for number in point)
+    )

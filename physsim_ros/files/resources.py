@@ -12,10 +12,8 @@ import sys
 
 # Start of a file in which its title is looked for [bytes].
 _TITLE_WITHIN = 400
-# A comment of YAML or of XML, and the first sentence of it.
-_COMMENT = re.compile(
-    r'^#(?P<yaml>.*?)\.\s|<!--(?P<xml>.*?)(?:\.\s|-->)', re.DOTALL | re.MULTILINE
-)
+# A comment of YAML, and the first sentence of it.
+_COMMENT = re.compile(r'^#(.*?)\.\s', re.DOTALL | re.MULTILINE)
 
 
 def shipped(folder: str) -> Path:
@@ -86,5 +84,4 @@ def title_of(path: Path) -> str:
     found = _COMMENT.search(start)
     if found is None:
         return path.stem
-    sentence = found['xml'] or found['yaml']
-    return ' '.join(word for word in sentence.split() if word != '#') or path.stem
+    return ' '.join(word for word in found[1].split() if word != '#') or path.stem

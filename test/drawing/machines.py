@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, submit_reading
-from physsim_ros.files import find_drawing, load_drawing
+from physsim_ros.files import load_drawing
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.simulation.simulation import Simulation
@@ -271,4 +271,4 @@ LAWS: dict[str, Callable[[Machine], None]] = {
 
 def strokes_of(name: str) -> list[Floats]:
     """Return the strokes of a shipped drawing as they should be."""
-    return load_drawing(find_drawing(name))
+    return [stroke for _, stroke in load_drawing(name)]

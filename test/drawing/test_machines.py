@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from physsim_ros.files import shipped
+from physsim_ros.files import drawings
 from physsim_ros.model.errors import Refusal
 import pytest
 from tools.evaluation.people import drawn_by, PEOPLE, SEVERAL
@@ -22,7 +22,7 @@ FEW = ('no fault', 'ends that cross', 'bowed sides', SEVERAL)
 
 
 def test_every_shipped_drawing_has_a_law_and_ten_people_draw_it() -> None:
-    assert sorted(LAWS) == sorted(path.stem for path in shipped('drawings').glob('*.svg'))
+    assert sorted(LAWS) == sorted(drawings())
     assert len(PEOPLE) == 10
 
 

@@ -15,7 +15,6 @@ from .world_files import write
     ('text', 'title'),
     [
         ('# A pendulum,\n# swung. And more.\nformat: 1', 'A pendulum, swung'),
-        ('<!-- A car. -->', 'A car'),
         ('format: 1', 'own'),
         ('# .\n', 'own'),
         ('', 'own'),

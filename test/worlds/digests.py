@@ -12,7 +12,7 @@ from pathlib import Path
 import sys
 
 from physsim_ros.drawing import DrawingSession, DrawingSettings
-from physsim_ros.files import find_drawing, load_drawing, shipped, shipped_worlds
+from physsim_ros.files import drawings, load_drawing, shipped_worlds
 from physsim_ros.simulation.simulation import Simulation
 import yaml
 
@@ -20,7 +20,7 @@ from .film import simulation
 
 DIGESTS = Path(__file__).with_name('digests.yaml')
 WORLDS = sorted(path.stem for path in shipped_worlds().glob('*.yaml'))
-DRAWINGS = sorted(path.stem for path in shipped('drawings').glob('*.svg'))
+DRAWINGS = sorted(drawings())
 SCENES = [f'worlds/{name}' for name in WORLDS] + [f'drawings/{name}' for name in DRAWINGS]
 # Simulation time at which digests are taken [s]; the rewind goes from the last to the first.
 TIMES = (2, 6)
@@ -33,7 +33,7 @@ def scene(name):
         return simulation(name)
     sim, pen = Simulation(speed=0.0), DrawingSession(DrawingSettings())
     frame = sim.advance_frame()
-    for stroke in load_drawing(find_drawing(name)):
+    for _, stroke in load_drawing(name):
         for request in pen.stroke(stroke, '', frame.snapshot).requests:
             sim.requests.submit(request, topic='~/stroke')
         frame = sim.apply_requests() or frame

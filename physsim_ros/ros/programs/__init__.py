@@ -2,8 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The programs `physsim` (a world as a node) and `physsim_draw` (a node that draws strokes).
+The programs `physsim` (a world as a node) and `physsim_class` (a world for each pupil).
 
-Start with `physsim`: it makes the node and runs `real_time_loop`. `stroke_publisher` is the node
-of `physsim_draw`; `help` has what both print for `--help`.
+Start with `physsim`: it makes the node and runs `real_time_loop`; `help` has its `--help`.
 """

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The help of the programs: tables of worlds, drawings and parameters with their meanings."""
+"""The help of `physsim`: tables of worlds and parameters with their meanings."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ def physsim_help() -> str:
     own = user_worlds()
     parameters = {name: _meaning(spec) for name, spec in SPECS.items()}
     tables = (
-        files_table('worlds, for parameter world_file:', worlds_in(shipped_worlds())),
-        files_table('lessons, likewise:', worlds_in(shipped_lessons())),
-        files_table(f'worlds of your own, in {own}:', worlds_in(own)),
+        _files_table('worlds, for parameter world_file:', worlds_in(shipped_worlds())),
+        _files_table('lessons, likewise:', worlds_in(shipped_lessons())),
+        _files_table(f'worlds of your own, in {own}:', worlds_in(own)),
         _table('parameters, after --ros-args, each as -p name:=value:', parameters),
     )
     return '\n'.join(('', *filter(None, tables), _ELSEWHERE))
 
 
-def files_table(title: str, files: Mapping[str, Path]) -> str:
+def _files_table(title: str, files: Mapping[str, Path]) -> str:
     """Return a table of files, each with the sentence that it begins with; '' if there is none."""
     return _table(title, {name: title_of(path) for name, path in files.items()})
 
