@@ -240,7 +240,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             set_speed=self._time_control.set_speed,
             seek=self._time_control.seek,
             locked_bodies=lambda: parameters.listed_names(self._values['sketchpad_locked']),
-            quit=self._quit,
+            end_program=self._end_program,
         )
         create_simulation_services(self, control, calls)
         self._pages = Pages(
@@ -265,7 +265,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             parameters.set_value(self, 'world_file', before)
             raise
 
-    def _quit(self) -> bool:
+    def _end_program(self) -> bool:
         """Have a later tick end the program; return whether it may."""
         self._is_quitting = self.on_quit is not None
         return self._is_quitting

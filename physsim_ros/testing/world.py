@@ -160,6 +160,8 @@ class PhysSim(ObservedWorld):
         """
         Spin until a predicate is true, with time paused: for nodes of other processes.
 
+        Requests that arrive meanwhile are applied, as in any paused world.
+
         :param timeout: wall time [s]
         :raises TimeoutError: it is not true after that time
         """
@@ -167,6 +169,7 @@ class PhysSim(ObservedWorld):
 
         def is_true() -> object:
             self.node.fleet.match_publishers()
+            self.node.apply_requests()
             return predicate()
 
         try:

@@ -97,7 +97,7 @@ typedef struct Robot {
     Twist rolling;  // velocity that the wheels have
     Twist travel;   // integral of that
     Pose odometry;  // by wheels and gyroscope, from the pose in which it was spawned
-    double path[2]; // length of the way of the wheels [m], and sum of the turns of the body [rad]
+    double covariance[6]; // of the odometry: xx, xy, yy [m²], x yaw, y yaw [m rad], yaw yaw [rad²]
     // What the core keeps for a step.
     Twist mean;       // velocity of the wheels
     Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes

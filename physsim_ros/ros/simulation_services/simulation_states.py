@@ -125,7 +125,7 @@ class SimulationStates:
         return self._control.simulation.reset() if target == _STOPPED else message
 
     def _quit(self) -> str:
-        if not self._control.quit():
+        if not self._control.end_program():
             raise failed(
                 'this world is not the only one of its program, or is in a test',
                 Result.RESULT_FEATURE_UNSUPPORTED,

@@ -13,6 +13,7 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
+import numpy as np
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
 import rclpy
@@ -466,6 +467,8 @@ def test_the_covariance_of_the_twist_is_that_of_its_speed(flat: PhysSim) -> None
     flat.run(1.0)
     covariance = robot.odom().twist.covariance
     assert (covariance[0], covariance[35]) == pytest.approx((0.01**2 * 6.0, 0.02**2 * 6.0))
+    # Across there is no noise, and a localiser takes 0 for unknown.
+    assert covariance[7] == 1e-9
     flat.run(5.0)
     assert robot.odom().twist.covariance[0] == pytest.approx(covariance[0])
     robot.drive(0.0)
@@ -488,6 +491,22 @@ def test_the_covariance_of_the_pose_grows_on_the_way_back(flat: PhysSim) -> None
     assert around == pytest.approx(back, rel=0.05)
     assert turned - heading == pytest.approx(0.02**2 * 2.0, rel=0.15)
     assert twice - heading == pytest.approx(0.02**2 * 4.0, rel=0.15)
+
+
+def test_the_covariance_of_the_pose_is_along_the_way_and_across(flat: PhysSim) -> None:
+    slip = 0.02, 0.05
+    robot = flat.robot({'from': 'turtlebot3_burger', 'odometry': {'slip': slip}})
+    robot.drive(0.2)
+    flat.run(5.0)
+    odometry = robot.odom()
+    covariance = np.reshape(odometry.pose.covariance, (6, 6))
+    way = odometry.pose.pose.position.x
+    # 5 %: the way is not quite straight, and has a beginning.
+    assert covariance[0, 0] == pytest.approx(slip[0] ** 2 * way, rel=0.05)
+    assert covariance[1, 1] == pytest.approx(slip[1] ** 2 * way**3 / 3, rel=0.05)
+    assert covariance[1, 5] == pytest.approx(slip[1] ** 2 * way**2 / 2, rel=0.05)
+    assert covariance[5, 5] == pytest.approx(slip[1] ** 2 * way, rel=0.05)
+    np.testing.assert_array_equal(covariance, covariance.T)
 
 
 def test_a_robot_of_a_world_file_is_found_and_driven(flat: PhysSim) -> None:
