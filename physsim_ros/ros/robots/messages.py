@@ -51,8 +51,8 @@ from std_msgs.msg import Bool
 LEAST_VARIANCE = 1e-9
 # Variance of what a planar robot does not measure, as other robots tell it.
 _UNKNOWN = 1e6
-# Places in a covariance of 6 × 6: of the variances of x, y and yaw; of those of the other parts; of
-# xx, xy, yy, x yaw, y yaw, yaw yaw, above and below the diagonal.
+# Places in a covariance of 6 × 6: of the variances of x, y and yaw; of those of the other parts;
+# of xx, xy, yy, x yaw, y yaw, yaw yaw, above and below the diagonal.
 _PLANAR, _OTHERS = (0, 7, 35), (14, 21, 28)
 _ABOVE, _BELOW = (0, 1, 7, 5, 11, 35), (0, 6, 7, 30, 31, 35)
 
