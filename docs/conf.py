@@ -36,8 +36,7 @@ default_role = 'literal'
 # Headings that links name by their text, as in the repository.
 myst_heading_anchors = 3
 
-# Sphinx makes a text of every member; `engine.memory` has arrays of all memory, whose first words
-# no process may read.
+# Sphinx makes a text of every member: arrays are told by their shapes.
 np.set_printoptions(override_repr=lambda array: f'<array of {array.shape}>')
 
 # A page for each module, from its docstrings.

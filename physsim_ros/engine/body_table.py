@@ -46,6 +46,8 @@ class BodyTable:
         self.columns = columns_of(scene, dt)
         self.records = self.columns.bodies.copy()
         self.robots = self.columns.robots.copy()
+        # Blocks of noise by robot and number, until they are used up.
+        self._blocks: dict[tuple[int, int], Floats] = {}
         own = self.records[:-1]
         self.records['engine'] = [*(rigid.address for rigid in bodies), address_of(background)]
         for name in ('free', 'released', 'thrown'):
@@ -142,14 +144,17 @@ class BodyTable:
         if not noisy:
             return
         first, last = step // _BLOCK, (step + count - 1) // _BLOCK
-        blocks = []
-        for number in noisy:
-            name = f'odometry of {self.scene.names[self.robots["body"][number]]}'
-            seed = self.scene.settings.seed
-            parts = [normals(seed, name, block, 2 * _BLOCK) for block in range(first, last + 1)]
-            begin = 2 * (step - first * _BLOCK)
-            blocks.append(np.concatenate(parts)[begin:])
+        wanted = [(number, block) for number in noisy for block in range(first, last + 1)]
+        kept = self._blocks
+        self._blocks = {key: kept[key] if key in kept else self._noise_of(*key) for key in wanted}
+        rows = np.stack([self._blocks[key] for key in wanted]).reshape(len(noisy), -1)
         # Kept while the core reads it.
-        self._noise = np.stack(blocks)
+        begin = 2 * (step - first * _BLOCK)
+        self._noise = rows[:, begin:]
         for row, number in enumerate(noisy):
             self.robots[number]['noise'] = self._noise[row].ctypes.data
+
+    def _noise_of(self, number: int, block: int) -> Floats:
+        """Return (2 _BLOCK,) float64: a block of the noise of a robot, two numbers a step."""
+        name = f'odometry of {self.scene.names[self.robots["body"][number]]}'
+        return normals(self.scene.settings.seed, name, block, 2 * _BLOCK)

@@ -21,7 +21,7 @@ def reports(speed, shape, phase):
     sim = simulation(gravity=NOWHERE)
     sim.reports_contacts = True
     spawn(sim, 'gate/0', Box(width=0.01, height=2.0), anchored=True, sensor=True)
-    start = -0.5 - phase * speed * DT
+    start = -0.5 - (1.0 + phase) * speed * DT
     body = spawn(sim, 'body/0', shape, (start, 0.0, 0.3), velocity=(speed, 0.0))
     begun = 0
     for _ in range(int(60 / speed) + 4):
@@ -33,12 +33,12 @@ def reports(speed, shape, phase):
 
 
 @pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())
-@pytest.mark.parametrize('speed', [1.0, 10.0, 14.0, 20.0, 40.0])
+@pytest.mark.parametrize('speed', [1.0, 14.0, 40.0, 100.0, 1000.0])
 def test_a_sensor_reports_each_body_that_crosses_it_once(report, speed, shape):
     begun = [reports(speed, shape, number / CROSSINGS) for number in range(CROSSINGS)]
 
     seen = sum(number > 0 for number in begun)
-    report.check(50, 'gate of 1 cm, bodies seen at 1 to 40 m/s', seen, CROSSINGS, 0, 'bodies')
+    report.check(50, 'gate of 1 cm, bodies seen at 1 to 1000 m/s', seen, CROSSINGS, 0, 'bodies')
     report.check(50, 'gate of 1 cm, reports of a crossing', max(begun), 1, 0, 'reports')
 
 
@@ -46,8 +46,22 @@ def test_a_sensor_does_not_report_what_passes_by(report):
     sim = simulation(gravity=NOWHERE)
     sim.reports_contacts = True
     spawn(sim, 'gate/0', Box(width=0.01, height=2.0), anchored=True, sensor=True)
-    spawn(sim, 'ball/0', Disc(radius=0.02), (-0.5, 1.03, 0.0), velocity=(40.0, 0.0))
+    for speed in (40.0, 1000.0):
+        velocity = (speed, 0.0)
+        spawn(sim, f'ball/{speed:g}', Disc(radius=0.02), (-0.5, 1.03, 0.0), velocity=velocity)
 
     seen = sum(len(sim.advance_frame().contacts.pairs) for _ in range(6))
 
     report.check(50, 'gate of 1 cm, reports of what passes by', seen, 0, 0, 'reports')
+
+
+def test_a_fast_sensor_reports_what_it_crosses(report):
+    sim = simulation(gravity=NOWHERE)
+    sim.reports_contacts = True
+    spawn(sim, 'ball/0', Disc(radius=0.02), (0.0, 0.0, 0.0))
+    gate = Box(width=0.01, height=2.0)
+    spawn(sim, 'gate/0', gate, (-0.51, 0.0, 0.0), velocity=(300.0, 0.0), sensor=True)
+
+    begun = sum(len(sim.advance_frame().contacts.begun) for _ in range(4))
+
+    report.check(50, 'gate of 300 m/s, reports of a crossing', begun, 1, 0, 'reports')

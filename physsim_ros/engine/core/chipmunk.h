@@ -3,8 +3,8 @@
 
 // Structs of Chipmunk, with the fields that the core reads or writes; the others are padding.
 //
-// They are those of Munk2D as in Pymunk 7.3.1, whose headers no wheel has. `engine/layout.py` compares them with what Pymunk
-// itself returns, when the core is imported. cffi reads this file too, but for lines that begin with '#'.
+// They are those of Munk2D as in Pymunk 7.3.1, whose headers no wheel has. `engine/layout.py` compares them with what
+// Pymunk itself returns, when the core is imported. cffi reads this file too, but for lines that begin with '#'.
 
 #ifndef PHYSSIM_CHIPMUNK_H
 #define PHYSSIM_CHIPMUNK_H

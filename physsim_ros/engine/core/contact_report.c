@@ -195,6 +195,16 @@ static void read_sleeping(World *world, Report *report) {
     }
 }
 
+// A pair whose overlap lies within a sub-step has no points.
+static void add_crossing(World *world, const Body *body, const Body *sensor) {
+    Report *report = report_of(world);
+    int a = place_of(world, body->engine), b = place_of(world, sensor->engine);
+    Pair *pair = pair_of(report, a < b ? a : b, a < b ? b : a);
+    if (pair->stamp < report->stamp - 1) {
+        touch(world, report, pair);
+    }
+}
+
 void report_contacts(World *world) {
     Report *report = report_of(world);
     report->stamp++;
@@ -205,6 +215,7 @@ void report_contacts(World *world) {
         add_arbiter(world, report, arbiter_at(world, number));
     }
     world->chipmunk.each_arbiter(world->space, add_overlap, world);
+    find_crossings(world, add_crossing);
     add_sleeping(world, report);
     for (int slot = 0; slot < report->room; slot++) {
         Pair *pair = report->pairs + slot;

@@ -71,6 +71,7 @@ typedef struct Body {
     Twist carried;   // way with what has stopped it, in that time [m, rad]
     double since;    // its first impact, until it was stopped or the step ended [s]
     uint8_t parts;   // its impact lets it fly
+    double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
 } Body;
 
 // A grip of a hand on a body; Box2D's mouse joint.

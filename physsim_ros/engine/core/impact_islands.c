@@ -51,12 +51,15 @@ static bool are_joined_apart(const cpBody *a, const cpBody *b) {
     return false;
 }
 
+bool may_meet(const Body *a, const Body *b) {
+    return (a->group == 0 || a->group != b->group) &&
+           !(a->joined && b->joined && are_joined_apart(a->engine, b->engine));
+}
+
 // Whether two movers do not pass through each other, and are not one island yet.
 static bool collide(const Mover *one, const Mover *other) {
-    const Body *a = one->body, *b = other->body;
     return (one->movable || other->movable) && (one->island != other->island || one->island < 0) &&
-           (a->group == 0 || a->group != b->group) &&
-           !(a->joined && b->joined && are_joined_apart(a->engine, b->engine));
+           may_meet(one->body, other->body);
 }
 
 // The velocity of the centre of mass where a motion begins [m a step].

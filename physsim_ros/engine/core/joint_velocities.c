@@ -19,10 +19,6 @@
 // contradict each other would be of any size.
 static const double softness = 1e-6;
 
-// Counts of factorisations, at most: for joints with normals, and for friction, of which rows that are on the wrong
-// side then have none.
-enum { ROUNDS = 30, FRICTION_ROUNDS = 10 };
-
 // Springs with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the impulse
 // of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the damper;
 // Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.

@@ -48,7 +48,12 @@ void find_broken(World *world);
 
 // Which bodies the step only accelerated (`half_step.c`), and which do not fall asleep (`sleeping.c`).
 void find_free(World *world);
+void forgive_trembling(World *world);
 void keep_awake(World *world);
+
+// Which sensors were crossed within the sub-step (`sensors.c`).
+typedef void Crossing(World *world, const Body *body, const Body *sensor);
+void find_crossings(World *world, Crossing *found);
 
 // What touched, and how it pressed (`contact_report.c`).
 void report_contacts(World *world);

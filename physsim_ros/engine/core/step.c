@@ -16,6 +16,7 @@ static void begin_bodies(World *world) {
         body->carried = (Twist){0};
         body->left = body->since = 0.0;
         body->parts = false;
+        body->idle = sleeps(body) ? -1.0 : body->engine->idle_time;
     }
 }
 
@@ -66,6 +67,7 @@ static void step(World *world) {
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
+    forgive_trembling(world);
     solve_joints(world);
     add_totals(world);
     finish_moves(world);

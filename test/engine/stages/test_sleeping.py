@@ -5,12 +5,13 @@
 
 from collections.abc import Callable
 import math
+import random
 
 import numpy as np
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Join, Request
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Box, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -115,6 +116,22 @@ def test_what_comes_to_rest_on_a_damped_spring_sleeps_there() -> None:
 
     assert sleepers(world) == ['bob/0']
     assert pose(world, 'bob/0')[1] == pytest.approx(0.05, abs=1e-6)
+
+
+@pytest.mark.slow
+def test_a_pile_sleeps_though_a_contact_that_bears_nothing_is_lost_now_and_then() -> None:
+    chance = random.Random(0)
+    world = World(settings=WorldSettings(bounds=(-3.0, 0.0, 3.0, 30.0), elasticity=0.0))
+    wedge = Polygon(outline=((0.0, 0.0), (0.5, 0.0), (0.4, 0.4)))
+    for number in range(80):
+        place = 0.7 * (number % 8) - 2.5 + chance.uniform(-0.1, 0.1), 0.5 + 0.7 * (number // 8)
+        shape = Box(width=0.5, height=0.5) if number % 2 else wedge
+        spawn(world, f'piece/{number}', shape, (*place, chance.uniform(0.0, 3.0)))
+
+    # Some piece falls for a sub-step every few, until 12.75 s if that counts.
+    world.step(round(10.5 * world.physics_rate))
+
+    assert len(sleepers(world)) == 80
 
 
 WAKING: dict[str, Callable[[], Request]] = {
