@@ -13,9 +13,10 @@
 // Odometry. Method: the way of the wheels in a step is an arc whose turn the gyroscope measures (exact integration of a
 // constant twist; Siegwart, Nourbakhsh, "Autonomous Mobile Robots"). Errors are random walks: those of the way grow
 // with its root, those of the heading with the root of way and turn (Thrun, Burgard, Fox, "Probabilistic Robotics",
-// section 5.4, in the limit of short moves). Noise is a function of seed, name and step; without slip there is none. The
-// covariance of the reckoned pose is propagated along the way as that of an extended Kalman filter is (ibid., section 3.3):
-// P <- F P Fᵀ + Q, where F tells how far an error of the heading moves the end of the chord, and Q the new errors.
+// section 5.4, in the limit of short moves). Noise is a function of seed, name and step; without slip there is none.
+// The covariance of the reckoned pose is propagated along the way as that of an extended Kalman filter is (ibid.,
+// section 3.3): P <- F P Fᵀ + Q, where F tells how far an error of the heading moves the end of the chord, and Q the
+// new errors.
 //
 // Cost: 0.2 µs a robot and step.
 
