@@ -125,7 +125,7 @@ class BodyTable:
             wheels=self.robots['rolling'].copy(),
             travel=self.robots['travel'].copy(),
             odometry=self.robots['odometry'].copy(),
-            path=self.robots['path'].copy(),
+            covariance=self.robots['covariance'].copy(),
         )
 
     def _write_robots(self, states: RobotStates) -> None:
@@ -135,7 +135,7 @@ class BodyTable:
             self.robots['rolling'][:] = states.wheels
             self.robots['travel'][:] = states.travel
             self.robots['odometry'][:] = states.odometry
-            self.robots['path'][:] = states.path
+            self.robots['covariance'][:] = states.covariance
 
     def make_noise(self, step: int, count: int) -> None:
         """Make the noise of odometry for some steps: it depends on seed, name and step alone."""

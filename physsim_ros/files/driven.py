@@ -15,7 +15,8 @@ from physsim_ros.model.checks import (
     Within,
 )
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.robot_states import NEVER, RobotState
+from physsim_ros.model.robot_states import Covariance, NEVER, RobotState, SPAWNED
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.transform import Pose
 
@@ -23,13 +24,15 @@ _POSES = ('aim', 'wheels', 'travel', 'odometry')
 # Greatest number in them, as of a motion [m, rad, m/s, rad/s].
 _GREATEST = 1e12
 _LENGTH = Within(0.0, _GREATEST)
+# Squares and products of them.
+_VARIANCE = Within(-(_GREATEST**2), _GREATEST**2)
 
 
 def driven_entry(driven: RobotState, physics_rate: float) -> dict[str, object]:
     """Return the entry of the state of a robot."""
     entry: dict[str, object] = {key: list(getattr(driven, key)) for key in _POSES}
     seconds = None if driven.until == NEVER else driven.until / physics_rate
-    return {**entry, 'path': list(driven.path), 'seconds': seconds}
+    return {**entry, 'covariance': list(driven.covariance), 'seconds': seconds}
 
 
 def driven_from(entry: object, body: Body, physics_rate: float) -> RobotState:
@@ -40,7 +43,7 @@ def driven_from(entry: object, body: Body, physics_rate: float) -> RobotState:
     :param physics_rate: of the world [Hz]
     :raises Refusal: the body is no robot, or the entry is not what `driven_entry` has returned
     """
-    values = known_mapping(entry, 'driven', [*_POSES, 'path', 'seconds'])
+    values = known_mapping(entry, 'driven', [*_POSES, 'covariance', 'path', 'seconds'])
     if body.robot is None:
         raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
     seconds = values.get('seconds')
@@ -49,9 +52,29 @@ def driven_from(entry: object, body: Body, physics_rate: float) -> RobotState:
         until = round(Within(0.0, LONGEST, 's')(seconds, 'seconds') * physics_rate)
     poses = [_three(values.get(key, [0.0, 0.0, 0.0]), key) for key in _POSES]
     aim, wheels, travel, odometry = poses
-    way, turned = pair(values.get('path', [0.0, 0.0]), 'path')
-    path = _LENGTH(way, 'path'), _LENGTH(turned, 'path')
-    return RobotState(aim, until, wheels, travel, odometry, path)
+    if 'covariance' in values:
+        covariance = _covariance(values['covariance'])
+    else:
+        covariance = _covariance_of_path(values.get('path', [0.0, 0.0]), body.robot)
+    return RobotState(aim, until, wheels, travel, odometry, covariance)
+
+
+def _covariance(value: object) -> Covariance:
+    if not isinstance(value, list) or len(value) != len(SPAWNED.covariance):
+        raise BadProperty(
+            f'covariance must be a list of six numbers, not {shown(value)}', field='covariance'
+        )
+    xx, xy, yy, x_yaw, y_yaw, yaw_yaw = (_VARIANCE(each, 'covariance') for each in value)
+    if min(xx, yy, yaw_yaw) < 0.0:
+        raise BadProperty('a variance is not negative', field='covariance')
+    return xx, xy, yy, x_yaw, y_yaw, yaw_yaw
+
+
+def _covariance_of_path(value: object, robot: Robot) -> Covariance:
+    """Return the covariance by the way and the turns in a file that has no covariance."""
+    way, turned = (_LENGTH(each, 'path') for each in pair(value, 'path'))
+    ahead, heading = (deviation**2 for deviation in robot.odometry.slip)
+    return ahead * way, 0.0, ahead * way, 0.0, 0.0, heading * (way + turned)
 
 
 def _three(value: object, name: str) -> Pose:

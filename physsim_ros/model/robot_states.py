@@ -11,8 +11,10 @@ from typing import NamedTuple, Self
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, Ints
-from physsim_ros.model.transform import ORIGIN, Point, Pose, REST, Twist
+from physsim_ros.model.transform import ORIGIN, Pose, REST, Twist
 
+# Of a planar pose: xx, xy, yy [m²], x yaw, y yaw [m rad], yaw yaw [rad²].
+Covariance = tuple[float, float, float, float, float, float]
 # Step at which a command without a timeout ends.
 NEVER = 2**62
 
@@ -29,7 +31,7 @@ class RobotState(NamedTuple):
     wheels: Twist
     travel: Pose
     odometry: Pose
-    path: Point
+    covariance: Covariance
 
     def shifted(self, steps: int) -> Self:
         """Return the state in a world that counts its steps from so many earlier."""
@@ -39,7 +41,7 @@ class RobotState(NamedTuple):
 
 
 # Of a robot that was just spawned.
-SPAWNED = RobotState(REST, 0, REST, ORIGIN, ORIGIN, (0.0, 0.0))
+SPAWNED = RobotState(REST, 0, REST, ORIGIN, ORIGIN, (0.0,) * 6)
 
 
 class RobotStates(NamedTuple):
@@ -56,8 +58,8 @@ class RobotStates(NamedTuple):
         of its drive times this, over its radius
     :ivar odometry: (r, 3) float64: x, y [m], yaw [rad] by wheels and gyroscope, from the pose in
         which the robot was spawned
-    :ivar path: (r, 2) float64: length of the way of the wheels [m], and sum of the turns of the
-        body in either direction [rad]; the variance of the odometry grows with them
+    :ivar covariance: (r, 6) float64: of that pose: xx, xy, yy [m²], x yaw, y yaw [m rad], yaw yaw
+        [rad²]
     """
 
     aim: Floats
@@ -65,7 +67,7 @@ class RobotStates(NamedTuple):
     wheels: Floats
     travel: Floats
     odometry: Floats
-    path: Floats
+    covariance: Floats
 
     @classmethod
     def of(cls, robots: Sequence[RobotState]) -> RobotStates:
@@ -97,5 +99,5 @@ NO_ROBOTS = RobotStates(
     wheels=np.empty((0, 3)),
     travel=np.empty((0, 3)),
     odometry=np.empty((0, 3)),
-    path=np.empty((0, 2)),
+    covariance=np.empty((0, 6)),
 )

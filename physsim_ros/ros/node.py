@@ -10,6 +10,7 @@ happens then by the simulation.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -92,6 +93,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     :ivar fleet: the topics of robots
     :ivar requests: the subscriptions of requests
     :ivar message_delay: time that messages wait before they are handled [s]
+    :ivar on_quit: ends the program, where a service may; None where it has other worlds as well
     """
 
     def __init__(
@@ -131,6 +133,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         # Duration of the last tick with a frame, without its requests [ns].
         self._rest_ns = 0
         self.message_delay = 0.0
+        self.on_quit: Callable[[], object] | None = None
+        self._is_quitting = False
         self._values = parameters.declare(self)
         # rclpy 7.1 has no public name for the values that it was started with.
         parameters.check_names(self._parameter_overrides, self, sys.argv)
@@ -236,6 +240,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             set_speed=self._time_control.set_speed,
             seek=self._time_control.seek,
             locked_bodies=lambda: parameters.listed_names(self._values['sketchpad_locked']),
+            end_program=self._end_program,
         )
         create_simulation_services(self, control, calls)
         self._pages = Pages(
@@ -259,6 +264,11 @@ class PhysSimNode(NodeWithoutQosEvents):
         except PhysSimError:
             parameters.set_value(self, 'world_file', before)
             raise
+
+    def _end_program(self) -> bool:
+        """Have a later tick end the program; return whether it may."""
+        self._is_quitting = self.on_quit is not None
+        return self._is_quitting
 
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
@@ -327,6 +337,9 @@ class PhysSimNode(NodeWithoutQosEvents):
         """
         began = time.perf_counter_ns()
         self._reply_pacer.flush()
+        if self._is_quitting and self.on_quit is not None and not self._reply_pacer.has_waiting:
+            self._is_quitting = False
+            self.on_quit()
         if self._started:
             self._diagnostics.publish_due(now_ns, message_delay=self.message_delay)
         self._handle_pages()

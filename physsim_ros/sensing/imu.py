@@ -6,7 +6,8 @@ The reading of an inertial measurement unit: turn rate, and acceleration as felt
 
 Felt is the acceleration less gravity: at rest on a floor that is seen from the side it is upward;
 the gravity of a world that is seen from above is not in its plane. The acceleration is the mean
-since the frame before, that of the sensor's place, centripetal part included.
+since the frame before, that of the sensor's place, centripetal part included, in the axes that the
+sensor had in the middle of that time.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from physsim_ros.sensing.mounting import noise_of, placed
 
 class InertialReading(NamedTuple):
     """
-    A reading, in the frame of the sensor.
+    A reading, in the frame of the sensor; the acceleration in that of half a frame ago.
 
     :ivar yaw: of the sensor in the world [rad]
     :ivar turn_rate: counter-clockwise [rad/s]
@@ -46,17 +47,19 @@ def read_imu(
     :param seed: of all noise of the world
     """
     yaw = placed(snapshot, row, imu)[2]
-    change, seconds = _velocity(snapshot, row, imu), 0.0
+    turn_rate = float(snapshot.twists[row, 2])
+    change, seconds, turn = _velocity(snapshot, row, imu), 0.0, 0.0
     earlier = None if before is None else _row_before(snapshot, before, row)
     if before is not None and earlier is not None:
         seconds = (snapshot.stamp - before.stamp) * 1e-9
         was = _velocity(before, earlier, imu)
         change = change[0] - was[0], change[1] - was[1]
+        # Not that of the poses, which a command may have set.
+        turn = (turn_rate + float(before.twists[earlier, 2])) / 2.0 * seconds
     share = 1.0 / seconds if seconds > 0.0 else 0.0
     gravity = snapshot.scene.settings.gravity
     felt = change[0] * share - gravity[0], change[1] * share - gravity[1]
-    ahead, aside = rotated(felt, -yaw)
-    turn_rate = float(snapshot.twists[row, 2])
+    ahead, aside = rotated(felt, turn / 2.0 - yaw)
     if any(imu.noise):
         noise = noise_of(snapshot, row, imu, seed, 3).tolist()
         ahead += imu.noise[0] * noise[0]

@@ -163,14 +163,16 @@ class Simulation:
 
     # Requests
 
-    def perform(self, request: Request) -> str:
+    def perform(self, request: Request, gesture: int | None = None) -> str:
         """
         Apply a request now, after those that wait, and return a message about it.
 
+        :param gesture: its gesture; None is a new one
         :raises Refusal: and nothing is changed
         """
         self._handler.apply_waiting()
-        message = self._handler.apply(request, self.requests.begin_gesture()).message
+        gesture = self.requests.begin_gesture() if gesture is None else gesture
+        message = self._handler.apply(request, gesture).message
         self.playback.changed = True
         return message
 

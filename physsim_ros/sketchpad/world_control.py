@@ -44,6 +44,8 @@ class WorldControl:
     :param set_speed: sets the speed [simulation seconds a second]; raises a Refusal
     :param seek: goes to a simulation time [ns]; raises a Refusal
     :param locked_bodies: returns patterns of the names of bodies that pupils do not change
+    :param end_program: ends the program after the replies that wait; returns False, and does
+        nothing, where it is not the program of this world alone
     """
 
     boundary: ErrorBoundary
@@ -60,6 +62,7 @@ class WorldControl:
     set_speed: Callable[[float], str]
     seek: Callable[[int], str]
     locked_bodies: Callable[[], tuple[str, ...]]
+    end_program: Callable[[], bool]
 
     @property
     def is_frozen(self) -> bool:

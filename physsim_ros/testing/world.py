@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import Any, Self, Unpack
 
 from geometry_msgs.msg import PointStamped
+from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.robots.drives import Drive
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.client import RequestClient
@@ -25,6 +27,10 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker, MarkerArray
+
+# Frames from one look at the publishers of commands to the next: 0.25 s of simulation time at the
+# usual rate, as the node looks by the wall.
+_LOOK_FRAMES = 15
 
 
 class PhysSim(ObservedWorld):
@@ -51,6 +57,9 @@ class PhysSim(ObservedWorld):
         self.recording: Path | None = None
         self._directories = [*filter(None, [directory]), Path()]
         self._robots: list[Robot] = []
+        # Frames until all publishers of commands are looked at, whether their number has changed
+        # or not.
+        self._frames_to_look = 0
         self._executor = SettlingExecutor(context)
         self._executor.add_node(self.node)
         self.node.boundary.on_error = self._executor.errors.append
@@ -100,7 +109,8 @@ class PhysSim(ObservedWorld):
         # Messages of the test's own publishers come first.
         self.settle()
         for _ in range(frames):
-            self._match_publishers()
+            self._frames_to_look -= 1
+            self._match_publishers(new=self._frames_to_look > 0)
             self._submit_drives()
             self.node.advance_frame()
             self.settle()
@@ -133,6 +143,7 @@ class PhysSim(ObservedWorld):
         if seconds and not frames:
             period = self.node.frame_period
             raise ValueError(f'{seconds:g} s are less than half a frame of {period:g} s')
+        self._match_publishers()
         if until is None:
             self.step(frames)
             return False
@@ -160,6 +171,8 @@ class PhysSim(ObservedWorld):
         """
         Spin until a predicate is true, with time paused: for nodes of other processes.
 
+        Requests that arrive meanwhile are applied, as in any paused world.
+
         :param timeout: wall time [s]
         :raises TimeoutError: it is not true after that time
         """
@@ -167,6 +180,7 @@ class PhysSim(ObservedWorld):
 
         def is_true() -> object:
             self.node.fleet.match_publishers()
+            self.node.apply_requests()
             return predicate()
 
         try:
@@ -268,9 +282,16 @@ class PhysSim(ObservedWorld):
         self._robots.append(handle)
         return handle
 
-    def _match_publishers(self) -> None:
-        """Have robots hear those who command them; by itself the node looks by the wall clock."""
-        if self.node.fleet.match_publishers():
+    def _match_publishers(self, *, new: bool = False) -> None:
+        """
+        Have robots hear those who command them; by itself the node looks by the wall clock.
+
+        :param new: whether only a change of their number is looked for
+        """
+        fleet = self.node.fleet
+        if not new:
+            self._frames_to_look = _LOOK_FRAMES
+        if fleet.match_new_publishers() if new else fleet.match_publishers():
             self.settle()
 
     def _let_go(self) -> None:
@@ -279,10 +300,33 @@ class PhysSim(ObservedWorld):
             robot.held = None
 
     def _submit_drives(self) -> None:
-        """Submit what the test has its robots do."""
-        for robot in self._robots:
-            if robot.held is not None and robot.name in self.node.fleet.robots:
-                self.node.simulation.requests.submit(robot.held, topic='drive', joined=True)
+        """Submit what the test has its robots do, unless they do it up to the next frame."""
+        # Of two handles of a robot the later one counts.
+        held = {robot.name: robot.held for robot in self._robots if robot.held is not None}
+        if not held:
+            return
+        for number, (name, topics) in enumerate(self.node.fleet.robots.items()):
+            command = held.get(name)
+            if command is not None and not self._is_in_force(command, topics.robot.drive, number):
+                self.node.simulation.requests.submit(command, topic='drive', joined=True)
+
+    def _is_in_force(self, command: DriveRobot, drive: Drive, number: int) -> bool:
+        """
+        Return whether a robot does what a command says, up to the end of the next frame.
+
+        :param drive: of the robot
+        :param number: of the robot among those of the scene
+        """
+        simulation, view = self.node.simulation, self.node.fleet.view
+        if view is None or view.snapshot.step != simulation.step:
+            return False
+        robots, aim = view.snapshot.robots, drive.aim(command.velocity)
+        if tuple(robots.aim[number].tolist()) != aim:
+            return False
+        # One that stands still does so after its timeout, too.
+        return (
+            not any(aim) or int(robots.until[number]) >= simulation.step + simulation.frame_steps
+        )
 
     def anchor(self, point: PointStamped | tuple[float, float]) -> str:
         """

@@ -66,15 +66,10 @@ class RobotWays:
         known = self._places if abs(now.stamp - self._stamp) <= _LONGEST else {}
         rows, states = now.scene.robot_rows, now.robots
         self._stamp, self._places = now.stamp, {}
-        for row, pose, told, path in zip(
-            rows.tolist(),
-            now.poses[rows].tolist(),
-            states.odometry.tolist(),
-            states.path.tolist(),
-            strict=True,
-        ):
+        poses, odometry = now.poses[rows].tolist(), states.odometry.tolist()
+        for row, pose, told in zip(rows.tolist(), poses, odometry, strict=True):
             name = now.scene.names[row]
-            if not any(path) or name not in self._frames:
+            if not any(told) or name not in self._frames:
                 self._frames[name] = _frame_of(pose, told)
             reckoned = local_to_world((told[0], told[1]), self._frames[name])
             self._places[name] = (pose[0], pose[1]), reckoned

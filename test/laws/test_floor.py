@@ -407,6 +407,34 @@ def test_the_drift_of_odometry_is_as_large_as_it_says(report):
     )
 
 
+def test_the_covariance_of_odometry_is_that_of_its_errors(report):
+    count, slip = 300, (0.03, 0.06)
+    for number, (kind, velocity) in enumerate(
+        (
+            ('differential', (0.4, 0.0, 0.0)),
+            ('differential', (0.4, 0.0, 0.4)),
+            ('omni', (0.2, 0.4, 0.0)),
+            ('differential', (0.0, 0.0, 0.5)),
+        )
+    ):
+        sim = _floor(seed=number)
+        for each in range(count):
+            drive, odometry = {'kind': kind}, {'slip': slip}
+            _robot(sim, f'r/{each}', (0.0, each, 0.3), drive=drive, odometry=odometry)
+            _drive(sim, *velocity, name=f'r/{each}')
+
+        states = _after(sim, 6.0).robots
+
+        told, found = states.covariance.mean(axis=0), np.cov(states.odometry.T)
+        for place, (row, column) in enumerate(((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))):
+            # Of 300, a variance is within 16 % of its own, at two standard deviations; so is a
+            # product, of the root of its variances.
+            scale = math.sqrt(found[row, row] * found[column, column])
+            off = abs(told[place] - found[row, column])
+            ratio = off / scale if scale > 1e-12 else off
+            report.check(41, f'covariance of odometry, way {number}', ratio, 0.0, 0.2, '1')
+
+
 def test_noise_is_another_one_of_another_seed_and_another_robot():
     drifts = []
     for seed in (0, 0, 1):

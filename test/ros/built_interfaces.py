@@ -98,8 +98,12 @@ def _build(package: str, definitions: list[Path], into: Path) -> None:
     prefix = next(
         Path(each) for each in prefixes if Path(each, 'share/rosidl_generator_c').exists()
     )
+    # Only here: it may be missing.
+    from rosidl_generator_c import cli as generator_c  # noqa: PLC0415
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv('AMENT_PREFIX_PATH', os.pathsep.join(prefixes))
+        patch.setattr(generator_c, 'build_type_description_tuples', _with_descriptions)
         _generate(package, definitions, into / package, prefix)
     _compile(package, into / package, into, prefix)
 
@@ -142,6 +146,19 @@ def _generate(package: str, definitions: list[Path], generated: Path, prefix: Pa
     beside = generated.parent / 'introspection' / package
     generator = introspection.GenerateIntrospectionCTypesupport('introspection_c')
     generator.generate(package, idl, include, beside)
+
+
+def _with_descriptions(interfaces: list[str], descriptions: list[str]) -> list[str]:
+    """
+    Return each interface file with the file of its type description.
+
+    In place of `build_type_description_tuples` of rosidl_cli 4.6 (Jazzy), which compares the names
+    of files without their folders, until it compares both: `simulation_interfaces` has a message
+    and a service of the name `SpawnEntity`.
+    """
+    found = {(Path(each).parent.name, Path(each).stem): each for each in descriptions}
+    paths = [Path(each.rpartition(':')[2]) for each in interfaces]
+    return [f'{path}:{found[path.parent.name, path.stem]}' for path in paths]
 
 
 def _compile(package: str, generated: Path, into: Path, prefix: Path) -> None:

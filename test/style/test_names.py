@@ -208,6 +208,8 @@ OF_DOCUMENTS |= {'enable_stamped_cmd_vel', 'map_server'}
 OF_DOCUMENTS |= {'controller_frequency', 'expected_update_rate', 'odom_frame_id'}
 OF_DOCUMENTS |= {'robot_base_frame', 'transform_tolerance', 'yaml_filename'}
 OF_DOCUMENTS |= {'values.body', 'values.yaml'}
+# Of simulation_interfaces, which the node does without.
+OF_DOCUMENTS |= {'STATE_LOADING_WORLD', 'TYPE_CONVEX_HULL', 'fail_on_unsupported_element'}
 
 
 @pytest.mark.linter

@@ -15,6 +15,7 @@ from rclpy.node import Node
 from rclpy.time import Time
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
+from visualization_msgs.msg import Marker
 
 G = 9.81
 
@@ -32,6 +33,18 @@ def test_time_stands_still_but_for_the_test(physsim: PhysSim) -> None:
     # m
     fallen = G * (64 / 60) ** 2 / 2
     assert physsim.pose('body/0').y == pytest.approx(5.0 - fallen, abs=1e-9)
+
+
+def test_a_request_of_another_node_is_applied_while_time_is_paused(physsim: PhysSim) -> None:
+    node = Node('other', context=physsim.context)
+    publisher = node.create_publisher(Marker, '/physsim/spawn', 10)
+    physsim.add(node)
+    physsim.wait_until(publisher.get_subscription_count)
+    publisher.publish(disc('ball/0', at=(0.0, 5.0)))
+    physsim.wait_until(lambda: 'ball/0' in physsim.names)
+    assert physsim.pose('ball/0').y == 5.0
+    assert physsim.time == 0.0
+    node.destroy_node()
 
 
 @pytest.mark.parametrize('seconds', [-1.0, 0.001, math.nan, math.inf, -math.inf, 1e308])

@@ -93,12 +93,12 @@ typedef struct Robot {
     double slip[2];      // drift of the odometry: of the way [√m], and of the heading [rad/√m]
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     // State: velocities are as seen from the robot.
-    int64_t until;  // step at which the command ends
-    Twist aim;      // velocity that the last command aims at; 0 after its timeout
-    Twist rolling;  // velocity that the wheels have
-    Twist travel;   // integral of that
-    Pose odometry;  // by wheels and gyroscope, from the pose in which it was spawned
-    double path[2]; // length of the way of the wheels [m], and sum of the turns of the body [rad]
+    int64_t until;        // step at which the command ends
+    Twist aim;            // velocity that the last command aims at; 0 after its timeout
+    Twist rolling;        // velocity that the wheels have
+    Twist travel;         // integral of that
+    Pose odometry;        // by wheels and gyroscope, from the pose in which it was spawned
+    double covariance[6]; // of the odometry: xx, xy, yy [m²], x yaw, y yaw [m rad], yaw yaw [rad²]
     // What the core keeps for a step.
     Twist mean;       // velocity of the wheels
     Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes

@@ -14,6 +14,9 @@
 // constant twist; Siegwart, Nourbakhsh, "Autonomous Mobile Robots"). Errors are random walks: those of the way grow
 // with its root, those of the heading with the root of way and turn (Thrun, Burgard, Fox, "Probabilistic Robotics",
 // section 5.4, in the limit of short moves). Noise is a function of seed, name and step; without slip there is none.
+// The covariance of the reckoned pose is propagated along the way as that of an extended Kalman filter is (ibid.,
+// section 3.3): P <- F P Fᵀ + Q, where F tells how far an error of the heading moves the end of the chord, and Q the
+// new errors.
 //
 // Cost: 0.2 µs a robot and step.
 
@@ -83,6 +86,24 @@ static Pose reckoned(Pose pose, Vec way, double turn) {
     return (Pose){add(pose.p, chord), pose.yaw + turn};
 }
 
+// The covariance after a chord in the frame of the odometry, with new errors along it and of the heading.
+static void propagate_covariance(Robot *robot, Vec chord, double distance, double turn) {
+    double *p = robot->covariance, x = -chord.y, y = chord.x, heading = p[5];
+    p[0] += 2.0 * x * p[3] + x * x * heading;
+    p[1] += x * p[4] + y * p[3] + x * y * heading;
+    p[2] += 2.0 * y * p[4] + y * y * heading;
+    p[3] += x * heading;
+    p[4] += y * heading;
+    p[5] += robot->slip[1] * robot->slip[1] * (distance + fabs(turn));
+    double square = dot(chord, chord);
+    if (square > 0.0) {
+        double along = robot->slip[0] * robot->slip[0] * distance / square;
+        p[0] += along * chord.x * chord.x;
+        p[1] += along * chord.x * chord.y;
+        p[2] += along * chord.y * chord.y;
+    }
+}
+
 // Add the step to the way of the wheels, and to the odometry.
 void reckon_odometry(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
@@ -97,8 +118,10 @@ void reckon_odometry(World *world) {
             drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));
         }
         robot->travel = twist_sum(robot->travel, robot->mean, world->dt);
-        robot->odometry = reckoned(robot->odometry, told, turn + drift);
-        robot->path[0] += distance;
-        robot->path[1] += fabs(turn);
+        Pose before = robot->odometry;
+        robot->odometry = reckoned(before, told, turn + drift);
+        if (robot->noise != NULL) {
+            propagate_covariance(robot, sub(robot->odometry.p, before.p), distance, turn);
+        }
     }
 }

@@ -13,6 +13,7 @@ from __future__ import annotations
 from argparse import ArgumentParser
 from contextlib import suppress
 import ctypes
+from functools import partial
 import gc
 import os
 from pathlib import Path
@@ -173,6 +174,7 @@ def main() -> None:
     executor = EventsExecutor()
     try:
         executor.add_node(node)
+        node.on_quit = partial(signal.raise_signal, signal.SIGTERM)
         node.start()
         # Objects that exist now live until the end: the garbage collector skips them.
         gc.collect()

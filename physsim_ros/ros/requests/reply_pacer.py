@@ -49,6 +49,11 @@ class ReplyPacer:
         # Steady time at which all clients have read all replies [s].
         self._read = 0.0
 
+    @property
+    def has_waiting(self) -> bool:
+        """Whether a reply waits for its pause."""
+        return bool(self._finished)
+
     def add(self, service: Service) -> None:
         """Delay the replies of a service, whose callback returns futures of its responses."""
         send = service.send_response

@@ -65,6 +65,10 @@ class Commands:
         self._unstamped = False
         # Type and bytes of the last command.
         self._last: tuple[type, bytes] | None = None
+        # Name of the topic on the graph, and number of its publishers at the last look; None where
+        # the look is to be repeated.
+        self._resolved = node.resolve_topic_name(topic)
+        self._count: int | None = None
         # Type and reliability of the subscription.
         self._heard: tuple[type, ReliabilityPolicy] | None = None
         self._subscription: Subscription | None = None
@@ -81,12 +85,29 @@ class Commands:
         """Whether a publisher of commands is matched."""
         return self._subscription is not None and self._subscription.get_publisher_count() > 0
 
+    def match_new_publishers(self) -> bool:
+        """
+        Subscribe as publishers publish, where their number has changed.
+
+        rclpy 7 (Jazzy) does not tell of changes of the graph. A count takes 2 µs, a look at the
+        publishers 11 µs and 25 µs for each; a count does not see that one has replaced another.
+
+        :return: whether that is another subscription than before
+        """
+        return self._count_publishers() != self._count and self.match_publishers()
+
+    def _count_publishers(self) -> int:
+        # `Node.count_publishers` expands and validates the name each time, for twice as long.
+        with self._node.handle:
+            return int(self._node.handle.get_count_publishers(self._resolved))
+
     def match_publishers(self) -> bool:
         """
         Subscribe as publishers publish; called now and then, as they come and go.
 
         :return: whether that is another subscription than before
         """
+        count = self._count_publishers()
         infos = self._node.get_publishers_info_by_topic(self.topic)
         strange = sorted({info.topic_type for info in infos} - _TYPES.keys())
         infos = [info for info in infos if info.topic_type in _TYPES]
@@ -115,6 +136,7 @@ class Commands:
         if deaf and deaf != self._deaf:
             self._refuse(BadProperty(deaf, field='cmd_vel'), self.topic)
         self._deaf = deaf
+        self._count = count if self._heard == heard else None
         return changed
 
     def _subscribe(self, kind: type, reliability: ReliabilityPolicy) -> bool:

@@ -103,6 +103,11 @@ class Fleet:
         new = [robot.commands.match_publishers() for robot in self.robots.values()]
         return any(new)
 
+    def match_new_publishers(self) -> bool:
+        """Do the same where the number of publishers has changed."""
+        new = [robot.commands.match_new_publishers() for robot in self.robots.values()]
+        return any(new)
+
     def _look_at_graph(self) -> None:
         now = time.monotonic()
         if now >= self._look_due:

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import Point, Vector3
 from nav_msgs.msg import Odometry
+from physsim_ros.model.robot_states import Covariance
 from physsim_ros.model.robots.sensors import (
     Bumper,
     FloorEye,
@@ -50,8 +51,10 @@ from std_msgs.msg import Bool
 LEAST_VARIANCE = 1e-9
 # Variance of what a planar robot does not measure, as other robots tell it.
 _UNKNOWN = 1e6
-# Places of the variances of x, y and yaw, and of all others, in a covariance of 6 × 6.
+# Places in a covariance of 6 × 6: of the variances of x, y and yaw; of those of the other parts;
+# of xx, xy, yy, x yaw, y yaw, yaw yaw, above and below the diagonal.
 _PLANAR, _OTHERS = (0, 7, 35), (14, 21, 28)
+_ABOVE, _BELOW = (0, 1, 7, 5, 11, 35), (0, 6, 7, 30, 31, 35)
 
 
 class View:
@@ -91,21 +94,21 @@ def odometry_message(
     *,
     parent: str,
     child: str,
-    variances: tuple[Pose, Pose],
+    covariances: tuple[Covariance, Covariance],
 ) -> Odometry:
     """
     Return a pose and the twist there.
 
     :param pose: x, y [m], yaw [rad] in the parent frame
     :param twist: vx, vy [m/s], turn [rad/s] in the child frame
-    :param variances: of x, y [m²] and yaw [rad²]; of vx, vy [m²/s²] and turn [rad²/s²]
+    :param covariances: of the pose in the parent frame, of the twist in the child frame
     """
     message = Odometry(child_frame_id=child)
     message.header.stamp, message.header.frame_id = view.stamp, parent
     x, y, yaw = pose
     message.pose.pose.position = Point(x=x, y=y)
     message.pose.pose.orientation = rotation_of(yaw)
-    message.pose.covariance, message.twist.covariance = map(_covariance, variances)
+    message.pose.covariance, message.twist.covariance = map(_covariance, covariances)
     vx, vy, turn = twist
     message.twist.twist.linear = Vector3(x=vx, y=vy)
     message.twist.twist.angular.z = turn
@@ -122,10 +125,12 @@ def body_twist(view: View, row: int) -> Pose:
     return ahead, aside, turn
 
 
-def _covariance(variances: Pose) -> list[float]:
+def _covariance(planar: Covariance) -> list[float]:
     covariance = [0.0] * 36
-    for place, variance in zip(_PLANAR, variances, strict=True):
-        covariance[place] = max(variance, LEAST_VARIANCE)
+    for above, below, value in zip(_ABOVE, _BELOW, planar, strict=True):
+        covariance[above] = covariance[below] = value
+    for place in _PLANAR:
+        covariance[place] = max(covariance[place], LEAST_VARIANCE)
     for place in _OTHERS:
         covariance[place] = _UNKNOWN
     return covariance

@@ -17,6 +17,7 @@ from typing import Any, TypeGuard
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import BadProperty, Refusal
+from physsim_ros.model.robot_states import SPAWNED
 from physsim_ros.model.robots import Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.ros.robots.commands import Commands
@@ -31,7 +32,6 @@ from physsim_ros.ros.robots.frames import (
 )
 from physsim_ros.ros.robots.messages import (
     body_twist,
-    LEAST_VARIANCE,
     odometry_message,
     READINGS,
     View,
@@ -163,29 +163,32 @@ class RobotTopics:
         ahead, aside, turn = states.wheels[number].tolist()
         way, heading = (deviation**2 for deviation in self.robot.odometry.slip)
         # Drifts are random walks along the path. That of the twist is their mean rate from one
-        # message to the next.
-        path, turned = states.path[number].tolist()
+        # message to the next: of the velocity along it, none across.
         speed, rate = math.hypot(ahead, aside), self.robot.odometry.rate
-        of_twist = way * speed * rate, way * speed * rate, heading * (speed + abs(turn)) * rate
+        share = way * rate / speed if speed > 0.0 else 0.0
+        along = ahead * ahead * share, ahead * aside * share, aside * aside * share
+        of_turn = heading * (speed + abs(turn)) * rate
         return odometry_message(
             view,
             tuple(states.odometry[number].tolist()),
             (ahead, aside, turn),
             parent=self._frames.name(ODOM),
             child=self._frames.name(FOOTPRINT),
-            variances=((way * path, way * path, heading * (path + turned)), of_twist),
+            covariances=(
+                tuple(states.covariance[number].tolist()),
+                (*along, 0.0, 0.0, of_turn),
+            ),
         )
 
     def truth(self, view: View, row: int) -> Odometry:
         """Return where the robot is, and how it moves."""
-        exact = LEAST_VARIANCE, LEAST_VARIANCE, LEAST_VARIANCE
         return odometry_message(
             view,
             tuple(view.snapshot.poses[row].tolist()),
             body_twist(view, row),
             parent=self._world_frame,
             child=self._frames.name(BASE),
-            variances=(exact, exact),
+            covariances=(SPAWNED.covariance, SPAWNED.covariance),
         )
 
     def reading(self, view: View, row: int, sensor: Sensor) -> Any:

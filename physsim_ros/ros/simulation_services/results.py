@@ -8,7 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from physsim_ros.model.errors import BadProperty, Refusal
+from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
+from simulation_interfaces.msg import Result
 
 
 class Failed(Exception):
@@ -36,3 +37,13 @@ def failing_with(result: int) -> Iterator[None]:
         yield
     except Refusal as refusal:
         raise Failed(refusal, result) from refusal
+
+
+def result_of(error: Failed | Refusal) -> tuple[Refusal, int]:
+    """Return a refusal and its result code."""
+    match error:
+        case Failed():
+            return error.refusal, error.result
+        case UnknownBody():
+            return error, int(Result.RESULT_NOT_FOUND)
+    return error, int(Result.RESULT_OPERATION_FAILED)

@@ -9,13 +9,16 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from physsim_ros.model.errors import Refusal, UnknownBody
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.reply_pacer import SERVICE_QOS
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
-from physsim_ros.ros.simulation_services.results import Failed
-from physsim_ros.ros.simulation_services.time_and_worlds import TimeAndWorlds
+from physsim_ros.ros.simulation_services.named_poses import NamedPoses
+from physsim_ros.ros.simulation_services.results import Failed, result_of
+from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
+from physsim_ros.ros.simulation_services.spawning import Spawning
+from physsim_ros.ros.simulation_services.worlds import Worlds
 from physsim_ros.simulation.request_handler import Wait
 from physsim_ros.sketchpad import WorldControl
 from rclpy.action import ActionServer
@@ -41,26 +44,32 @@ class SimulationServices:
     def __init__(self, node: Node, control: WorldControl, calls: ServiceCalls) -> None:
         self._control = control
         self._calls = calls
-        entities, self._time = Entities(control), TimeAndWorlds(control)
-        time = self._time
+        entities, places, worlds = Entities(control), NamedPoses(control), Worlds(control)
+        spawning = Spawning(control, worlds)
+        self._states = states = SimulationStates(control, worlds)
         for name, (kind, perform) in {
-            'get_simulator_features': (srv.GetSimulatorFeatures, time.features),
-            'get_spawnables': (srv.GetSpawnables, entities.spawnables),
-            'spawn_entity': (srv.SpawnEntity, entities.spawn),
+            'get_simulator_features': (srv.GetSimulatorFeatures, states.features),
+            'get_spawnables': (srv.GetSpawnables, spawning.spawnables),
+            'spawn_entity': (srv.SpawnEntity, spawning.spawn),
+            'spawn_entities': (srv.SpawnEntities, spawning.spawn_many),
             'delete_entity': (srv.DeleteEntity, entities.delete),
             'get_entity_state': (srv.GetEntityState, entities.state),
             'set_entity_state': (srv.SetEntityState, entities.set_state),
             'get_entities': (srv.GetEntities, entities.names),
             'get_entities_states': (srv.GetEntitiesStates, entities.states),
             'get_entity_info': (srv.GetEntityInfo, entities.info),
+            'set_entity_info': (srv.SetEntityInfo, entities.set_info),
             'get_entity_bounds': (srv.GetEntityBounds, entities.bounds),
-            'get_simulation_state': (srv.GetSimulationState, time.state),
-            'set_simulation_state': (srv.SetSimulationState, time.set_state),
-            'step_simulation': (srv.StepSimulation, time.step),
-            'reset_simulation': (srv.ResetSimulation, time.reset),
-            'get_available_worlds': (srv.GetAvailableWorlds, time.worlds),
-            'load_world': (srv.LoadWorld, time.load),
-            'get_current_world': (srv.GetCurrentWorld, time.current_world),
+            'get_named_poses': (srv.GetNamedPoses, places.poses),
+            'get_named_pose_bounds': (srv.GetNamedPoseBounds, places.bounds),
+            'get_simulation_state': (srv.GetSimulationState, states.state),
+            'set_simulation_state': (srv.SetSimulationState, states.set_state),
+            'step_simulation': (srv.StepSimulation, states.step),
+            'reset_simulation': (srv.ResetSimulation, states.reset),
+            'get_available_worlds': (srv.GetAvailableWorlds, worlds.available),
+            'load_world': (srv.LoadWorld, worlds.load),
+            'unload_world': (srv.UnloadWorld, worlds.unload),
+            'get_current_world': (srv.GetCurrentWorld, worlds.current),
         }.items():
             self._create(node, f'~/simulation/{name}', kind, perform)
         ActionServer(node, SimulateSteps, '~/simulation/simulate_steps', self._simulate_steps)
@@ -88,12 +97,8 @@ class SimulationServices:
             if refused is not None:
                 raise refused
             message = perform(request, response)
-        except Failed as failure:
-            refusal, result.result = failure.refusal, failure.result
-        except UnknownBody as error:
-            refusal, result.result = error, Result.RESULT_NOT_FOUND
-        except Refusal as error:
-            refusal, result.result = error, Result.RESULT_OPERATION_FAILED
+        except (Failed, Refusal) as error:
+            refusal, result.result = result_of(error)
         else:
             result.result = Result.RESULT_OK
             if not message:
@@ -108,10 +113,10 @@ class SimulationServices:
         response = SimulateSteps.Result()
 
         def perform(request: Any, _: Any) -> str:
-            self._time.check_steps(request.steps)
+            self._states.check_steps(request.steps)
             message = ''
             for done in range(1, request.steps + 1):
-                message = self._time.step_once()
+                message = self._states.step_once()
                 goal.publish_feedback(
                     SimulateSteps.Feedback(
                         completed_steps=done, remaining_steps=request.steps - done

@@ -13,10 +13,13 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
+import numpy as np
+from physsim_ros.ros.robots import fleet
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
 import rclpy
 from rclpy.context import Context
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, Imu, JointState, LaserScan, Range
 from std_msgs.msg import Bool
@@ -452,6 +455,103 @@ def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: Phys
     assert robot.truth().twist.twist.linear.x == 0.0
 
 
+@pytest.fixture
+def submitted(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """Give a test the times at which drives are submitted [s]."""
+    times: list[float] = []
+    requests = flat.node.simulation.requests
+    submit = requests.submit
+
+    def note(request: Any, **others: Any) -> None:
+        if others['topic'] == 'drive':
+            times.append(flat.time)
+        submit(request, **others)
+
+    monkeypatch.setattr(requests, 'submit', note)
+    return times
+
+
+@pytest.mark.parametrize('timeout', [0.0, 0.02, 0.5])
+def test_a_drive_is_submitted_again_before_its_timeout(
+    flat: PhysSim, submitted: list[float], timeout: float
+) -> None:
+    robot = flat.robot(
+        {'from': 'turtlebot3_burger', 'drive': {'timeout': timeout}, 'odometry': {'slip': [0, 0]}},
+    )
+    robot.drive(0.2)
+    speeds = []
+    for _ in range(120):
+        flat.step()
+        speeds.append(robot.truth().twist.twist.linear.x)
+    # It is there after 0.1 s, and no timeout is met.
+    assert speeds[12:] == pytest.approx([0.2] * 108, rel=1e-6)
+    assert len(submitted) == {0.0: 1, 0.02: 120, 0.5: 4}[timeout]
+    robot.drive(0.0)
+    flat.run(1.0)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_drive_counts_again_after_the_command_of_another_node(flat: PhysSim) -> None:
+    robot = flat.robot('turtlebot3_burger', namespace='tb')
+    node = rclpy.create_node('other', context=flat.context)
+    publisher = node.create_publisher(Twist, '/tb/cmd_vel', 1)
+    flat.add(node)
+    robot.drive(0.2)
+    flat.run(0.5)
+    other = Twist()
+    other.linear.x = -0.2
+    publisher.publish(other)
+    flat.step()
+    robots = flat.node.simulation.world.snapshot().robots
+    assert robots.aim[0, 0] == -0.2
+    flat.step()
+    robots = flat.node.simulation.world.snapshot().robots
+    assert robots.aim[0, 0] == 0.2
+    node.destroy_node()
+
+
+def test_of_two_handles_of_a_robot_the_later_one_drives(
+    flat: PhysSim, submitted: list[float]
+) -> None:
+    first = flat.robot('turtlebot3_burger')
+    second = flat.find_robot(first.name)
+    first.drive(0.2)
+    second.drive(0.1)
+    flat.run(0.4)
+    assert len(submitted) == 1
+    assert first.truth().twist.twist.linear.x == pytest.approx(0.1, rel=1e-6)
+
+
+def test_publishers_are_looked_at_where_their_number_changes(
+    flat: PhysSim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(fleet, '_LOOK_PERIOD', math.inf)
+    flat.robot('turtlebot3_burger', namespace='tb')
+    flat.step()
+    looks: list[float] = []
+    look = flat.node.get_publishers_info_by_topic
+    monkeypatch.setattr(
+        flat.node,
+        'get_publishers_info_by_topic',
+        lambda topic: looks.append(flat.time) or look(topic),
+    )
+    flat.step(60)
+    # Each 15 frames.
+    assert len(looks) == 4
+    node = rclpy.create_node('other', context=flat.context)
+    publishers = [node.create_publisher(Twist, '/tb/cmd_vel', 1)]
+    flat.step()
+    commands = next(iter(flat.node.fleet.robots.values())).commands
+    assert commands.is_heard
+    # Another one in place of it, of another reliability, is looked at with all.
+    node.destroy_publisher(publishers.pop())
+    best_effort = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+    publishers.append(node.create_publisher(Twist, '/tb/cmd_vel', best_effort))
+    flat.step(15)
+    assert commands.is_heard
+    node.destroy_node()
+
+
 def test_a_robot_without_a_shipped_name_is_refused(flat: PhysSim) -> None:
     with pytest.raises(Refused, match='name a shipped robot') as caught:
         flat.robot({'drive': {'kind': 'omni'}})
@@ -466,6 +566,8 @@ def test_the_covariance_of_the_twist_is_that_of_its_speed(flat: PhysSim) -> None
     flat.run(1.0)
     covariance = robot.odom().twist.covariance
     assert (covariance[0], covariance[35]) == pytest.approx((0.01**2 * 6.0, 0.02**2 * 6.0))
+    # Across there is no noise, and a localiser takes 0 for unknown.
+    assert covariance[7] == 1e-9
     flat.run(5.0)
     assert robot.odom().twist.covariance[0] == pytest.approx(covariance[0])
     robot.drive(0.0)
@@ -488,6 +590,22 @@ def test_the_covariance_of_the_pose_grows_on_the_way_back(flat: PhysSim) -> None
     assert around == pytest.approx(back, rel=0.05)
     assert turned - heading == pytest.approx(0.02**2 * 2.0, rel=0.15)
     assert twice - heading == pytest.approx(0.02**2 * 4.0, rel=0.15)
+
+
+def test_the_covariance_of_the_pose_is_along_the_way_and_across(flat: PhysSim) -> None:
+    slip = 0.02, 0.05
+    robot = flat.robot({'from': 'turtlebot3_burger', 'odometry': {'slip': slip}})
+    robot.drive(0.2)
+    flat.run(5.0)
+    odometry = robot.odom()
+    covariance = np.reshape(odometry.pose.covariance, (6, 6))
+    way = odometry.pose.pose.position.x
+    # 5 %: the way is not quite straight, and has a beginning.
+    assert covariance[0, 0] == pytest.approx(slip[0] ** 2 * way, rel=0.05)
+    assert covariance[1, 1] == pytest.approx(slip[1] ** 2 * way**3 / 3, rel=0.05)
+    assert covariance[1, 5] == pytest.approx(slip[1] ** 2 * way**2 / 2, rel=0.05)
+    assert covariance[5, 5] == pytest.approx(slip[1] ** 2 * way, rel=0.05)
+    np.testing.assert_array_equal(covariance, covariance.T)
 
 
 def test_a_robot_of_a_world_file_is_found_and_driven(flat: PhysSim) -> None:

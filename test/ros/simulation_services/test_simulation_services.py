@@ -25,6 +25,7 @@ class Caller:
 
     def __init__(self, physsim: PhysSim) -> None:
         self.physsim, self.client = physsim, Client(physsim)
+        self.world_dir = physsim.node.world_files.directory
 
     def __call__(self, service: str, **fields: Any) -> Any:
         from simulation_interfaces import srv  # noqa: PLC0415 - built for the test
@@ -59,7 +60,30 @@ def names_in(physsim: PhysSim) -> tuple[str, ...]:
     return physsim.node.simulation.world.snapshot().scene.names
 
 
-OK, NOT_FOUND, UNSUPPORTED, OPERATION_FAILED = 1, 2, 0, 4
+def simulate_steps(caller: Caller, steps: int) -> tuple[Any, list[tuple[int, int]]]:
+    """Return the result of the action, and completed and remaining steps of its feedback."""
+    from simulation_interfaces.action import SimulateSteps  # noqa: PLC0415
+
+    client = ActionClient(caller.client.node, SimulateSteps, '/physsim/simulation/simulate_steps')
+    caller.client.spin_until(client.server_is_ready)
+    told: list[tuple[int, int]] = []
+    sent = client.send_goal_async(
+        SimulateSteps.Goal(steps=steps),
+        lambda message: told.append(
+            (message.feedback.completed_steps, message.feedback.remaining_steps)
+        ),
+    )
+    caller.client.spin_until(sent.done)
+    answered = sent.result().get_result_async()
+    caller.client.spin_until(answered.done)
+    result = answered.result().result.result
+    if result.result == OK:
+        caller.client.spin_until(lambda: len(told) == steps)
+    client.destroy()
+    return result, told
+
+
+UNSUPPORTED, OK, NOT_FOUND, INCORRECT_STATE, OPERATION_FAILED = range(5)
 NAME_NOT_UNIQUE, NAME_INVALID, UNSUPPORTED_FORMAT, NO_RESOURCE = 101, 102, 103, 104
 NAMESPACE_INVALID, RESOURCE_PARSE_ERROR, INVALID_POSE = 105, 106, 109
 
@@ -68,8 +92,14 @@ def test_what_is_told_of_the_simulator_is_what_it_has(caller: Caller) -> None:
     from simulation_interfaces.msg import SimulatorFeatures  # noqa: PLC0415
 
     told = set(caller('GetSimulatorFeatures').features.features)
-    assert {SimulatorFeatures.SPAWNING, SimulatorFeatures.STEP_SIMULATION_ACTION} <= told
-    assert SimulatorFeatures.NAMED_POSES not in told
+    constants = [getattr(SimulatorFeatures, each) for each in dir(SimulatorFeatures)]
+    all_of_them = {each for each in constants if isinstance(each, int)}
+    assert all_of_them - told == {
+        SimulatorFeatures.ENTITY_BOUNDS_CONVEX,
+        SimulatorFeatures.SIMULATION_RESET_TIME,
+        SimulatorFeatures.SIMULATION_RESET_STATE,
+        SimulatorFeatures.WORLD_RESOURCE_STRING,
+    }
     spawnables = caller('GetSpawnables', sources=['elsewhere'])
     assert 'elsewhere' in spawnables.result.error_message
     uris = {each.uri for each in spawnables.spawnables}
@@ -193,7 +223,10 @@ def test_a_state_that_cannot_be_is_refused(caller: Caller) -> None:
     before = caller.physsim.digest()
     for fields, result in (
         ({'entity': 'b/0'}, NOT_FOUND),
-        ({'state__pose__position__x': math.nan}, OPERATION_FAILED),
+        ({'state__pose__position__x': math.nan}, 101),
+        ({'state__pose__position__y': 1e30}, 101),
+        ({'state__pose__orientation__w': math.nan}, 101),
+        ({'state__pose__orientation__x': 1.0}, 101),
         ({'state__twist__linear__x': math.inf}, OPERATION_FAILED),
         ({'state__twist__linear__x': 1e30}, OPERATION_FAILED),
         ({'state__header__frame_id': 'a/0'}, UNSUPPORTED),
@@ -240,7 +273,7 @@ def test_entities_are_filtered(caller: Caller) -> None:
 
 
 def test_time_is_stopped_played_and_paused(caller: Caller) -> None:
-    stopped, playing, paused, quitting = range(4)
+    stopped, playing, paused, quitting, no_world, loading = range(6)
 
     def change(state: int) -> int:
         return int(caller('SetSimulationState', state__state=state).result.result)
@@ -251,11 +284,16 @@ def test_time_is_stopped_played_and_paused(caller: Caller) -> None:
     caller.physsim.spawn(disc('a/0'))
     assert now() == stopped
     assert change(stopped) == 101
-    assert change(paused) == 103
-    assert change(quitting) == UNSUPPORTED
-    assert change(99) == UNSUPPORTED
+    for state in (quitting, no_world, loading, 99):
+        assert change(state) == UNSUPPORTED
+    # Paused at time 0 is not stopped, until it is stopped or loaded again.
+    assert (change(paused), now()) == (OK, paused)
+    assert change(paused) == 101
+    assert (change(stopped), now()) == (OK, stopped)
+    caller.physsim.spawn(disc('a/0'))
+    assert (change(paused), now()) == (OK, paused)
     assert (change(playing), now()) == (OK, playing)
-    assert caller('StepSimulation', steps=1).result.result == OPERATION_FAILED
+    assert caller('StepSimulation', steps=1).result.result == INCORRECT_STATE
     caller.physsim.run(0.5)
     assert (change(paused), now()) == (OK, paused)
     assert (change(stopped), now()) == (OK, stopped)
@@ -274,32 +312,14 @@ def test_a_paused_world_goes_on_by_steps(caller: Caller) -> None:
 
 
 def test_an_action_goes_on_by_steps_and_tells_each(caller: Caller) -> None:
-    from simulation_interfaces.action import SimulateSteps  # noqa: PLC0415
-
-    client = ActionClient(caller.client.node, SimulateSteps, '/physsim/simulation/simulate_steps')
-    caller.client.spin_until(client.server_is_ready)
-    told: list[tuple[int, int]] = []
-
-    def call(steps: int) -> Any:
-        sent = client.send_goal_async(
-            SimulateSteps.Goal(steps=steps),
-            lambda message: told.append(
-                (message.feedback.completed_steps, message.feedback.remaining_steps)
-            ),
-        )
-        caller.client.spin_until(sent.done)
-        result = sent.result().get_result_async()
-        caller.client.spin_until(result.done)
-        return result.result().result.result
-
     world = caller.physsim.node.simulation
-    assert call(3).result == OK
+    result, told = simulate_steps(caller, 3)
+    assert result.result == OK
     assert world.step == 3 * world.frame_steps
-    caller.client.spin_until(lambda: len(told) == 3)
     assert told == [(1, 2), (2, 1), (3, 0)]
     set_parameter(caller.physsim, 'speed', 1.0)
-    assert call(3).result == OPERATION_FAILED
-    client.destroy()
+    result, told = simulate_steps(caller, 3)
+    assert (result.result, told) == (INCORRECT_STATE, [])
 
 
 def test_a_reset_has_scopes(caller: Caller) -> None:
@@ -322,14 +342,17 @@ def test_a_reset_has_scopes(caller: Caller) -> None:
 def test_worlds_are_listed_and_loaded(caller: Caller) -> None:
     from simulation_interfaces.msg import TagsFilter  # noqa: PLC0415
 
-    listed = {each.uri: each for each in caller('GetAvailableWorlds').worlds}
+    assert caller('GetCurrentWorld').result.result == 101
+    listed = {each.world_resource.uri: each for each in caller('GetAvailableWorlds').worlds}
     assert {'corridor', 'maze', 'demo'} <= set(listed)
+    assert listed['corridor'].description
     own = caller('GetAvailableWorlds', filter=TagsFilter(tags=['own']))
     assert list(own.worlds) == []
     set_parameter(caller.physsim, 'speed', 1.0)
     answer = caller('LoadWorld', uri='maze')
     assert (answer.result.result, answer.world.name) == (OK, 'maze')
-    assert caller('GetCurrentWorld').world.uri == 'maze'
+    assert answer.world.world_resource.uri == 'maze'
+    assert caller('GetCurrentWorld').world.world_resource.uri == 'maze'
     assert caller('GetSimulationState').state.state == 0
     names = names_in(caller.physsim)
     for fields, result in (
@@ -341,7 +364,194 @@ def test_worlds_are_listed_and_loaded(caller: Caller) -> None:
     ):
         assert caller('LoadWorld', **fields).result.result == result
     assert names_in(caller.physsim) == names
-    assert caller('GetCurrentWorld').world.uri == 'maze'
+    assert caller('GetCurrentWorld').world.world_resource.uri == 'maze'
+
+
+def test_sources_of_worlds_that_are_unknown_are_refused_or_told(caller: Caller) -> None:
+    refused = caller('GetAvailableWorlds', additional_sources=['https://worlds.example'])
+    assert refused.result.result == UNSUPPORTED
+    assert list(refused.worlds) == []
+    listed = caller(
+        'GetAvailableWorlds', additional_sources=['https://worlds.example'], continue_on_error=True
+    )
+    assert listed.result.result == OK
+    assert 'https://worlds.example' in listed.result.error_message
+    assert listed.worlds
+    # The directory of own worlds is a file.
+    caller.world_dir.rmdir()
+    caller.world_dir.touch()
+    assert caller('GetAvailableWorlds').result.result == 101
+    assert caller('GetAvailableWorlds', continue_on_error=True).result.result == OK
+
+
+def test_a_world_is_unloaded(caller: Caller) -> None:
+    from simulation_interfaces.msg import SpawnEntity  # noqa: PLC0415
+
+    stopped, playing, _, no_world = 0, 1, 2, 4
+    assert caller('LoadWorld', uri='maze').result.result == OK
+    caller.physsim.run(0.5)
+    assert caller('UnloadWorld').result.result == OK
+    assert names_in(caller.physsim) == ()
+    assert caller('GetSimulationState').state.state == no_world
+    assert caller('UnloadWorld').result.result == 101
+    assert caller('GetCurrentWorld').result.result == 101
+    for state in (stopped, playing):
+        assert caller('SetSimulationState', state__state=state).result.result == 103
+    for service, fields in (
+        ('SpawnEntity', {'name': 'a/0', 'uri': 'disc'}),
+        ('SpawnEntities', {'spawn_requests': [SpawnEntity(name='a/0')]}),
+        ('StepSimulation', {'steps': 1}),
+        ('ResetSimulation', {}),
+    ):
+        assert caller(service, **fields).result.result == INCORRECT_STATE
+    assert names_in(caller.physsim) == ()
+    assert caller('LoadWorld', uri='corridor').result.result == OK
+    assert caller('GetSimulationState').state.state == stopped
+    # By topics of the node an empty world is one.
+    assert caller('UnloadWorld').result.result == OK
+    caller.physsim.spawn(disc('a/0'))
+    assert caller('GetSimulationState').state.state == stopped
+
+
+def test_entities_are_spawned_each_on_its_own(caller: Caller) -> None:
+    from simulation_interfaces.msg import Resource, SpawnEntity  # noqa: PLC0415
+
+    disc_of = Resource(uri='disc')
+
+    def wanted(name: str, resource: Resource = disc_of, **fields: Any) -> SpawnEntity:
+        return SpawnEntity(name=name, entity_resource=resource, **fields)
+
+    assert caller('SpawnEntities').result.result == OK
+    answer = caller('SpawnEntities', spawn_requests=[wanted('a/0'), wanted('a/1')])
+    assert answer.result.result == OK
+    assert [each.entity_name for each in answer.results] == ['a/0', 'a/1']
+    assert [each.result.result for each in answer.results] == [OK, OK]
+    answer = caller(
+        'SpawnEntities',
+        spawn_requests=[
+            wanted('b/0'),
+            wanted('b/0'),
+            wanted('b/0', allow_renaming=True),
+            wanted('c/0', Resource()),
+            wanted('c/0', Resource(uri='model.sdf')),
+            wanted('c/0', Resource(resource_string='{circle: {radius: 0.25}}')),
+        ],
+    )
+    assert answer.result.result == 150
+    assert 'spawned 3 bodies, refused 3' in answer.result.error_message
+    assert [(each.result.result, each.entity_name) for each in answer.results] == [
+        (OK, 'b/0'),
+        (NAME_NOT_UNIQUE, ''),
+        (OK, 'b/1'),
+        (NO_RESOURCE, ''),
+        (UNSUPPORTED_FORMAT, ''),
+        (OK, 'c/0'),
+    ]
+    assert names_in(caller.physsim) == ('a/0', 'a/1', 'b/0', 'b/1', 'c/0')
+    # Those of a call are one gesture.
+    assert caller.client.call('~/undo').success
+    assert names_in(caller.physsim) == ('a/0', 'a/1')
+    many = [wanted(f'd/{number}') for number in range(301)]
+    assert caller('SpawnEntities', spawn_requests=many).result.result == OPERATION_FAILED
+    assert names_in(caller.physsim) == ('a/0', 'a/1')
+
+
+def test_a_description_is_the_label_of_a_body(caller: Caller) -> None:
+    from simulation_interfaces.msg import EntityCategory  # noqa: PLC0415
+
+    caller.physsim.spawn(box('crate/0', anchored=True))
+    info = caller('GetEntityInfo', entity='crate/0').info
+    before = caller.physsim.digest()
+    # What was told can be set, and changes nothing.
+    assert caller('SetEntityInfo', entity='crate/0', info=info).result.result == OK
+    for fields, result in (
+        ({'entity': 'crate/1'}, NOT_FOUND),
+        ({'info__tags': ['fragile']}, UNSUPPORTED),
+        ({'info__category__category': EntityCategory.CATEGORY_HUMAN}, UNSUPPORTED),
+        ({'info__description': 'x' * 201}, OPERATION_FAILED),
+    ):
+        refused = caller('SetEntityInfo', **{'entity': 'crate/0', **fields})
+        assert refused.result.result == result
+        assert refused.result.error_message
+        assert caller.physsim.digest() == before
+    set_ = caller('SetEntityInfo', entity='crate/0', info__description='bricks')
+    assert set_.result.result == OK
+    assert caller('GetEntityInfo', entity='crate/0').info.description == 'bricks'
+    scene = caller.physsim.node.simulation.world.snapshot().scene
+    assert [each.label for each in scene.bodies] == ['bricks']
+
+
+def test_places_are_named_poses(caller: Caller) -> None:
+    from simulation_interfaces.msg import TagsFilter  # noqa: PLC0415
+
+    at = (1.0, 2.0, math.pi / 2)
+    caller.physsim.spawn(
+        box('goal/0', at=at, size=(2.0, 1.0), anchored=True, sensor=True, label='park here')
+    )
+    caller.physsim.spawn(box('wall/0', at=(9.0, 0.0), anchored=True))
+    caller.physsim.spawn(disc('zone/0', at=(5.0, 5.0), sensor=True))
+    (place,) = caller('GetNamedPoses').poses
+    assert (place.name, place.description) == ('goal/0', 'park here')
+    assert set(place.tags) == {'box', 'anchored', 'sensor'}
+    assert (place.pose.position.x, place.pose.position.y) == (1.0, 2.0)
+    assert place.pose.orientation.z == pytest.approx(math.sqrt(0.5))
+    assert list(caller('GetNamedPoses', tags=TagsFilter(tags=['circle'])).poses) == []
+    bounds = caller('GetNamedPoseBounds', name='goal/0').bounds
+    assert [(each.x, each.y) for each in bounds.points] == [(1.0, 0.5), (-1.0, -0.5)]
+    for name in ('wall/0', 'zone/0', 'nothing/0'):
+        assert caller('GetNamedPoseBounds', name=name).result.result == NOT_FOUND
+
+
+def test_the_program_ends_after_its_reply(caller: Caller) -> None:
+    quitting = 3
+    ended: list[str] = []
+    node = caller.physsim.node
+    node.on_quit = lambda: ended.append('ended')
+    set_parameter(caller.physsim, 'speed', 1.0)
+    assert caller('SetSimulationState', state__state=quitting).result.result == OK
+    assert caller('GetSimulationState').state.state == quitting
+    assert node.simulation.speed == 0.0
+    assert caller('SetSimulationState', state__state=1).result.result == 103
+    assert ended == []
+    node.tick(0)
+    node.tick(1)
+    assert ended == ['ended']
+
+
+def test_an_error_that_nobody_expected_fails_a_call_and_nothing_else(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from physsim_ros.ros.simulation_services.services import (  # noqa: PLC0415
+        SimulationServices,
+    )
+    from simulation_interfaces import srv  # noqa: PLC0415
+
+    def fail(*_: object) -> str:
+        raise ZeroDivisionError('by zero')
+
+    fill, node = vars(SimulationServices)['_fill'], caller.physsim.node
+    errors: list[BaseException] = []
+    node.boundary.on_error = errors.append
+    monkeypatch.setattr(
+        SimulationServices,
+        '_fill',
+        lambda self, topic, _, *others: fill(self, topic, fail, *others),
+    )
+    kinds = [each for each in vars(srv) if each[0].isupper() and '_' not in each]
+    offered = [each.srv_name for each in node.services if '/simulation/' in each.srv_name]
+    # Each service of the standard is there.
+    assert len(kinds) == len([each for each in offered if '/_action/' not in each]) == 22
+    for number, kind in enumerate(kinds, 1):
+        response = caller(kind)
+        if kind != 'GetSimulatorFeatures':
+            assert response.result.result == OPERATION_FAILED
+            assert 'failure 1 in the log' in response.result.error_message
+        assert len(errors) == number
+    result, _ = simulate_steps(caller, 1)
+    assert result.result == OPERATION_FAILED
+    assert {type(each) for each in errors} == {ZeroDivisionError}
+    monkeypatch.undo()
+    assert caller('StepSimulation', steps=1).result.result == OK
 
 
 @pytest.mark.skipif(

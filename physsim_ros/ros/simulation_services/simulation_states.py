@@ -2,32 +2,32 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Time and worlds, by the services of `simulation_interfaces`.
+State and time of the simulation, by the services of `simulation_interfaces`.
 
-Stopped is paused at time 0; a step is a frame, as that of `~/step`.
+Stopped is paused at time 0, where nobody has paused it; a step is a frame, as that of `~/step`. A
+world is loaded within one call, so that no state is that of loading.
 """
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
-from physsim_ros.files import shipped_lessons, shipped_worlds, worlds_in
-from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteBodies, Restore
-from physsim_ros.ros.simulation_services.entities import unknown_sources
-from physsim_ros.ros.simulation_services.entity_filters import passes_tags
-from physsim_ros.ros.simulation_services.results import Failed, failed
+from physsim_ros.ros.simulation_services.results import failed
+from physsim_ros.ros.simulation_services.worlds import Worlds
 from physsim_ros.sketchpad import WorldControl
-from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures, WorldResource
-from simulation_interfaces.srv import LoadWorld, ResetSimulation, SetSimulationState
+from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
+from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
 # Frames of one call: ten seconds of simulation time at 60 Hz. Meanwhile nothing else is done.
 MOST_STEPS = 600
-_STOPPED, _PLAYING, _PAUSED = (
+_STOPPED, _PLAYING, _PAUSED, _QUITTING, _NO_WORLD = (
     SimulationState.STATE_STOPPED,
     SimulationState.STATE_PLAYING,
     SimulationState.STATE_PAUSED,
+    SimulationState.STATE_QUITTING,
+    SimulationState.STATE_NO_WORLD,
 )
 _STATE, _SPAWNED = ResetSimulation.Request.SCOPE_STATE, ResetSimulation.Request.SCOPE_SPAWNED
 # All scopes one by one are all.
@@ -41,6 +41,8 @@ FEATURES = [
     for name in (
         'SPAWNING',
         'DELETING',
+        'NAMED_POSES',
+        'POSE_BOUNDS',
         'ENTITY_TAGS',
         'ENTITY_BOUNDS',
         'ENTITY_BOUNDS_BOX',
@@ -49,6 +51,7 @@ FEATURES = [
         'ENTITY_STATE_GETTING',
         'ENTITY_STATE_SETTING',
         'ENTITY_INFO_GETTING',
+        'ENTITY_INFO_SETTING',
         'SPAWNABLES',
         'SIMULATION_RESET',
         'SIMULATION_RESET_SPAWNED',
@@ -60,21 +63,28 @@ FEATURES = [
         'STEP_SIMULATION_ACTION',
         'WORLD_LOADING',
         'WORLD_TAGS',
+        'WORLD_UNLOADING',
         'WORLD_INFO_GETTING',
         'AVAILABLE_WORLDS',
+        'SPAWNING_ENTITIES',
     )
 ]
 
 
-class TimeAndWorlds:
+class SimulationStates:
     """
-    The services for time and worlds; each returns a message about what was done, '' for nothing.
+    The services for state and time; each returns a message about what was done, '' for nothing.
 
     :param control: of the node
+    :param worlds: of the services
     """
 
-    def __init__(self, control: WorldControl) -> None:
+    def __init__(self, control: WorldControl, worlds: Worlds) -> None:
         self._control = control
+        self._worlds = worlds
+        self._quits = False
+        # The world that was paused while it was stopped, and has not run since then.
+        self._begins_paused: WorldState | None = None
 
     def features(self, _: Any, response: Any) -> str:
         """Tell what of the standard there is."""
@@ -91,23 +101,39 @@ class TimeAndWorlds:
         return ''
 
     def set_state(self, request: Any, _: Any) -> str:
-        """Play, pause, or stop: pause and reset."""
+        """Play, pause, stop (pause and reset), or end the program."""
         target, now = request.state.state, self._state
         codes = SetSimulationState.Response
-        if target not in (_STOPPED, _PLAYING, _PAUSED):
+        if target not in (_STOPPED, _PLAYING, _PAUSED, _QUITTING):
             raise failed(
-                f'there is no state {target} here; there are stopped, playing and paused',
+                f'state {target} cannot be set; stopped, playing, paused and quitting can',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='state',
             )
         if target == now:
             raise failed('it is in that state already', codes.ALREADY_IN_TARGET_STATE)
-        if (now, target) == (_STOPPED, _PAUSED):
-            raise failed('it is stopped; what is stopped is played', codes.INCORRECT_TRANSITION)
+        if target == _QUITTING:
+            return self._quit()
+        if now in (_NO_WORLD, _QUITTING):
+            reason = 'no world is loaded' if now == _NO_WORLD else 'the program ends'
+            raise failed(reason, codes.INCORRECT_TRANSITION)
+        begins_paused = (now, target) == (_STOPPED, _PAUSED)
+        self._begins_paused = self._control.simulation.loaded if begins_paused else None
         if target == _PLAYING:
             return self._perform('play')
         message = self._perform('pause')
         return self._control.simulation.reset() if target == _STOPPED else message
+
+    def _quit(self) -> str:
+        if not self._control.end_program():
+            raise failed(
+                'this world is not the only one of its program, or is in a test',
+                Result.RESULT_FEATURE_UNSUPPORTED,
+                field='state',
+            )
+        self._quits = True
+        self._perform('pause')
+        return 'the program ends'
 
     def step(self, request: Any, _: Any) -> str:
         """Advance a paused world by frames."""
@@ -121,10 +147,11 @@ class TimeAndWorlds:
         """
         Refuse a number of steps.
 
-        :raises Failed: time runs, or they are none or too many
+        :raises Failed: time runs, no world is loaded, or they are none or too many
         """
+        self._worlds.check_loaded()
         if self._control.simulation.speed != 0:
-            raise failed('time is running; pause first', Result.RESULT_OPERATION_FAILED)
+            raise failed('time is running; pause first', Result.RESULT_INCORRECT_STATE)
         if not 1 <= steps <= MOST_STEPS:
             raise failed(
                 f'steps is {steps}; a call has 1 to {MOST_STEPS}',
@@ -138,8 +165,10 @@ class TimeAndWorlds:
 
     def reset(self, request: Any, _: Any) -> str:
         """Go to the beginning, or restore some of it at the time that is shown."""
+        self._worlds.check_loaded()
         scope = request.scope
         if scope in _ALL:
+            self._begins_paused = None
             return self._control.simulation.reset()
         simulation = self._control.simulation
         loaded = simulation.loaded
@@ -158,69 +187,19 @@ class TimeAndWorlds:
             field='scope',
         )
 
-    def worlds(self, request: Any, response: Any) -> str:
-        """List the worlds that `load` takes by name."""
-        response.worlds = [
-            each for each in self._worlds() if passes_tags(set(each.tags), request.filter)
-        ]
-        response.result.error_message = unknown_sources(request.sources)
-        return ''
-
-    def load(self, request: Any, response: Any) -> str:
-        """Load a world of a name, and stop."""
-        codes = LoadWorld.Response
-        uri = request.uri
-        if not (uri or request.resource_string):
-            raise failed('uri names no world', codes.NO_RESOURCE, field='uri')
-        if not uri:
-            raise failed(
-                'a world is loaded by its name', Result.RESULT_FEATURE_UNSUPPORTED, field='uri'
-            )
-        if Path(uri).suffix not in ('', '.yaml'):
-            raise failed('a world is a YAML file', codes.UNSUPPORTED_FORMAT, field='uri')
-        try:
-            message = self._control.perform_on('load_world', uri)
-        except BadWorldFile as refusal:
-            # One that is there, but no world, has a cause.
-            result = codes.RESOURCE_PARSE_ERROR if refusal.cause else Result.RESULT_NOT_FOUND
-            raise Failed(refusal, result) from refusal
-        self._perform('pause')
-        self._control.simulation.reset()
-        response.world = self._current()
-        return message
-
-    def current_world(self, _: Any, response: Any) -> str:
-        """Tell the world that was loaded."""
-        response.world = self._current()
-        return ''
-
     def _perform(self, service: str) -> str:
         perform, _ = self._control.services[service]
         return perform()
 
     @property
     def _state(self) -> int:
+        if self._quits:
+            return int(_QUITTING)
+        if self._worlds.is_none_loaded:
+            return int(_NO_WORLD)
         simulation = self._control.simulation
         if simulation.speed != 0:
+            self._begins_paused = None
             return int(_PLAYING)
-        return int(_PAUSED if simulation.step else _STOPPED)
-
-    def _current(self) -> WorldResource:
-        uri = str(self._control.values['world_file'])
-        name = Path(uri).stem
-        known = (each for each in self._worlds() if each.name == name)
-        return next(known, WorldResource(name=name, uri=uri))
-
-    def _worlds(self) -> list[WorldResource]:
-        directories = (
-            ('own', self._control.world_dir),
-            ('shipped', shipped_worlds()),
-            ('lesson', shipped_lessons()),
-        )
-        # An own one comes before a shipped one of its name.
-        found = {
-            name: WorldResource(name=name, uri=name, tags=[tag])
-            for tag, directory in reversed(directories)
-            for name in worlds_in(directory)
-        }
-        return sorted(found.values(), key=lambda each: each.name)
+        is_paused = simulation.step or self._begins_paused is simulation.loaded
+        return int(_PAUSED if is_paused else _STOPPED)

@@ -1,0 +1,248 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Spawning: bodies by the name of a spawnable or by an entry of a world file, one or many.
+
+Law: of many, each is spawned or refused on its own, and has a result of its own; all of them are
+one gesture, which `undo` reverts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, replace
+from itertools import count
+import re
+from typing import Any
+
+from physsim_ros.files import shipped_robots, spawn_from
+from physsim_ros.model.errors import Exists, Malformed, Refusal, UnknownFrame
+from physsim_ros.model.names import check_body_name
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.robots.robot import check_namespace
+from physsim_ros.model.texts import counted
+from physsim_ros.ros.requests.conversions import mapping_of, named_frame, planar_pose
+from physsim_ros.ros.simulation_services.bounds import box_around
+from physsim_ros.ros.simulation_services.results import Failed, failed, failing_with, result_of
+from physsim_ros.ros.simulation_services.worlds import unknown_sources, Worlds
+from physsim_ros.sketchpad import WorldControl
+from simulation_interfaces.msg import Result, Spawnable, SpawnResult
+from simulation_interfaces.srv import SpawnEntities
+
+# Entities of one call: a tenth of a second on a laptop. Meanwhile nothing else is done.
+MOST_ENTITIES = 300
+# What can be spawned by name besides the shipped robots: entries of a world file [m].
+_SHAPES: dict[str, Mapping[str, Any]] = {
+    'disc': {'circle': {'radius': 0.5}},
+    'box': {'box': {'width': 1.0, 'height': 1.0}},
+    'wall': {'box': {'width': 0.1, 'height': 4.0}, 'anchored': True},
+}
+# Suffixes of formats that other simulators have.
+_FOREIGN = ('.sdf', '.urdf', '.xacro', '.usd', '.usda', '.mjcf', '.xml', '.dae', '.stl')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Wanted:
+    """
+    A body that is to be spawned.
+
+    :param name: of the body; '' is that of the entry
+    :param allow_renaming: whether it gets another name where that one is taken or invalid
+    :param uri: name of a spawnable
+    :param text: an entry of a world file, where there is no uri
+    :param namespace: of the topics of a robot
+    :param pose: a geometry_msgs/PoseStamped
+    """
+
+    name: str
+    allow_renaming: bool
+    uri: str
+    text: str
+    namespace: str
+    pose: Any
+
+
+class Spawning:
+    """
+    The services that spawn; each returns a message about what was done, '' for nothing.
+
+    :param control: of the node
+    :param worlds: of the services, since nothing is spawned where none is loaded
+    """
+
+    def __init__(self, control: WorldControl, worlds: Worlds) -> None:
+        self._control = control
+        self._worlds = worlds
+        self._frame_id = str(control.values['frame_id'])
+
+    def spawnables(self, request: Any, response: Any) -> str:
+        """List what `spawn` takes by name: shipped robots and plain shapes."""
+        response.spawnables = [
+            Spawnable(
+                uri=uri,
+                description='a robot' if uri in shipped_robots() else 'a body',
+                spawn_bounds=box_around(spawn_from({**_entry_of(uri), 'name': 'a/0'}).shape),
+            )
+            for uri in _spawnables()
+        ]
+        response.result.error_message = unknown_sources(request.sources)
+        return ''
+
+    def spawn(self, request: Any, response: Any) -> str:
+        """Spawn a body by the name of a spawnable, or by an entry of a world file."""
+        self._worlds.check_loaded()
+        wanted = _Wanted(
+            name=request.name,
+            allow_renaming=request.allow_renaming,
+            uri=request.uri,
+            text=request.resource_string,
+            namespace=request.entity_namespace,
+            pose=request.initial_pose,
+        )
+        spawn = self._request_of(wanted, self._control.current_snapshot().scene.names)
+        message = self._perform(spawn, self._control.simulation.requests.begin_gesture())
+        response.entity_name = spawn.name
+        return message
+
+    def spawn_many(self, request: Any, response: Any) -> str:
+        """Spawn bodies, each on its own."""
+        self._worlds.check_loaded()
+        number = len(request.spawn_requests)
+        if number > MOST_ENTITIES:
+            raise failed(
+                f'{number} entities are too many; a call has at most {MOST_ENTITIES}',
+                Result.RESULT_OPERATION_FAILED,
+                field='spawn_requests',
+            )
+        names = dict.fromkeys(self._control.current_snapshot().scene.names)
+        gesture = self._control.simulation.requests.begin_gesture()
+        for each in request.spawn_requests:
+            result = SpawnResult()
+            response.results.append(result)
+            try:
+                spawn = self._request_of(_wanted(each), names)
+                self._perform(spawn, gesture)
+            except (Failed, Refusal) as error:
+                refusal, result.result.result = result_of(error)
+                result.result.error_message = str(refusal)
+                continue
+            names[spawn.name] = None
+            result.result.result = Result.RESULT_OK
+            result.entity_name = spawn.name
+        refused = [
+            each.result for each in response.results if each.result.result != Result.RESULT_OK
+        ]
+        spawned = f'spawned {counted(number - len(refused), "body")}'
+        if not refused:
+            return spawned if number else ''
+        # Some may have been spawned.
+        self._control.note_change()
+        raise failed(
+            f'{spawned}, refused {len(refused)}; the first: {refused[0].error_message}',
+            SpawnEntities.Response.ENTITIES_SPAWN_FAILED,
+            field='spawn_requests',
+        )
+
+    def _request_of(self, wanted: _Wanted, names: Collection[str]) -> Spawn:
+        """Return the request for a body, of a name that is not among those that are taken."""
+        entry = dict(_entry(wanted))
+        with failing_with(SpawnResult.NAMESPACE_INVALID):
+            namespace = check_namespace(wanted.namespace, 'entity_namespace')
+        if namespace and 'robot' in entry:
+            robot = entry['robot']
+            robot = {'from': robot} if isinstance(robot, str) else robot
+            if isinstance(robot, dict):
+                entry['robot'] = {**robot, 'namespace': namespace}
+        entry['name'] = _name(wanted, entry, names)
+        with failing_with(SpawnResult.INVALID_POSE):
+            pose = planar_pose(wanted.pose.pose, 'initial_pose')
+        with failing_with(SpawnResult.RESOURCE_PARSE_ERROR):
+            spawn = spawn_from(entry)
+        frame = named_frame(wanted.pose.header.frame_id, self._frame_id)
+        with failing_with(SpawnResult.INVALID_POSE):
+            return replace(spawn, pose=pose, frame=frame)
+
+    def _perform(self, spawn: Spawn, gesture: int) -> str:
+        try:
+            return self._control.simulation.perform(spawn, gesture)
+        except Exists as refusal:
+            # The namespace of another robot.
+            raise Failed(refusal, SpawnResult.NAMESPACE_INVALID) from refusal
+        except UnknownFrame as refusal:
+            raise Failed(refusal, SpawnResult.INVALID_POSE) from refusal
+
+
+def _wanted(message: Any) -> _Wanted:
+    """Return what a simulation_interfaces/msg/SpawnEntity asks for."""
+    return _Wanted(
+        name=message.name,
+        allow_renaming=message.allow_renaming,
+        uri=message.entity_resource.uri,
+        text=message.entity_resource.resource_string,
+        namespace=message.entity_namespace,
+        pose=message.initial_pose,
+    )
+
+
+def _spawnables() -> tuple[str, ...]:
+    return *shipped_robots(), *_SHAPES
+
+
+def _entry_of(uri: str) -> Mapping[str, Any]:
+    """Return the entry of a spawnable."""
+    return _SHAPES.get(uri, {'robot': uri})
+
+
+def _entry(wanted: _Wanted) -> Mapping[str, Any]:
+    """Return the entry that is named, or is there as a text."""
+    uri, text = wanted.uri, wanted.text
+    if not (uri or text):
+        raise failed(
+            'neither uri nor resource_string says what to spawn',
+            SpawnResult.NO_RESOURCE,
+            field='uri',
+        )
+    if uri.lower().endswith(_FOREIGN) or (not uri and text.lstrip().startswith('<')):
+        raise failed(
+            'spawned are shipped robots, shapes, and entries of a world file in YAML',
+            SpawnResult.UNSUPPORTED_FORMAT,
+            field='uri' if uri else 'resource_string',
+        )
+    if not uri:
+        with failing_with(SpawnResult.RESOURCE_PARSE_ERROR):
+            return mapping_of(text, 'resource_string')
+    if uri not in _spawnables():
+        raise failed(
+            f'there is no spawnable {uri!r}; there are {", ".join(_spawnables())}',
+            Result.RESULT_NOT_FOUND,
+            field='uri',
+        )
+    return _entry_of(uri)
+
+
+def _name(wanted: _Wanted, entry: Mapping[str, Any], taken: Collection[str]) -> str:
+    """Return the name of a new body."""
+    name = wanted.name or entry.get('name', '')
+    try:
+        if not isinstance(name, str):
+            raise Malformed('a name must be text', field='name')
+        check_body_name(name)
+    except Refusal as refusal:
+        if not wanted.allow_renaming:
+            raise Failed(refusal, SpawnResult.NAME_INVALID) from refusal
+        stem = re.sub('[^A-Za-z0-9_]+', '_', str(name)).strip('_') or wanted.uri or 'entity'
+        return next(each for each in _numbered(stem[:100]) if each not in taken)
+    if name not in taken:
+        return name
+    if not wanted.allow_renaming:
+        raise failed(
+            f'there is an entity {name!r} already',
+            SpawnResult.NAME_NOT_UNIQUE,
+            field='name',
+        )
+    return next(each for each in _numbered(name.rpartition('/')[0]) if each not in taken)
+
+
+def _numbered(stem: str) -> Iterator[str]:
+    return (f'{stem}/{number}' for number in count())
