@@ -57,7 +57,8 @@ def test_both_worlds_tell_it(outside: Outside) -> None:
     with outside.start_world() as first, outside.start_world() as second:
         for world in (first, second):
             world.wait_for('2 nodes are named /physsim')
-            assert world.interrupt() == 0
+        assert second.interrupt() == 0
+        assert first.interrupt() == 0
 
 
 def test_a_parameter_that_there_is_not_ends_the_program_and_the_nearest_is_told(
