@@ -19,7 +19,7 @@ from physsim_ros.model.shapes import SHAPES
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.marker_shapes import geometry_of
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.robots.messages import View
+from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.sensing import read_bumper
 from physsim_ros.testing.messages import marker
@@ -113,7 +113,7 @@ class Robot:
         topics, _, _ = self._now()
         return topics.commands.is_heard and topics.has_subscribers
 
-    def _now(self) -> tuple[RobotTopics, View, int]:
+    def _now(self) -> tuple[RobotTopics, StampedView, int]:
         """Return its topics, the last frame, and the row of its body in the scene."""
         fleet = self._node.fleet
         if fleet.view is None or self.name not in fleet.robots:
