@@ -37,6 +37,7 @@ class View:
     """
 
     def __init__(self, frame: Frame, before: Snapshot | None) -> None:
+        self.frame = frame
         self.snapshot = frame.snapshot
         self.contacts = NO_CONTACTS if frame.contacts is None else frame.contacts
         self.before = before
