@@ -11,16 +11,14 @@ import sys
 from typing import Any
 import warnings
 
-import numpy as np
-from physsim_ros import Robot, robot_spawn, Simulation
-from physsim_ros.model.errors import BadProperty, UnknownBody
-import pytest
-
-pytest.importorskip('gymnasium')
 from gymnasium.spaces import Box as BoxSpace
 from gymnasium.spaces import Dict, Discrete
 from gymnasium.utils.env_checker import check_env
+import numpy as np
+from physsim_ros import Robot, robot_spawn, Simulation
 from physsim_ros.gym import RobotEnv, Task
+from physsim_ros.model.errors import BadProperty, UnknownBody
+import pytest
 
 from .tasks import reward, task
 

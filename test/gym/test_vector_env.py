@@ -6,10 +6,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
-
-pytest.importorskip('gymnasium')
 from physsim_ros.gym import RobotEnv, RobotVectorEnv
+import pytest
 
 from .tasks import task
 
