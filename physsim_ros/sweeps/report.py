@@ -46,7 +46,7 @@ def table_of_runs(runs: Iterable[Run]) -> str:
     lines = []
     for text, *numbers, seeds in rows:
         cells = [each.rjust(width) for each, width in zip(numbers, widths[1:-1], strict=True)]
-        lines.append('  '.join((text.ljust(widths[0]), *cells, seeds)))
+        lines.append('  '.join((text.ljust(widths[0]), *cells, seeds)).rstrip())
     return '\n'.join(lines)
 
 
