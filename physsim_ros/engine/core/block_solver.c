@@ -95,7 +95,7 @@ static int list_hits(World *world, Hit *hits) {
     int count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *each = arbiter_at(world, number);
-        if (each->count > 0 && approach_of(each) > slowest_impact) {
+        if (is_impact(each)) {
             int a = moves(each->body_a) ? place_of(world, each->body_a) : world->body_count;
             int b = moves(each->body_b) ? place_of(world, each->body_b) : world->body_count;
             hits[count++] = (Hit){each, a < b ? a : b, a < b ? b : a, false};
