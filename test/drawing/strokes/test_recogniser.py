@@ -102,7 +102,7 @@ def test_turned_mirrored_backwards_and_in_any_size_it_is_the_same(name: str, tur
         (figures.bent_line, 36),
         (figures.zigzag, 37),
         (figures.cross, 38),
-        (arrows.arrow, 22),
+        (arrows.arrow, 32),
         (figures.scribble, 38),
     ],
 )
