@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 import time
 from typing import Any
@@ -150,7 +151,7 @@ class FrameOutputs:
         context = FrameContext(
             real_time_factor=self.statistics.real_time_factor,
             cost=self.statistics.frame_cost,
-            title=Path(self._values['world_file']).stem or 'empty world',
+            title=_title_of(self._values['world_file']),
             traced=parameters.listed_names(self._values['trace']),
         )
         with self._boundary.output('viewer'):
@@ -171,3 +172,9 @@ class FrameOutputs:
         elif answer.topic == 'viewer':
             # The address of the viewer, for the person at the terminal.
             self._node.get_logger().info(answer.message)
+
+
+@lru_cache(maxsize=1)
+def _title_of(world_file: str) -> str:
+    """Return the title of a world for a viewer."""
+    return Path(world_file).stem or 'empty world'
