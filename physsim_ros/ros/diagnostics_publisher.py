@@ -87,7 +87,7 @@ class DiagnosticsPublisher:
                 undecodable=self._subscriptions.undecodable,
                 waiting_answers=events.waiting,
                 stopped_subscriber=events.stopped,
-                memory=simulation.past.memory.in_megabytes,
+                memory=simulation.past.budget.in_megabytes,
                 failures=boundary.failures,
                 longest=longest,
             )

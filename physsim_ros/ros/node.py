@@ -10,7 +10,7 @@ happens then by the simulation.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -41,7 +41,7 @@ from physsim_ros.ros.robots import Fleet
 from physsim_ros.ros.simulation_services import create_simulation_services
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
-from physsim_ros.simulation.request_handler import DeferredCalls, Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import locks_of, WorldControl
 from rclpy.context import Context
@@ -220,9 +220,14 @@ class PhysSimNode(NodeWithoutQosEvents):
             'load_world': Service(lambda: self.world_files.load(confined=True), Wait.FOR_SEEK),
             'save_world': Service(self.world_files.save, Wait.FOR_SEEK),
         }
-        deferred_calls = DeferredCalls(simulation.requests, self._apply_up_to_seek)
         self._reply_pacer = ReplyPacer(self, self.boundary)
-        calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer, self.boundary)
+        calls = ServiceCalls(
+            self.requests.queue,
+            simulation.requests,
+            self._submit_call,
+            self._reply_pacer,
+            self.boundary,
+        )
         create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
         control = WorldControl(
@@ -233,7 +238,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             world_dir=self.world_files.directory,
             drawing_settings=lambda: parameters.drawing_settings(self._values),
             current_snapshot=self._current_snapshot,
-            submit_call=deferred_calls.submit,
+            submit_call=self._submit_call,
             services=services,
             note_change=self._note_change,
             perform_on=lambda name, world: self._perform_on(services[name], world),
@@ -425,6 +430,18 @@ class PhysSimNode(NodeWithoutQosEvents):
             return True
         return self.simulation.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
 
+    def _submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+        """
+        Make a call at its time among the requests, now if they leave the time for it.
+
+        :raises Busy: too many requests wait
+        """
+        self.simulation.requests.submit_call(call, wait)
+        if self._started:
+            self._apply_up_to_seek()
+        elif wait is not Wait.NONE:
+            self.simulation.apply_waiting()
+
     def _current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests if they are applied."""
         if self._apply_up_to_seek():
@@ -435,9 +452,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Have the parameters mirror the world, and a short seek be done at once."""
         self._live_parameters.mirror_settings()
         began = time.perf_counter_ns()
-        self.simulation.playback.continue_seek(
-            lambda: time.perf_counter_ns() - began > MOST_TICK_NS
-        )
+        self.simulation.finish_seek(lambda: time.perf_counter_ns() - began > MOST_TICK_NS)
 
     # Answers
 

@@ -12,7 +12,6 @@ requests before it, and before those after it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from enum import Enum
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import (
@@ -26,7 +25,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.hands import Hands, placing
-from physsim_ros.simulation.past.past import Past
+from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_queue import Amend, Call, RequestQueue, Seek, Waiting
 from physsim_ros.simulation.world import Done
@@ -36,7 +35,7 @@ class RequestHandler:
     """
     Applies requests at the moment that is shown.
 
-    :param past: with the timeline of the world
+    :param past: of the world
     :param playback: the moment that is shown
     :param queue: of the requests that wait
 
@@ -99,11 +98,11 @@ class RequestHandler:
         Apply a request now.
 
         :param gesture: its gesture; requests of a drag have that of the grab
-        :param author: name of the person whose doing it is; '' is nobody's
+        :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
-        timeline = self._past.timeline
-        before = timeline.moment
+        cursor = self._past.cursor
+        before = cursor.moment
         if isinstance(request, HandRequest):
             if request.hand not in self.hands and not isinstance(request, Grab):
                 # Grips of a past moment belong to no present hand.
@@ -114,8 +113,8 @@ class RequestHandler:
         self._playback.seek_shown()
         done = self._past.apply(request, gesture, author)
         if isinstance(request, HandRequest):
-            self.hands.note_request(request, gesture, timeline.world.grips)
-        if timeline.moment != before:
+            self.hands.note_request(request, gesture, cursor.world.grips)
+        if cursor.moment != before:
             # On a new course, grips of the past have no hand.
             self.release_grips()
         return done
@@ -132,13 +131,13 @@ class RequestHandler:
 
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless the history has their release ahead."""
-        timeline = self._past.timeline
-        if self._playback.is_frame_cached or not timeline.world.grips or not timeline.is_newest:
+        cursor = self._past.cursor
+        if self._playback.is_frame_cached or not cursor.world.grips or not cursor.is_newest:
             return
-        for grip in timeline.world.grips:
+        for grip in cursor.world.grips:
             if grip.hand not in self.hands:
                 # In the gesture of the request before, so that they are undone together.
-                gesture = timeline.history.node(timeline.serial).gesture or self._queue.gesture
+                gesture = self._past.tree.node(cursor.serial).gesture or self._queue.gesture
                 self._past.apply(LetGo(hand=grip.hand), gesture)
                 message = f'{grip.hand} is silent and has let go of {grip.body}'
                 self.answers.append(
@@ -173,51 +172,3 @@ def _refused(refusal: Refusal, waiting: Waiting, subject: str) -> Answer:
     return Answer.refused(
         refusal, topic=waiting.topic, subject=subject, field=waiting.field, asker=waiting.asker
     )
-
-
-class Wait(Enum):
-    """
-    The time at which a call is carried out.
-
-    :cvar NONE: at once: it does not depend on requests
-    :cvar BEHIND_REQUESTS: after the requests that wait, which wait for the end of a seek; without
-        any, at once, also during a seek
-    :cvar FOR_SEEK: after the end of a seek, as requests: it reads or replaces the world
-    """
-
-    NONE = 'none'
-    BEHIND_REQUESTS = 'behind requests'
-    FOR_SEEK = 'for seek'
-
-
-class DeferredCalls:
-    """
-    Carries out calls, or queues them among the requests.
-
-    :param requests: queue of requests and answers
-    :param apply_up_to_seek: applies requests before a seek; returns whether the world is there
-    """
-
-    def __init__(self, requests: RequestQueue, apply_up_to_seek: Callable[[], bool]) -> None:
-        self._requests = requests
-        self._apply_up_to_seek = apply_up_to_seek
-
-    def submit(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
-        """
-        Carry out a call, and tell its answers.
-
-        :param wait: time at which it is carried out
-        :raises Busy: too many requests wait
-        """
-        waits = wait is Wait.FOR_SEEK or (
-            wait is Wait.BEHIND_REQUESTS and self._requests.has_requests
-        )
-        if waits and not self._apply_up_to_seek():
-            self._requests.submit_call(call)
-        else:
-            self.tell(call())
-
-    def tell(self, answers: Iterable[Answer]) -> None:
-        """Tell answers at once."""
-        for answer in answers:
-            self._requests.tell(answer)

@@ -86,7 +86,7 @@ def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
     frame = sim.advance_frame()
 
     assert frame.snapshot.grips[0].target == (1.0, 0.0)
-    history = sim.past.timeline.history
+    history = sim.past.tree
     assert [type(entry.request).__name__ for entry in history.nodes_between(1, 9)] == [
         'Grab',
         'MoveHand',

@@ -19,7 +19,7 @@ from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.requests.message_queue import MessageQueue
 from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
-from physsim_ros.simulation.request_handler import DeferredCalls, Wait
+from physsim_ros.simulation.request_queue import RequestQueue, Wait
 from rclpy.node import Node
 import rclpy.service
 from rclpy.task import Future
@@ -48,7 +48,8 @@ class ServiceCalls:
     Calls of services, in order with messages and requests, with paced replies.
 
     :param queue: of messages; a call waits behind the messages that came before it
-    :param calls: the calls that wait among the requests
+    :param requests: the queue of requests, which has the answers
+    :param submit: makes a call at its time among the requests
     :param pacer: of their replies
     :param boundary: of the node
     """
@@ -56,12 +57,14 @@ class ServiceCalls:
     def __init__(
         self,
         queue: MessageQueue,
-        calls: DeferredCalls,
+        requests: RequestQueue,
+        submit: Callable[[Callable[[], Iterable[Answer]], Wait], None],
         pacer: ReplyPacer,
         boundary: ErrorBoundary,
     ) -> None:
         self._queue = queue
-        self._calls = calls
+        self._requests = requests
+        self._submit = submit
         self._pacer = pacer
         self._boundary = boundary
         self.delay_replies = pacer.add
@@ -93,9 +96,10 @@ class ServiceCalls:
                 with self._boundary.reading(topic):
                     call()
             except (Busy, Failed) as refusal:
-                self._calls.tell(finish(refusal))
+                for answer in finish(refusal):
+                    self._requests.tell(answer)
 
-        submit = partial(unless_refused, partial(self._calls.submit, finish, wait))
+        submit = partial(unless_refused, partial(self._submit, finish, wait))
         unless_refused(partial(self._queue.add_call, submit))
         return reply
 

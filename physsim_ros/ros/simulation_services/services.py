@@ -19,7 +19,7 @@ from physsim_ros.ros.simulation_services.results import Failed, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import Worlds
-from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad import WorldControl
 from rclpy.action import ActionServer
 from rclpy.node import Node
