@@ -36,6 +36,8 @@ from physsim_ros.simulation.past import request_size
 # Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000
 # bodies. Up to twice that number of answers are told one by one.
 MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
+# Memory of a marker as rclpy decodes it [bytes].
+_UNREAD = 2500
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +64,19 @@ class Amend:
 
     gestures: tuple[int, ...]
     requests: tuple[Request, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Unread:
+    """
+    A request in a message that is converted when its turn comes, as of an array of thousands.
+
+    :param subject: name of the body or joint that it names
+    :param convert: returns the request; raises a Refusal
+    """
+
+    subject: str
+    convert: Callable[[], Request]
 
 
 class Wait(Enum):
@@ -107,7 +122,7 @@ class Waiting:
     :param author: name of the person who did it; '' is nobody
     """
 
-    request: Request | Amend | Seek | Call | Refusal | Answer
+    request: Request | Unread | Amend | Seek | Call | Refusal | Answer
     topic: str
     subject: str
     gesture: int
@@ -127,14 +142,16 @@ class Waiting:
         return True
 
 
-def size_of(request: Request | Amend) -> int:
+def size_of(request: Request | Unread | Amend) -> int:
     """Return the memory that a request takes [bytes]."""
+    if isinstance(request, Unread):
+        return _UNREAD
     if isinstance(request, Amend):
         return sum(map(size_of, request.requests))
     return request_size(request)
 
 
-def subject_of(request: Request | Amend) -> str:
+def subject_of(request: Request | Unread | Amend) -> str:
     """Return the one body or joint that a request names, or ''."""
     match request:
         case (
@@ -145,6 +162,7 @@ def subject_of(request: Request | Amend) -> str:
             | Unjoin(name=name)
             | DriveRobot(name=name)
             | Command(names=(name,))
+            | Unread(subject=name)
         ):
             return name
     return ''
@@ -198,7 +216,7 @@ class RequestQueue:
 
     def submit(
         self,
-        request: Request | Amend,
+        request: Request | Unread | Amend,
         *,
         topic: str,
         joined: bool = False,

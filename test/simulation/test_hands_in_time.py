@@ -121,7 +121,7 @@ def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
             answers += [(number, answer.message) for answer in frame.answers]
 
     (_, grabbed), (number, told) = answers
-    assert (grabbed, told) == ('grabbed a/0', 'h is silent and has let go of a/0')
+    assert (grabbed, told) == ('grabbed a/0', 'released a/0: no message from h')
     assert number == pytest.approx(60 + 300, abs=3)
     # It is one gesture still.
     sim.undo()

@@ -62,7 +62,7 @@ class ParameterServices(ParameterService):
         self._calls = calls
         for service in node.services:
             if service.srv_type in (SetParameters, SetParametersAtomically):
-                calls.delay_replies(service)
+                calls.reply_when_done(service)
             elif service.srv_type in _READING:
                 service.callback = partial(_read_bounded, service.callback)
 

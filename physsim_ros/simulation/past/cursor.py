@@ -23,7 +23,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.node import Keyframe, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
-from physsim_ros.simulation.world import Done, World
+from physsim_ros.simulation.world import World
 
 # Share of the time between two checkpoints in which the bodies for the next one are built [1], so
 # that no frame builds all.
@@ -278,7 +278,7 @@ class Cursor:
 
     # Going on
 
-    def apply(self, request: Request, gesture: int, author: str = '') -> Done:
+    def apply(self, request: Request, gesture: int, author: str = '') -> Answer:
         """
         Carry out a request; if it changes anything, it is the new tip.
 
@@ -325,7 +325,7 @@ class Cursor:
 
     def amend(
         self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
-    ) -> tuple[int, list[Done | Refusal], list[Refusal]]:
+    ) -> tuple[int, list[Answer | Refusal], list[Refusal]]:
         """
         Replace the requests of earlier gestures, and simulate again up to this moment.
 
@@ -359,7 +359,7 @@ class Cursor:
         self.world.clear_contacts()
         return step, done, [each for each in again if isinstance(each, Refusal)]
 
-    def _try_apply(self, request: Request, gesture: int, author: str) -> Done | Refusal:
+    def _try_apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
         try:
             return self.apply(request, gesture, author)
         except Refusal as refusal:

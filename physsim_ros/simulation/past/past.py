@@ -29,7 +29,7 @@ from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.node import CachedFrame, gesture_phrase, Line, Moment
 from physsim_ros.simulation.past.tree import Tree
-from physsim_ros.simulation.world import Done, World
+from physsim_ros.simulation.world import World
 
 # Greatest simulation time that is simulated again where a gesture is taken back [s].
 LONGEST_AGAIN = 60.0
@@ -166,7 +166,7 @@ class Past:
 
     # Requests
 
-    def apply(self, request: Request, gesture: int, author: str = '') -> Done:
+    def apply(self, request: Request, gesture: int, author: str = '') -> Answer:
         """
         Apply a request to the world; in the past it begins a course.
 
@@ -198,7 +198,7 @@ class Past:
 
     def amend(
         self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
-    ) -> list[Done | Refusal]:
+    ) -> list[Answer | Refusal]:
         """
         Replace the requests of earlier gestures, and simulate again up to this moment.
 

@@ -13,11 +13,12 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robot_states import NEVER
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world.live_space import LiveSpace
-from physsim_ros.simulation.world.lookup import body_of_name, Done
+from physsim_ros.simulation.world.lookup import body_of_name
 
 
-def drive(live: LiveSpace, request: DriveRobot) -> Done:
+def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     """
     Have a robot drive at a velocity.
 
@@ -31,7 +32,7 @@ def drive(live: LiveSpace, request: DriveRobot) -> Done:
         raise BadProperty(f'{name} is not a robot', field='name')
     until = live.step_after(robot.drive.timeout)
     live.space.drive(rigid, request.velocity, NEVER if until is None else until)
-    return Done(name, f'drives {name}')
+    return Answer(subject=name, message=f'drives {name}')
 
 
 def check_robot(space: Space, body: Body) -> None:
