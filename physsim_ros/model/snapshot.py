@@ -223,7 +223,7 @@ class Answer:
     """
     The answer to one request, or the report of an event without one.
 
-    :param topic: of the request, as '~/spawn', or the event, as 'divergence'
+    :param topic: of the request, as '~/spawn', or the event, as 'divergence'; '' until it is known
     :param subject: name of the body or joint, '' if there is none
     :param message: a sentence
     :param code: '' for success, else the stable code of the refusal
@@ -232,7 +232,7 @@ class Answer:
     :param asker: key of the message that asked, '' for one of ROS and for events
     """
 
-    topic: str
+    topic: str = ''
     subject: str = ''
     message: str = ''
     code: str = ''
