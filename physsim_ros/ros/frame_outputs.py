@@ -19,7 +19,6 @@ from physsim_ros.drawing import DrawingSession
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.ros import parameters
 from physsim_ros.ros.publishers.frame_statistics import FrameStatistics
 from physsim_ros.ros.publishers.publishers import Publishers
 from physsim_ros.sketchpad import Sketchpad
@@ -149,9 +148,7 @@ class FrameOutputs:
         self.frame = frame
         context = FrameContext(
             real_time_factor=self.statistics.real_time_factor,
-            cost=self.statistics.frame_cost,
             title=Path(self._values['world_file']).stem or 'empty world',
-            traced=parameters.listed_names(self._values['trace']),
         )
         with self._boundary.output('viewer'):
             self.viewer.show(frame, context=context)

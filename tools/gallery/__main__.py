@@ -16,7 +16,7 @@ from test.worlds.digests import scene, SCENES
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view import FrameContext
 from physsim_ros.view.recording import FrameRecorder
 from PIL import Image
 import rerun as rr
@@ -65,7 +65,7 @@ class Recording:
 
     def draw(self, frames: list[Frame]) -> int:
         """Draw frames; return the time of the last on the timeline of the picture [ns]."""
-        context = FrameContext(real_time_factor=frames[-1].speed, cost=0.002)
+        context = FrameContext(real_time_factor=frames[-1].speed)
         for first in range(0, len(frames), BATCH):
             end = first + BATCH
             self._recorder.draw(frames[first:end], context=context)
