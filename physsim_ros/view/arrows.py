@@ -28,9 +28,9 @@ CONTACTS, VELOCITIES = 'world/contacts', 'world/velocities'
 CONTACT_COLOR, _VELOCITY_COLOR = (214, 39, 40), (44, 120, 60)
 # Length of the arrow of the force that the legend tells [units], and the greatest one in lengths
 # of that: arrows of impacts are cut.
-LENGTH, CUT = 1.0, 1.5
+LENGTH, CUT = 1.2, 1.5
 # Share of the force of the legend below which the greatest force has a legend of its own.
-_SMALL = 0.3
+_SMALL = 0.35
 # Time in which the impulses of the first frame act [ns]: a period of 60 Hz, the default rate.
 _FIRST_PERIOD = 16_666_667
 # Time by which a velocity is multiplied [s], and the shortest period of sending it [frames].

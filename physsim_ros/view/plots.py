@@ -81,7 +81,7 @@ PLOTS = {
         'Momentum [kg m/s]', (('x', _ORANGE), ('y', _BLUE)), lambda frame: frame.snapshot.momentum
     ),
     'plots/angular_momentum': Plot(
-        'Angular momentum about the origin [kg m²/s]',
+        'Angular momentum [kg m²/s]',
         (('angular momentum', _PURPLE),),
         lambda frame: (angular_momentum(frame.snapshot),),
     ),
