@@ -61,7 +61,7 @@ class FrameOutputs:
             map_resolution=lambda: values['map_resolution'],
             publish_tf=values['publish_tf'],
         )
-        self.viewer = Viewer(boundary)
+        self.viewer = Viewer(boundary, context=self._context)
         self.sketchpad: Sketchpad | None = None
         self.statistics = FrameStatistics()
         self.frame: Frame | None = None
@@ -141,17 +141,20 @@ class FrameOutputs:
         self.close_sketchpad()
         self.viewer.close()
 
+    def _context(self) -> FrameContext:
+        """Return the facts about the program that the viewer shows."""
+        return FrameContext(
+            real_time_factor=self.statistics.real_time_factor,
+            title=Path(self._values['world_file']).stem or 'empty world',
+        )
+
     def _show(self, frame: Frame) -> None:
         """Send a frame, with the current preview, to viewer and sketchpad."""
         if self._session.preview != frame.preview:
             frame = replace(frame, preview=self._session.preview)
         self.frame = frame
-        context = FrameContext(
-            real_time_factor=self.statistics.real_time_factor,
-            title=Path(self._values['world_file']).stem or 'empty world',
-        )
         with self._boundary.output('viewer'):
-            self.viewer.show(frame, context=context)
+            self.viewer.show(frame)
         if self.sketchpad is not None:
             with self._boundary.output('page'):
                 self.sketchpad.show(frame)

@@ -25,7 +25,7 @@ from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.view.child_process import end_child, start_child
-from physsim_ros.view.stream import Stream
+from physsim_ros.view.stream import RerunStream
 
 DEFAULT_URL = 'rerun+http://127.0.0.1:9876/proxy'
 # Memory of a server for late viewers.
@@ -60,7 +60,7 @@ class Endpoint(ABC):
     reopens: ClassVar[bool] = True
 
     @abstractmethod
-    def open(self) -> Stream:
+    def open(self) -> RerunStream:
         """
         Return a new stream to the receiver.
 
@@ -114,7 +114,7 @@ class FileEndpoint(Endpoint):
         # Device and inode of the open file.
         self._identity = (0, 0)
 
-    def open(self) -> Stream:
+    def open(self) -> RerunStream:
         """Create the file, and return a stream to it."""
         import rerun as rr
 
@@ -128,7 +128,7 @@ class FileEndpoint(Endpoint):
         except OSError as error:
             raise ConnectionError(error.strerror) from error
         # A footer would list all chunks, and grow in memory with the recording: 3 MB a minute.
-        return Stream(rr.FileSink(self._path, write_footer=False))
+        return RerunStream(rr.FileSink(self._path, write_footer=False))
 
     def check(self) -> None:
         """Check that the file is still there: Rerun would go on writing to a deleted file."""
@@ -143,8 +143,9 @@ class FileEndpoint(Endpoint):
         """Give the file its index, the footer; one that takes too long stays without."""
         if self._identity == (0, 0):
             return
-        indexed = self._path.with_name(f'.{self._path.name}.{os.getpid()}')
-        command = [_program(), 'rrd', 'optimize', str(self._path), '-o', str(indexed)]
+        path = self._path.resolve()
+        indexed = path.with_name(f'.{path.name}.{os.getpid()}')
+        command = [_program(), 'rrd', 'optimize', str(path), '-o', str(indexed)]
         try:
             program = start_child(command, environment={**os.environ, 'CI': '1'})
             try:
@@ -153,8 +154,8 @@ class FileEndpoint(Endpoint):
                 end_child(program, timeout=ENDING)
             self.check()
             if program.returncode == 0:
-                indexed.chmod(self._path.stat().st_mode)
-                indexed.replace(self._path)
+                indexed.chmod(path.stat().st_mode)
+                indexed.replace(path)
         except OSError:
             # The disk is full, or the file gone: what there is can be read as it is.
             return
@@ -170,7 +171,7 @@ class ClientEndpoint(Endpoint):
     def __init__(self, url: str) -> None:
         self.where = url
 
-    def open(self) -> Stream:
+    def open(self) -> RerunStream:
         """Return a stream to the server."""
         import rerun as rr
 
@@ -185,7 +186,7 @@ class ClientEndpoint(Endpoint):
             socket.create_connection((host, port), timeout=CONNECTING).close()
         except OSError as error:
             raise ConnectionError('nobody there') from error
-        return Stream(sink)
+        return RerunStream(sink)
 
 
 class ServerEndpoint(Endpoint):
@@ -203,12 +204,12 @@ class ServerEndpoint(Endpoint):
         self._program: subprocess.Popen[bytes] | None = None
         self._started = 0.0
 
-    def open(self) -> Stream:
+    def open(self) -> RerunStream:
         """Start a server and the program, and return a stream to it."""
         import rerun as rr
 
         server = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVER_MEMORY)
-        stream = Stream(server)
+        stream = RerunStream(server)
         self._uri = server.uri
         if self.kind == 'spawn' and not has_display():
             self._fall_back('there is no display')

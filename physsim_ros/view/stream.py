@@ -49,7 +49,7 @@ class FrameContext:
     title: str = ''
 
 
-class Stream:
+class RerunStream:
     """
     A recording stream of Rerun that is connected to a sink.
 

@@ -11,6 +11,7 @@ the one before has closed.
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from enum import Enum
 from pathlib import Path
 import sys
@@ -44,10 +45,17 @@ class Viewer:
     Shows frames in at most one viewer, and records them in at most one file.
 
     :param boundary: of the threads of viewers and files; None lets unexpected errors pass
+    :param context: returns that of the frame that is shown
     """
 
-    def __init__(self, boundary: ErrorBoundary | None = None) -> None:
+    def __init__(
+        self,
+        boundary: ErrorBoundary | None = None,
+        *,
+        context: Callable[[], FrameContext] = FrameContext,
+    ) -> None:
         self._boundary = boundary or ErrorBoundary()
+        self._context = context
         self._answers: deque[Answer] = deque(maxlen=ANSWERS)
         self._file: Output | None = None
         self._file_path = Path()
@@ -104,16 +112,15 @@ class Viewer:
         self._file_path = path
         self._file = self._open(FileEndpoint(path, overwrite=True))
 
-    def show(self, frame: Frame, *, context: FrameContext) -> None:
+    def show(self, frame: Frame) -> None:
         """
         Queue a frame for viewer and file; never blocks.
 
         :param frame: its arrays are not changed any more
-        :param context: of the frame
         """
-        self._shown = frame, context
+        self._shown = frame, self._context()
         for output in self._outputs:
-            output.put(frame, context)
+            output.put(*self._shown)
 
     def poll(self) -> tuple[Answer, ...]:
         """

@@ -10,7 +10,7 @@ import signal
 
 from physsim_ros.view import ViewerMode
 
-from .viewers import bulk, CONTEXT, Events, frame, rows, run_alone, show, until
+from .viewers import bulk, Events, frame, rows, run_alone, show, until
 from ..rerun_program import free_port
 
 
@@ -32,7 +32,7 @@ def test_a_server_that_comes_late_is_found_and_gets_every_answer(viewers, server
     viewer = viewers(mode=ViewerMode.CONNECT, url=server.url)
     until(lambda: 'nobody there' in viewer.state)
     for step in range(200):
-        viewer.show(frame(step, f'answer {step}'), context=CONTEXT)
+        viewer.show(frame(step, f'answer {step}'))
 
     server.start()
     Events(viewer).wait_for('')
@@ -65,7 +65,7 @@ def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
 FROZEN = """
     import os, signal, sys, threading
     from pathlib import Path
-    from test.view.viewers import bulk, CONTEXT, Events, frame, until
+    from test.view.viewers import bulk, Events, frame, until
     from physsim_ros.view import output, Viewer, ViewerMode
 
     output.SILENT_AFTER = 1.0
@@ -78,7 +78,7 @@ FROZEN = """
     os.kill(server, signal.SIGSTOP)
     step = 0
     while 'no answer' not in viewer.state:
-        viewer.show(frame(step, bulk()), context=CONTEXT)
+        viewer.show(frame(step, bulk()))
         events.all += viewer.poll()
         step += 1
         threading.Event().wait(0.01)
@@ -109,14 +109,14 @@ def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server, monkeypatch):
     steps = iter(range(10_000))
 
     def is_stuck():
-        viewer.show(frame(next(steps), bulk()), context=CONTEXT)
+        viewer.show(frame(next(steps), bulk()))
         viewer.poll()
         return 'no answer' in viewer.state
 
     until(is_stuck)
     os.kill(server.process.pid, signal.SIGCONT)
     until(lambda: ', open,' in viewer.state)
-    viewer.show(frame(20_000), context=CONTEXT)
+    viewer.show(frame(20_000))
     viewer.close()
 
     server.wait_for('/events', next(steps))

@@ -12,7 +12,6 @@ import threading
 from physsim_ros.view import endpoints, ViewerMode
 
 from .viewers import (
-    CONTEXT,
     Events,
     frame,
     PATIENCE,
@@ -61,6 +60,17 @@ def test_a_recording_that_is_closed_is_complete_and_one_that_is_not_can_be_mende
     assert rerun('rrd', 'optimize', copy, '-o', mended).wait(PATIENCE) == 0
     assert verified(mended)
     assert rows(mended) == rows(path)
+
+
+def test_a_link_to_a_recording_stays_a_link(viewers, tmp_path):
+    path, link = tmp_path / 'it.rrd', tmp_path / 'link.rrd'
+    link.symlink_to(path)
+    viewer = viewers(record_file=link)
+    show(viewer, 10)
+    viewer.close()
+
+    assert link.is_symlink()
+    assert verified(path)
 
 
 def test_a_recording_whose_index_takes_too_long_stays_as_it_is(viewers, tmp_path, monkeypatch):
@@ -146,12 +156,12 @@ def test_a_recording_that_was_deleted_is_told_once_and_begun_again(viewers, tmp_
     assert 'gone' in events.wait_for('record_failed').message
     until(lambda: not viewer.is_open)
     assert 'the file is gone' in viewer.failure
-    viewer.show(frame(10, 'before'), context=CONTEXT)
+    viewer.show(frame(10, 'before'))
     assert ', the file is gone' in viewer.state
     viewer.open_viewer(ViewerMode.NONE)
     events.wait_for('')
     assert viewer.failure == ''
-    viewer.show(frame(20, 'after'), context=CONTEXT)
+    viewer.show(frame(20, 'after'))
     viewer.close()
 
     assert not [each for each in [*events.all, *viewer.poll()] if each.code]
@@ -164,7 +174,7 @@ FULL_DISK = """
     import sys
     from pathlib import Path
     from resource import getrlimit, RLIM_INFINITY, RLIMIT_FSIZE, setrlimit
-    from test.view.viewers import bulk, CONTEXT, Events, frame, until
+    from test.view.viewers import bulk, Events, frame, until
     from physsim_ros.view import output, Viewer, ViewerMode
 
     output.SILENT_AFTER = 1.0
@@ -174,14 +184,14 @@ FULL_DISK = """
     events = Events(viewer)
     events.wait_for('')
     for step in range(10):
-        viewer.show(frame(step, bulk()), context=CONTEXT)
+        viewer.show(frame(step, bulk()))
     print(events.wait_for('record_failed').message)
     until(lambda: not viewer.is_open)
     setrlimit(RLIMIT_FSIZE, (RLIM_INFINITY, RLIM_INFINITY))
     viewer.open_viewer(ViewerMode.NONE)
     print(events.wait_for('').message)
     for step in range(10, 20):
-        viewer.show(frame(step, bulk()), context=CONTEXT)
+        viewer.show(frame(step, bulk()))
     viewer.close()
     print([each.code for each in (*events.all, *viewer.poll())])
 """

@@ -16,7 +16,7 @@ import pytest
 PROGRAM = """
     import sys, threading
     import numpy as np
-    from physsim_ros.view.stream import send_blueprint, Stream
+    from physsim_ros.view.stream import send_blueprint, RerunStream
     import rerun as rr
     import rerun.blueprint as rrb
 
@@ -24,7 +24,7 @@ PROGRAM = """
     points = np.zeros((2000, 2), np.float32)
 
     def go_on():
-        stream = Stream(rr.FileSink('one.rrd', write_footer=False))
+        stream = RerunStream(rr.FileSink('one.rrd', write_footer=False))
         while not closed.is_set():
             for _ in range(20):
                 stream.recording.log('points', rr.Points2D(points))
@@ -34,7 +34,7 @@ PROGRAM = """
     thread = threading.Thread(target=go_on)
     thread.start()
     for _ in range(100):
-        stream = Stream(rr.FileSink('other.rrd', write_footer=False))
+        stream = RerunStream(rr.FileSink('other.rrd', write_footer=False))
         stream.recording.log('points', rr.Points2D(points))
         stream.close()
     closed.set()

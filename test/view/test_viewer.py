@@ -10,20 +10,20 @@ import sys
 
 from physsim_ros.view import endpoints, ViewerMode
 
-from .viewers import CONTEXT, frame, rows, run_alone, until
+from .viewers import frame, rows, run_alone, until
 
 
 def test_what_is_recorded_goes_on_when_the_viewer_changes(viewers, server, tmp_path):
     server.start()
     path = tmp_path / 'it.rrd'
     viewer = viewers(record_file=str(path))
-    viewer.show(frame(0, 'first'), context=CONTEXT)
+    viewer.show(frame(0, 'first'))
     viewer.open_viewer(ViewerMode.CONNECT, server.url)
-    viewer.show(frame(4, 'second'), context=CONTEXT)
+    viewer.show(frame(4, 'second'))
     # The one before is in the new viewer too: the world may stand still.
     server.wait_for('/events', 2)
     viewer.open_viewer(ViewerMode.NONE)
-    viewer.show(frame(8, 'third'), context=CONTEXT)
+    viewer.show(frame(8, 'third'))
     assert 'connect' not in viewer.state
     viewer.close()
 

@@ -25,7 +25,7 @@ from .car_story import car_story
 from .page import draw_page
 
 DOCS = Path(__file__).parents[2] / 'docs'
-# Window of the pictures [pixels]: the world in it is 16 : 7.
+# Window of the pictures [pixels]: the world in it is 16 : 9.
 WIDTH, HEIGHT = 1400, 920
 # Simulation time of the picture of a scene [s], where most is going on.
 TIMES = {
