@@ -11,6 +11,7 @@ of a second.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
 import itertools
 
@@ -29,7 +30,10 @@ CONTACT_COLOR, _VELOCITY_COLOR = (214, 39, 40), (44, 120, 60)
 # Length of the arrow of the force that the legend tells [units], and the greatest one in lengths
 # of that: arrows of impacts are cut.
 LENGTH, CUT = 1.2, 1.5
-# Share of the force of the legend below which the greatest force has a legend of its own.
+# Number of frames of which the median of the greatest forces is shown in full: half a second, so
+# that an impact does not change the scale.
+_FITTED = 30
+# Share of the force of the legend below which that median has a legend of its own.
 _SMALL = 0.35
 # Time in which the impulses of the first frame act [ns]: a period of 60 Hz, the default rate.
 _FIRST_PERIOD = 16_666_667
@@ -59,6 +63,8 @@ class ContactArrows:
         self._legend = _Legend(recording)
         # The force of the legend [N]; 0 before the first contact.
         self._force = 0.0
+        # The greatest force in each of the last frames with contacts [N].
+        self._greatest: deque[float] = deque(maxlen=_FITTED)
         _log_style(recording, CONTACTS, CONTACT_COLOR)
         # Whether the last row that was sent has arrows, and the time of the frame before [ns].
         self._shown = False
@@ -98,9 +104,9 @@ class ContactArrows:
         return frame.contacts.points, contact_impulses(frame.contacts, batch.scene) / seconds
 
     def _fit(self, forces: list[Floats]) -> bool:
-        """Fit the force of the legend to the greatest of most frames; return whether it is new."""
-        greatest = [float(np.hypot(*each.T).max()) for each in forces if len(each)]
-        most = float(np.median(greatest)) if greatest else 0.0
+        """Fit the force of the legend to those of most frames; return whether it is new."""
+        self._greatest += (float(np.hypot(*each.T).max()) for each in forces if len(each))
+        most = float(np.median(self._greatest)) if self._greatest else 0.0
         if most == 0.0 or _SMALL * self._force <= most <= self._force:
             return False
         self._force = nice_number(most)
