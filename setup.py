@@ -171,6 +171,8 @@ setup(
             # A second middleware, for readers that are not Fast DDS.
             'cyclonedds>=0.10',
             'hypothesis',
+            # Writes and reads bags.
+            'mcap>=1.2,<2',
             # Drives the page in Chromium.
             'playwright',
             'psutil',

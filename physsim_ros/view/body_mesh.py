@@ -19,7 +19,7 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Disc, Piece, Polygon, Triangles
 from physsim_ros.model.transform import Point
-from physsim_ros.view.meshes.mesh import inset, Mesh, MeshBuilder, Strips
+from physsim_ros.view.mesh import inset, Mesh, MeshBuilder
 
 # Width of outlines [units], and as a share of the inner half width of a body at most.
 _OUTLINE, _OUTLINE_SHARE = 0.03, 0.25
@@ -33,8 +33,6 @@ _MARK, _MARK_SHARE = 0.03, 0.05
 _ANCHOR, _ANCHOR_SHARE = 0.3, 0.75
 # Opacity of a sensor.
 _TRANSLUCENT = 0.4
-# Half the width of the lines of joints [units], and their colour.
-JOINT_LINE, JOINT_INK = 0.02, (0.16, 0.19, 0.24, 1.0)
 _DARK, _LIGHT = (0.08, 0.08, 0.1, 1.0), (1.0, 1.0, 1.0, 1.0)
 
 
@@ -43,12 +41,11 @@ def opacity(body: Body) -> float:
     return body.color[3] * (_TRANSLUCENT if body.sensor else 1.0)
 
 
-def body_mesh(body: Body, unit: float, symbols: Strips = ()) -> Mesh:
+def body_mesh(body: Body, unit: float) -> Mesh:
     """
     Return the mesh of a body, in the body's frame.
 
     :param unit: length that is drawn as some 50 pixels [m]
-    :param symbols: of joints, strips in the body's frame [m]
     """
     form = body.shape.form
     red, green, blue, _ = body.color
@@ -78,8 +75,6 @@ def body_mesh(body: Body, unit: float, symbols: Strips = ()) -> Mesh:
         half = min(_MARK * unit, _MARK_SHARE * radius)
         corners = ((0.0, -half), (0.9 * radius, -half), (0.9 * radius, half), (0.0, half))
         builder.add_convex(corners, ink)
-    for strip in symbols:
-        builder.add_line(strip, JOINT_LINE * unit, JOINT_INK)
     return builder.mesh()
 
 

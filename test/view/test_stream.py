@@ -16,8 +16,7 @@ import pytest
 PROGRAM = """
     import sys, threading
     import numpy as np
-    from physsim_ros.view.blueprint import send_blueprint
-    from physsim_ros.view.sinks.sink import Sink
+    from physsim_ros.view.stream import send_blueprint, RerunStream
     import rerun as rr
     import rerun.blueprint as rrb
 
@@ -25,19 +24,19 @@ PROGRAM = """
     points = np.zeros((2000, 2), np.float32)
 
     def go_on():
-        sink = Sink(rr.FileSink('one.rrd', write_footer=False))
+        stream = RerunStream(rr.FileSink('one.rrd', write_footer=False))
         while not closed.is_set():
             for _ in range(20):
-                sink._recording.log('points', rr.Points2D(points))
-            send_blueprint(sink._recording, rrb.Blueprint(rrb.Spatial2DView()))
-        sink.close()
+                stream.recording.log('points', rr.Points2D(points))
+            send_blueprint(stream.recording, rrb.Blueprint(rrb.Spatial2DView()))
+        stream.close()
 
     thread = threading.Thread(target=go_on)
     thread.start()
     for _ in range(100):
-        sink = Sink(rr.FileSink('other.rrd', write_footer=False))
-        sink._recording.log('points', rr.Points2D(points))
-        sink.close()
+        stream = RerunStream(rr.FileSink('other.rrd', write_footer=False))
+        stream.recording.log('points', rr.Points2D(points))
+        stream.close()
     closed.set()
     thread.join()
     print('CLOSED')

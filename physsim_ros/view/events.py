@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The tracks of time: run states, courses, past and present, and what changed the world last.
+Events: the log of answers, and the tracks of time: run states, courses, past, the last change.
 
-Law: a word is short and stays until the next one, so that it can be read. Sentences are in the
-log.
+Law: a word of a track is short and stays until the next one, so that it can be read. Sentences are
+in the log, after code and subject.
 """
 
 from __future__ import annotations
@@ -13,11 +13,12 @@ from __future__ import annotations
 from dataclasses import fields
 
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Frame
-from physsim_ros.view.frame_batch import FrameBatch
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.view.frame_batch import Change, FrameBatch, RECORDED
 import rerun as rr
 import rerun.blueprint as rrb
 
+LOG = 'events'
 RUN, PAST, COURSE = 'time/run', 'time/past', 'time/course'
 CHANGE = 'time/last_change'
 # Green while playing, orange while rewinding; the faster, the darker. No colour is in two tracks.
@@ -55,6 +56,47 @@ _CHANGES = {
 }
 
 
+class EventLog:
+    """
+    Sends the answers of frames.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+
+    def send(self, batch: FrameBatch, _: Change) -> None:
+        """Send the answers of a batch."""
+        rows = [
+            (index, answer) for index, frame in enumerate(batch.frames) for answer in frame.answers
+        ]
+        if rows:
+            columns = rr.TextLog.columns(
+                text=[line(answer) for _, answer in rows],
+                level=['ERROR' if answer.code else 'INFO' for _, answer in rows],
+            )
+            times = batch.times_at([index for index, _ in rows])
+            self._recording.send_columns(LOG, times, columns)
+
+
+def line(answer: Answer) -> str:
+    """Return the line of an answer."""
+    words = (answer.code, answer.subject, answer.message, f'({answer.topic})')
+    return '  '.join(filter(None, words))
+
+
+def log_view() -> rrb.TextLogView:
+    """Return the view of the log, for the blueprint."""
+    return rrb.TextLogView(
+        origin=LOG,
+        name='Log',
+        columns=rrb.TextLogColumns(
+            timeline_columns=[RECORDED], text_log_columns=['loglevel', 'body']
+        ),
+    )
+
+
 class TimeTracks:
     """
     Sends run states, past and present, courses and changes.
@@ -70,7 +112,7 @@ class TimeTracks:
         self._style(RUN, _RUN_COLORS)
         self._style(PAST, _PAST_COLORS)
 
-    def send(self, batch: FrameBatch) -> None:
+    def send(self, batch: FrameBatch, _: Change) -> None:
         """Send the changes in the frames of a batch."""
         for index, frame in enumerate(batch.frames):
             times = batch.times_at([index])[:1]
