@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Law 34: random machines, also with points far off their bodies, and random crowds gain no energy."""
+"""Law 34: random machines, also with points far off their bodies, and crowds gain no energy."""
 
 import math
 import random
