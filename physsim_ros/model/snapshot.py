@@ -187,7 +187,7 @@ class Contacts:
     :param steps: number of steps over which the impulses are summed
     :param begun: (k, 2) int64: rows, as in `pairs`, of the pairs that began to touch during the
         frame, in the order of time; a pair that touched again is there again
-    :param begun_at: (k,) float64: when each began, from the beginning of the frame [steps], 0 .. steps
+    :param begun_at: (k,) float64: when each began, since the frame began [steps]
     """
 
     pairs: Ints
