@@ -19,7 +19,6 @@ from typing import Any
 from physsim_ros.drawing import DrawingSession
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.ros import parameters
 from physsim_ros.ros.publishers.frame_statistics import FrameStatistics
 from physsim_ros.ros.publishers.publishers import Output, Publishers
 from physsim_ros.simulation.simulation import Simulation
@@ -60,13 +59,13 @@ class Outputs:
         boundary: ErrorBoundary,
     ) -> None:
         self.topics = Publishers(node, values, lambda: simulation.status)
-        self.viewer = Viewer(boundary)
+        self.viewer = Viewer(boundary, context=self._context)
         self.sketchpad: Sketchpad | None = None
         self.statistics = FrameStatistics()
         self.frame: Frame | None = None
         self.records_contacts = False
         self._log = _Log(node)
-        self._pictures = (_Picture(self, values), _Page(self))
+        self._pictures = self.viewer, _Page(self)
         self.all: list[Output] = [self._log, *self.topics.outputs, *self._pictures]
         self._values = values
         self._session = session
@@ -143,6 +142,13 @@ class Outputs:
         self.close_sketchpad()
         self.viewer.close()
 
+    def _context(self) -> FrameContext:
+        """Return the facts about the program that the viewer shows."""
+        return FrameContext(
+            real_time_factor=self.statistics.real_time_factor,
+            title=Path(self._values['world_file']).stem or 'empty world',
+        )
+
 
 class _Log:
     """
@@ -176,32 +182,6 @@ class _Log:
         elif answer.topic == 'viewer':
             # The address of the viewer, for the person at the terminal.
             self._node.get_logger().info(answer.message)
-
-
-class _Picture:
-    """
-    The picture of the viewer.
-
-    :param outputs: with the viewer
-    :param values: of the parameters of the node, by name, always up to date
-    """
-
-    name = 'viewer'
-
-    def __init__(self, outputs: Outputs, values: Mapping[str, Any]) -> None:
-        self._outputs = outputs
-        self._values = values
-
-    def show(self, frame: Frame) -> None:
-        """Show a frame in the viewer."""
-        statistics = self._outputs.statistics
-        context = FrameContext(
-            real_time_factor=statistics.real_time_factor,
-            cost=statistics.frame_cost,
-            title=Path(self._values['world_file']).stem or 'empty world',
-            traced=parameters.listed_names(self._values['trace']),
-        )
-        self._outputs.viewer.show(frame, context=context)
 
 
 class _Page:

@@ -168,10 +168,6 @@ _OF_NODE = {
         'that has failed, in a new file beside the old one',
         choices=tuple(mode.value for mode in ViewerMode),
     ),
-    'trace': Spec(
-        default='',
-        meaning='names of bodies, separated by commas, whose path and flight the viewer shows',
-    ),
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
     'sketchpad': Spec(

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
@@ -108,8 +108,20 @@ class Cursor:
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         self._world.begin(state, 0)
+        self._begin_line(state, self._world.renew())
+
+    def restore(self, checkpoint: Checkpoint, loaded: WorldState) -> None:
+        """
+        Begin a line at a checkpoint, at its time.
+
+        :param loaded: the state that was loaded last
+        """
+        self._world.resume(checkpoint)
+        self._begin_line(loaded, checkpoint)
+
+    def _begin_line(self, loaded: WorldState, checkpoint: Checkpoint) -> None:
         self._seek, self.serial = None, 0
-        self._tree.begin(state, self._world.renew(), self._world.digest())
+        self._tree.begin(loaded, checkpoint, self._world.digest())
         self._resumed = self.moment
 
     def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
@@ -380,10 +392,11 @@ class Cursor:
         if due and self._tree.keyframe_at(*self._here) is None:
             self.add_keyframe()
 
-    def add_keyframe(self) -> None:
-        """Make a checkpoint now, the last of the line, and continue from it."""
+    def add_keyframe(self) -> Checkpoint:
+        """Make a checkpoint now, the last of the line, continue from it, and return it."""
         checkpoint, digest = self.world.renew(), self.world.digest()
         self._resumed = self._tree.add_keyframe(self._here, checkpoint, digest).moment
+        return checkpoint
 
     def build_ahead(self, steps: int) -> None:
         """Build the share of the bodies for the next checkpoint that is due in some steps."""

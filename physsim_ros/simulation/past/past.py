@@ -16,8 +16,9 @@ theory of operation.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
@@ -258,23 +259,42 @@ class Past:
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         self.cursor.begin(state)
+        self._forget()
+
+    def restore(self, checkpoint: Checkpoint, loaded: WorldState) -> None:
+        """
+        Begin at a checkpoint, on course 1; nothing before it can be returned to.
+
+        :param loaded: the state that was loaded last
+        """
+        self.cursor.restore(checkpoint, loaded)
+        self._forget()
+
+    def _forget(self) -> None:
+        """Forget all lines but the one in force, which has begun."""
         self.tree.drop_where(lambda _: True)
         self.frames.drop_from(0)
         self.tree.course = self._courses = 1
 
-    def reset(self) -> bool:
+    def reset(self, seed: int | None = None) -> bool:
         """
         Return to the state that was loaded last, at time 0.
 
+        :param seed: of all noise; None is that of the state
         :return: whether anything had happened since
+        :raises BadProperty: the seed is out of range
         """
         tree = self.tree
-        if tree.head == 0 and self.cursor.moment[1] == 0:
+        state = tree.tip.loaded.state
+        if seed is not None:
+            state = replace(state, settings=replace(state.settings, seed=seed))
+        is_begun = tree.head == 0 and self.cursor.moment[1] == 0
+        if is_begun and state.settings.seed == self.cursor.settings.seed:
             # Nothing has happened since the beginning.
             return False
         self.tree.drop_undone()
         tree.resets.append(tree.line(self.cursor.moment))
-        self.cursor.begin(tree.tip.loaded.state)
+        self.cursor.begin(state)
         self.frames.drop_from(0)
         self._courses += 1
         tree.course, tree.era = self._courses, tree.era + 1

@@ -227,11 +227,12 @@ class Tree:
         return 0, apart[::-1]
 
     def begin(self, state: WorldState, checkpoint: Checkpoint, digest: str) -> None:
-        """Begin a world with a state, at time 0."""
+        """Begin a world at a checkpoint; the state was loaded last, at time 0."""
+        step, settings = checkpoint.step, checkpoint.scene.settings
         request = Restore(state=state)
-        root = Node(parent=None, step=0, request=request, settings=state.settings, shown=True)
-        self._add_keyframe(root, (0, 0), checkpoint, digest, None)
-        self.follow(root, 0)
+        root = Node(parent=None, step=0, request=request, settings=settings, shown=True)
+        self._add_keyframe(root, (step, 0), checkpoint, digest, None)
+        self.follow(root, step)
 
     def follow(self, tip: Node, head: int) -> int:
         """
