@@ -166,6 +166,8 @@ setup(
             'gymnasium>=1.0,<2',
             # That of a class.
             'segno>=1.6,<2',
+            # Runs sweeps in processes of a cluster.
+            'distributed',
             # A second middleware, for readers that are not Fast DDS.
             'cyclonedds>=0.10',
             'hypothesis',

@@ -21,7 +21,7 @@ from physsim_ros.files import OwnWorlds, state_from, text_of
 from physsim_ros.model.errors import Busy, Frozen
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts

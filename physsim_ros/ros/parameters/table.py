@@ -19,7 +19,7 @@ from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.ros.robots.frames import RobotTf
-from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
+from physsim_ros.simulation.past import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.parameter import Parameter

@@ -2,27 +2,91 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A reader of serialised messages (CDR), one value after the other, without an object for each part.
+Decoding of messages: by rclpy, within a bound in bytes; commands by numpy.
 
-Law: nothing beyond the end of the message is read; a value that is not whole is `Truncated`.
+Law: a message beyond its bound is not decoded; nothing beyond the end of a message is read.
+
+rclpy makes an object for each part of a message: a command of 100 twists takes it 0.54 ms, and
+0.10 ms here. Commands of crowds come at the rate of frames, all other messages now and then.
 """
 
 from __future__ import annotations
 
 import struct
-from typing import Literal
+from typing import Any, Literal, NamedTuple
 
+from nav_msgs.msg import OccupancyGrid, Path
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Malformed
+from rclpy.serialization import deserialize_message
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import MarkerArray
 
-# Greatest number of elements of a sequence: the default of parameter `max_bodies`. rclpy takes
-# 60 µs for each marker of an array, during which the node does nothing else.
-MOST_ELEMENTS = 20_000
+# Bound of a message about one thing [bytes]: a marker of 10,000 points, which is told that it has
+# too many. Larger ones take longer to decode than to send.
+MOST_BYTES_OF_ONE = 2**18
+# Bounds of messages about many things [bytes]: 20,000 markers without points have 4.3 MiB, of
+# which rclpy makes ten times as much, in 1 s; a stroke of 10,000 samples has 0.8 MB, in 0.24 s.
+MOST_BYTES = {
+    MarkerArray: 5 * 2**20,
+    MultiDOFJointState: 5 * 2**20,
+    OccupancyGrid: 5 * 2**20,
+    Path: 2**20,
+}
 # Size of the header of CDR, from whose end on values are aligned to their size [bytes].
 _HEADER = 4
-# Size of a double [bytes].
-_DOUBLE = 8
+# Size of a double [bytes]; numbers of a geometry_msgs/Transform: translation and quaternion.
+_DOUBLE, _POSE = 8, 7
+
+
+class CommandMessage(NamedTuple):
+    """
+    The fields of a command.
+
+    :ivar frame_id: of its header
+    :ivar joint_names: of the bodies
+    :ivar transforms: (n, 7) float64: translation [m] and quaternion, x, y, z, w
+    :ivar twist: (n, 6) float64: linear [m/s] and angular [rad/s]
+    :ivar wrench: (n, 6) float64: force [N] and torque [N m]
+    """
+
+    frame_id: str
+    joint_names: tuple[str, ...]
+    transforms: Floats
+    twist: Floats
+    wrench: Floats
+
+
+def decoded(data: bytes, kind: type) -> Any:
+    """
+    Return a message of a type; a command as a `CommandMessage`.
+
+    :raises Malformed: it is too large
+    :raises Truncated: it breaks off
+    :raises RMWError: rclpy cannot decode it
+    """
+    most = MOST_BYTES.get(kind, MOST_BYTES_OF_ONE)
+    if len(data) > most:
+        raise Malformed(f'such a message has at most {most / 2**10:g} KiB')
+    return command_from(data) if kind is MultiDOFJointState else deserialize_message(data, kind)
+
+
+def command_from(message: bytes) -> CommandMessage:
+    """
+    Return the fields of a serialised sensor_msgs/MultiDOFJointState.
+
+    :raises Truncated: it breaks off
+    """
+    reader = CdrReader(message)
+    reader.stamp()
+    return CommandMessage(
+        frame_id=reader.text(),
+        joint_names=tuple(reader.text() for _ in range(reader.count())),
+        transforms=reader.doubles(reader.count(), _POSE),
+        twist=reader.doubles(reader.count(), 6),
+        wrench=reader.doubles(reader.count(), 6),
+    )
 
 
 class Truncated(ValueError):
@@ -31,7 +95,7 @@ class Truncated(ValueError):
 
 class CdrReader:
     """
-    Reads the values of a message.
+    Reads the values of a serialised message (CDR), one after the other.
 
     :param message: serialised, of either byte order
     :raises Truncated: it has no header
@@ -53,20 +117,15 @@ class CdrReader:
         seconds, nanoseconds = self._stamp.unpack_from(self._data, begin)
         return int(seconds * 1_000_000_000 + nanoseconds)
 
-    def count(self, sequence: str, most: int = MOST_ELEMENTS) -> int:
+    def count(self) -> int:
         """
         Return the number of elements of a sequence.
 
-        :param sequence: its name in the message
-        :param most: elements that it may have
         :raises Truncated: there are more of them than bytes
-        :raises Malformed: there are more than it may have
         """
         count = self._read_number()
         if count > len(self._data) - self._at:
             raise Truncated
-        if count > most:
-            raise Malformed(f'{sequence} has at most {most} elements, not {count}', field=sequence)
         return count
 
     def text(self) -> str:
