@@ -181,7 +181,7 @@ setup(
             'ros-jazzy-rclpy[fastrtps]',
         ],
         # The site: `make docs`. 8.2 brings the pages of modules.
-        'docs': ['furo', 'myst-parser>=4', 'sphinx>=8.2,<9'],
+        'docs': ['furo', 'gymnasium>=1.0,<2', 'myst-parser>=4', 'sphinx>=8.2,<9'],
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
         # Environments for learning (`physsim_ros.gym`).
