@@ -70,7 +70,7 @@ export class Gallery {
       createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
-    this.show(WORLDS, inRow(textButton('Empty world', () => this.#upload(EMPTY)),
+    this.show(WORLDS, inRow(textButton('Empty room', () => this.#upload(EMPTY)),
       createElement('label', {className: 'file'}, 'Open a file', file),
       ...this.unsaved ? [textButton(`Unsaved world of ${this.unsaved}`, () => this.#openUnsaved())] : []),
     ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own)] : [],
