@@ -89,6 +89,7 @@ int32_t core_step(World *world, int32_t count) {
         arena_reset(&world->own->arena);
         damp_resting(world);
         begin_totals(world);
+        move_actors(world);
         world->frame_steps += world->reports_contacts;
         for (int sub = 0; sub < SUB_STEPS; sub++) {
             step(world);

@@ -111,7 +111,7 @@ def checkpoint_size(checkpoint: Checkpoint, before: Checkpoint | None = None) ->
     """
     memory = checkpoint.memory
     arrays = (checkpoint.state, checkpoint.free, *_memory_arrays(memory), memory.pushes)
-    size = _CHECKPOINT + _nbytes((*arrays, *checkpoint.robots))
+    size = _CHECKPOINT + _nbytes((*arrays, *checkpoint.robots, *checkpoint.actors))
     size += _WRENCH * len(checkpoint.wrenches) + _NAME * len(checkpoint.unstepped)
     if before is None or before.scene is not checkpoint.scene:
         # The digest of a checkpoint makes the scene's checkpoint.
