@@ -293,7 +293,7 @@ void move_actors(World *world) {
     if (world->actor_count == 0) {
         return;
     }
-    double dt = world->dt * (int)SUB_STEPS;
+    double dt = world->dt * (double)SUB_STEPS;
     start_actors(world);
     Surroundings around = {0};
     for (int number = 0; number < world->actor_count; number++) {

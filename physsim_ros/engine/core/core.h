@@ -267,19 +267,15 @@ typedef struct World {
     double drag_force;     // greatest force of a hand, in weights of the body
     int64_t step;          // count of steps that the world has made
     int64_t age;           // count of steps since the space was built
+    // The bodies with the background, the others as they are in the world.
     Body *bodies;
-    int32_t body_count; // with the background
     Joint *joints;
-    int32_t joint_count;
     Part *parts;
-    int32_t part_count;
     Row *rows;
-    int32_t row_count;
     Grip *grips;
-    int32_t grip_count;
     Robot *robots;
-    int32_t robot_count, actor_count;
     Actor *actors;
+    int32_t body_count, joint_count, part_count, row_count, grip_count, robot_count, actor_count;
     // What the last steps have left.
     uint8_t has_broken; // a joint
     uint8_t has_lost;   // a body has left the range of numbers
