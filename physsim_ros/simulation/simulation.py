@@ -13,22 +13,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+import math
 from numbers import Integral
 
-from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import shown, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.errors import BadProperty, InPast
+from physsim_ros.model.requests import DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.sensing import View
 from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, HistoryMemory
 from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world.robot_requests import is_driving
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -36,6 +40,25 @@ CHECKPOINTS = 3.0
 _RATE = Within(1.0, 1e4, 'Hz')
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SavedMoment:
+    """
+    A moment of a simulation, from which it and others continue with the same bits; it pickles.
+
+    :param checkpoint: of the world
+    :param loaded: the state that was loaded last, to which `reset` returns
+    :param frame: that is shown
+    :param before: the last snapshot of another time, which was shown before it; None is none
+    :param held: what robots drive on with
+    """
+
+    checkpoint: Checkpoint
+    loaded: WorldState
+    frame: Frame
+    before: Snapshot | None
+    held: tuple[DriveRobot, ...]
 
 
 class Simulation:
@@ -46,7 +69,7 @@ class Simulation:
     :param publish_rate: frames a second of simulation time at speed 1 [Hz]
     :param settings: of the empty world at the start
     :param speed: simulation seconds a second; 0 is paused, negative goes back
-    :param history: length of the past that is kept [s of simulation time]
+    :param history: length of the past that is kept [s of simulation time]; 0 caches no frame
     :param history_memory: budget of the past [MB]; when it is spent, the oldest is dropped
     :param checkpoints: from one checkpoint to the next [s]
     :param boundary: of the requests; None lets unexpected errors pass
@@ -56,6 +79,7 @@ class Simulation:
     :ivar requests: queue of the requests that wait for the next frame
     :ivar past: the timeline in force, cached frames, ghosts, and their budget of memory
     :ivar playback: the moment that is shown
+    :ivar held: the commands with which robots drive on, by the names of their bodies
     """
 
     def __init__(
@@ -93,6 +117,8 @@ class Simulation:
         self.playback = Playback(self.past, speed=speed)
         self.requests = RequestQueue()
         self._handler = RequestHandler(self.past, self.playback, self.requests)
+        self._view: View | None = None
+        self.held: dict[str, DriveRobot] = {}
 
     # Reading
 
@@ -120,6 +146,7 @@ class Simulation:
     def speed(self, speed: float) -> None:
         if speed < 0.0:
             self._handler.hands.clear()
+            self.let_go()
         self.playback.speed = speed
 
     @property
@@ -161,6 +188,25 @@ class Simulation:
             self.past.reports_contacts = reports_contacts
             self.playback.note_reporting(reports_contacts)
 
+    @property
+    def view(self) -> View:
+        """
+        Return the frame of now as sensors see it.
+
+        A frame is made when it is first read after steps or requests, so that steps whose frame
+        nobody reads make none.
+        """
+        if self._view is None or self.playback.changed:
+            shown = self._view and self._view.snapshot.step
+            self._observe_frame(moved=shown != self.step)
+        assert self._view is not None  # noqa: S101 - `_observe_frame` makes it
+        return self._view
+
+    @property
+    def frame(self) -> Frame:
+        """Return the frame of now, which is made when it is first read."""
+        return self.view.frame
+
     # Requests
 
     def perform(self, request: Request, gesture: int | None = None) -> str:
@@ -179,11 +225,17 @@ class Simulation:
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0 and without a past; `reset` returns to it."""
         self.past.begin(state)
+        self._note_beginning()
+
+    def _note_beginning(self) -> None:
+        """Note that the world is another one, which nobody holds or drives."""
         self._handler.hands.clear()
+        self.let_go()
         self.playback.note_jump()
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` returns; time goes on."""
+        self.let_go()
         return self.perform(Restore(state=state))
 
     def save(self) -> WorldState:
@@ -197,11 +249,46 @@ class Simulation:
         self._handler.apply_waiting()
         return self.world.save()
 
-    def reset(self) -> str:
-        """Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message."""
+    def checkpoint(self) -> SavedMoment:
+        """
+        Return this moment, to the bit, for `restore`.
+
+        This world continues from it as all do that restore it: it, too, moves into a space that
+        is built from the checkpoint. Without the call its later bits may be others.
+
+        :raises InPast: the past is shown
+        """
+        frame = self.frame
+        if frame.past:
+            raise InPast('the past is shown; go to its end first', field='history')
+        checkpoint = self.past.timeline.add_keyframe()
+        return SavedMoment(
+            checkpoint=checkpoint,
+            loaded=self.loaded,
+            frame=frame,
+            before=self.view.before,
+            held=tuple(self.held.values()),
+        )
+
+    def restore(self, saved: SavedMoment) -> None:
+        """Continue from a moment, at its time and without a past."""
+        self.past.restore(saved.checkpoint, saved.loaded)
+        self._note_beginning()
+        self.held = {drive.name: drive for drive in saved.held}
+        self._view = View(saved.frame, saved.before)
+        self.playback.changed = False
+
+    def reset(self, seed: int | None = None) -> str:
+        """
+        Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message.
+
+        :param seed: of all noise from then on; None is that of the state
+        :raises BadProperty: the seed is out of range
+        """
         with self._jump():
             self._handler.hands.clear()
-            done = self.past.reset()
+            self.let_go()
+            done = self.past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
     def undo(self) -> str:
@@ -256,7 +343,12 @@ class Simulation:
         if not isinstance(stamp, Integral):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
         self._handler.apply_waiting()
+        self.let_go()
         return self._handler.seek(stamp)
+
+    def let_go(self) -> None:
+        """End what `Robot.drive` has robots do; their last commands end with their timeouts."""
+        self.held.clear()
 
     # Time
 
@@ -281,10 +373,31 @@ class Simulation:
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
+        self._advance_period()
+        return self._observe_frame(moved=True)
+
+    def run(self, seconds: float) -> None:
+        """
+        Advance by simulated seconds, to the nearest publish period, at any speed.
+
+        No frame is made but the last one, when it is read; its contacts are those of all steps
+        since the one that was read before.
+
+        :raises BadProperty: they are below 0, or not finite
+        """
+        periods = seconds * self.physics_rate / self.frame_steps
+        if not 0.0 <= periods < math.inf:
+            raise BadProperty(f'seconds must be finite and >= 0, not {seconds:g}', field='seconds')
+        for _ in range(round(periods)):
+            self._advance_period()
+
+    def _advance_period(self) -> None:
+        """Apply the requests that wait, and advance by one publish period."""
+        self._hold_drives()
         self._handler.apply_waiting()
         self._handler.release_grips()
         self.playback.clock.restart()
-        return self._play_frame(self.playback.steps_to_period)
+        self._play(self.playback.steps_to_period)
 
     def advance(
         self,
@@ -307,6 +420,8 @@ class Simulation:
             nothing has changed
         """
         playback = self.playback
+        if playback.speed > 0.0:
+            self._hold_drives()
         if playback.is_world_due or self.requests.has_requests:
             playback.seek_shown()
         if not playback.continue_seek(is_overdue):
@@ -336,7 +451,8 @@ class Simulation:
             if steps == 0:
                 return
             if steps > 0:
-                yield self._play_frame(steps, is_overdue)
+                self._play(steps, is_overdue)
+                yield self._observe_frame(moved=True)
             elif frame := self._rewind_frame(-steps, is_overdue):
                 yield frame
             else:
@@ -344,9 +460,17 @@ class Simulation:
             if playback.speed == 0 or is_overdue():
                 return
 
-    def _play_frame(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> Frame:
+    def _play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
+        """Advance by steps, whose frame is not made yet."""
         self.playback.play(steps, is_overdue)
-        return self._observe_frame(moved=True)
+        self.playback.changed = True
+
+    def _hold_drives(self) -> None:
+        """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
+        for drive in self.held.values():
+            if not is_driving(self.world, drive, self.frame_steps):
+                # In the gesture before, with which it is undone: nobody undoes a tick.
+                self._handler.apply(drive, self.requests.gesture)
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
@@ -365,7 +489,7 @@ class Simulation:
         self._handler.answers += self.past.reports
         self.past.reports.clear()
         self.playback.changed = False
-        return Frame(
+        frame = Frame(
             snapshot=snapshot,
             contacts=contacts if self.past.reports_contacts else None,
             answers=self._handler.take_answers(),
@@ -374,6 +498,11 @@ class Simulation:
             past=snapshot.step < self.past.timeline.history.head,
             course=self.past.course,
         )
+        before, last = None, self._view
+        if last is not None:
+            before = last.snapshot if last.snapshot.step != snapshot.step else last.before
+        self._view = View(frame, before)
+        return frame
 
     @contextmanager
     def _jump(self) -> Iterator[None]:

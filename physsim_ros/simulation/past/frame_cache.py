@@ -95,7 +95,9 @@ class FrameCache:
         return [self._frames[step].snapshot for step in steps[-count:]]
 
     def add_frame(self, frame: CachedFrame) -> None:
-        """Add a frame that has just been shown."""
+        """Add a frame that has just been shown; to a history without length none is added."""
+        if not self._history.length:
+            return
         self._bodies = len(frame.snapshot.poses)
         self._add(frame)
         self._evict(frame.snapshot.step)

@@ -205,11 +205,12 @@ class History:
     # Changing
 
     def begin(self, state: WorldState, checkpoint: Checkpoint, digest: str) -> None:
-        """Begin a world with a state, at time 0."""
+        """Begin a world at a checkpoint; the state was loaded last, at time 0."""
+        step, settings = checkpoint.step, checkpoint.scene.settings
         request = Restore(state=state)
-        root = Node(parent=None, step=0, request=request, settings=state.settings, shown=True)
-        self.tree.add_keyframe(root, Keyframe(0, 0, checkpoint, digest), None)
-        self.follow(root, 0)
+        root = Node(parent=None, step=0, request=request, settings=settings, shown=True)
+        self.tree.add_keyframe(root, Keyframe(step, 0, checkpoint, digest), None)
+        self.follow(root, step)
 
     def follow(self, tip: Node, head: int) -> int:
         """

@@ -12,8 +12,9 @@ theory of operation.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
-from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
@@ -262,23 +263,45 @@ class Past:
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         self.timeline.begin(state)
+        self._forget()
+
+    def restore(self, checkpoint: Checkpoint, loaded: WorldState) -> None:
+        """
+        Begin a timeline at a checkpoint, on course 1; nothing before it can be returned to.
+
+        :param loaded: the state that was loaded last
+        """
+        self.timeline.restore(checkpoint, loaded)
+        self._forget()
+
+    def _forget(self) -> None:
+        """Forget all lines but the one in force, which has begun."""
         self._lines.drop_where(lambda _: True)
         self.frame_cache.drop_from(0)
         self.course = self._courses = 1
 
-    def reset(self) -> bool:
+    def reset(self, seed: int | None = None) -> bool:
         """
         Return to the state that was loaded last, at time 0.
 
+        :param seed: of all noise; None is that of the state
         :return: whether anything had happened since
+        :raises BadProperty: the seed is out of range
         """
         history = self.timeline.history
-        if history.head == 0 and self.timeline.moment[1] == 0:
+        state = history.tip.loaded.state
+        if seed is not None:
+            state = replace(state, settings=replace(state.settings, seed=seed))
+        if (
+            history.head == 0
+            and self.timeline.moment[1] == 0
+            and state.settings.seed == self.timeline.settings.seed
+        ):
             # Nothing has happened since the beginning.
             return False
         self._lines.clear_undone(self._era)
         self._lines.resets.append(self._line())
-        self.timeline.begin(history.tip.loaded.state)
+        self.timeline.begin(state)
         self.frame_cache.drop_from(0)
         self._courses += 1
         self.course, self._era = self._courses, self._era + 1

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
-from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
@@ -91,8 +91,20 @@ class Timeline(Replay):
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         self._world.begin(state, 0)
+        self._begin_history(state, self._world.renew())
+
+    def restore(self, checkpoint: Checkpoint, loaded: WorldState) -> None:
+        """
+        Begin at a checkpoint, at its time.
+
+        :param loaded: the state that was loaded last
+        """
+        self._world.resume(checkpoint)
+        self._begin_history(loaded, checkpoint)
+
+    def _begin_history(self, loaded: WorldState, checkpoint: Checkpoint) -> None:
         self._seek, self.serial = None, 0
-        self.history.begin(state, self._world.renew(), self._world.digest())
+        self.history.begin(loaded, checkpoint, self._world.digest())
         self._resumed = self.moment
 
     # The cursor
@@ -321,10 +333,11 @@ class Timeline(Replay):
         if due and self.history.keyframe_at(*self.moment) is None:
             self.add_keyframe()
 
-    def add_keyframe(self) -> None:
-        """Make a checkpoint now, the last of the history, and continue from it."""
+    def add_keyframe(self) -> Checkpoint:
+        """Make a checkpoint now, the last of the history, continue from it, and return it."""
         checkpoint, digest = self.world.renew(), self.world.digest()
         self._resumed = self.history.add_keyframe(self.moment, checkpoint, digest).moment
+        return checkpoint
 
     def build_ahead(self, steps: int) -> None:
         """Build the share of the bodies for the next checkpoint that is due in some steps."""
