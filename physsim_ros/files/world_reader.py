@@ -85,8 +85,7 @@ def state_from(
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
     changes = {key: content[key] for key in SETTINGS if key in content}
-    if changes.get('bounds') == []:
-        changes['bounds'] = None
+    changes |= {key: None for key in ('bounds', 'datum') if changes.get(key) == []}
     settings = replace(settings, **changes)
     lesson = Lesson.from_entry(content['lesson']) if 'lesson' in content else None
     entries = entries_of(content.get('bodies'), 'bodies')

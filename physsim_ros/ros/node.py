@@ -84,6 +84,8 @@ class PhysSimNode(NodeWithoutQosEvents):
     :param context: of ROS; None is the default one
     :param namespace: of the node; '' is that of the command line
     :param parameter_overrides: values that override those of the command line
+    :param expected_commands: type of the commands of robots that is subscribed to while nobody
+        publishes them; None is none, where the process has other nodes
     :raises PhysSimError: a parameter or the world file is refused
 
     :ivar boundary: where unexpected errors of messages and outputs end
@@ -102,7 +104,9 @@ class PhysSimNode(NodeWithoutQosEvents):
         context: Context | None = None,
         namespace: str = '',
         parameter_overrides: list[Parameter] | None = None,
+        expected_commands: type | None = None,
     ) -> None:
+        self._expected_commands = expected_commands
         try:
             super().__init__(
                 'physsim',
@@ -155,7 +159,13 @@ class PhysSimNode(NodeWithoutQosEvents):
         self.world_files = WorldFiles(self.simulation, self._values, self.get_logger().info)
         self.outputs = FrameOutputs(self, self._values, self._session, self.boundary)
         self._closing.callback(self.outputs.close)
-        self.fleet = Fleet(self, self._values, self.simulation.requests, self.boundary)
+        self.fleet = Fleet(
+            self,
+            self._values,
+            self.simulation.requests,
+            self.boundary,
+            expected=self._expected_commands,
+        )
         if self._values['world_file']:
             with self.boundary.reading('world_file'):
                 self.world_files.begin_with()

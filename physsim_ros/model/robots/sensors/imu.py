@@ -26,11 +26,18 @@ class Imu(Sensor):
     An inertial measurement unit.
 
     :param noise: standard deviations of acceleration [m/s²] and turn rate [rad/s]
+    :param gravity: upwards, out of the plane [m/s²]: 9.81 of one that feels the earth's in a world
+        that is seen from above
     """
 
     KIND: ClassVar = 'imu'
-    CHECKS: ClassVar[Checks] = {**Sensor.CHECKS, 'noise': _deviations}
+    CHECKS: ClassVar[Checks] = {
+        **Sensor.CHECKS,
+        'noise': _deviations,
+        'gravity': Within(0.0, 100.0, 'm/s²'),
+    }
 
     name: str = 'imu'
     rate: float = 100.0
     noise: Point = (0.0, 0.0)
+    gravity: float = 0.0
