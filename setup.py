@@ -166,9 +166,13 @@ setup(
             'gymnasium>=1.0,<2',
             # That of a class.
             'segno>=1.6,<2',
+            # Runs sweeps in processes of a cluster.
+            'distributed',
             # A second middleware, for readers that are not Fast DDS.
             'cyclonedds>=0.10',
             'hypothesis',
+            # Writes and reads bags.
+            'mcap>=1.2,<2',
             # Drives the page in Chromium.
             'playwright',
             'psutil',

@@ -5,7 +5,7 @@
 A robot learns to follow the wall on its right, by PPO of Stable-Baselines3.
 
 pip install 'physsim_ros[gym]' stable-baselines3
-python learn_wall_following.py --steps 200000
+python learn_wall_following.py --steps 150000
 
 Without ROS. docs/tutorials/learn_to_follow_a_wall.md goes through it, and says what it learned.
 """
@@ -90,7 +90,7 @@ def main():
     from stable_baselines3.common.vec_env import DummyVecEnv  # noqa: PLC0415
 
     parser = argparse.ArgumentParser(description='Learn to follow a wall.')
-    parser.add_argument('--steps', type=int, default=200_000, help='of the environment')
+    parser.add_argument('--steps', type=int, default=150_000, help='of the environment')
     parser.add_argument('--worlds', type=int, default=8, help='that are stepped together')
     parser.add_argument('--save', default='', help='file for what was learned')
     options = parser.parse_args()

@@ -74,7 +74,6 @@ PARAMETERS = frozenset(
         'speed',
         'tool',
         'viewer',
-        'trace',
         'viewer_url',
         'wall_thickness',
         'world_dir',

@@ -51,6 +51,11 @@ class ActorStates(NamedTuple):
             return NO_ACTORS
         return cls(*(np.array(column, np.int64) for column in zip(*actors, strict=True)))
 
+    @property
+    def nbytes(self) -> int:
+        """Memory of the arrays [bytes]."""
+        return sum(column.nbytes for column in self)
+
     def rows(self) -> list[ActorState]:
         """Return the state of each actor."""
         return [ActorState(*row) for row in zip(*(each.tolist() for each in self), strict=True)]

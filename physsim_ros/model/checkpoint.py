@@ -118,6 +118,12 @@ class ImpulseCache:
     totals: Floats = field(default_factory=lambda: NO_TOTALS)
     pushes: Floats = field(default_factory=lambda: NO_PUSHES)
 
+    @property
+    def nbytes(self) -> int:
+        """Memory of its arrays [bytes]."""
+        contacts = self.ids, self.pairs, self.hashes, self.impulses
+        return sum(array.nbytes for array in (*contacts, self.joints, self.totals, self.pushes))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Checkpoint:
@@ -146,3 +152,9 @@ class Checkpoint:
     unstepped: frozenset[str] = frozenset()
     robots: RobotStates = NO_ROBOTS
     actors: ActorStates = NO_ACTORS
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of its arrays [bytes]."""
+        states = self.state.nbytes + self.free.nbytes + self.robots.nbytes + self.actors.nbytes
+        return states + self.memory.nbytes

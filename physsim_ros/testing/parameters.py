@@ -54,7 +54,6 @@ class Parameters(TypedDict, total=False):
     robots_in_past: Literal['follow', 'freeze']
     lockstep: float
     viewer: Literal['auto', 'connect', 'none', 'spawn', 'web']
-    trace: str
     viewer_url: str
     record_file: str
     sketchpad: Literal['none', 'serve']

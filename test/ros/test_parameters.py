@@ -74,7 +74,6 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'publish_clock': (True, 'live'),
     'publish_tf': (False, 'read-only'),
     'viewer': ('auto', 'live'),
-    'trace': ('', 'live'),
     'viewer_url': ('', 'read-only'),
     'record_file': ('', 'read-only'),
     'sketchpad': ('none', 'live'),

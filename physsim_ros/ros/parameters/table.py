@@ -19,7 +19,7 @@ from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.ros.robots.frames import RobotTf
-from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
+from physsim_ros.simulation.past import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.parameter import Parameter
@@ -167,10 +167,6 @@ _OF_NODE = {
         'auto (spawn if there is a display, else web); setting it again restarts a recording '
         'that has failed, in a new file beside the old one',
         choices=tuple(mode.value for mode in ViewerMode),
-    ),
-    'trace': Spec(
-        default='',
-        meaning='names of bodies, separated by commas, whose path and flight the viewer shows',
     ),
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),

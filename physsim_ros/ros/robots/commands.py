@@ -23,7 +23,7 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Car, Drive
 from physsim_ros.model.transform import REST
 from physsim_ros.model.transform import Twist as Velocity
-from physsim_ros.ros.requests.cdr_reader import CdrReader, Truncated
+from physsim_ros.ros.requests.decoding import CdrReader, Truncated
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from physsim_ros.model.checks import Checks, FASTEST, pair, Within
@@ -40,4 +40,5 @@ class Imu(Sensor):
     name: str = 'imu'
     rate: float = 100.0
     noise: Point = (0.0, 0.0)
-    gravity: float = 0.0
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    gravity: float = field(default=0.0, repr=False)
