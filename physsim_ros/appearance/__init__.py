@@ -19,8 +19,14 @@ from physsim_ros.appearance.joint_colors import (
     PUSH,
     SLATE,
 )
-from physsim_ros.appearance.joint_glyphs import is_rigid, joint_strips, Strip, symbol_sizes
-from physsim_ros.appearance.joint_lines import JointLines, segment_corners
+from physsim_ros.appearance.joint_glyphs import (
+    is_rigid,
+    joint_strips,
+    JointLines,
+    segment_corners,
+    Strip,
+    symbol_sizes,
+)
 from physsim_ros.appearance.laser_scans import LaserScans
 from physsim_ros.appearance.picture import picture_of
 

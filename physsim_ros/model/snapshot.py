@@ -190,7 +190,7 @@ class Contacts:
     :param steps: number of steps over which the impulses are summed
     :param begun: (k, 2) int64: rows, as in `pairs`, of the pairs that began to touch during the
         frame, in the order of time; a pair that touched again is there again
-    :param begun_at: (k,) float64: when each began, from the beginning of the frame [steps], 0 .. steps
+    :param begun_at: (k,) float64: when each began, since the frame began [steps]
     """
 
     pairs: Ints
@@ -226,7 +226,7 @@ class Answer:
     """
     The answer to one request, or the report of an event without one.
 
-    :param topic: of the request, as '~/spawn', or the event, as 'divergence'
+    :param topic: of the request, as '~/spawn', or the event, as 'divergence'; '' until it is known
     :param subject: name of the body or joint, '' if there is none
     :param message: a sentence
     :param code: '' for success, else the stable code of the refusal
@@ -235,7 +235,7 @@ class Answer:
     :param asker: key of the message that asked, '' for one of ROS and for events
     """
 
-    topic: str
+    topic: str = ''
     subject: str = ''
     message: str = ''
     code: str = ''

@@ -23,15 +23,14 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
 from physsim_ros.model.requests import DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
-from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, HistoryMemory
-from physsim_ros.simulation.past.past import Past
+from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import forces_now, World
 from physsim_ros.simulation.world.robot_requests import is_driving
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
@@ -77,7 +76,7 @@ class Simulation:
         physics_rate
 
     :ivar requests: queue of the requests that wait for the next frame
-    :ivar past: the timeline in force, cached frames, ghosts, and their budget of memory
+    :ivar past: the lines of events, cached frames, and their budget of memory
     :ivar playback: the moment that is shown
     :ivar held: the commands with which robots drive on, by the names of their bodies
     """
@@ -111,7 +110,7 @@ class Simulation:
             settings=settings or WorldSettings(),
             length=history,
             checkpoints=checkpoints,
-            memory=HistoryMemory(history_memory),
+            memory=history_memory,
             boundary=boundary or ErrorBoundary(),
         )
         self.playback = Playback(self.past, speed=speed)
@@ -157,14 +156,14 @@ class Simulation:
     @property
     def loaded(self) -> WorldState:
         """Return the state that was loaded last, to which `reset` returns."""
-        return self.past.timeline.history.tip.loaded.state
+        return self.past.tree.tip.loaded.state
 
     def limit_history(self, seconds: float) -> None:
         """Set the length of the past that is kept [s of simulation time]."""
         self.playback.seek_shown()
         # The times of a paused world are told anew.
         self.playback.changed = True
-        if not self.past.timeline.keep_within(self.past.steps_in(seconds)):
+        if not self.past.cursor.keep_within(self.past.steps_in(seconds)):
             self.playback.note_jump()
             self._handler.report_oldest()
 
@@ -174,7 +173,7 @@ class Simulation:
 
         :raises Refusal: it is out of range
         """
-        self.past.memory.megabytes = megabytes
+        self.past.budget.megabytes = megabytes
         self.playback.changed = True
 
     @property
@@ -249,6 +248,19 @@ class Simulation:
         self._handler.apply_waiting()
         return self.world.save()
 
+    def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
+        """
+        Return the forces of contacts and joints of a world that has not stepped since a change.
+
+        :param snapshot: of the world that is shown
+        :return: contacts as of one step, and a snapshot with the joint forces; None where the
+            world is at another moment, or too large
+        """
+        world = self.world
+        if world.step_count != snapshot.step or world.scene is not snapshot.scene:
+            return None
+        return forces_now(world.save(), world.physics_rate)
+
     def checkpoint(self) -> SavedMoment:
         """
         Return this moment, to the bit, for `restore`.
@@ -261,7 +273,7 @@ class Simulation:
         frame = self.frame
         if frame.past:
             raise InPast('the past is shown; go to its end first', field='history')
-        checkpoint = self.past.timeline.add_keyframe()
+        checkpoint = self.past.cursor.add_keyframe()
         return SavedMoment(
             checkpoint=checkpoint,
             loaded=self.loaded,
@@ -352,6 +364,10 @@ class Simulation:
 
     # Time
 
+    def apply_waiting(self) -> None:
+        """Apply the requests that wait, at whose seeks the world goes at once."""
+        self._handler.apply_waiting()
+
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
         Apply the requests up to a seek.
@@ -361,6 +377,20 @@ class Simulation:
         """
         self._handler.apply_up_to_seek(is_spent)
         return self.playback.is_there and not self.requests.has_requests
+
+    def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
+        """
+        Replay up to the goal of a seek whose frame is not cached; until then no step is due.
+
+        :param is_overdue: whether the replay is to continue in another call
+        :return: whether the goal is reached
+        """
+        while self.playback.continue_seek():
+            if is_overdue():
+                # The time of this replay is not made up for.
+                self.playback.clock.restart()
+                return False
+        return True
 
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
@@ -424,10 +454,10 @@ class Simulation:
             self._hold_drives()
         if playback.is_world_due or self.requests.has_requests:
             playback.seek_shown()
-        if not playback.continue_seek(is_overdue):
+        if not self.finish_seek(is_overdue):
             return ()
         self._handler.apply_up_to_seek(is_spent)
-        if not playback.continue_seek(is_overdue):
+        if not self.finish_seek(is_overdue):
             return ()
         if self.requests.is_in_gesture or (playback.frames_due and self.requests.has_requests):
             playback.clock.restart()
@@ -462,7 +492,9 @@ class Simulation:
 
     def _play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
         """Advance by steps, whose frame is not made yet."""
-        self.playback.play(steps, is_overdue)
+        for _ in self.playback.play(steps):
+            if is_overdue():
+                break
         self.playback.changed = True
 
     def _hold_drives(self) -> None:
@@ -475,9 +507,15 @@ class Simulation:
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
         before = self.playback.step
-        if not self.playback.rewind(steps, is_overdue):
-            return None
-        if self.playback.step <= self.past.timeline.history.oldest:
+        while not self.playback.rewind(steps):
+            if is_overdue():
+                # The time of this replay is not made up for.
+                self.playback.clock.restart()
+                return None
+        for _ in self.playback.replay_ahead(steps):
+            if is_overdue():
+                break
+        if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
             self._handler.report_oldest('; paused')
         return self._observe_frame(moved=self.playback.step < before)
@@ -495,8 +533,8 @@ class Simulation:
             answers=self._handler.take_answers(),
             speed=self.playback.speed,
             moved=moved,
-            past=snapshot.step < self.past.timeline.history.head,
-            course=self.past.course,
+            past=snapshot.step < self.past.tree.head,
+            course=self.past.tree.course,
         )
         before, last = None, self._view
         if last is not None:
@@ -506,7 +544,7 @@ class Simulation:
 
     @contextmanager
     def _jump(self) -> Iterator[None]:
-        """Have the block move the timeline, from the moment that is shown after all requests."""
+        """Have the block move the cursor, from the moment that is shown after all requests."""
         self._handler.apply_waiting()
         self.playback.frames_due = 0
         self.playback.seek_shown()

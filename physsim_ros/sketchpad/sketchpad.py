@@ -21,7 +21,7 @@ from physsim_ros.files import OwnWorlds, state_from, text_of
 from physsim_ros.model.errors import Busy, Frozen
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
@@ -31,7 +31,6 @@ from physsim_ros.sketchpad.last_contacts import LastContacts
 from physsim_ros.sketchpad.locks import check_locked
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession
-from physsim_ros.sketchpad.recording_handlers import Recordings
 from physsim_ros.sketchpad.rights import check_right, Right
 from physsim_ros.sketchpad.server import Server
 from physsim_ros.sketchpad.timeline_report import timeline_content, TimelineReport
@@ -49,7 +48,7 @@ class Sketchpad:
     :param world: that the pages draw in
     :param address: to listen on
     :param port: to listen on, or the first free one after it
-    :param recordings: the viewer
+    :param recording_address: of the viewer's web page on this machine; '' while there is none
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
     """
@@ -60,16 +59,16 @@ class Sketchpad:
         *,
         address: str,
         port: int,
-        recordings: Recordings,
+        recording_address: Callable[[], str],
         wake: Callable[[], None],
     ) -> None:
         self._world = world
         self._boundary = world.boundary
         self._simulation = world.simulation
-        self._recordings = recordings
+        self._recording_address = recording_address
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
-        self._contacts = LastContacts()
+        self._contacts = LastContacts(world.simulation.forces_now)
         self._own_worlds = OwnWorlds(world.world_dir)
         self._autosave = Autosave(world.world_dir, self._world_text)
         self._server = Server(
@@ -77,15 +76,16 @@ class Sketchpad:
             port=port,
             own_worlds=self._own_worlds,
             autosave=self._autosave,
-            recordings=recordings,
             inbox=self._inbox,
             boundary=self._boundary,
         )
         self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
+        # Numbers of the pages with which a teacher watches a class.
+        self._watching: set[int] = set()
         # The last one; None before the first.
         self._frame: Frame | None = None
-        self._sent_recording = self._recording_path()
+        self._sent_recording = self._recording_address()
         self._sent_class: dict[str, Any] = {}
 
     def url(self, role: Role = Role.DRAW) -> str:
@@ -121,6 +121,7 @@ class Sketchpad:
             case Opened():
                 self._open(page, entry)
             case Closed():
+                self._watching.discard(page)
                 if (session := self._sessions.pop(page, None)) is not None:
                     session.close()
             case Upload():
@@ -165,22 +166,29 @@ class Sketchpad:
             # Where too many requests wait, the world is saved later.
             with suppress(Busy):
                 self._world.submit_call(self._save_unsaved, Wait.FOR_SEEK)
-        if self._recording_path() != self._sent_recording:
-            self._sent_recording = self._recording_path()
+        if self._recording_address() != self._sent_recording:
+            self._sent_recording = self._recording_address()
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
     def _send_class(self) -> None:
         """Tell all pages who is there, and what a teacher has frozen and locked, if it changed."""
         people = [
-            {'page': number, 'name': session.person, 'role': session.role.value}
+            {
+                'page': number,
+                'name': session.person,
+                'role': session.role.value,
+                'answered': session.answered or None,
+                'raised': session.raised,
+            }
             for number, session in self._sessions.items()
-            if session.role.draws
+            if session.role.draws and number not in self._watching
         ]
         content = {
             'type': 'class',
             'frozen': self._world.is_frozen,
             'locked': self._world.locked_bodies(),
             'people': people,
+            'watched': bool(self._watching),
         }
         if self._sessions and content != self._sent_class:
             self._sent_class = content
@@ -228,6 +236,8 @@ class Sketchpad:
     def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""
         role = opened.role
+        if opened.watches:
+            self._watching.add(number)
         send = partial(self._server.send, page=number)
         self._sessions[number] = PageSession(
             number,
@@ -239,6 +249,7 @@ class Sketchpad:
             own_worlds=self._own_worlds,
             autosave=self._autosave,
             list_worlds=self._server.list_worlds,
+            tell_all=self._server.send,
         )
         simulation, settings = self._simulation, self._simulation.settings
         drawing = self._world.drawing_settings()
@@ -251,7 +262,7 @@ class Sketchpad:
                 'physics_rate': simulation.physics_rate,
                 'frame_id': self._world.values['frame_id'],
                 'rate': self._world.values['publish_rate'],
-                'rerun': self._recording_path(),
+                'rerun': self._recording_address(),
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,
                 'unsaved': self._autosave.unsaved_at if role.draws else 0.0,
@@ -274,7 +285,3 @@ class Sketchpad:
             self._server.show(frame, self._timeline.ghost(frame.snapshot))
         # Sent to all again.
         self._sent_class = {}
-
-    def _recording_path(self) -> str:
-        """Return where the recording is shown; '' where no viewer serves browsers."""
-        return '/rerun/' if self._recordings.page_address else ''

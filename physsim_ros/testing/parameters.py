@@ -54,7 +54,6 @@ class Parameters(TypedDict, total=False):
     robots_in_past: Literal['follow', 'freeze']
     lockstep: float
     viewer: Literal['auto', 'connect', 'none', 'spawn', 'web']
-    trace: str
     viewer_url: str
     record_file: str
     sketchpad: Literal['none', 'serve']
@@ -79,6 +78,7 @@ class Parameters(TypedDict, total=False):
     drag_force: float
     floor_friction: float
     seed: int
+    datum: Sequence[float]
     command_timeout: float
     max_bodies: int
     max_shapes: int

@@ -133,10 +133,10 @@ def test_without_a_past_the_bits_are_the_same_and_no_frame_is_kept() -> None:
     kept, forgotten = corridor(), corridor(history=0.0)
     assert wander(kept, 60) == wander(forgotten, 60)
     assert kept.simulation.world.digest() == forgotten.simulation.world.digest()
-    assert kept.simulation.past.frame_cache.size > 0
-    assert forgotten.simulation.past.frame_cache.size == 0
+    assert kept.simulation.past.frames.size > 0
+    assert forgotten.simulation.past.frames.size == 0
     # Of the requests and checkpoints, those since the last checkpoint.
-    assert forgotten.simulation.past.memory.used < kept.simulation.past.memory.used / 5
+    assert forgotten.simulation.past.budget.used < kept.simulation.past.budget.used / 5
     forgotten.simulation.seek(forgotten.simulation.frame.snapshot.stamp)
     with pytest.raises(OutOfHistory):
         forgotten.simulation.seek(0)

@@ -19,7 +19,7 @@ from physsim_ros.model.settings import RANGES as WORLD_RANGES
 from physsim_ros.model.settings import STRONGEST, WorldSettings
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.ros.robots.frames import RobotTf
-from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
+from physsim_ros.simulation.past import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.parameter import Parameter
@@ -168,10 +168,6 @@ _OF_NODE = {
         'that has failed, in a new file beside the old one',
         choices=tuple(mode.value for mode in ViewerMode),
     ),
-    'trace': Spec(
-        default='',
-        meaning='names of bodies, separated by commas, whose path and flight the viewer shows',
-    ),
     'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
     'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
     'sketchpad': Spec(
@@ -224,6 +220,8 @@ _MEANINGS = {
     'floor_friction': 'coefficient of friction between bodies and the floor of a world that is '
     'seen from above; 0 is a world that is seen from the side',
     'seed': 'seed of all noise of robots',
+    'datum': '[latitude, longitude] of the origin [deg], for receivers of satellite navigation: x '
+    'is east there, y north; [] is nowhere',
     'command_timeout': 'duration of a commanded wrench [s of simulation time]; 0 means no limit',
     'max_bodies': 'most bodies; a request beyond it is refused',
     'max_shapes': 'most convex pieces of all bodies; a request beyond it is refused',
@@ -235,7 +233,7 @@ _MEANINGS = {
 def _of_settings() -> dict[str, Spec]:
     defaults = asdict(WorldSettings()) | asdict(DrawingSettings())
     # ROS parameters have no None.
-    defaults |= {'bounds': [], 'draw_color': AUTO}
+    defaults |= {'bounds': [], 'datum': [], 'draw_color': AUTO}
     ranges = WORLD_RANGES | DRAWING_RANGES
     specs = {}
     for name, meaning in _MEANINGS.items():

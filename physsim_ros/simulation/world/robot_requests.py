@@ -14,11 +14,12 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robot_states import NEVER
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world.live_space import LiveSpace
-from physsim_ros.simulation.world.lookup import body_of_name, Done
+from physsim_ros.simulation.world.lookup import body_of_name
 
 
-def drive(live: LiveSpace, request: DriveRobot) -> Done:
+def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     """
     Have a robot drive at a velocity.
 
@@ -28,7 +29,7 @@ def drive(live: LiveSpace, request: DriveRobot) -> Done:
     rigid, robot = robot_of_name(live.space, request.name)
     until = live.step_after(robot.drive.timeout)
     live.space.drive(rigid, request.velocity, NEVER if until is None else until)
-    return Done(request.name, f'drives {request.name}')
+    return Answer(subject=request.name, message=f'drives {request.name}')
 
 
 def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:

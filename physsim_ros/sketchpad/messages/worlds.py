@@ -17,7 +17,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
@@ -147,6 +147,13 @@ def remove(page: PageSession, origin: Origin, name: str) -> None:
 def put_back(page: PageSession, origin: Origin, name: str) -> None:
     """Put back the own world that was deleted or written over last."""
     _manage(page, origin, partial(page.own_worlds.put_back, name), name)
+
+
+@message('list', 'page', Right.LOOK)
+def list_worlds(page: PageSession, origin: Origin) -> None:
+    """Send this page the list of worlds and lessons as their files are now."""
+    page.list_worlds(page.number)
+    page.answer_page(origin, 'the list of worlds')
 
 
 @message('forget', 'page')
