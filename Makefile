@@ -157,7 +157,7 @@ $(STAMP): setup.py
 	@[ -n '$(PYTHON)' ] || { echo 'No Python of 3.11 or later with venv; name one: make PYTHON=/path/to/python' >&2; exit 1; }
 	@[ -e $@ ] || echo '1 of 2: an environment in $(VENV), beside this file.'
 	@[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
-	@echo '2 of 2: packages into it, some 130, of which Rerun is the largest (170 MB); a minute the first time.'
+	@echo '2 of 2: packages into it, some 130, of which Rerun is the largest (170 MB); a minute or two the first time.'
 	@$(PIP) 'setuptools>=70.1,<80' 'cffi>=1.17' $(if $(COMPILER),,ziglang) | $(PROGRESS)
 	@$(PIP) --no-build-isolation --editable '.[$(EXTRAS)]' | $(PROGRESS)
 	@touch $@ $(BUILT)
