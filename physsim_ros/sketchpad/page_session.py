@@ -53,7 +53,7 @@ class PageSession:
     :param autosave: of the world
     :param list_worlds: sends all pages the list of worlds
 
-    :ivar person: name of the person at it, whose doings its requests are
+    :ivar person: name of the person at it, who makes its requests
     :ivar unnamed: name of that person before one is chosen
     :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world

@@ -326,7 +326,7 @@ def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     physsim.run(1.0)
     simulation = physsim.node.simulation
     # As with ticks, which bring the world to the cached frame that is shown.
-    monkeypatch.setattr(physsim.node, '_started', True)
+    monkeypatch.setattr(physsim.node.loop, 'started', True)
     simulation.seek(500_000_000)
     shared, chosen = page.send('share'), page.send('draw_with', density=7.0)
     sketchpad = physsim.node.outputs.sketchpad
