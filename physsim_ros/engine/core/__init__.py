@@ -22,8 +22,6 @@ from typing import Any
 import numpy as np
 from physsim_ros.engine.core.sources import hash_of_sources
 
-__all__ = ['dtype_of', 'ffi', 'lib', 'sub_step_of']
-
 # The call that builds it in a source tree.
 _BUILD = '`pip install --editable .`'
 _HERE = files(__name__)
