@@ -5,7 +5,7 @@
 Shipped robots: the mapping that a name below the key `robot` of a body stands for.
 
 A file in `config/robots` is an entry of a world file without name and pose: shape, mass, colour
-and robot. A body that names it has from there what it does not say itself.
+and robot. A body that names a robot inherits every key that it does not set.
 """
 
 from __future__ import annotations

@@ -68,6 +68,7 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
 
 
 @lru_cache(maxsize=2)
+@lru_cache(maxsize=2)
 def listed_names(value: str) -> tuple[str, ...]:
     """Return the names of bodies in the value of parameter `sketchpad_locked`."""
     return tuple(name for each in value.split(',') if (name := each.strip()))

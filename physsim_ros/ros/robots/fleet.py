@@ -45,9 +45,12 @@ class Fleet:
         `cmd_vel` is listed; None is none, where the process has other nodes: it takes one type for
         a topic
 
+    :ivar name: of the output
     :ivar robots: topics of each, by the name of its body, in the order of the scene
     :ivar view: the last frame, as the sensors of all robots see it; None before the first
     """
+
+    name = 'robots'
 
     def __init__(
         self,
@@ -160,7 +163,7 @@ class Fleet:
 
     # Frames
 
-    def publish(self, frame: Frame) -> None:
+    def show(self, frame: Frame) -> None:
         """Publish what is due at a frame, after topics have come and gone with its scene."""
         snapshot, last = frame.snapshot, self.view
         stands = last is not None and last.snapshot.stamp == snapshot.stamp
