@@ -158,8 +158,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         values, boundary = self._values, self.boundary
         self.outputs = Outputs(self, values, self._session, self.simulation, boundary)
         self._closing.callback(self.outputs.close)
-        requests, expected = self.simulation.requests, self._expected_commands
-        self.fleet = Fleet(self, values, requests, boundary, expected=expected)
+        expected = self._expected_commands
+        self.fleet = Fleet(self, values, self.simulation.requests, boundary, expected=expected)
         self.outputs.all.append(self.fleet)
         self.outputs.topics.timeline.publish(may_wait=False)
         self.loop = FrameLoop(self.simulation, self.outputs, self.fleet)
