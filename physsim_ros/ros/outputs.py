@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 import time
 from typing import Any
@@ -146,7 +147,7 @@ class Outputs:
         """Return the facts about the program that the viewer shows."""
         return FrameContext(
             real_time_factor=self.statistics.real_time_factor,
-            title=Path(self._values['world_file']).stem or 'empty world',
+            title=_title_of(self._values['world_file']),
         )
 
 
@@ -200,3 +201,9 @@ class _Page:
         """Show a frame on the page."""
         if self._outputs.sketchpad is not None:
             self._outputs.sketchpad.show(frame)
+
+
+@lru_cache(maxsize=1)
+def _title_of(world_file: str) -> str:
+    """Return the title of a world for a viewer."""
+    return Path(world_file).stem or 'empty world'

@@ -68,6 +68,7 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
 
 
 @lru_cache(maxsize=2)
+@lru_cache(maxsize=2)
 def listed_names(value: str) -> tuple[str, ...]:
     """Return the names of bodies in the value of parameter `sketchpad_locked`."""
     return tuple(name for each in value.split(',') if (name := each.strip()))
@@ -81,6 +82,6 @@ def _draw_color(text: str) -> Color | None:
 
 
 def _setting(name: str, value: Any) -> Any:
-    if name == 'bounds' and len(value) == 0:
+    if name in {'bounds', 'datum'} and len(value) == 0:
         return None
     return tuple(value) if isinstance(SPECS[name].default, list) else value

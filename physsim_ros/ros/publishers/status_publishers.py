@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import replace
+from operator import attrgetter
 import time
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
@@ -141,6 +141,9 @@ def _encodable(text: str) -> str:
 PERIOD = 15
 
 
+_BUT_TIMES = attrgetter('state', 'speed', 'course', 'undo', 'redo', 'courses')
+
+
 class TimelinePublisher:
     """
     Publishes the status of the timeline when it changes.
@@ -172,10 +175,9 @@ class TimelinePublisher:
         """
         self._age += 1
         status, last = self._status(), self._last
-        if last is not None and may_wait and self._age < PERIOD:
-            # A change of times alone waits.
-            last = replace(last, oldest=status.oldest, now=status.now, newest=status.newest)
-        if status == last:
+        # A change of times alone waits.
+        waits = last is not None and may_wait and self._age < PERIOD
+        if _BUT_TIMES(status) == _BUT_TIMES(last) if waits else status == last:
             return
         self._last, self._age = status, 0
         self._publisher.publish(_message(status))

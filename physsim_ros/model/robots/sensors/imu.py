@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 from physsim_ros.model.checks import Checks, FASTEST, pair, Within
@@ -26,11 +26,19 @@ class Imu(Sensor):
     An inertial measurement unit.
 
     :param noise: standard deviations of acceleration [m/s²] and turn rate [rad/s]
+    :param gravity: upwards, out of the plane [m/s²]: 9.81 of one that feels the earth's in a world
+        that is seen from above
     """
 
     KIND: ClassVar = 'imu'
-    CHECKS: ClassVar[Checks] = {**Sensor.CHECKS, 'noise': _deviations}
+    CHECKS: ClassVar[Checks] = {
+        **Sensor.CHECKS,
+        'noise': _deviations,
+        'gravity': Within(0.0, 100.0, 'm/s²'),
+    }
 
     name: str = 'imu'
     rate: float = 100.0
     noise: Point = (0.0, 0.0)
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    gravity: float = field(default=0.0, repr=False)
