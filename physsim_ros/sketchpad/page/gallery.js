@@ -201,13 +201,16 @@ export class Gallery {
 
   async #openUnsaved() {
     const text = await fetch('/unsaved').then((response) => response.ok ? response.text() : null, () => null);
-    if (text !== null && await this.#upload(text)) this.#forgetUnsaved();
+    const {unsaved} = this;
+    if (text === null || !await this.#upload(text)) return;
+    await this.#forgetUnsaved();
+    this.app.notes.showMessage(`Opened the world of ${unsaved}`);
   }
 
   #forgetUnsaved() {
     this.dismiss();
     this.unsaved = '';
-    this.app.connection.send('forget');
+    return this.app.connection.ask('forget');
   }
 
   showSave() {
