@@ -99,7 +99,7 @@ def write_declarations(path: Path) -> None:
     lines = ''.join(texts).splitlines(keepends=True)
     ffi = FFI()
     ffi.cdef(''.join(line for line in lines if not line.startswith('#')))
-    ffi.set_source(f'{PACKAGE}.engine.core.{path.stem}', None)
+    ffi.set_source(f'{PACKAGE}.engine.core.{path.stem}', None, compiler_verbose=0)
     ffi.emit_python_code(str(path))
 
 

@@ -18,7 +18,7 @@ import math
 import operator
 
 from physsim_ros.engine.layout import address_of
-from physsim_ros.model.actor_states import ActorState, WAITING
+from physsim_ros.model.actors import ActorState, WAITING
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.robot_states import RobotState, SPAWNED
 from physsim_ros.model.scene import Body

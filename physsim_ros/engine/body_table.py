@@ -11,7 +11,7 @@ import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.scene_columns import columns_of
-from physsim_ros.model.actor_states import ActorStates
+from physsim_ros.model.actors import ActorStates
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.noise import normals
 from physsim_ros.model.robot_states import RobotStates

@@ -21,7 +21,7 @@ from physsim_ros.engine.body import engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
-from physsim_ros.model.actor_states import ActorStates, WAITING
+from physsim_ros.model.actors import ActorStates, WAITING
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.robot_states import RobotStates, SPAWNED

@@ -25,7 +25,7 @@ from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
-from physsim_ros.model.actor_states import ActorStates
+from physsim_ros.model.actors import ActorStates
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.robot_states import RobotStates

@@ -9,7 +9,7 @@ Only the node writes them.
 
 from __future__ import annotations
 
-from physsim_ros.model.actor_states import ActorState, WAITING
+from physsim_ros.model.actors import ActorState, WAITING
 from physsim_ros.model.checks import (
     check_finite,
     known_mapping,

@@ -48,10 +48,9 @@ from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import local_to_world, NO_WRENCH, Pose, REST, Twist
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
-from physsim_ros.simulation.world.body_requests import check_command
+from physsim_ros.simulation.world.body_requests import check_command, check_namespaces
 from physsim_ros.simulation.world.capacity import check_limit
-from physsim_ros.simulation.world.lookup import check_start
-from physsim_ros.simulation.world.robot_requests import check_namespaces
+from physsim_ros.simulation.world.live_space import check_start
 
 # Keys of a body whose values follow from `motion`.
 _MOTION_KEYS = ('at', 'velocity', 'spin')

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.model.actor_states import ActorState, ActorStates, NO_ACTORS
+from physsim_ros.model.actors import ActorState, ActorStates, NO_ACTORS
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.robot_states import NO_ROBOTS, RobotState, RobotStates

@@ -20,14 +20,11 @@ from physsim_ros.model.robots.sensors import (
     WheelEncoders,
 )
 from physsim_ros.model.snapshot import Frame, NO_CONTACTS, Snapshot
-from physsim_ros.sensing.bumper import read_bumper
-from physsim_ros.sensing.floor_eye import FloorMarks, read_floor
+from physsim_ros.sensing.distance import read_laser, read_range
 from physsim_ros.sensing.gps import read_gps
-from physsim_ros.sensing.imu import read_imu
-from physsim_ros.sensing.laser import read_laser
-from physsim_ros.sensing.range_finder import read_range
+from physsim_ros.sensing.motion import read_imu, read_wheels
 from physsim_ros.sensing.surroundings import Surroundings
-from physsim_ros.sensing.wheel_encoders import read_wheels
+from physsim_ros.sensing.touch import FloorMarks, read_bumper, read_floor
 
 
 class View:

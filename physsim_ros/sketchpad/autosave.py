@@ -15,13 +15,16 @@ from contextlib import suppress
 from pathlib import Path
 import time
 
+import numpy as np
 from physsim_ros.files import make_directory, read_bytes, write_file
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
 
-# Least time from one autosave to the next [s], and its least ratio to the time of an autosave.
-PERIOD, SHARE = 10.0, 100.0
+# Least time from one autosave to the next while bodies move and while nothing does [s], and its
+# least ratio to the time of an autosave.
+PERIOD, STILL_PERIOD, SHARE = 10.0, 1.0, 100.0
 # Greatest length of the text of a world [characters].
 LONGEST = 2**20
 # Topics of requests after which the world is as it was loaded.
@@ -42,7 +45,10 @@ class Autosave:
         self._text = text
         self._scene: Scene | None = None
         self._changed = False
-        self._due = 0.0
+        self._due = self._due_still = 0.0
+        self._poses: Floats = np.empty((0, 3))
+        # Whether nothing moves.
+        self._still = False
         with suppress(OSError):
             self._file.replace(self._unsaved)
 
@@ -76,6 +82,8 @@ class Autosave:
         """
         scene = frame.snapshot.scene
         changed, self._scene = self._scene is not scene, scene
+        poses, self._poses = self._poses, frame.snapshot.poses
+        self._still = not frame.speed or np.array_equal(poses, self._poses)
         if any(answer.topic in _FROM_FILE and not answer.code for answer in frame.answers):
             # Nobody has drawn yet in what is a file already.
             self._changed = False
@@ -94,7 +102,7 @@ class Autosave:
 
         :param now: steady time [s]
         """
-        return self._changed and now >= self._due
+        return self._changed and now >= (self._due_still if self._still else self._due)
 
     def save(self) -> None:
         """Save the world."""
@@ -104,5 +112,6 @@ class Autosave:
             text = self._text(LONGEST)
             make_directory(self._file.parent)
             write_file(self._file, text.encode())
-        took = time.thread_time() - began
-        self._due = time.monotonic() + max(PERIOD, SHARE * took)
+        now, took = time.monotonic(), time.thread_time() - began
+        self._due = now + max(PERIOD, SHARE * took)
+        self._due_still = now + max(STILL_PERIOD, SHARE * took)

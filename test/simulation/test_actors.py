@@ -51,6 +51,22 @@ def test_an_actor_is_not_anchored():
     _refused(world, Anchor(point=(0.0, 0.0)), BadProperty, 'point')
 
 
+def test_a_pedestrian_is_no_sensor_and_a_door_may_be():
+    world = _world()
+    walks = {'kind': 'orca', 'points': [[3, 0]]}
+    made = Properties(actor=walks, sensor=True)
+    _refused(
+        world, Spawn(name='a/0', shape=Disc(radius=0.1), properties=made), BadProperty, 'sensor'
+    )
+    _spawn(world, 'a/0', actor=walks)
+    _refused(
+        world, ChangeBody(name='a/0', properties=Properties(sensor=True)), BadProperty, 'sensor'
+    )
+    _spawn(world, 'b/0', actor=PATH, sensor=True, kinematic=True)
+    world.step(240)
+    assert world.snapshot().poses[1, 0] == pytest.approx(1.0)
+
+
 @pytest.mark.parametrize(
     ('start', 'field'),
     [

@@ -11,7 +11,7 @@ import time
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE
+from physsim_ros.sketchpad.autosave import Autosave, PERIOD, SHARE, STILL_PERIOD
 import pytest
 
 from ..building import BOX, spawning
@@ -46,6 +46,19 @@ def test_what_was_drawn_is_kept_and_what_was_saved_is_not(tmp_path: Path) -> Non
     autosave.save()
     autosave.note_saved()
     assert not list(tmp_path.iterdir())
+
+
+def test_while_nothing_moves_a_change_is_kept_within_a_second(tmp_path: Path) -> None:
+    simulation = Simulation()
+    autosave = Autosave(tmp_path, lambda _: '')
+    simulation.speed = 0.0
+    for name in ('a/0', 'a/1'):
+        simulation.requests.submit(spawning(name, BOX), topic='~/spawn')
+        frame = simulation.apply_requests()
+        assert frame is not None
+        autosave.note_frame(frame, drawn=True)
+        assert autosave.is_due(time.monotonic() + STILL_PERIOD)
+        autosave.save()
 
 
 def test_a_world_that_was_opened_and_not_changed_is_not_kept(tmp_path: Path) -> None:

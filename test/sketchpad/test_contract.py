@@ -170,7 +170,7 @@ def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
     tip.get_by_text('Polygon (G)').wait_for()
     sheet.press('Circle')
     assert tip.count() == 0
-    assert 'then click' in button.get_attribute('title')
+    assert 'corner to corner' in button.get_attribute('title')
     sheet.close()
 
 

@@ -157,6 +157,7 @@ def test_a_body_is_where_numbers_say(sheet: Sheet) -> None:
     number(sheet, 'vy [m/s]', '-4')
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_text('5 kg · at 2.00, 3.50 m · 30° · 5.00 m/s').wait_for()
+    panel.get_by_text('Momentum 25.00 N s (15.00, -20.00)').wait_for()
     # m v² / 2
     panel.get_by_text('62.50 J').wait_for()
 

@@ -91,6 +91,19 @@ def test_the_next_lesson_comes_after_it_and_another_world_has_none(sheet: Sheet)
     sheet.until(lambda: not sheet.page.locator('#lesson').is_visible(), 'no lesson')
 
 
+def test_trails_and_plots_end_with_their_world(sheet: Sheet) -> None:
+    open_lesson(sheet, '1. Free fall')
+    sheet.wait('"heavy/0" in physsim.bodies && physsim.time === 0')
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(*sheet.pose('heavy/0')[:2]))
+    sheet.page.get_by_label('Trail').check()
+    sheet.press('Large plot')
+    sheet.wait('"heavy/0" in physsim.records')
+    open_lesson(sheet, '4. Down a slope')
+    sheet.wait('"ice/0" in physsim.bodies && Object.keys(physsim.records).length === 0')
+    assert not sheet.page.locator('#plot').is_visible()
+
+
 def test_all_pages_of_a_world_have_its_lesson(sheet: Sheet, chromium: Any) -> None:
     open_lesson(sheet, '4. Down a slope')
     other = sheet.context.new_page()

@@ -206,3 +206,17 @@ def test_collisions_of_a_body_are_counted(sheet: Sheet) -> None:
     sheet.until(lambda: count.inner_text() == '2', 'two bounces')
     sheet.press('Count from here')
     assert count.inner_text() == '0'
+
+
+def test_a_stopwatch_by_hand_has_the_time_of_the_world(sheet: Sheet) -> None:
+    keyboard = sheet.page.keyboard
+    keyboard.press('7')
+    first = sheet.play_until(0.3)
+    keyboard.press('6')
+    end = sheet.play_until(first + 0.2)
+    keyboard.press('7')
+    sheet.play_until(end + 0.1)
+    sheet.press('Measure')
+    reading = sheet.page.get_by_label('Stopwatch by hand')
+    assert reading.inner_text() == f'{end:.3f} s'
+    sheet.page.get_by_text(f'{first:.3f} s', exact=True).wait_for()

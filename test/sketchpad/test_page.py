@@ -49,6 +49,20 @@ def test_a_rectangle_is_a_dragged_side_and_a_click_across(sheet: Sheet) -> None:
     sheet.page.mouse.click(*sheet.place(2.5, 5.0))
     x, y, _ = sheet.pose(sheet.wait_for_new(before))
     assert math.dist((x, y), (2.0, 4.5)) < 0.03
+    # By one drag it stands upright, from corner to corner; with Alt a copy of it is dragged.
+    before = sheet.names()
+    sheet.drag((-3.0, 6.0), (-1.0, 7.0))
+    name = sheet.wait_for_new(before)
+    x, y, yaw = sheet.pose(name)
+    assert math.dist((x, y), (-2.0, 6.5)) < 0.03
+    assert yaw == 0.0
+    before = sheet.names()
+    sheet.press('Hand')
+    sheet.page.keyboard.down('Alt')
+    sheet.drag((-2.0, 6.5), (4.0, 6.5))
+    sheet.page.keyboard.up('Alt')
+    x, y, _ = sheet.pose(sheet.wait_for_new(before))
+    assert math.dist((x, y), (4.0, 6.5)) < 0.03
 
 
 def test_a_body_is_where_its_colour_says(sheet: Sheet) -> None:
@@ -482,6 +496,8 @@ def test_a_picture_and_a_table_of_what_was_plotted_are_downloaded(sheet: Sheet) 
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
     sheet.press('Play')
     sheet.wait('physsim.time > 0.3')
+    # The panel is folded while time runs.
+    sheet.press('More')
     with sheet.page.expect_download() as table:
         sheet.press('Table (CSV)')
     head, *rows = Path(table.value.path()).read_text().splitlines()

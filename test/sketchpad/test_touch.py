@@ -139,6 +139,7 @@ def test_a_tap_that_opens_the_panel_works_nothing_in_it(chromium: Any, address: 
     # The panel covers the place of the body, which the view makes room for.
     left = panel.bounding_box()['x']
     assert sheet.place(4.0, 0.5)[0] < left
+    sheet.press('More')
     friction = panel.get_by_role('slider', name='Friction')
     assert friction.input_value() == '0.5'
     sheet.close()

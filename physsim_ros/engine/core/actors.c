@@ -203,7 +203,8 @@ static Surroundings look_around(World *world) {
         const Body *body = world->bodies + place;
         const cpBody *engine = body->engine;
         const Actor *own = actor < last && actor->body == place ? actor++ : NULL;
-        if (body->sensor) {
+        // A pedestrian is no sensor (`simulation/world/body_description.py`), and is found here.
+        if (body->sensor && own == NULL) {
             continue;
         }
         if (!body->anchored || is_anchored_disc(body)) {

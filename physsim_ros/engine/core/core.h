@@ -104,7 +104,7 @@ typedef struct Robot {
     Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes
 } Robot;
 
-// What moves an actor, and what it does at its last point; both in the order of `model/actors.py`.
+// What moves an actor, and what it does at its last point; both in the order of `model/actors`.
 enum { ACTOR_PATH, ACTOR_SOCIAL_FORCE, ACTOR_ORCA };
 enum { ONCE, LOOP, TO_AND_FRO };
 

@@ -29,7 +29,7 @@ from physsim_ros.model.robots.sensors import (
     Sensor,
     WheelEncoders,
 )
-from physsim_ros.model.robots.sensors.range_finder import Radiation
+from physsim_ros.model.robots.sensors.distance import Radiation
 from physsim_ros.model.transform import Pose
 from physsim_ros.ros.robots.frames import rotation_of
 from physsim_ros.sensing import read_sensor, View

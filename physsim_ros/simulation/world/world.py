@@ -29,7 +29,6 @@ from physsim_ros.simulation.world import (
     body_requests,
     hand_requests,
     joint_requests,
-    robot_requests,
 )
 from physsim_ros.simulation.world.live_space import LiveSpace
 
@@ -87,7 +86,7 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.PlaceHand: hand_requests.place_hand,
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
-    requests.DriveRobot: robot_requests.drive,
+    requests.DriveRobot: body_requests.drive,
     requests.Configure: configure,
     requests.Restore: restore,
 }

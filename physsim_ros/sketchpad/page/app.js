@@ -134,7 +134,7 @@ export class App {
     const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
     this.view.dirty = true;
     // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.records.records || this.tool.measures === true, contacts: forces || name !== '' || this.sound.on, forces: true, laser: robot ? name : ''});
+    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.records.records || this.tool.measures === true, contacts: forces || name !== '' || this.sound.on || this.records.recordsForces, forces: true, laser: robot ? name : ''});
   }
 
   #listBodies() {

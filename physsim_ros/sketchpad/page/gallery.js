@@ -201,13 +201,16 @@ export class Gallery {
 
   async #openUnsaved() {
     const text = await fetch('/unsaved').then((response) => response.ok ? response.text() : null, () => null);
-    if (text !== null && await this.#upload(text)) this.#forgetUnsaved();
+    const {unsaved} = this;
+    if (text === null || !await this.#upload(text)) return;
+    await this.#forgetUnsaved();
+    this.app.notes.showMessage(`Opened the world of ${unsaved}`);
   }
 
   #forgetUnsaved() {
     this.dismiss();
     this.unsaved = '';
-    this.app.connection.send('forget');
+    return this.app.connection.ask('forget');
   }
 
   showSave() {
@@ -224,6 +227,7 @@ export class Gallery {
     if (!(await this.app.connection.openWorld(name))) return;
     this.dismiss();
     this.app.room.frameNext();
+    this.app.notes.showMessage(`Opened ${name}`);
     this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
   }
 
@@ -240,13 +244,13 @@ export class Gallery {
     const {ok, message} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
       .then((response) => response.json().catch(() => ({ok: false, message: 'The server refused this file'})),
         () => ({ok: false, message: 'Not done: the server is not reachable'}));
-    this.app.notes.showMessage(this.app.words.tell({message}), {ok});
     if (ok) {
-      this.app.connection.send('service', {name: 'reset'});
+      await this.app.connection.ask('service', {name: 'reset'});
       this.name = '';
       this.dismiss();
       this.app.room.frameNext();
     }
+    this.app.notes.showMessage(this.app.words.tell({message}), {ok});
     return ok;
   }
 

@@ -38,7 +38,7 @@ export class Keyboard {
       Delete: () => app.selection.deleteBodies(), Backspace: () => app.selection.deleteBodies(), Escape: () => this.#drop(),
       j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
       L: callService('fast_forward'),
-      '.': callService('step'), 0: callService('reset'),
+      '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(),
     };
     for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }

@@ -56,11 +56,11 @@ export class Notes {
 
   /**
    * @param {string} message
-   * @param {{ok?: boolean, quiet?: boolean}} how
+   * @param {{ok?: boolean, quiet?: boolean, unseen?: boolean}} how
    */
-  showMessage(message, {ok = true, quiet = false} = {}) {
+  showMessage(message, {ok = true, quiet = false, unseen = false} = {}) {
     this.status.textContent = message;
-    this.status.className = `shown${ok ? '' : ' refused'}${quiet ? ' quiet' : ''}`;
+    this.status.className = `shown${ok ? '' : ' refused'}${quiet ? ' quiet' : ''}${unseen ? ' unseen' : ''}`;
     const shown = ok ? SHOWN : REFUSED;
     if (!quiet) this.until = performance.now() + shown;
     clearTimeout(this.timer);

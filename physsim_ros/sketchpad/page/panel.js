@@ -2,8 +2,8 @@
 /**
  * The panel at the right, of one subject at a time: a body, several, a joint, the world, or what is measured.
  *
- * It is rendered again with each scene, unless somebody works in it. While time runs, and on a page without room
- * for all of it, it is folded to its first lines.
+ * It is rendered again with each scene, unless somebody works in it. On a page without room for all of it, and that
+ * of a body while time runs or the large plot is open, it is folded to its first lines.
  */
 
 import {bodyContent, severalContent} from './body_panel.js';
@@ -111,7 +111,7 @@ export class Panel {
 
   #fold() {
     const {app, element} = this, inUse = this.rest.contains(document.activeElement) && !this.more.matches(':focus');
-    const folded = !this.more.hidden && (this.chosen ?? (!app.room?.isRoomy || !inUse && (!app.world.paused || !app.plotWindow.element.hidden)));
+    const folded = !this.more.hidden && (this.chosen ?? (!app.room?.isRoomy || this.kind === 'body' && !inUse && (!app.world.paused || !app.plotWindow.element.hidden)));
     if (folded === this.isFolded) return;
     element.classList.toggle('folded', folded);
     this.more.setAttribute('aria-expanded', String(!folded));

@@ -3,7 +3,7 @@
 
 import {drawChart} from './chart.js';
 import {createElement, download, elementOf, iconButton, inRow, textButton} from './dom.js';
-import {QUANTITIES, tableOf} from './quantities.js';
+import {FORCES, QUANTITIES, tableOf} from './quantities.js';
 import {threeDigits} from './rounding.js';
 
 /** @import {App, Palette, Sample} from './types.js' */
@@ -24,6 +24,7 @@ export class PlotWindow {
     /** @type {string[]} of bodies */
     this.names = [];
     this.axes = {x: 'time', y: 'y'};
+    this.sums = false; // the sum over the bodies is shown, too
     this.canvas = createElement('canvas', {role: 'img', 'aria-label': 'Large plot'});
     this.reading = createElement('output', {textContent: ''});
     this.legend = createElement('div', {className: 'row legend'});
@@ -50,6 +51,7 @@ export class PlotWindow {
     const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => {
       const input = createElement('select', {'aria-label': label, onchange: () => {
         this.axes[axis] = input.value;
+        this.#record();
         this.#draw();
       }}, ...Object.entries(QUANTITIES).map(([value, quantity]) => createElement('option', {value, textContent: quantity.label})));
       input.value = this.axes[axis];
@@ -57,10 +59,11 @@ export class PlotWindow {
     };
     this.element.replaceChildren(createElement('header', {},
       inRow(select('y', 'Upwards'), createElement('span', {textContent: 'over'}), select('x', 'To the right'),
-        this.#adder(), this.legend, textButton('Copy table', () => this.#copyTable())),
+        this.#adder(), this.#summer(), this.legend, textButton('Copy table', () => this.#copyTable())),
       iconButton('Close the plot', 'close', () => this.close())), this.canvas, this.reading);
     this.element.hidden = false;
     this.#show(names);
+    this.#record();
     const {panel, room, selection, lessons} = this.app;
     // The panel is folded beside it; on a small page there is no room for both.
     panel.chosen = null;
@@ -74,8 +77,27 @@ export class PlotWindow {
   close() {
     this.element.hidden = true;
     this.names = [];
+    this.app.records.recordsForces = false;
     this.app.records.want(this, []);
     this.app.room.fit();
+  }
+
+  /** Have forces recorded where an axis is one. */
+  #record() {
+    this.app.records.recordsForces = [this.axes.x, this.axes.y].some((key) => key in FORCES);
+    this.app.askForParts();
+  }
+
+  /** @returns {HTMLElement} the switch of the sum over the bodies, of what can be summed */
+  #summer() {
+    const button = textButton('Sum', () => {
+      this.sums = !this.sums;
+      button.setAttribute('aria-pressed', String(this.sums));
+      this.#draw();
+    });
+    button.title = 'Momentum or energy of all bodies of the plot together';
+    button.setAttribute('aria-pressed', String(this.sums));
+    return button;
   }
 
   #adder() {
@@ -84,7 +106,7 @@ export class PlotWindow {
       this.#show([...this.names.filter((name) => name !== input.value), input.value]);
       input.value = '';
     }}, ...['', ...bodies.slice(0, LISTED).map(({name}) => name)].map((name) =>
-      createElement('option', {value: name, textContent: name || 'Add a body …'})));
+      createElement('option', {value: name, textContent: name ? this.app.words.item(name) : 'Add a body …'})));
     return input;
   }
 
@@ -93,7 +115,7 @@ export class PlotWindow {
     this.names = names;
     this.app.records.want(this, names);
     this.legend.replaceChildren(...names.map((name, i) => {
-      const button = textButton(`${this.app.words.title(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
+      const button = textButton(`${this.app.words.item(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
       button.style.color = this.app.view.palette[COLORS[i % COLORS.length]];
       button.title = `Take ${name} out of the plot`;
       return button;
@@ -119,11 +141,12 @@ export class PlotWindow {
       const body = world.scene.bodies.find((each) => each.name === name), record = records.bodies.get(name);
       if (!body || !record) return;
       const points = (/** @type {Sample[]} */ samples) => samples.map((sample) =>
-        [QUANTITIES[x].of(sample, body, gravity), QUANTITIES[y].of(sample, body, gravity)]);
+        [QUANTITIES[x].of(sample, body, gravity), QUANTITIES[y].of(sample, body, gravity)]).filter((point) => point.every(Number.isFinite));
       const color = palette[COLORS[i % COLORS.length]];
       curves.push({points: points(record.samples), color, width: 3},
         {points: points(record.left), color, width: 2, dash: [6, 6], alpha: 0.7});
     });
+    if (this.sums && QUANTITIES[y].sums && x === 'time') curves.push({points: sumOf(curves.filter(({dash}) => !dash)), color: palette.ink, width: 4});
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
     if (!width || !height) return;
     this.scales = drawChart(this.canvas, {width, height, size: width < NARROW ? NARROW_SIZE : SIZE, palette, curves,
@@ -184,6 +207,18 @@ export class PlotWindow {
       this.saveTable(this.names);
     }
   }
+}
+
+/**
+ * @param {Curve[]} curves over time
+ * @returns {number[][]} points of their sum, at the times that all of them have
+ */
+function sumOf(curves) {
+  /** @type {Map<number, number[]>} */
+  const byTime = new Map();
+  for (const {points} of curves) for (const [time, value] of points) byTime.set(time, [...byTime.get(time) ?? [], value]);
+  return [...byTime].filter(([, values]) => values.length === curves.length).sort(([a], [b]) => a - b)
+    .map(([time, values]) => [time, values.reduce((sum, value) => sum + value, 0)]);
 }
 
 /**

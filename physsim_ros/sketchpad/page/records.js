@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The motion of bodies as it was shown, from the past that the server keeps on, and the course that was left. */
 
-/** @import {App, Sample} from './types.js' */
+import {forcesOf, sumsOf} from './forces.js';
+
+/** @import {App, Force, Sample} from './types.js' */
 
 const MOST = 36000; // samples: ten minutes at 60 a second
 
@@ -15,6 +17,7 @@ export class Records {
     this.wanted = new Map();
     /** @type {string[]} names of bodies whose past is not asked for yet */
     this.asking = [];
+    this.recordsForces = false; // where they are plotted
     this.course = 0;
     this.began = 0; // [s] when this world was opened
     app.connection.on('frame', ({ghost}) => ghost || this.#record());
@@ -73,20 +76,26 @@ export class Records {
     const record = this.bodies.get(name);
     if (!record) return;
     const first = record.samples[0]?.time ?? Infinity;
-    record.samples.unshift(...time.map((/** @type {number} */ at, /** @type {number} */ i) =>
+    const past = time.map((/** @type {number} */ at, /** @type {number} */ i) =>
       ({time: at, x: x[i], y: y[i], yaw: yaw[i], vx: vx[i], vy: vy[i], spin: w[i]})).filter(
-      (/** @type {Sample} */ {time}) => time < first && time >= this.began));
+      (/** @type {Sample} */ {time}) => time < first && time >= this.began);
+    past.forEach((/** @type {Sample} */ sample, /** @type {number} */ i) => accelerate(sample, past[i - 1]));
+    record.samples.unshift(...past);
   }
 
   #record() {
     const {world} = this.app, {frame: {time, yaw, velocities}} = world;
     if (!velocities) return;
+    const forces = this.recordsForces && world.frame.contacts ? forcesOf(world) : null, all = forces && [...forces, ...sumsOf(world, forces)];
     for (const [name, {samples}] of this.bodies) {
       const row = world.row(name);
       // A replay of the same course gives the same samples: those that were recorded stay.
       if (row < 0 || time <= (samples.at(-1)?.time ?? -Infinity)) continue;
       const [x, y] = world.place(row, world.scene.bodies[row].centroid);
-      samples.push({time, x, y, yaw: yaw[row], vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]});
+      const last = samples.at(-1), sample = /** @type {Sample} */ ({time, x, y, yaw: yaw[row], vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]});
+      accelerate(sample, last);
+      if (all) sample.forces = sizesOf(all.filter((force) => force.row === row));
+      samples.push(sample);
       if (samples.length > MOST) samples.shift();
     }
   }
@@ -104,4 +113,26 @@ export class Records {
     }
     this.course = course;
   }
+}
+
+/**
+ * @param {Sample} sample that is given its acceleration
+ * @param {Sample | undefined} before
+ */
+function accelerate(sample, before) {
+  if (!before) return;
+  const time = sample.time - before.time;
+  [sample.ax, sample.ay] = [(sample.vx - before.vx) / time, (sample.vy - before.vy) / time];
+}
+
+/**
+ * @param {Force[]} forces on a body
+ * @returns {Record<string, number>} the size of the sum of each kind [N]
+ */
+function sizesOf(forces) {
+  const kinds = [...new Set(forces.map(({kind}) => kind))];
+  return Object.fromEntries(kinds.map((kind) => {
+    const those = forces.filter((force) => force.kind === kind);
+    return [kind, Math.hypot(those.reduce((sum, {x}) => sum + x, 0), those.reduce((sum, {y}) => sum + y, 0))];
+  }));
 }

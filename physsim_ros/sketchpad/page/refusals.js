@@ -47,9 +47,10 @@ export class Refusals {
    */
   #show(reason, {point, names}) {
     const {app} = this, {world} = app;
-    app.notes.showMessage(reason, {ok: false});
-    this.dismiss();
     const known = names.filter((name) => world.row(name) >= 0);
+    // What a note at the place says is said in the line for screen readers alone.
+    app.notes.showMessage(reason, {ok: false, unseen: known.length > 0 || point !== null});
+    this.dismiss();
     for (const name of known) this.bodies.set(name, performance.now());
     app.view.dirty = true;
     if (known.length) this.dismiss = app.notes.pin(() => world.topOf(known[0]), [reason], {kind: 'refusal'});

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The stopwatch that gates start and stop, and the counter of collisions: within the step, as the server tells touches. */
+/**
+ * The stopwatch that gates start and stop, and the counter of collisions: within the step, as the server tells
+ * touches; and a stopwatch by hand, in the time of the world, with laps.
+ */
 
 import {createElement, inRow, textButton} from './dom.js';
 
@@ -11,6 +14,7 @@ import {createElement, inRow, textButton} from './dom.js';
 const LISTED = 200; // bodies that can be chosen
 const MOST = 10000; // touches that are kept
 const SAME = 1e-9; // s
+const MOST_LAPS = 8; // that are shown
 
 export class Stopwatch {
   /** @param {App} app */
@@ -21,6 +25,14 @@ export class Stopwatch {
     this.touches = [];
     this.shown = 0; // time [s]
     this.following = false;
+    /** @type {?number} when the one by hand was started [s] */
+    this.began = null;
+    /** @type {?number} when it was stopped [s] */
+    this.ended = null;
+    /** @type {number[]} times of laps [s] */
+    this.laps = [];
+    this.byHand = createElement('output', {className: 'reading', 'aria-label': 'Stopwatch by hand'});
+    this.lapList = createElement('p');
     this.time = createElement('output', {className: 'reading', 'aria-label': 'Stopwatch'});
     this.details = createElement('p');
     this.count = createElement('output', {className: 'reading', 'aria-label': 'Number of collisions'});
@@ -29,6 +41,7 @@ export class Stopwatch {
     app.connection.on('open', () => this.#follow());
     app.connection.on('world', () => {
       this.start = this.stop = this.counted = '';
+      [this.began, this.ended, this.laps] = [null, null, []];
       this.#follow();
       this.#clear();
     });
@@ -43,6 +56,9 @@ export class Stopwatch {
       this.#chooser('start', 'Starts when touched', 'at 0 s'),
       this.#chooser('stop', 'Stops when touched', 'never'),
       this.time, this.details,
+      createElement('h3', {textContent: 'By hand'}),
+      this.byHand, this.lapList,
+      inRow(textButton('Start or stop (7)', () => this.press()), textButton('Lap (6)', () => this.lap())),
       createElement('h3', {textContent: 'Collisions'}),
       this.#chooser('counted', 'Collisions of', 'no body'),
       this.count, inRow(textButton('Count from here', () => this.#clear()))]};
@@ -60,7 +76,7 @@ export class Stopwatch {
       this[role] = input.value;
       this.#follow();
     }}, createElement('option', {value: '', textContent: none}), ...names.map((name) =>
-      createElement('option', {value: name, textContent: name})));
+      createElement('option', {value: name, textContent: this.app.words.item(name)})));
     input.value = this[role];
     return createElement('label', {}, label, input);
   }
@@ -92,6 +108,26 @@ export class Stopwatch {
     this.#update();
   }
 
+  /** Start the stopwatch by hand, stop it, or begin anew. */
+  press() {
+    if (this.began !== null && this.ended === null) this.ended = this.shown;
+    else [this.began, this.ended, this.laps] = [this.shown, null, []];
+    this.#update();
+    this.app.notes.showMessage(`Stopwatch ${this.byHand.textContent}`);
+  }
+
+  /** Note a lap of the stopwatch by hand: of a swing it is the period. */
+  lap() {
+    if (this.began === null || this.ended !== null) return;
+    this.laps.push(this.shown);
+    this.#update();
+    this.app.notes.showMessage(`Lap ${this.#lapTexts().at(-1)}`);
+  }
+
+  #lapTexts() {
+    return this.laps.map((time, i) => `${(time - (i ? this.laps[i - 1] : this.began ?? 0)).toFixed(3)} s`);
+  }
+
   #clear() {
     this.touches = [];
     this.#update();
@@ -101,6 +137,8 @@ export class Stopwatch {
     const {start, stop} = this.#run(), begin = this.start ? start?.time : 0;
     const end = stop?.time ?? (this.stop ? this.shown : undefined);
     this.time.textContent = begin === undefined || end === undefined ? '–' : `${(end - begin).toFixed(4)} s`;
+    this.byHand.textContent = this.began === null ? '–' : `${((this.ended ?? this.shown) - this.began).toFixed(3)} s`;
+    this.lapList.textContent = this.#lapTexts().slice(-MOST_LAPS).join(', ');
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
     this.details.textContent = [start && `started at ${start.time.toFixed(4)} s by ${start.other || 'a wall'}`,
       stop && `stopped at ${stop.time.toFixed(4)} s by ${stop.other || 'a wall'}`].filter(Boolean).join(', ');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The trail of a body: its way, and as in a stroboscope where it was at equal times, with arrows of v and a. */
+/** The trail of a body: its way, and as in a stroboscope where it was at equal times, numbered, with arrows of v and a. */
 
 import {createElement} from './dom.js';
 
@@ -7,6 +7,7 @@ import {createElement} from './dom.js';
 
 const FLASH = 0.1; // s from flash to flash
 const MOST_FLASHES = 100;
+const APART = 24, ASIDE = 12; // px: least distance of images, and from an image to its number
 const LONGEST = 90; // px: longer arrows, of impacts, are cut
 const ACCELERATION = 0.2; // s: the arrow of a is as long as that of the velocity that it gives in this time
 
@@ -52,7 +53,17 @@ export class Trail {
     if (row < 0 || samples.length < 2) return;
     const {palette} = view;
     view.line(samples.map(({x, y}) => [x, y]), palette.faint, [2, 5]);
-    if (flashes) for (const number of flashesOf(samples)) this.#flash(view, row, samples, number);
+    if (!flashes) return;
+    let last = [-Infinity, -Infinity];
+    flashesOf(samples).forEach((number, i) => {
+      const {x, y, vx, vy} = samples[number], at = view.camera.toPage(x, y);
+      // On a slow way one in so many, so that images do not hide each other.
+      if (Math.hypot(at[0] - last[0], at[1] - last[1]) < APART) return;
+      last = at;
+      this.#flash(view, row, samples, number);
+      const speed = Math.hypot(vx, vy) || 1, aside = /** @type {Point} */ ([vy / speed, vx / speed]);
+      view.number({text: String(i + 1), color: palette.ink, tip: [at[0] - ASIDE * aside[0], at[1] - ASIDE * aside[1]], along: [-aside[0], -aside[1]]});
+    });
   }
 
   /**

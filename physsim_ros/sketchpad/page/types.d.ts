@@ -133,6 +133,11 @@ export interface Sample {
   vx: number;
   vy: number;
   spin: number;
+  /** Mean acceleration since the sample before [m/s²]. */
+  ax?: number;
+  ay?: number;
+  /** Forces on it by their kind [N], where they were shown or plotted. */
+  forces?: Record<string, number>;
 }
 
 /** On the body of a row. */

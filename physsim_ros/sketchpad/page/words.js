@@ -45,6 +45,14 @@ export class Words {
     return isDrawn(name) ? this.known[0].get(name) ?? this.known[1].get(name) ?? 'body' : shorten(name);
   }
 
+  /**
+   * @param {string} name of a body
+   * @returns {string} as it stands in a list: what it is, and the number of its name
+   */
+  item(name) {
+    return isDrawn(name) ? `${this.title(name)} ${name.split('/')[1]}` : shorten(name);
+  }
+
   /** @param {string} name of a body */
   title(name) {
     return isDrawn(name) ? capital(this.of(name)) : this.of(name);

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The reading of a line follower's eye: the colours of what lies on the floor below its photodiodes.
+Readings of what touches a robot, and of the colours of the floor below it.
 
 On the floor lie the bodies that are sensors; what is spawned later lies on top. The bare floor is
 white, and a colour that is not opaque is mixed with what is below it.
@@ -11,17 +11,63 @@ white, and a colour that is not opaque is mixed with what is below it.
 from __future__ import annotations
 
 from functools import cached_property
+import math
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.robots.sensors import FloorEye
+from physsim_ros.model.robots import Robot
+from physsim_ros.model.robots.sensors import Bumper, FloorEye
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.shapes import contains
-from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.model.transform import dots, rotated_each
 from physsim_ros.sensing.mounting import noise_of, placed
+
+# A contact as far round as the end of the sector lies in it [rad], however it rounds.
+_ROUNDING = 1e-9
+
+# A bumper all around.
+_ALL_ROUND = Bumper(sector=math.tau)
+
+
+def is_bumped(snapshot: Snapshot, contacts: Contacts, row: int, robot: Robot) -> bool:
+    """
+    Return whether a robot has touched something: within its bumpers, if it has any.
+
+    :param snapshot: of the world
+    :param contacts: since the frame before
+    :param row: of the robot's body in the scene
+    :param robot: that the body is
+    """
+    bumpers = [each for each in robot.sensors if isinstance(each, Bumper)] or [_ALL_ROUND]
+    return any(read_bumper(snapshot, contacts, row, each) for each in bumpers)
+
+
+def read_bumper(snapshot: Snapshot, contacts: Contacts, row: int, bumper: Bumper) -> bool:
+    """
+    Return whether the body has touched another one, or a wall, within the sector.
+
+    :param snapshot: of the world
+    :param contacts: since the frame before
+    :param row: of the robot's body in the scene
+    :param bumper: on it
+    """
+    bodies = snapshot.scene.bodies
+    x, y, yaw = placed(snapshot, row, bumper)
+    touching = (contacts.pairs == row).any(axis=1)
+    for pair, point in zip(
+        contacts.pairs[touching].tolist(), contacts.points[touching].tolist(), strict=True
+    ):
+        other = pair[1] if pair[0] == row else pair[0]
+        if other >= 0 and bodies[other].sensor:
+            continue
+        angle = math.atan2(point[1] - y, point[0] - x) - yaw
+        if abs(math.remainder(angle, math.tau)) <= bumper.sector / 2 + _ROUNDING:
+            return True
+    return False
+
 
 _ROWS: WeakKeyDictionary[Scene, NDArray[np.int64]] = WeakKeyDictionary()
 

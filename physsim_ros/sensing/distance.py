@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A laser scan: the distance along each beam, by the conventions of REP 117.
+Readings of distances, by the conventions of REP 117: laser scans, and range finders.
 
 The beams start at the sensor; pieces of its own body are not seen, sensors neither.
 """
@@ -13,7 +13,7 @@ from functools import lru_cache
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.robots.sensors import Laser
+from physsim_ros.model.robots.sensors import Laser, RangeFinder
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import rotated_each
 from physsim_ros.sensing.fan import Rays
@@ -82,3 +82,27 @@ def _beams(count: int, first: float, increment: float) -> Floats:
     """Return (count, 2) float64: unit vectors of beams at equal angles, in the sensor's frame."""
     angles = first + increment * np.arange(count)
     return np.column_stack((np.cos(angles), np.sin(angles)))
+
+
+def read_range(surroundings: Surroundings, row: int, finder: RangeFinder, seed: int) -> float:
+    """
+    Return the nearest distance that a ray of the cone meets [m].
+
+    Minus infinity is nearer than the least range, or inside another body; infinity is nothing
+    within the greatest range (REP 117).
+
+    :param surroundings: of the frame
+    :param row: of the robot's body in the scene
+    :param finder: on it
+    :param seed: of all noise of the world
+    """
+    snapshot = surroundings.snapshot
+    x, y, yaw = placed(snapshot, row, finder)
+    count = finder.rays if finder.cone else 1
+    half = finder.cone / 2 if count > 1 else 0.0
+    angles = np.linspace(yaw - half, yaw + half, count)
+    least, greatest = finder.range
+    rays = Rays((x, y), np.cos(angles), np.sin(angles))
+    nearest = surroundings.nearest(rays, greatest, row).min(keepdims=True)
+    noise = noise_of(snapshot, row, finder, seed, 1) if finder.noise else None
+    return float(within_range(nearest, least, greatest, finder.noise, noise)[0])
