@@ -5,15 +5,8 @@
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import (
-    check_finite,
-    known_mapping,
-    LONGEST,
-    number,
-    pair,
-    shown,
-    Within,
-)
+from physsim_ros.model.checks import check_finite, LONGEST, number, pair, shown, Within
+from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robot_states import Covariance, NEVER, RobotState, SPAWNED
 from physsim_ros.model.robots import Robot

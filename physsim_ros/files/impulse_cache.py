@@ -21,7 +21,7 @@ from numpy.typing import DTypeLike, NDArray
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.files.world_schema import count_from
 from physsim_ros.model.checkpoint import ImpulseCache, WorldState
-from physsim_ros.model.checks import known_mapping
+from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.scene import Scene
 

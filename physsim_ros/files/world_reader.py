@@ -38,8 +38,9 @@ from physsim_ros.files.world_schema import (
 )
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
-from physsim_ros.model.checks import check_key, known_mapping, LONGEST, number, pair, Within
+from physsim_ros.model.checks import LONGEST, number, pair, Within
 from physsim_ros.model.colors import Color, color_from
+from physsim_ros.model.declarations import check_key, known_mapping
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.requests import Command, Spawn

@@ -3,12 +3,11 @@
 
 """Odometry of a robot: the pose that it reckons by its wheels and its gyroscope."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated
 
-from physsim_ros.model.checks import Checked, Checks, pair, Within
+from physsim_ros.model.checks import pair, Within
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.transform import Point
 
 _SLIP = Within(0.0, 1.0)
@@ -26,17 +25,17 @@ class Odometry(Checked):
 
     Errors are random walks: their variance grows with the way.
 
-    :param rate: messages a second [Hz]
-    :param slip: standard deviations of the drift: of the way after 1 m [m], and of the heading
-        after 1 m, or after a turn of 1 rad [rad]; 0 is exact as long as no wheel slips
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    CHECKS: ClassVar[Checks] = {'rate': Within(0.01, 1000.0, 'Hz'), 'slip': _slip}
-
-    rate: float = 30.0
-    slip: Point = (0.0, 0.0)
+    rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'messages a second'] = 30.0
+    slip: Annotated[
+        Point,
+        _slip,
+        'standard deviations of its drift, 0 .. 1: of the way after 1 m [m], of the heading after '
+        '1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
+    ] = (0.0, 0.0)
 
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""

@@ -7,14 +7,13 @@ A robot: a drive, odometry, sensors, and the namespace of its topics.
 Law: the topics of a robot have different names, which ROS allows.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 import re
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, Self
 
-from physsim_ros.model.checks import Checked, Checks, shown
+from physsim_ros.model.checks import shown
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.odometry import Odometry
@@ -64,26 +63,26 @@ class Robot(Checked):
     """
     That what makes a body a robot.
 
-    :param drive: of which kind it is, and how fast it may be
-    :param odometry: how often, and how exact
-    :param sensors: on the body, each on a topic of its own
-    :param namespace: of its topics, without a slash at its beginning; None is by the name of the
-        body
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is of the wrong kind or out of range, or two topics have one name
     """
 
-    CHECKS: ClassVar[Checks] = {
-        'namespace': check_namespace,
-        'drive': drive_from,
-        'odometry': Odometry.from_value,
-        'sensors': _sensors,
-    }
-
-    drive: Drive
-    odometry: Odometry = field(default_factory=Odometry)
-    sensors: tuple[Sensor, ...] = ()
-    namespace: str | None = None
+    drive: Annotated[Drive, drive_from, 'how it moves: a mapping, see below']
+    odometry: Annotated[
+        Odometry, Odometry.from_value, 'how often and how exact: a mapping, see below'
+    ] = field(default_factory=Odometry)
+    sensors: Annotated[
+        tuple[Sensor, ...],
+        _sensors,
+        f'a list of mappings, at most {MOST_SENSORS}; each on a topic of its own',
+    ] = ()
+    namespace: Annotated[
+        str | None,
+        check_namespace,
+        'of its topics; may be empty; no two robots of a world have the same one, or another '
+        'topic or frame in common (a sensor `x/odom` in `tb`, a robot in `tb/x`); by default the '
+        'name of the body, with `_` for `/`',
+    ] = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 import itertools
 from typing import ClassVar, Self
 
-from physsim_ros.model.checks import known_mapping, number, point_list
+from physsim_ros.model.checks import number, point_list
+from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadOutline
 from physsim_ros.model.shapes.form import Capsule, Form, form_of
 from physsim_ros.model.shapes.validation import (

@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar, Self
 
-from physsim_ros.model.checks import known_mapping, OfClass, point_list
+from physsim_ros.model.checks import OfClass, point_list
+from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadOutline, BadProperty
 from physsim_ros.model.shapes.box import Box
 from physsim_ros.model.shapes.disc import Disc

@@ -8,7 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import ClassVar, Self
 
-from physsim_ros.model.checks import known_mapping, number
+from physsim_ros.model.checks import number
+from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.shapes.form import Circle, Form, form_of
 from physsim_ros.model.shapes.validation import checked_length
 

@@ -11,7 +11,7 @@ then `differential`.
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import OfKind
+from physsim_ros.model.declarations import OfKind
 from physsim_ros.model.robots.drives.car import Car
 from physsim_ros.model.robots.drives.differential import Differential
 from physsim_ros.model.robots.drives.drive import Drive

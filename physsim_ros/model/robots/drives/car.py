@@ -3,13 +3,11 @@
 
 """A car: driven rear wheels on an axle through the body's origin, steered front wheels."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 import math
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checks, Within
+from physsim_ros.model.checks import Within
 from physsim_ros.model.robots.drives.drive import Drive, LENGTH, within
 from physsim_ros.model.transform import Pose, Twist
 
@@ -19,22 +17,14 @@ _STEEPEST = 1.55
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Car(Drive):
-    """
-    A car with Ackermann steering; it turns only as it moves, and no closer than it can steer.
-
-    :param wheelbase: distance of front and rear axle [m]
-    :param steering: greatest angle of the front wheels [rad]
-    """
+    """A car with Ackermann steering; it turns only as it moves, and no closer than it steers."""
 
     KIND: ClassVar = 'car'
-    CHECKS: ClassVar[Checks] = {
-        **Drive.CHECKS,
-        'wheelbase': LENGTH,
-        'steering': Within(0.0, _STEEPEST, 'rad'),
-    }
 
-    wheelbase: float = 0.2
-    steering: float = 0.6
+    wheelbase: Annotated[float, LENGTH, 'distance of front and rear axle'] = 0.2
+    steering: Annotated[
+        float, Within(0.0, _STEEPEST, 'rad'), 'greatest angle of the front wheels'
+    ] = 0.6
 
     @property
     def wheels(self) -> dict[str, Pose]:

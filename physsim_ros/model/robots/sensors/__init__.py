@@ -10,7 +10,7 @@ A sensor is a value. What it reads in a frame is for the simulation, its message
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import OfKind
+from physsim_ros.model.declarations import OfKind
 from physsim_ros.model.robots.sensors.bumper import Bumper
 from physsim_ros.model.robots.sensors.floor_eye import FloorEye
 from physsim_ros.model.robots.sensors.imu import Imu

@@ -3,27 +3,21 @@
 
 """A bumper: whether the front is touched (`std_msgs/Bool`)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 import math
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checks
 from physsim_ros.model.robots.sensors.sensor import FULL_TURN, Sensor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bumper(Sensor):
-    """
-    A bumper: a sector of the body, as seen from `at`.
-
-    :param sector: its angle about the sensor's axis [rad]; a full turn is the whole body
-    """
+    """A bumper: whether another body or a wall touches a sector of its body, seen from `at`."""
 
     KIND: ClassVar = 'bumper'
-    CHECKS: ClassVar[Checks] = {**Sensor.CHECKS, 'sector': FULL_TURN}
 
     name: str = 'bumper'
     rate: float = 30.0
-    sector: float = math.pi
+    sector: Annotated[
+        float, FULL_TURN, "angle about the sensor's axis; a full turn is the whole body"
+    ] = math.pi

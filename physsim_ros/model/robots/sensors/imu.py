@@ -3,12 +3,10 @@
 
 """An inertial measurement unit: acceleration and turn rate as felt (`sensor_msgs/Imu`)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checks, FASTEST, pair, Within
+from physsim_ros.model.checks import FASTEST, pair, Within
 from physsim_ros.model.robots.sensors.sensor import Sensor
 from physsim_ros.model.transform import Point
 
@@ -22,15 +20,12 @@ def _deviations(value: object, name: str) -> Point:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Imu(Sensor):
-    """
-    An inertial measurement unit.
-
-    :param noise: standard deviations of acceleration [m/s²] and turn rate [rad/s]
-    """
+    """An inertial measurement unit: turn rate, and acceleration as felt at `at`."""
 
     KIND: ClassVar = 'imu'
-    CHECKS: ClassVar[Checks] = {**Sensor.CHECKS, 'noise': _deviations}
 
     name: str = 'imu'
     rate: float = 100.0
-    noise: Point = (0.0, 0.0)
+    noise: Annotated[
+        Point, _deviations, 'standard deviations of acceleration [m/s²] and turn rate [rad/s]'
+    ] = (0.0, 0.0)

@@ -3,13 +3,11 @@
 
 """A laser scanner: distances along beams at equal angles (`sensor_msgs/LaserScan`)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 import math
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checks, Whole
+from physsim_ros.model.checks import Whole
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors.sensor import (
     angles,
@@ -30,30 +28,25 @@ _FULL = 1e-3
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Laser(Sensor):
     """
-    A laser scanner.
+    A laser scanner: distances along beams at equal angles.
 
-    :param beams: their number
-    :param angle: of the first and the last beam [rad]; of a full turn the last beam, which would
-        be the first again, is one increment before it
-    :param range: least and greatest distance that it measures [m]
-    :param noise: standard deviation of a distance [m]
     :raises BadProperty: beams are closer than LEAST_INCREMENT
     """
 
     KIND: ClassVar = 'laser'
-    CHECKS: ClassVar[Checks] = {
-        **Sensor.CHECKS,
-        'beams': Whole(1, MOST_BEAMS),
-        'angle': angles,
-        'range': distances,
-        'noise': LENGTH,
-    }
 
     name: str = 'scan'
-    beams: int = 360
-    angle: Point = (0.0, math.tau)
-    range: Point = (0.1, 10.0)  # noqa: A003 - a word of the interface
-    noise: float = 0.0
+    beams: Annotated[int, Whole(1, MOST_BEAMS), 'their number'] = 360
+    angle: Annotated[
+        Point,
+        angles,
+        'of the first and the last beam, counter-clockwise, at most a full turn apart [rad]; of a '
+        'full turn the last one is an increment before the first',
+    ] = (0.0, math.tau)
+    range: Annotated[  # noqa: A003 - a word of the interface
+        Point, distances, 'least and greatest distance: nearer is -inf, further +inf (REP 117) [m]'
+    ] = (0.1, 10.0)
+    noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
 
     def __post_init__(self) -> None:
         # `super()` without arguments has no class there: a dataclass with slots is made anew.

@@ -3,13 +3,11 @@
 
 """A range finder: the least distance within a cone (`sensor_msgs/Range`)."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checks, shown, Whole, Within
+from physsim_ros.model.checks import shown, Whole, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors.sensor import distances, LEAST_INCREMENT, LENGTH, Sensor
 from physsim_ros.model.transform import Point
@@ -36,32 +34,27 @@ def _radiation(value: object, name: str) -> Radiation:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RangeFinder(Sensor):
     """
-    An infrared or ultrasonic range finder.
+    A range finder, infrared or ultrasonic: the nearest distance in a cone.
 
-    :param radiation: infrared or sonar
-    :param cone: opening of the cone about its axis [rad]; 0 is a single ray
-    :param rays: number of rays at equal angles in the cone, of which the nearest one counts
-    :param range: least and greatest distance that it measures [m]
-    :param noise: standard deviation of a distance [m]
     :raises BadProperty: rays are closer than LEAST_INCREMENT
     """
 
     KIND: ClassVar = 'range'
-    CHECKS: ClassVar[Checks] = {
-        **Sensor.CHECKS,
-        'radiation': _radiation,
-        'cone': Within(0.0, _WIDEST, 'rad'),
-        'rays': Whole(1, _MOST_RAYS),
-        'range': distances,
-        'noise': LENGTH,
-    }
 
     name: str = 'range'
-    radiation: Radiation = Radiation.INFRARED
-    cone: float = 0.2
-    rays: int = 15
-    range: Point = (0.02, 1.0)  # noqa: A003 - a word of the interface
-    noise: float = 0.0
+    radiation: Annotated[Radiation, _radiation, '`infrared` or `sonar`'] = Radiation.INFRARED
+    cone: Annotated[
+        float, Within(0.0, _WIDEST, 'rad'), 'opening about its axis; 0 is a single ray'
+    ] = 0.2
+    rays: Annotated[
+        int,
+        Whole(1, _MOST_RAYS),
+        'at equal angles in the cone, of which the nearest one counts',
+    ] = 15
+    range: Annotated[  # noqa: A003 - a word of the interface
+        Point, distances, 'as of a laser [m]'
+    ] = (0.02, 1.0)
+    noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
 
     def __post_init__(self) -> None:
         # `super()` without arguments has no class there: a dataclass with slots is made anew.

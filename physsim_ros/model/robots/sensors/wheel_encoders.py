@@ -13,7 +13,7 @@ from physsim_ros.model.robots.sensors.sensor import Sensor
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WheelEncoders(Sensor):
-    """The encoders of all wheels of the drive; `at` has no effect."""
+    """Encoders: turns of all wheels of the drive; `at` has no effect."""
 
     KIND: ClassVar = 'joint_states'
 
