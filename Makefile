@@ -12,7 +12,7 @@ SOURCED := $(shell [ "$$ROS_DISTRO" = jazzy ] && python3 -c 'import rclpy' 2>/de
 
 ifeq ($(SOURCED),yes)
   PYTHON ?= python3
-  EXTRAS := test
+  EXTRAS := class
   VENV_OPTIONS := --system-site-packages
   STAMP := $(VENV)/.made-for-sourced-jazzy
 else
@@ -21,7 +21,7 @@ else
 	    $$name -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
 	      && echo $$name && break; \
 	  done)
-  EXTRAS := jazzy,test
+  EXTRAS := jazzy,class
   STAMP := $(VENV)/.made-of-wheels
   # The wheels put their libraries onto LD_LIBRARY_PATH in random order, so those of another ROS could win, and the
   # mark that they have done so is inherited from other environments. They have Fast DDS and no other middleware.
@@ -32,6 +32,8 @@ endif
 # The core of the engine, and how it is compiled where only mistakes are looked for.
 CORE := $(wildcard physsim_ros/engine/core/*.[ch])
 BUILT := $(VENV)/.core-is-built
+# What the tests and tools need beside it.
+TOOLS := $(VENV)/.with-tools
 # Of the C library, which clang-tidy wants and a machine without a compiler has not.
 HEADER := /usr/include/stdlib.h
 CHECKED := $(CORE) $(wildcard tools/sanitize/*.c)
@@ -67,16 +69,16 @@ class: $(BUILT)  ## start a world for each pupil of a class, PUPILS=20, open to 
 # A worker that a test takes down is replaced, but not without end.
 PYTEST := $(BIN)/python -m pytest --numprocesses=auto --maxprocesses=8 --dist=worksteal --max-worker-restart=4
 
-test: $(BUILT)  ## run all tests but the slow ones: four minutes
+test: $(TOOLS)  ## run all tests but the slow ones: five minutes
 	$(PYTEST) -m 'not slow' $(ARGS)
 
-test-all: $(BUILT)  ## run every test: a quarter of an hour
+test-all: $(TOOLS)  ## run every test: a quarter of an hour
 	$(PYTEST) $(ARGS)
 
 # Side by side; ament's checks take a minute the first time, then look only at files that have changed.
 LINTS := lint-ruff lint-mypy lint-imports lint-style lint-core lint-page
 .PHONY: $(LINTS)
-lint: $(BUILT)  ## check style, types and imports
+lint: $(TOOLS)  ## check style, types and imports
 	@$(MAKE) --no-print-directory --jobs=4 --output-sync --keep-going $(LINTS)
 lint-ruff:
 	$(BIN)/ruff check
@@ -103,20 +105,20 @@ tables: $(BUILT)  ## write the tables of docs and configuration that follow from
 	$(BIN)/python -m tools.tables
 
 # With AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES=200 unless it is given; ARGS chooses other tests.
-sanitize: $(BUILT)  ## run laws and histories with a core that checks its memory
+sanitize: $(TOOLS)  ## run laws and histories with a core that checks its memory
 	$(BIN)/python -m tools.sanitize $(ARGS)
 
-bench: $(BUILT)  ## measure times against the bare engine
+bench: $(TOOLS)  ## measure times against the bare engine
 	$(BIN)/python -m tools.bench $(ARGS)
 
-ablate: $(BUILT)  ## measure each stage of a step by leaving it out
+ablate: $(TOOLS)  ## measure each stage of a step by leaving it out
 	$(BIN)/python -m tools.ablation $(ARGS)
 
-evaluate: $(BUILT)  ## measure how drawn strokes are read
+evaluate: $(TOOLS)  ## measure how drawn strokes are read
 	$(BIN)/python -m tools.evaluation $(ARGS)
 
 # Draws the pictures of README and docs anew; needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
-gallery: $(BUILT)  ## draw the pictures of README and docs anew
+gallery: $(TOOLS)  ## draw the pictures of README and docs anew
 	$(BIN)/python -m tools.gallery $(ARGS)
 
 # The site, from docs/ and the docstrings; any warning, as a link that leads nowhere, fails.
@@ -126,7 +128,7 @@ docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
 	@echo 'Open docs/_build/html/index.html'
 
 # MINUTES=30 and SEED=0 unless they are given.
-soak: $(BUILT)  ## disturb a world at random for MINUTES=30, with SEED=0
+soak: $(TOOLS)  ## disturb a world at random for MINUTES=30, with SEED=0
 	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary $(ARGS)
 
 clean:  ## remove .venv and all that was built
@@ -136,13 +138,20 @@ clean:  ## remove .venv and all that was built
 # The lines of pip that say what it does now; what was there already, and from where, is left out.
 PROGRESS := sed -u -n -E '/^ *(Collecting|Downloading|Building|Installing|Successfully|ERROR)/ s/^ *(.{1,120}).*/  \1/p'
 
+# Modules are compiled when they are first imported: most never are.
+PIP = set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --no-compile
+# The step is compiled by the machine's compiler; where there is none, by that of a wheel of 101 MB.
+COMPILER := $(shell command -v cc gcc clang)
+SETUPTOOLS := 'setuptools>=70.1,<80'
+
 # The stamp is written last, so an interrupted installation starts over; a new setup.py is installed on top.
 $(STAMP): setup.py
 	@[ -n '$(PYTHON)' ] || { echo 'No Python of 3.11 or later with venv; name one: make PYTHON=/path/to/python' >&2; exit 1; }
 	@[ -e $@ ] || echo '1 of 2: an environment in $(VENV), beside this file.'
 	@[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
-	@echo '2 of 2: packages into it, some 170, of which Rerun is the largest (170 MB); two or three minutes the first time.'
-	@set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --editable '.[$(EXTRAS)]' | $(PROGRESS)
+	@echo '2 of 2: packages into it, some 130, of which Rerun is the largest (170 MB); a minute the first time.'
+	@$(PIP) $(SETUPTOOLS) $(if $(COMPILER),,ziglang) | $(PROGRESS)
+	@$(PIP) --no-build-isolation --editable '.[$(EXTRAS)]' | $(PROGRESS)
 	@touch $@ $(BUILT)
 
 # What the package needs to run: the environment, and the core as its sources are now. The folder is newer where one was
@@ -151,6 +160,11 @@ $(BUILT): $(STAMP) $(CORE) physsim_ros/engine/core
 	@$(BIN)/python setup.py --quiet build_ext --inplace
 	@touch $@
 
+$(TOOLS): $(BUILT) setup.py
+	@[ -e $@ ] || echo 'Packages for tests and tools, some 50; a minute the first time.'
+	@$(PIP) --no-build-isolation --editable '.[$(EXTRAS),test]' | $(PROGRESS)
+	@touch $@
+
 $(VENV)/.with-docs: $(BUILT)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	@$(PIP) --quiet --no-build-isolation --editable '.[$(EXTRAS),docs]'
 	@touch $@

@@ -159,12 +159,20 @@ setup(
         'docs': ['furo', 'myst-parser>=4', 'sphinx>=8.2,<9'],
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
+        # Environments for learning (`physsim_ros.gym`).
+        'gym': ['gymnasium>=1.0,<2'],
         'test': [
+            # That of environments.
+            'gymnasium>=1.0,<2',
             # That of a class.
             'segno>=1.6,<2',
+            # Runs sweeps in processes of a cluster.
+            'distributed',
             # A second middleware, for readers that are not Fast DDS.
             'cyclonedds>=0.10',
             'hypothesis',
+            # Writes and reads bags.
+            'mcap>=1.2,<2',
             # Drives the page in Chromium.
             'playwright',
             'psutil',

@@ -17,7 +17,7 @@ from importlib import import_module
 from typing import Any, TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from physsim_ros.files import find_world, load_world, save_world
+    from physsim_ros.files import find_world, load_world, robot_spawn, save_world
     from physsim_ros.model.body_properties import Properties
     from physsim_ros.model.errors import PhysSimError, Refusal
     from physsim_ros.model.joints import JointKind, JointProperties
@@ -44,7 +44,9 @@ if TYPE_CHECKING:
     from physsim_ros.model.settings import WorldSettings
     from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
     from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
-    from physsim_ros.simulation.simulation import Simulation
+    from physsim_ros.sensing import OdometryReading
+    from physsim_ros.simulation.robot import Robot
+    from physsim_ros.simulation.simulation import SavedMoment, Simulation
 
 __all__ = [
     'Anchor',
@@ -68,6 +70,7 @@ __all__ = [
     'LetGo',
     'MoveBodies',
     'MoveHand',
+    'OdometryReading',
     'PhysSimError',
     'Pin',
     'Polygon',
@@ -75,6 +78,8 @@ __all__ = [
     'Refusal',
     'Release',
     'Request',
+    'Robot',
+    'SavedMoment',
     'Shape',
     'Simulation',
     'Snapshot',
@@ -85,10 +90,13 @@ __all__ = [
     'WorldSettings',
     'find_world',
     'load_world',
+    'robot_spawn',
     'save_world',
 ]
-# The modules that have them, each after those that it imports.
+# The modules that have them, each after those that it imports; but the robot of a simulation
+# before that of a body, which has its name.
 _MODULES = (
+    'simulation.robot',
     'model.errors',
     'model.settings',
     'model.shapes',
@@ -96,6 +104,7 @@ _MODULES = (
     'model.body_properties',
     'model.requests',
     'model.snapshot',
+    'sensing',
     'simulation.simulation',
     'files',
 )

@@ -4,6 +4,8 @@
 """
 The look of joints and scans in every picture: lines, symbols, colours, points, as arrays.
 
+`picture` draws a world by Pillow, for a program without a window.
+
 Markers for RViz (`ros`), recordings for Rerun (`view`) and the page (`sketchpad`) are drawn with
 these; neither ROS nor Rerun is imported here. Start with `joint_glyphs`, which has the lines
 of each kind.
@@ -17,9 +19,16 @@ from physsim_ros.appearance.joint_colors import (
     PUSH,
     SLATE,
 )
-from physsim_ros.appearance.joint_glyphs import is_rigid, joint_strips, Strip, symbol_sizes
-from physsim_ros.appearance.joint_lines import JointLines, segment_corners
+from physsim_ros.appearance.joint_glyphs import (
+    is_rigid,
+    joint_strips,
+    JointLines,
+    segment_corners,
+    Strip,
+    symbol_sizes,
+)
 from physsim_ros.appearance.laser_scans import LaserScans
+from physsim_ros.appearance.picture import picture_of
 
 __all__ = [
     'PULL',
@@ -33,6 +42,7 @@ __all__ = [
     'is_rigid',
     'joint_strips',
     'nice_number',
+    'picture_of',
     'segment_corners',
     'symbol_sizes',
 ]

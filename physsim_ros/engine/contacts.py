@@ -36,7 +36,7 @@ def take_contacts(core: CoreWorld, table: BodyTable, centers: Callable[[], Float
         impulses=listed['impulse'],
         steps=steps,
         begun=begun['rows'],
-        begun_in=begun['step'],
+        begun_at=begun['time'],
     )
     pointless = listed['points'] == 0
     if pointless.any():

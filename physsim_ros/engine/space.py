@@ -273,13 +273,24 @@ class Space:
 
     def drive(self, rigid: RigidBody, velocity: Twist, until: int) -> None:
         """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""
-        robot, robots = rigid.body.robot, self.table.robots
+        robot = rigid.body.robot
         assert robot is not None  # noqa: S101 - its caller refuses other bodies
-        record = robots[int(np.flatnonzero(robots['body'] == rigid.row)[0])]
-        aim = robot.drive.aim(velocity)
-        self.changes += (*record['aim'].tolist(), int(record['until'])) != (*aim, until)
+        aim, record = robot.drive.aim(velocity), self._robot_record(rigid)
+        self.changes += self.drive_of(rigid) != (aim, until)
         record['aim'], record['until'] = aim, until
         rigid.pm_body.activate()
+
+    def drive_of(self, rigid: RigidBody) -> tuple[Twist, int]:
+        """Return the velocity that a robot aims at [m/s, rad/s], and the step up to which."""
+        record = self._robot_record(rigid)
+        ahead, aside, turn = record['aim'].tolist()
+        return (ahead, aside, turn), int(record['until'])
+
+    def _robot_record(self, rigid: RigidBody) -> np.void:
+        """Return the record of a robot in the table of the core."""
+        robots = self.table.robots
+        record: np.void = robots[int(robots['body'].searchsorted(rigid.row))]
+        return record
 
     # Grips
 

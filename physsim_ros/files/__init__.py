@@ -25,7 +25,7 @@ from physsim_ros.files.world_file import (
     user_worlds,
     worlds_in,
 )
-from physsim_ros.files.world_reader import spawn_from, state_from
+from physsim_ros.files.world_reader import robot_spawn, spawn_from, state_from
 from physsim_ros.files.world_schema import PARAMETERS, PROPERTIES, SETTINGS
 from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_mapping
@@ -47,6 +47,7 @@ __all__ = [
     'make_directory',
     'read_bytes',
     'read_parts',
+    'robot_spawn',
     'save_world',
     'shipped',
     'shipped_lessons',

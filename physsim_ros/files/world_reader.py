@@ -11,7 +11,7 @@ velocity.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 import operator
 from typing import Any
@@ -190,6 +190,20 @@ def spawn_from(entry: Mapping[Any, Any]) -> Spawn:
             {key: entry[key] for key in PROPERTIES if key in entry}
         ),
     )
+
+
+def robot_spawn(
+    robot: str | Mapping[Any, Any], *, name: str = 'robot/0', at: Sequence[float] = (0.0, 0.0)
+) -> Spawn:
+    """
+    Return the request for a shipped robot.
+
+    :param robot: its name, or a mapping with that as `from`, and what is different
+    :param name: of its body
+    :param at: x, y [m] and, where there are three, yaw [rad]
+    :raises Refusal: there is no such robot, or a value is out of range
+    """
+    return spawn_from({'name': name, 'robot': robot, 'at': [*at]})
 
 
 def _shape(entry: Mapping[Any, Any]) -> Shape:

@@ -63,7 +63,6 @@ PARAMETERS = frozenset(
         'speed',
         'tool',
         'viewer',
-        'trace',
         'viewer_url',
         'wall_thickness',
         'world_dir',

@@ -115,6 +115,12 @@ class ImpulseCache:
     totals: Floats = field(default_factory=lambda: NO_TOTALS)
     pushes: Floats = field(default_factory=lambda: NO_PUSHES)
 
+    @property
+    def nbytes(self) -> int:
+        """Memory of its arrays [bytes]."""
+        contacts = self.ids, self.pairs, self.hashes, self.impulses
+        return sum(array.nbytes for array in (*contacts, self.joints, self.totals, self.pushes))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Checkpoint:
@@ -141,3 +147,8 @@ class Checkpoint:
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
     robots: RobotStates = NO_ROBOTS
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of its arrays [bytes]."""
+        return self.state.nbytes + self.free.nbytes + self.memory.nbytes + self.robots.nbytes

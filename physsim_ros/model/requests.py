@@ -14,6 +14,7 @@ first, then robots, joints, hands and the world. A new request is a class here, 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 import math
+import sys
 from typing import Annotated, Any
 
 import numpy as np
@@ -244,6 +245,8 @@ class Command(Checked):
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
+        # In memory once for all commands of a publisher.
+        object.__setattr__(self, 'names', tuple(sys.intern(str(name)) for name in self.names))
         for array, name in (('poses', 'transforms'), ('twists', 'twist'), ('wrenches', 'wrench')):
             rows = _checked_rows(getattr(self, array), len(self.names), name)
             object.__setattr__(self, array, rows)
@@ -277,10 +280,6 @@ class Command(Checked):
     @property
     def _arrays(self) -> tuple[Floats, ...]:
         return self.poses, self.twists, self.wrenches
-
-    def share_names(self, names: tuple[str, ...]) -> None:
-        """Have the names in memory once for many commands: `names` are equal to its own."""
-        object.__setattr__(self, 'names', names)
 
 
 def _checked_rows(values: Any, count: int, name: str) -> Floats:

@@ -187,7 +187,7 @@ class Contacts:
     :param steps: number of steps over which the impulses are summed
     :param begun: (k, 2) int64: rows, as in `pairs`, of the pairs that began to touch during the
         frame, in the order of time; a pair that touched again is there again
-    :param begun_in: (k,) int64: the step of the frame in which each began, 1 .. steps
+    :param begun_at: (k,) float64: when each began, since the frame began [steps]
     """
 
     pairs: Ints
@@ -196,7 +196,7 @@ class Contacts:
     impulses: Floats
     steps: int = 0
     begun: Ints = field(default_factory=lambda: np.empty((0, 2), np.int64))
-    begun_in: Ints = field(default_factory=lambda: np.empty(0, np.int64))
+    begun_at: Floats = field(default_factory=lambda: np.empty(0))
 
     @property
     def nbytes(self) -> int:
@@ -223,7 +223,7 @@ class Answer:
     """
     The answer to one request, or the report of an event without one.
 
-    :param topic: of the request, as '~/spawn', or the event, as 'divergence'
+    :param topic: of the request, as '~/spawn', or the event, as 'divergence'; '' until it is known
     :param subject: name of the body or joint, '' if there is none
     :param message: a sentence
     :param code: '' for success, else the stable code of the refusal
@@ -232,7 +232,7 @@ class Answer:
     :param asker: key of the message that asked, '' for one of ROS and for events
     """
 
-    topic: str
+    topic: str = ''
     subject: str = ''
     message: str = ''
     code: str = ''

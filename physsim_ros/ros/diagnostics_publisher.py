@@ -15,7 +15,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.frame_outputs import FrameOutputs
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents, SAME_NAME_REMEDY
-from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
+from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
 
 # From one message to the next [ns].
@@ -29,7 +29,7 @@ class DiagnosticsPublisher:
     :param node: that owns it
     :param simulation: of the node
     :param outputs: of the node, with the statistics of frames
-    :param subscriptions: of requests
+    :param topics: of requests
     :param boundary: of the node
     """
 
@@ -38,7 +38,7 @@ class DiagnosticsPublisher:
         node: NodeWithoutQosEvents,
         simulation: Simulation,
         outputs: FrameOutputs,
-        subscriptions: RequestSubscriptions,
+        topics: RequestTopics,
         boundary: ErrorBoundary,
     ) -> None:
         self._node = node
@@ -47,7 +47,7 @@ class DiagnosticsPublisher:
         self._namesakes = 1
         self._simulation = simulation
         self._outputs = outputs
-        self._subscriptions = subscriptions
+        self._topics = topics
         self._boundary = boundary
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._due = 0
@@ -84,10 +84,10 @@ class DiagnosticsPublisher:
                 viewer_failure=outputs.viewer.failure,
                 message_delay=message_delay,
                 waiting_requests=len(simulation.requests),
-                undecodable=self._subscriptions.undecodable,
+                undecodable=self._topics.undecodable,
                 waiting_answers=events.waiting,
                 stopped_subscriber=events.stopped,
-                memory=simulation.past.memory.in_megabytes,
+                memory=simulation.past.budget.in_megabytes,
                 failures=boundary.failures,
                 longest=longest,
             )

@@ -19,7 +19,6 @@ from physsim_ros.drawing import DrawingSession
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.ros import parameters
 from physsim_ros.ros.publishers.frame_statistics import FrameStatistics
 from physsim_ros.ros.publishers.publishers import Publishers
 from physsim_ros.sketchpad import Sketchpad
@@ -62,7 +61,7 @@ class FrameOutputs:
             map_resolution=lambda: values['map_resolution'],
             publish_tf=values['publish_tf'],
         )
-        self.viewer = Viewer(boundary)
+        self.viewer = Viewer(boundary, context=self._context)
         self.sketchpad: Sketchpad | None = None
         self.statistics = FrameStatistics()
         self.frame: Frame | None = None
@@ -142,19 +141,20 @@ class FrameOutputs:
         self.close_sketchpad()
         self.viewer.close()
 
+    def _context(self) -> FrameContext:
+        """Return the facts about the program that the viewer shows."""
+        return FrameContext(
+            real_time_factor=self.statistics.real_time_factor,
+            title=Path(self._values['world_file']).stem or 'empty world',
+        )
+
     def _show(self, frame: Frame) -> None:
         """Send a frame, with the current preview, to viewer and sketchpad."""
         if self._session.preview != frame.preview:
             frame = replace(frame, preview=self._session.preview)
         self.frame = frame
-        context = FrameContext(
-            real_time_factor=self.statistics.real_time_factor,
-            cost=self.statistics.frame_cost,
-            title=Path(self._values['world_file']).stem or 'empty world',
-            traced=parameters.listed_names(self._values['trace']),
-        )
         with self._boundary.output('viewer'):
-            self.viewer.show(frame, context=context)
+            self.viewer.show(frame)
         if self.sketchpad is not None:
             with self._boundary.output('page'):
                 self.sketchpad.show(frame)

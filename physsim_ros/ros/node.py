@@ -10,7 +10,7 @@ happens then by the simulation.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -31,17 +31,14 @@ from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.pages import Pages
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.ros.requests.drawing_topics import DrawingTopics
-from physsim_ros.ros.requests.message_queue import PIECE
 from physsim_ros.ros.requests.parameter_services import ParameterServices
-from physsim_ros.ros.requests.reply_pacer import ReplyPacer
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls
-from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.ros.simulation_services import create_simulation_services
 from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
-from physsim_ros.simulation.request_handler import DeferredCalls, Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import locks_of, WorldControl
 from rclpy.context import Context
@@ -91,7 +88,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     :ivar world_files: reads and writes the world file of parameter `world_file`
     :ivar outputs: the topics, the viewer and the sketchpad
     :ivar fleet: the topics of robots
-    :ivar requests: the subscriptions of requests
+    :ivar requests: the topics of requests
     :ivar message_delay: time that messages wait before they are handled [s]
     :ivar on_quit: ends the program, where a service may; None where it has other worlds as well
     """
@@ -185,11 +182,10 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _create_subscriptions(self) -> None:
         frame_id = self._values['frame_id']
-        self.requests = RequestSubscriptions(self, self.simulation.requests, self.boundary)
+        self.requests = RequestTopics(self, self.simulation.requests, self.boundary, frame_id)
         self._diagnostics = DiagnosticsPublisher(
             self, self.simulation, self.outputs, self.requests, self.boundary
         )
-        RequestTopics(self.requests, self.simulation.requests, frame_id)
         self._drawing_topics = DrawingTopics(
             self.requests,
             self.simulation,
@@ -220,9 +216,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             'load_world': Service(lambda: self.world_files.load(confined=True), Wait.FOR_SEEK),
             'save_world': Service(self.world_files.save, Wait.FOR_SEEK),
         }
-        deferred_calls = DeferredCalls(simulation.requests, self._apply_up_to_seek)
-        self._reply_pacer = ReplyPacer(self, self.boundary)
-        calls = ServiceCalls(self.requests.queue, deferred_calls, self._reply_pacer, self.boundary)
+        calls = ServiceCalls(simulation.requests, self._submit_call, self.boundary)
         create_services(self, services, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
         control = WorldControl(
@@ -233,7 +227,7 @@ class PhysSimNode(NodeWithoutQosEvents):
             world_dir=self.world_files.directory,
             drawing_settings=lambda: parameters.drawing_settings(self._values),
             current_snapshot=self._current_snapshot,
-            submit_call=deferred_calls.submit,
+            submit_call=self._submit_call,
             services=services,
             note_change=self._note_change,
             perform_on=lambda name, world: self._perform_on(services[name], world),
@@ -272,8 +266,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
-        self._started = self._reply_pacer.paced = True
-        self.requests.queue.piece = PIECE
+        self._started = True
         self._pages.print_addresses()
         # A viewer that is opened begins a recording anew that has failed.
         self._open_viewer()
@@ -336,8 +329,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         :param now_ns: steady time, monotonic [ns]
         """
         began = time.perf_counter_ns()
-        self._reply_pacer.flush()
-        if self._is_quitting and self.on_quit is not None and not self._reply_pacer.has_waiting:
+        if self._is_quitting and self.on_quit is not None:
             self._is_quitting = False
             self.on_quit()
         if self._started:
@@ -425,6 +417,18 @@ class PhysSimNode(NodeWithoutQosEvents):
             return True
         return self.simulation.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
 
+    def _submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+        """
+        Make a call at its time among the requests, now if they leave the time for it.
+
+        :raises Busy: too many requests wait
+        """
+        self.simulation.requests.submit_call(call, wait)
+        if self._started:
+            self._apply_up_to_seek()
+        elif wait is not Wait.NONE:
+            self.simulation.apply_waiting()
+
     def _current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests if they are applied."""
         if self._apply_up_to_seek():
@@ -435,9 +439,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         """Have the parameters mirror the world, and a short seek be done at once."""
         self._live_parameters.mirror_settings()
         began = time.perf_counter_ns()
-        self.simulation.playback.continue_seek(
-            lambda: time.perf_counter_ns() - began > MOST_TICK_NS
-        )
+        self.simulation.finish_seek(lambda: time.perf_counter_ns() - began > MOST_TICK_NS)
 
     # Answers
 

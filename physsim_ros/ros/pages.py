@@ -57,7 +57,7 @@ class Pages:
         try:
             sketchpad = Sketchpad(
                 self._control,
-                recordings=self._outputs.viewer,
+                recording_address=lambda: self._outputs.viewer.page_address,
                 address=values['sketchpad_address'],
                 port=values['sketchpad_port'],
                 wake=self._wake,

@@ -11,7 +11,7 @@ from typing import Any
 from physsim_ros.model.errors import Running
 from physsim_ros.model.snapshot import Answer, run_state
 from physsim_ros.ros import parameters
-from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
+from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
@@ -61,7 +61,7 @@ class TimeControl:
             'step': self.step,
         }
 
-    def subscribe(self, subscriptions: RequestSubscriptions) -> None:
+    def subscribe(self, topics: RequestTopics) -> None:
         """Subscribe to `~/speed` and `~/seek`."""
         requests = self._simulation.requests
 
@@ -73,8 +73,8 @@ class TimeControl:
             self._on_seek()
             requests.submit_seek(stamp, topic='~/seek')
 
-        subscriptions.add(Float64, '~/speed', set_speed)
-        subscriptions.add(Clock, '~/seek', seek)
+        topics.subscribe(Float64, '~/speed', set_speed)
+        topics.subscribe(Clock, '~/seek', seek)
 
     def set_speed(self, speed: float) -> str:
         """

@@ -9,26 +9,34 @@ after a rewind. No state, no clock, no engine; messages of readings are in `ros`
 `laser`, then `surroundings` (what rays meet) and `fan` (how).
 """
 
-from physsim_ros.sensing.bumper import read_bumper
+from physsim_ros.sensing.bumper import is_bumped, read_bumper
 from physsim_ros.sensing.floor_eye import FloorMarks, read_floor
 from physsim_ros.sensing.imu import InertialReading, read_imu
 from physsim_ros.sensing.laser import read_laser, scan_points
+from physsim_ros.sensing.odometry import OdometryReading, read_odometry, true_motion
 from physsim_ros.sensing.range_finder import read_range
 from physsim_ros.sensing.schedule import is_due
 from physsim_ros.sensing.surroundings import Surroundings
+from physsim_ros.sensing.view import read_sensor, View
 from physsim_ros.sensing.wheel_encoders import read_wheels, WheelReading
 
 __all__ = [
     'FloorMarks',
     'InertialReading',
+    'OdometryReading',
     'Surroundings',
+    'View',
     'WheelReading',
+    'is_bumped',
     'is_due',
     'read_bumper',
     'read_floor',
     'read_imu',
     'read_laser',
+    'read_odometry',
     'read_range',
+    'read_sensor',
     'read_wheels',
     'scan_points',
+    'true_motion',
 ]

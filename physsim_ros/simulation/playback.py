@@ -12,14 +12,12 @@ frame. Where contacts are reported, the frame of a paused world has those of its
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterator
 
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
 from physsim_ros.simulation.clock import Clock
-from physsim_ros.simulation.past.frame_cache import CachedFrame
-from physsim_ros.simulation.past.past import Past
-from physsim_ros.simulation.past.tree import Moment
+from physsim_ros.simulation.past import CachedFrame, Moment, Past
 from physsim_ros.simulation.world import World
 
 
@@ -27,7 +25,7 @@ class Playback:
     """
     The moment that is shown.
 
-    :param past: with the timeline
+    :param past: of the world
     :param speed: simulation seconds a second; 0 is paused, negative goes back
 
     :ivar clock: the speed, and the steps that are due
@@ -80,22 +78,21 @@ class Playback:
     @property
     def is_there(self) -> bool:
         """Return whether the world is at the moment that is shown, without a replay."""
-        return self._shown is None and not self._past.timeline.is_seeking
+        return self._shown is None and not self._past.cursor.is_seeking
 
     @property
     def step(self) -> int:
         """Return the step that is shown."""
         if self._shown is not None:
             return self._shown.snapshot.step
-        return self._past.timeline.moment[0]
+        return self._past.cursor.moment[0]
 
     @property
     def moment(self) -> Moment:
         """Return step and serial that are shown."""
-        timeline = self._past.timeline
         if self._shown is None:
-            return timeline.moment
-        return self.step, timeline.history.serial_shown_at(self.step)
+            return self._past.cursor.moment
+        return self.step, self._past.tree.serial_shown_at(self.step)
 
     @property
     def time(self) -> str:
@@ -107,13 +104,13 @@ class Playback:
         """Return the settings of the world at the moment that is shown."""
         if self._shown is not None:
             return self._shown.snapshot.scene.settings
-        return self._past.timeline.settings
+        return self._past.cursor.settings
 
     @property
     def world(self) -> World:
         """Return the world, at the moment that is shown."""
         self.seek_shown()
-        return self._past.timeline.world
+        return self._past.cursor.world
 
     @property
     def is_world_due(self) -> bool:
@@ -136,14 +133,14 @@ class Playback:
 
     def _observe_world(self, *, moved: bool) -> CachedFrame:
         """Return the state of the world, and cache it for rewinds."""
-        timeline, cache = self._past.timeline, self._past.frame_cache
-        world = timeline.world
+        cursor, cache = self._past.cursor, self._past.frames
+        world = cursor.world
         snapshot = world.snapshot()
         contacts = world.contacts(snapshot) if world.reports_contacts else None
         frame = CachedFrame(snapshot, contacts)
         # The first frame of this step has the contacts.
         cache.add_frame(frame if moved else cache.with_first_contacts(frame))
-        timeline.note_shown()
+        self._past.tree.note_shown(*cursor.moment)
         return frame
 
     # To another moment
@@ -159,39 +156,30 @@ class Playback:
 
     def _seek_step(self, step: int) -> None:
         self._show_requests()
-        frame = self._past.frame_cache.cached_frame(step)
+        frame = self._past.frames.cached_frame(step)
         if frame is None:
-            self._past.timeline.seek(step)
+            self._past.cursor.seek(step)
         self.note_jump()
         self._shown, self._lacks_contacts = frame, False
 
     def _show_requests(self) -> None:
         """Note requests since the last frame as shown at this step."""
-        timeline = self._past.timeline
-        step, serial = timeline.moment
-        if serial > timeline.history.serial_shown_at(step):
+        step, serial = self._past.cursor.moment
+        if serial > self._past.tree.serial_shown_at(step):
             self._observe_world(moved=False)
 
     def seek_shown(self) -> None:
         """Send the world to the moment that is shown."""
         if self._shown is not None:
             step, self._shown = self._shown.snapshot.step, None
-            self._past.timeline.seek(step, with_contacts=False)
+            self._past.cursor.seek(step, with_contacts=False)
 
-    def continue_seek(self, is_overdue: Callable[[], bool]) -> bool:
-        """
-        Replay towards the goal of a seek; until then no step is due.
-
-        :param is_overdue: whether the replay is to continue in another call
-        :return: whether the goal is reached
-        """
-        if self._shown is not None or self._past.timeline.continue_seek(is_overdue):
-            return True
-        self.clock.restart()
-        return False
+    def continue_seek(self) -> bool:
+        """Replay a part of a seek whose goal is shown; return whether it is still under way."""
+        return self._shown is None and self._past.cursor.continue_seek()
 
     def note_jump(self) -> None:
-        """Show the moment of the timeline, which is another than the one that was shown."""
+        """Show the moment of the cursor, which is another than the one that was shown."""
         self._shown = None
         self.clock.restart()
         self.changed = True
@@ -213,38 +201,37 @@ class Playback:
         self.frames_due += 1
         return round(step * 1e9 / self._past.physics_rate)
 
-    def play(self, steps: int, is_overdue: Callable[[], bool]) -> None:
-        """
-        Advance by steps.
-
-        :param is_overdue: whether to end at the next multiple of the publish period
-        """
+    def play(self, steps: int) -> Iterator[None]:
+        """Advance by steps; yield at each multiple of the publish period."""
         self.seek_shown()
         self._lacks_contacts = False
-        timeline = self._past.timeline
+        cursor = self._past.cursor
         while steps > 0:
             some = min(steps, self.steps_to_period)
-            timeline.advance(some)
-            timeline.build_ahead(some)
-            steps = 0 if is_overdue() else steps - some
+            cursor.advance(some)
+            cursor.build_ahead(some)
+            steps -= some
+            yield
 
-    def rewind(self, steps: int, is_overdue: Callable[[], bool]) -> bool:
+    def rewind(self, steps: int) -> bool:
         """
         Show the frame of an earlier step, no earlier than the oldest.
 
-        :param is_overdue: whether its replay is to continue in another call; until then no step
-            is due
-        :return: whether it is shown
+        :return: whether it is shown; if not, a part of its replay was made
         """
-        cache = self._past.frame_cache
-        step = max(self._past.timeline.history.oldest, self.step - steps)
-        if step >= self.step:
-            return True
-        shown = cache.frame_at(step, is_overdue)
-        if shown is None:
-            # The time of this replay is not made up for.
-            self.clock.restart()
-            return False
-        self._shown, self._lacks_contacts = shown, False
-        cache.replay_ahead(step, steps, is_overdue, fine=not self.speed.is_integer())
+        step = max(self._past.tree.oldest, self.step - steps)
+        if step < self.step:
+            shown = self._past.frames.frame_at(step)
+            if shown is None:
+                return False
+            self._shown, self._lacks_contacts = shown, False
         return True
+
+    def replay_ahead(self, steps: int) -> Iterator[None]:
+        """
+        Replay some of the frames that a rewind shows later; yield after each.
+
+        :param steps: from one frame that is shown to the next
+        """
+        fine = not self.speed.is_integer()
+        return self._past.frames.replay_ahead(self.step, steps, fine=fine)

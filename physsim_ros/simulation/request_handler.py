@@ -11,32 +11,119 @@ requests before it, and before those after it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from enum import Enum
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import (
     DriveRobot,
     Grab,
+    GrabToPlace,
     HandRequest,
     KeepHand,
     LetGo,
     MoveHand,
+    PlaceHand,
     Request,
 )
-from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.hands import Hands, placing
-from physsim_ros.simulation.past.past import Past
+from physsim_ros.model.snapshot import Answer, Grip
+from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_queue import Amend, Call, RequestQueue, Seek, Waiting
-from physsim_ros.simulation.world import Done
+from physsim_ros.simulation.request_queue import Amend, Call, RequestQueue, Seek, Unread, Waiting
+
+# Steady time without a request after which a hand lets go [ns]: its page is gone.
+LONGEST_SILENCE = 5 * 10**9
+
+
+@dataclass(slots=True)
+class _Hand:
+    """
+    A hand that drags a body.
+
+    :param gesture: number of the gesture of the drag
+    :param silent_since: first steady time after its last request, or after a pause [ns]; None
+        until then
+    """
+
+    gesture: int
+    silent_since: int | None = None
+
+
+class Hands:
+    """
+    The hands of people that drag a body at the moment that is shown.
+
+    Laws: a drag, from the grab until the hand lets go, is one gesture; requests of a hand whose
+    grip is gone, or after another moment is shown, change nothing.
+    """
+
+    def __init__(self) -> None:
+        self._dragging: dict[str, _Hand] = {}
+
+    def __contains__(self, hand: str) -> bool:
+        return hand in self._dragging
+
+    def gesture_of(self, request: HandRequest, gesture: int) -> int:
+        """
+        Return the gesture that a request is part of.
+
+        :param gesture: its own, if no drag is under way
+        """
+        hand = self._dragging.get(request.hand)
+        return gesture if hand is None or isinstance(request, Grab) else hand.gesture
+
+    def note_request(self, request: HandRequest, gesture: int, grips: Iterable[Grip]) -> None:
+        """
+        Note that a request of a hand was carried out.
+
+        :param grips: of the world now; at a grab, hands without one are dropped: their bodies are
+            gone
+        """
+        match request:
+            case Grab(hand=hand):
+                self._dragging[hand] = _Hand(gesture)
+                with_grip = {grip.hand for grip in grips}
+                for name in self._dragging.keys() - with_grip:
+                    del self._dragging[name]
+            case MoveHand(hand=hand) | KeepHand(hand=hand):
+                self._dragging[hand].silent_since = None
+            case LetGo(hand=hand):
+                self._dragging.pop(hand, None)
+
+    def note_time(self, now_ns: int, *, paused: bool) -> None:
+        """
+        Drop the hands that have been silent for too long.
+
+        :param now_ns: steady time, never going back [ns]
+        :param paused: whether the world is paused; then the time does not count
+        """
+        for name, hand in list(self._dragging.items()):
+            if paused or hand.silent_since is None:
+                hand.silent_since = now_ns
+            elif now_ns - hand.silent_since > LONGEST_SILENCE:
+                del self._dragging[name]
+
+    def clear(self) -> None:
+        """Drop all hands, since another moment is shown."""
+        self._dragging.clear()
+
+
+def placing(request: HandRequest) -> HandRequest:
+    """Return the request of a hand in a paused world, in which it places bodies."""
+    match request:
+        case GrabToPlace() | PlaceHand() | KeepHand() | LetGo():
+            return request
+        case Grab(hand=hand, point=point, frame=frame):
+            return GrabToPlace(hand=hand, point=point, frame=frame)
+        case MoveHand(hand=hand, point=point, yaw=yaw, frame=frame):
+            return PlaceHand(hand=hand, point=point, yaw=yaw, frame=frame)
 
 
 class RequestHandler:
     """
     Applies requests at the moment that is shown.
 
-    :param past: with the timeline of the world
+    :param past: of the world
     :param playback: the moment that is shown
     :param queue: of the requests that wait
 
@@ -53,7 +140,8 @@ class RequestHandler:
 
     def apply_waiting(self) -> None:
         """Apply the requests that wait, and collect their answers."""
-        self._apply(self._queue.take())
+        for waiting in self._queue.take():
+            self._carry_out(waiting)
 
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> None:
         """
@@ -61,61 +149,67 @@ class RequestHandler:
 
         :param is_spent: whether there is no time for a further request, which waits, too
         """
-        self._apply(self._queue.take(lambda: self._playback.is_there, is_spent))
+        for waiting in self._queue.take(lambda: self._playback.is_there, is_spent):
+            self._carry_out(waiting)
 
-    def _apply(self, entries: Iterator[Waiting]) -> None:
-        for waiting in entries:
-            try:
-                self.answers += self._carry_out(waiting)
-            except Refusal as refusal:
-                self.answers.append(_refused(refusal, waiting, waiting.subject))
+    def _carry_out(self, waiting: Waiting) -> None:
+        """Carry out an entry of the queue, and collect its answers."""
+        try:
+            match waiting.request:
+                case Answer() as answer:
+                    self.answers.append(answer)
+                case Refusal() as refusal:
+                    self._playback.changed = True
+                    self._answer(refusal, waiting)
+                case Call(call=call):
+                    self.answers += call()
+                case Amend(gestures=gestures, requests=requests):
+                    self._playback.seek_shown()
+                    results = self._past.amend(gestures, requests, waiting.author)
+                    self._playback.note_jump()
+                    for result in results:
+                        self._answer(result, waiting)
+                case Seek(stamp=stamp):
+                    self._answer(Answer(message=self.seek(stamp)), waiting)
+                case request:
+                    self._playback.changed = True
+                    if isinstance(request, Unread):
+                        request = request.convert()
+                    done = self.apply(request, waiting.gesture, waiting.author)
+                    # Moves and drives come at the rate of frames.
+                    if not isinstance(request, DriveRobot | MoveHand | KeepHand):
+                        self._answer(done, waiting)
+        except Refusal as refusal:
+            self._answer(refusal, waiting)
 
-    def _carry_out(self, waiting: Waiting) -> Iterable[Answer]:
-        """Carry out an entry of the queue, and return its answers."""
-        match waiting.request:
-            case Answer() as answer:
-                return [answer]
-            case Refusal() as refusal:
-                self._playback.changed = True
-                raise refusal
-            case Call(call=call):
-                return call()
-            case Amend(gestures=gestures, requests=requests):
-                self._playback.seek_shown()
-                results = self._past.amend(gestures, requests, waiting.author)
-                self._playback.note_jump()
-                return [_answer(result, waiting) for result in results]
-            case Seek(stamp=stamp):
-                return [_answer(Done('', self.seek(stamp)), waiting)]
-            case request:
-                self._playback.changed = True
-                done = self.apply(request, waiting.gesture, waiting.author)
-                # Moves and drives come at the rate of frames.
-                told = not isinstance(request, DriveRobot | MoveHand | KeepHand)
-                return [_answer(done, waiting)] if told else []
+    def _answer(self, result: Answer | Refusal, waiting: Waiting) -> None:
+        """Collect the answer to a request that waited."""
+        if isinstance(result, Refusal):
+            result = Answer.refused(result, topic='', subject=waiting.subject, field=waiting.field)
+        self.answers.append(replace(result, topic=waiting.topic, asker=waiting.asker))
 
-    def apply(self, request: Request, gesture: int, author: str = '') -> Done:
+    def apply(self, request: Request, gesture: int, author: str = '') -> Answer:
         """
         Apply a request now.
 
         :param gesture: its gesture; requests of a drag have that of the grab
-        :param author: name of the person whose doing it is; '' is nobody's
+        :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
-        timeline = self._past.timeline
-        before = timeline.moment
+        cursor = self._past.cursor
+        before = cursor.moment
         if isinstance(request, HandRequest):
             if request.hand not in self.hands and not isinstance(request, Grab):
                 # Grips of a past moment belong to no present hand.
-                return Done('', f'{request.hand} holds no body')
+                return Answer(message=f'{request.hand} holds no body')
             if self._playback.speed == 0.0:
                 request = placing(request)
             gesture = self.hands.gesture_of(request, gesture)
         self._playback.seek_shown()
         done = self._past.apply(request, gesture, author)
         if isinstance(request, HandRequest):
-            self.hands.note_request(request, gesture, timeline.world.grips)
-        if timeline.moment != before:
+            self.hands.note_request(request, gesture, cursor.world.grips)
+        if cursor.moment != before:
             # On a new course, grips of the past have no hand.
             self.release_grips()
         return done
@@ -132,15 +226,15 @@ class RequestHandler:
 
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless the history has their release ahead."""
-        timeline = self._past.timeline
-        if self._playback.is_frame_cached or not timeline.world.grips or not timeline.is_newest:
+        cursor = self._past.cursor
+        if self._playback.is_frame_cached or not cursor.world.grips or not cursor.is_newest:
             return
-        for grip in timeline.world.grips:
+        for grip in cursor.world.grips:
             if grip.hand not in self.hands:
                 # In the gesture of the request before, so that they are undone together.
-                gesture = timeline.history.node(timeline.serial).gesture or self._queue.gesture
+                gesture = self._past.tree.node(cursor.serial).gesture or self._queue.gesture
                 self._past.apply(LetGo(hand=grip.hand), gesture)
-                message = f'{grip.hand} is silent and has let go of {grip.body}'
+                message = f'released {grip.body}: no message from {grip.hand}'
                 self.answers.append(
                     Answer(topic='~/drag/feedback', subject=grip.body, message=message)
                 )
@@ -155,69 +249,3 @@ class RequestHandler:
         """Add the event that the moment that is shown is the oldest."""
         message = f'{self._playback.time} is the oldest that is kept{more}'
         self.answers.append(Answer(topic='history', message=message))
-
-
-def _answer(result: Done | Refusal, waiting: Waiting) -> Answer:
-    """Return the answer to a request that waited, with its result."""
-    if isinstance(result, Refusal):
-        return _refused(result, waiting, subject='')
-    return Answer(
-        topic=waiting.topic,
-        subject=result.subject,
-        message=result.message,
-        asker=waiting.asker,
-    )
-
-
-def _refused(refusal: Refusal, waiting: Waiting, subject: str) -> Answer:
-    return Answer.refused(
-        refusal, topic=waiting.topic, subject=subject, field=waiting.field, asker=waiting.asker
-    )
-
-
-class Wait(Enum):
-    """
-    The time at which a call is carried out.
-
-    :cvar NONE: at once: it does not depend on requests
-    :cvar BEHIND_REQUESTS: after the requests that wait, which wait for the end of a seek; without
-        any, at once, also during a seek
-    :cvar FOR_SEEK: after the end of a seek, as requests: it reads or replaces the world
-    """
-
-    NONE = 'none'
-    BEHIND_REQUESTS = 'behind requests'
-    FOR_SEEK = 'for seek'
-
-
-class DeferredCalls:
-    """
-    Carries out calls, or queues them among the requests.
-
-    :param requests: queue of requests and answers
-    :param apply_up_to_seek: applies requests before a seek; returns whether the world is there
-    """
-
-    def __init__(self, requests: RequestQueue, apply_up_to_seek: Callable[[], bool]) -> None:
-        self._requests = requests
-        self._apply_up_to_seek = apply_up_to_seek
-
-    def submit(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
-        """
-        Carry out a call, and tell its answers.
-
-        :param wait: time at which it is carried out
-        :raises Busy: too many requests wait
-        """
-        waits = wait is Wait.FOR_SEEK or (
-            wait is Wait.BEHIND_REQUESTS and self._requests.has_requests
-        )
-        if waits and not self._apply_up_to_seek():
-            self._requests.submit_call(call)
-        else:
-            self.tell(call())
-
-    def tell(self, answers: Iterable[Answer]) -> None:
-        """Tell answers at once."""
-        for answer in answers:
-            self._requests.tell(answer)

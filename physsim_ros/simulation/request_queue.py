@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from enum import Enum
 
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import (
@@ -30,11 +31,13 @@ from physsim_ros.model.requests import (
     Unjoin,
 )
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past.memory_size import names_size, request_size
+from physsim_ros.simulation.past import request_size
 
 # Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000
 # bodies. Up to twice that number of answers are told one by one.
 MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
+# Memory of a marker as rclpy decodes it [bytes].
+_UNREAD = 2500
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,17 +67,43 @@ class Amend:
 
 
 @dataclass(frozen=True, slots=True)
+class Unread:
+    """
+    A request in a message that is converted when its turn comes, as of an array of thousands.
+
+    :param subject: name of the body or joint that it names
+    :param convert: returns the request; raises a Refusal
+    """
+
+    subject: str
+    convert: Callable[[], Request]
+
+
+class Wait(Enum):
+    """
+    The time at which a call is carried out.
+
+    :cvar NONE: at once: it does not depend on requests
+    :cvar BEHIND_REQUESTS: after the requests that wait; also during a seek, which it replaces
+    :cvar FOR_SEEK: after the requests and the end of a seek: it reads or replaces the world
+    """
+
+    NONE = 'none'
+    BEHIND_REQUESTS = 'behind requests'
+    FOR_SEEK = 'for seek'
+
+
+@dataclass(frozen=True, slots=True)
 class Call:
     """
     Call a function that reads or replaces the world.
 
     :param call: the function; it returns answers
+    :param wait: the time at which it is called
     """
 
     call: Callable[[], Iterable[Answer]]
-
-
-_NO_REQUESTS = Seek | Refusal | Answer
+    wait: Wait
 
 
 @dataclass(slots=True)
@@ -90,10 +119,10 @@ class Waiting:
     :param field: the only field of the message, which a refusal names; '' if it has several
     :param asker: key of the message that asks, which the answer names; '' for none
     :param size: memory of the request [bytes]
-    :param author: name of the person whose doing it is; '' is nobody's
+    :param author: name of the person who did it; '' is nobody
     """
 
-    request: Request | Amend | Seek | Call | Refusal | Answer
+    request: Request | Unread | Amend | Seek | Call | Refusal | Answer
     topic: str
     subject: str
     gesture: int
@@ -104,19 +133,25 @@ class Waiting:
 
     @property
     def is_for_world(self) -> bool:
-        """Return whether it is applied to the world."""
-        return not isinstance(self.request, _NO_REQUESTS)
+        """Return whether it is applied to the world, and so waits for the end of a seek."""
+        match self.request:
+            case Call(wait=wait):
+                return wait is Wait.FOR_SEEK
+            case Seek() | Refusal() | Answer():
+                return False
+        return True
 
 
-def size_of(request: Request | Amend) -> int:
+def size_of(request: Request | Unread | Amend) -> int:
     """Return the memory that a request takes [bytes]."""
+    if isinstance(request, Unread):
+        return _UNREAD
     if isinstance(request, Amend):
         return sum(map(size_of, request.requests))
-    names = names_size(request.names) if isinstance(request, Command) else 0
-    return request_size(request) + names
+    return request_size(request)
 
 
-def subject_of(request: Request | Amend) -> str:
+def subject_of(request: Request | Unread | Amend) -> str:
     """Return the one body or joint that a request names, or ''."""
     match request:
         case (
@@ -127,6 +162,7 @@ def subject_of(request: Request | Amend) -> str:
             | Unjoin(name=name)
             | DriveRobot(name=name)
             | Command(names=(name,))
+            | Unread(subject=name)
         ):
             return name
     return ''
@@ -180,7 +216,7 @@ class RequestQueue:
 
     def submit(
         self,
-        request: Request | Amend,
+        request: Request | Unread | Amend,
         *,
         topic: str,
         joined: bool = False,
@@ -197,7 +233,7 @@ class RequestQueue:
         :param gesture: number of an earlier gesture that it is in, whatever came between
         :param field: the only field of its message, which a refusal names; '' if it has several
         :param asker: key of the message that asks, which the answer names; '' for none
-        :param author: name of the person whose doing it is; '' is nobody's
+        :param author: name of the person who did it; '' is nobody
         """
         if isinstance(request, MoveHand) and request.hand in self._moves:
             self._moves[request.hand].request = request
@@ -237,18 +273,23 @@ class RequestQueue:
         self._seek = Waiting(Seek(stamp), topic, '', self.gesture)
         self._waiting.append(self._seek)
 
-    def submit_call(self, call: Callable[[], Iterable[Answer]]) -> None:
+    def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
         """
-        Add a call, which waits for the end of a seek, as requests do.
+        Make a call now, or add it to the requests.
 
-        :raises Busy: too many wait
+        :param wait: the time at which it is called
+        :raises Busy: too many requests wait
         """
+        if wait is Wait.NONE:
+            for answer in call():
+                self.tell(answer)
+            return
         if busy := self._busy():
             raise busy
         self._moves.clear()
         self._seek = None
         # Its answers have their own topics.
-        self._waiting.append(Waiting(Call(call), '', '', self.begin_gesture()))
+        self._waiting.append(Waiting(Call(call, wait), '', '', self.begin_gesture()))
 
     def refuse(
         self,

@@ -13,22 +13,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+import math
 from numbers import Integral
 
-from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import shown, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.errors import BadProperty, InPast
+from physsim_ros.model.requests import DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, HistoryMemory
-from physsim_ros.simulation.past.past import Past
+from physsim_ros.sensing import View
+from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world.robot_requests import is_driving
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -36,6 +39,25 @@ CHECKPOINTS = 3.0
 _RATE = Within(1.0, 1e4, 'Hz')
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SavedMoment:
+    """
+    A moment of a simulation, from which it and others continue with the same bits; it pickles.
+
+    :param checkpoint: of the world
+    :param loaded: the state that was loaded last, to which `reset` returns
+    :param frame: that is shown
+    :param before: the last snapshot of another time, which was shown before it; None is none
+    :param held: what robots drive on with
+    """
+
+    checkpoint: Checkpoint
+    loaded: WorldState
+    frame: Frame
+    before: Snapshot | None
+    held: tuple[DriveRobot, ...]
 
 
 class Simulation:
@@ -46,7 +68,7 @@ class Simulation:
     :param publish_rate: frames a second of simulation time at speed 1 [Hz]
     :param settings: of the empty world at the start
     :param speed: simulation seconds a second; 0 is paused, negative goes back
-    :param history: length of the past that is kept [s of simulation time]
+    :param history: length of the past that is kept [s of simulation time]; 0 caches no frame
     :param history_memory: budget of the past [MB]; when it is spent, the oldest is dropped
     :param checkpoints: from one checkpoint to the next [s]
     :param boundary: of the requests; None lets unexpected errors pass
@@ -54,8 +76,9 @@ class Simulation:
         physics_rate
 
     :ivar requests: queue of the requests that wait for the next frame
-    :ivar past: the timeline in force, cached frames, ghosts, and their budget of memory
+    :ivar past: the lines of events, cached frames, and their budget of memory
     :ivar playback: the moment that is shown
+    :ivar held: the commands with which robots drive on, by the names of their bodies
     """
 
     def __init__(
@@ -87,12 +110,14 @@ class Simulation:
             settings=settings or WorldSettings(),
             length=history,
             checkpoints=checkpoints,
-            memory=HistoryMemory(history_memory),
+            memory=history_memory,
             boundary=boundary or ErrorBoundary(),
         )
         self.playback = Playback(self.past, speed=speed)
         self.requests = RequestQueue()
         self._handler = RequestHandler(self.past, self.playback, self.requests)
+        self._view: View | None = None
+        self.held: dict[str, DriveRobot] = {}
 
     # Reading
 
@@ -120,6 +145,7 @@ class Simulation:
     def speed(self, speed: float) -> None:
         if speed < 0.0:
             self._handler.hands.clear()
+            self.let_go()
         self.playback.speed = speed
 
     @property
@@ -130,14 +156,14 @@ class Simulation:
     @property
     def loaded(self) -> WorldState:
         """Return the state that was loaded last, to which `reset` returns."""
-        return self.past.timeline.history.tip.loaded.state
+        return self.past.tree.tip.loaded.state
 
     def limit_history(self, seconds: float) -> None:
         """Set the length of the past that is kept [s of simulation time]."""
         self.playback.seek_shown()
         # The times of a paused world are told anew.
         self.playback.changed = True
-        if not self.past.timeline.keep_within(self.past.steps_in(seconds)):
+        if not self.past.cursor.keep_within(self.past.steps_in(seconds)):
             self.playback.note_jump()
             self._handler.report_oldest()
 
@@ -147,7 +173,7 @@ class Simulation:
 
         :raises Refusal: it is out of range
         """
-        self.past.memory.megabytes = megabytes
+        self.past.budget.megabytes = megabytes
         self.playback.changed = True
 
     @property
@@ -160,6 +186,25 @@ class Simulation:
         if reports_contacts != self.past.reports_contacts:
             self.past.reports_contacts = reports_contacts
             self.playback.note_reporting(reports_contacts)
+
+    @property
+    def view(self) -> View:
+        """
+        Return the frame of now as sensors see it.
+
+        A frame is made when it is first read after steps or requests, so that steps whose frame
+        nobody reads make none.
+        """
+        if self._view is None or self.playback.changed:
+            shown = self._view and self._view.snapshot.step
+            self._observe_frame(moved=shown != self.step)
+        assert self._view is not None  # noqa: S101 - `_observe_frame` makes it
+        return self._view
+
+    @property
+    def frame(self) -> Frame:
+        """Return the frame of now, which is made when it is first read."""
+        return self.view.frame
 
     # Requests
 
@@ -179,11 +224,17 @@ class Simulation:
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0 and without a past; `reset` returns to it."""
         self.past.begin(state)
+        self._note_beginning()
+
+    def _note_beginning(self) -> None:
+        """Note that the world is another one, which nobody holds or drives."""
         self._handler.hands.clear()
+        self.let_go()
         self.playback.note_jump()
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` returns; time goes on."""
+        self.let_go()
         return self.perform(Restore(state=state))
 
     def save(self) -> WorldState:
@@ -197,11 +248,46 @@ class Simulation:
         self._handler.apply_waiting()
         return self.world.save()
 
-    def reset(self) -> str:
-        """Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message."""
+    def checkpoint(self) -> SavedMoment:
+        """
+        Return this moment, to the bit, for `restore`.
+
+        This world continues from it as all do that restore it: it, too, moves into a space that
+        is built from the checkpoint. Without the call its later bits may be others.
+
+        :raises InPast: the past is shown
+        """
+        frame = self.frame
+        if frame.past:
+            raise InPast('the past is shown; go to its end first', field='history')
+        checkpoint = self.past.cursor.add_keyframe()
+        return SavedMoment(
+            checkpoint=checkpoint,
+            loaded=self.loaded,
+            frame=frame,
+            before=self.view.before,
+            held=tuple(self.held.values()),
+        )
+
+    def restore(self, saved: SavedMoment) -> None:
+        """Continue from a moment, at its time and without a past."""
+        self.past.restore(saved.checkpoint, saved.loaded)
+        self._note_beginning()
+        self.held = {drive.name: drive for drive in saved.held}
+        self._view = View(saved.frame, saved.before)
+        self.playback.changed = False
+
+    def reset(self, seed: int | None = None) -> str:
+        """
+        Go to the state that was loaded last, at time 0; `undo` reverts it. Return a message.
+
+        :param seed: of all noise from then on; None is that of the state
+        :raises BadProperty: the seed is out of range
+        """
         with self._jump():
             self._handler.hands.clear()
-            done = self.past.reset()
+            self.let_go()
+            done = self.past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
     def undo(self) -> str:
@@ -256,9 +342,18 @@ class Simulation:
         if not isinstance(stamp, Integral):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
         self._handler.apply_waiting()
+        self.let_go()
         return self._handler.seek(stamp)
 
+    def let_go(self) -> None:
+        """End what `Robot.drive` has robots do; their last commands end with their timeouts."""
+        self.held.clear()
+
     # Time
+
+    def apply_waiting(self) -> None:
+        """Apply the requests that wait, at whose seeks the world goes at once."""
+        self._handler.apply_waiting()
 
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
@@ -269,6 +364,20 @@ class Simulation:
         """
         self._handler.apply_up_to_seek(is_spent)
         return self.playback.is_there and not self.requests.has_requests
+
+    def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
+        """
+        Replay up to the goal of a seek whose frame is not cached; until then no step is due.
+
+        :param is_overdue: whether the replay is to continue in another call
+        :return: whether the goal is reached
+        """
+        while self.playback.continue_seek():
+            if is_overdue():
+                # The time of this replay is not made up for.
+                self.playback.clock.restart()
+                return False
+        return True
 
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
@@ -281,10 +390,31 @@ class Simulation:
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
+        self._advance_period()
+        return self._observe_frame(moved=True)
+
+    def run(self, seconds: float) -> None:
+        """
+        Advance by simulated seconds, to the nearest publish period, at any speed.
+
+        No frame is made but the last one, when it is read; its contacts are those of all steps
+        since the one that was read before.
+
+        :raises BadProperty: they are below 0, or not finite
+        """
+        periods = seconds * self.physics_rate / self.frame_steps
+        if not 0.0 <= periods < math.inf:
+            raise BadProperty(f'seconds must be finite and >= 0, not {seconds:g}', field='seconds')
+        for _ in range(round(periods)):
+            self._advance_period()
+
+    def _advance_period(self) -> None:
+        """Apply the requests that wait, and advance by one publish period."""
+        self._hold_drives()
         self._handler.apply_waiting()
         self._handler.release_grips()
         self.playback.clock.restart()
-        return self._play_frame(self.playback.steps_to_period)
+        self._play(self.playback.steps_to_period)
 
     def advance(
         self,
@@ -307,12 +437,14 @@ class Simulation:
             nothing has changed
         """
         playback = self.playback
+        if playback.speed > 0.0:
+            self._hold_drives()
         if playback.is_world_due or self.requests.has_requests:
             playback.seek_shown()
-        if not playback.continue_seek(is_overdue):
+        if not self.finish_seek(is_overdue):
             return ()
         self._handler.apply_up_to_seek(is_spent)
-        if not playback.continue_seek(is_overdue):
+        if not self.finish_seek(is_overdue):
             return ()
         if self.requests.is_in_gesture or (playback.frames_due and self.requests.has_requests):
             playback.clock.restart()
@@ -336,7 +468,8 @@ class Simulation:
             if steps == 0:
                 return
             if steps > 0:
-                yield self._play_frame(steps, is_overdue)
+                self._play(steps, is_overdue)
+                yield self._observe_frame(moved=True)
             elif frame := self._rewind_frame(-steps, is_overdue):
                 yield frame
             else:
@@ -344,16 +477,32 @@ class Simulation:
             if playback.speed == 0 or is_overdue():
                 return
 
-    def _play_frame(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> Frame:
-        self.playback.play(steps, is_overdue)
-        return self._observe_frame(moved=True)
+    def _play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
+        """Advance by steps, whose frame is not made yet."""
+        for _ in self.playback.play(steps):
+            if is_overdue():
+                break
+        self.playback.changed = True
+
+    def _hold_drives(self) -> None:
+        """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
+        for drive in self.held.values():
+            if not is_driving(self.world, drive, self.frame_steps):
+                # In the gesture before, with which it is undone: nobody undoes a tick.
+                self._handler.apply(drive, self.requests.gesture)
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
         before = self.playback.step
-        if not self.playback.rewind(steps, is_overdue):
-            return None
-        if self.playback.step <= self.past.timeline.history.oldest:
+        while not self.playback.rewind(steps):
+            if is_overdue():
+                # The time of this replay is not made up for.
+                self.playback.clock.restart()
+                return None
+        for _ in self.playback.replay_ahead(steps):
+            if is_overdue():
+                break
+        if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
             self._handler.report_oldest('; paused')
         return self._observe_frame(moved=self.playback.step < before)
@@ -365,19 +514,24 @@ class Simulation:
         self._handler.answers += self.past.reports
         self.past.reports.clear()
         self.playback.changed = False
-        return Frame(
+        frame = Frame(
             snapshot=snapshot,
             contacts=contacts if self.past.reports_contacts else None,
             answers=self._handler.take_answers(),
             speed=self.playback.speed,
             moved=moved,
-            past=snapshot.step < self.past.timeline.history.head,
-            course=self.past.course,
+            past=snapshot.step < self.past.tree.head,
+            course=self.past.tree.course,
         )
+        before, last = None, self._view
+        if last is not None:
+            before = last.snapshot if last.snapshot.step != snapshot.step else last.before
+        self._view = View(frame, before)
+        return frame
 
     @contextmanager
     def _jump(self) -> Iterator[None]:
-        """Have the block move the timeline, from the moment that is shown after all requests."""
+        """Have the block move the cursor, from the moment that is shown after all requests."""
         self._handler.apply_waiting()
         self.playback.frames_due = 0
         self.playback.seek_shown()

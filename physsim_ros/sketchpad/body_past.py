@@ -79,7 +79,7 @@ class BodyPasts:
         page = next(iter(self._asked))
         name, request_id = self._asked.pop(page)
         simulation = self._simulation
-        snapshots = simulation.past.frame_cache.snapshots(simulation.step, MOST_FRAMES)
+        snapshots = simulation.past.frames.snapshots(simulation.step, MOST_FRAMES)
         self._send(partial(_body_content, name, request_id, snapshots), page)
 
 

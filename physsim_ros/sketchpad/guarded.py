@@ -29,7 +29,6 @@ TYPES = {
     '.json': 'application/json',
     '.png': 'image/png',
     '.svg': 'image/svg+xml',
-    '.wasm': 'application/wasm',
     '.webmanifest': 'application/manifest+json',
     '.yaml': 'application/yaml; charset=utf-8',
 }

@@ -51,7 +51,7 @@ def _still_there(contacts: Contacts, before: Snapshot, now: Snapshot) -> Contact
         impulses=contacts.impulses[kept],
         # They were told with the first frame.
         begun=NO_CONTACTS.begun,
-        begun_in=NO_CONTACTS.begun_in,
+        begun_at=NO_CONTACTS.begun_at,
     )
 
 

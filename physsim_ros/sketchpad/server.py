@@ -37,7 +37,6 @@ from physsim_ros.sketchpad.page_handlers import (
     QrCode,
 )
 from physsim_ros.sketchpad.page_socket import PageSocket
-from physsim_ros.sketchpad.recording_handlers import recording_routes, Recordings
 from physsim_ros.sketchpad.scene_codec import compact
 from physsim_ros.sketchpad.world_handlers import (
     Download,
@@ -64,7 +63,6 @@ class Server:
     :param port: to listen on; where it is taken, one of the next; 0 is any
     :param own_worlds: of the user
     :param autosave: of the world
-    :param recordings: the viewer
     :param inbox: receives the messages of the pages
     :param boundary: of the node
     :raises PhysSimError: it cannot listen there
@@ -79,7 +77,6 @@ class Server:
         port: int,
         own_worlds: OwnWorlds,
         autosave: Autosave,
-        recordings: Recordings,
         inbox: Inbox,
         boundary: ErrorBoundary,
     ) -> None:
@@ -108,7 +105,6 @@ class Server:
                     Picture,
                     {'own_worlds': own_worlds, 'on_change': self.list_worlds},
                 ),
-                *recording_routes(recordings),
             ],
             access=self._access,
             boundary=boundary,

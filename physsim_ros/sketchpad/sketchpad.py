@@ -21,7 +21,7 @@ from physsim_ros.files import OwnWorlds, state_from, text_of
 from physsim_ros.model.errors import Busy, Frozen
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.body_past import BodyPasts
@@ -31,7 +31,6 @@ from physsim_ros.sketchpad.last_contacts import LastContacts
 from physsim_ros.sketchpad.locks import check_locked
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession
-from physsim_ros.sketchpad.recording_handlers import Recordings
 from physsim_ros.sketchpad.rights import check_right, Right
 from physsim_ros.sketchpad.server import Server
 from physsim_ros.sketchpad.timeline_report import timeline_content, TimelineReport
@@ -49,7 +48,7 @@ class Sketchpad:
     :param world: that the pages draw in
     :param address: to listen on
     :param port: to listen on, or the first free one after it
-    :param recordings: the viewer
+    :param recording_address: of the viewer's web page on this machine; '' while there is none
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
     """
@@ -60,13 +59,13 @@ class Sketchpad:
         *,
         address: str,
         port: int,
-        recordings: Recordings,
+        recording_address: Callable[[], str],
         wake: Callable[[], None],
     ) -> None:
         self._world = world
         self._boundary = world.boundary
         self._simulation = world.simulation
-        self._recordings = recordings
+        self._recording_address = recording_address
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts()
@@ -77,7 +76,6 @@ class Sketchpad:
             port=port,
             own_worlds=self._own_worlds,
             autosave=self._autosave,
-            recordings=recordings,
             inbox=self._inbox,
             boundary=self._boundary,
         )
@@ -85,7 +83,7 @@ class Sketchpad:
         self._sessions: dict[int, PageSession] = {}
         # The last one; None before the first.
         self._frame: Frame | None = None
-        self._sent_recording = self._recording_path()
+        self._sent_recording = self._recording_address()
         self._sent_class: dict[str, Any] = {}
 
     def url(self, role: Role = Role.DRAW) -> str:
@@ -165,8 +163,8 @@ class Sketchpad:
             # Where too many requests wait, the world is saved later.
             with suppress(Busy):
                 self._world.submit_call(self._save_unsaved, Wait.FOR_SEEK)
-        if self._recording_path() != self._sent_recording:
-            self._sent_recording = self._recording_path()
+        if self._recording_address() != self._sent_recording:
+            self._sent_recording = self._recording_address()
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
     def _send_class(self) -> None:
@@ -251,7 +249,7 @@ class Sketchpad:
                 'physics_rate': simulation.physics_rate,
                 'frame_id': self._world.values['frame_id'],
                 'rate': self._world.values['publish_rate'],
-                'rerun': self._recording_path(),
+                'rerun': self._recording_address(),
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,
                 'unsaved': self._autosave.unsaved_at if role.draws else 0.0,
@@ -274,7 +272,3 @@ class Sketchpad:
             self._server.show(frame, self._timeline.ghost(frame.snapshot))
         # Sent to all again.
         self._sent_class = {}
-
-    def _recording_path(self) -> str:
-        """Return where the recording is shown; '' where no viewer serves browsers."""
-        return '/rerun/' if self._recordings.page_address else ''

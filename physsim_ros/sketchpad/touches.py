@@ -33,10 +33,10 @@ def touches_content(
     # Row -1 is a wall of the bounds.
     names = [*frame.snapshot.scene.names, '']
     first = frame.snapshot.step - contacts.steps
-    pairs = zip(contacts.begun.tolist(), contacts.begun_in.tolist(), strict=True)
+    pairs = zip(contacts.begun.tolist(), contacts.begun_at.tolist(), strict=True)
     found = [
-        (names[one], names[other], (first + step) / physics_rate)
-        for (a, b), step in pairs
+        (names[one], names[other], (first + time) / physics_rate)
+        for (a, b), time in pairs
         for one, other in ((a, b), (b, a))
         if names[one] in followed
     ]

@@ -56,7 +56,6 @@ class Parameters(TypedDict, total=False):
     robots_in_past: Literal['follow', 'freeze']
     lockstep: float
     viewer: Literal['none', 'spawn', 'web', 'connect', 'auto']
-    trace: str
     viewer_url: str
     record_file: str
     sketchpad: Literal['none', 'serve']

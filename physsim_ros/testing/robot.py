@@ -7,28 +7,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 import json
-import math
 from typing import Any
 
 from nav_msgs.msg import Odometry
 from physsim_ros.files import shipped_robot
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.requests import DriveRobot
-from physsim_ros.model.robots.sensors import Bumper
 from physsim_ros.model.shapes import SHAPES
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.marker_shapes import geometry_of
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.robots.messages import View
+from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
-from physsim_ros.sensing import read_bumper
+from physsim_ros.sensing import is_bumped
+from physsim_ros.simulation.robot import Robot as SimulatedRobot
 from physsim_ros.testing.messages import marker
 from physsim_ros.testing.values import UnknownName
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import Marker
-
-# A bumper all around.
-_ALL_ROUND = Bumper(sector=math.tau)
 
 
 class Robot:
@@ -39,13 +34,12 @@ class Robot:
     :param body: its name
 
     :ivar name: of its body
-    :ivar held: the command that it has in each frame until another one; None is none
     """
 
     def __init__(self, node: PhysSimNode, body: str) -> None:
         self.name = body
-        self.held: DriveRobot | None = None
         self._node = node
+        self._robot = SimulatedRobot(node.simulation, body)
 
     def drive(self, speed: float, turn: float = 0.0, *, sideways: float = 0.0) -> None:
         """
@@ -55,7 +49,7 @@ class Robot:
         :param turn: counter-clockwise [rad/s]
         :param sideways: to the left, of an omnidirectional drive [m/s]
         """
-        self.held = DriveRobot(name=self.name, velocity=(speed, sideways, turn))
+        self._robot.drive(speed, turn, sideways=sideways)
 
     def scan(self, sensor: str = '') -> LaserScan:
         """
@@ -103,9 +97,7 @@ class Robot:
     def bumped(self) -> bool:
         """Whether it touched something in the last frame: within its bumpers, if it has any."""
         topics, view, row = self._now()
-        sensors = topics.robot.sensors
-        bumpers = [each for each in sensors if isinstance(each, Bumper)] or [_ALL_ROUND]
-        return any(read_bumper(view.snapshot, view.contacts, row, each) for each in bumpers)
+        return is_bumped(view.snapshot, view.contacts, row, topics.robot)
 
     @property
     def has_controller(self) -> bool:
@@ -113,7 +105,7 @@ class Robot:
         topics, _, _ = self._now()
         return topics.commands.is_heard and topics.has_subscribers
 
-    def _now(self) -> tuple[RobotTopics, View, int]:
+    def _now(self) -> tuple[RobotTopics, StampedView, int]:
         """Return its topics, the last frame, and the row of its body in the scene."""
         fleet = self._node.fleet
         if fleet.view is None or self.name not in fleet.robots:

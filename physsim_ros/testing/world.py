@@ -12,8 +12,6 @@ from pathlib import Path
 from typing import Any, Self, Unpack
 
 from geometry_msgs.msg import PointStamped
-from physsim_ros.model.requests import DriveRobot
-from physsim_ros.model.robots.drives import Drive
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.client import RequestClient
@@ -56,7 +54,6 @@ class PhysSim(ObservedWorld):
         self.context = context
         self.recording: Path | None = None
         self._directories = [*filter(None, [directory]), Path()]
-        self._robots: list[Robot] = []
         # Frames until all publishers of commands are looked at, whether their number has changed
         # or not.
         self._frames_to_look = 0
@@ -87,7 +84,7 @@ class PhysSim(ObservedWorld):
                 looked = ', '.join(dict.fromkeys(map(str, paths)))
                 refused.add_note(f'A test also looks for {looked}.')
             raise
-        self._let_go()
+        self.node.simulation.let_go()
         self.node.apply_requests()
         self.settle()
 
@@ -111,7 +108,6 @@ class PhysSim(ObservedWorld):
         for _ in range(frames):
             self._frames_to_look -= 1
             self._match_publishers(new=self._frames_to_look > 0)
-            self._submit_drives()
             self.node.advance_frame()
             self.settle()
             if self.node.fleet.is_waiting:
@@ -202,7 +198,7 @@ class PhysSim(ObservedWorld):
         :raises Refused: the time is no longer in the history, or in the future
         """
         self.settle()
-        self._let_go()
+        self.node.simulation.let_go()
         with refusals_as_refused():
             self.node.simulation.seek(round(seconds * 1e9))
         self.node.apply_requests()
@@ -264,9 +260,7 @@ class PhysSim(ObservedWorld):
         name = name or next(f'robot/{n}' for n in count() if f'robot/{n}' not in names)
         with refusals_as_refused():
             message = robot_marker(robot, name, at, namespace)
-        handle = Robot(self.node, self._client.request('spawn', message))
-        self._robots.append(handle)
-        return handle
+        return Robot(self.node, self._client.request('spawn', message))
 
     def find_robot(self, name: str) -> Robot:
         """
@@ -278,9 +272,7 @@ class PhysSim(ObservedWorld):
         robots = self.node.fleet.robots
         if name not in robots:
             raise UnknownName(f'there is no robot {name!r}{nearest_name(name, robots)}')
-        handle = Robot(self.node, name)
-        self._robots.append(handle)
-        return handle
+        return Robot(self.node, name)
 
     def _match_publishers(self, *, new: bool = False) -> None:
         """
@@ -293,40 +285,6 @@ class PhysSim(ObservedWorld):
             self._frames_to_look = _LOOK_FRAMES
         if fleet.match_new_publishers() if new else fleet.match_publishers():
             self.settle()
-
-    def _let_go(self) -> None:
-        """End what the test has its robots do."""
-        for robot in self._robots:
-            robot.held = None
-
-    def _submit_drives(self) -> None:
-        """Submit what the test has its robots do, unless they do it up to the next frame."""
-        # Of two handles of a robot the later one counts.
-        held = {robot.name: robot.held for robot in self._robots if robot.held is not None}
-        if not held:
-            return
-        for number, (name, topics) in enumerate(self.node.fleet.robots.items()):
-            command = held.get(name)
-            if command is not None and not self._is_in_force(command, topics.robot.drive, number):
-                self.node.simulation.requests.submit(command, topic='drive', joined=True)
-
-    def _is_in_force(self, command: DriveRobot, drive: Drive, number: int) -> bool:
-        """
-        Return whether a robot does what a command says, up to the end of the next frame.
-
-        :param drive: of the robot
-        :param number: of the robot among those of the scene
-        """
-        simulation, view = self.node.simulation, self.node.fleet.view
-        if view is None or view.snapshot.step != simulation.step:
-            return False
-        robots, aim = view.snapshot.robots, drive.aim(command.velocity)
-        if tuple(robots.aim[number].tolist()) != aim:
-            return False
-        # One that stands still does so after its timeout, too.
-        return (
-            not any(aim) or int(robots.until[number]) >= simulation.step + simulation.frame_steps
-        )
 
     def anchor(self, point: PointStamped | tuple[float, float]) -> str:
         """

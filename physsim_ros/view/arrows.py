@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Arrows over the bodies: forces of contacts, and velocities.
+Forces and velocities: arrows over the bodies, and the legend of forces.
 
 A contact is an arrow at its point, the force on a body, as long as the force is great. Of two
 dynamic bodies that is the force on the later spawned one. A velocity is the way of the next fifth
@@ -11,122 +11,109 @@ of a second.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Sequence
-import math
-from typing import NamedTuple
+import itertools
 
 import numpy as np
-from physsim_ros.appearance import nice_number
+from physsim_ros.appearance import full_scale_force, nice_number, PULL, PUSH, SLATE
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts
-from physsim_ros.view.frame_batch import FrameBatch
+from physsim_ros.view.bodies import sampling_period
+from physsim_ros.view.frame_batch import Change, FrameBatch
+from physsim_ros.view.scenery import ARROWS, IMAGE_LABELS, PIXELS
 import rerun as rr
 
 CONTACTS, VELOCITIES = 'world/contacts', 'world/velocities'
 CONTACT_COLOR, _VELOCITY_COLOR = (214, 39, 40), (44, 120, 60)
-# Greatest mean number of arrows in a frame of each kind: of more, fewer frames have arrows.
-_BUDGET = 150
-# Greatest length of the arrow of a force, in lengths of that of the scale, as the legend says.
-LONGEST = 3.0
-# Bounds of the length of the arrow of one weight [units].
-_SHORT, _LONG = 0.15, 1.0
-# Standard gravity [m/s²], for the scale in worlds without one.
-_GRAVITY = 9.81
-# Least weight at the scale [N]: that of the lightest body there may be, 1e-9 kg. The weight in a
-# gravity of next to nothing has no round number near it.
-_LEAST_WEIGHT = 1e-8
+# Length of the arrow of the force that the legend tells [units], and the greatest one in lengths
+# of that: arrows of impacts are cut.
+LENGTH, CUT = 1.2, 1.5
+# Number of frames of which the median of the greatest forces is shown in full: half a second, so
+# that an impact does not change the scale.
+_FITTED = 30
+# Share of the force of the legend below which that median has a legend of its own.
+_SMALL = 0.35
 # Time in which the impulses of the first frame act [ns]: a period of 60 Hz, the default rate.
 _FIRST_PERIOD = 16_666_667
 # Time by which a velocity is multiplied [s], and the shortest period of sending it [frames].
 _AHEAD, _VELOCITY_PERIOD = 0.2, 10
 _NONE: Floats = np.empty((0, 2))
 
-
-class ForceScale(NamedTuple):
-    """
-    The scale of the arrows of a scene: that of one weight is about as long as a body.
-
-    :ivar force: a round number [N]
-    :ivar length: of the arrow of that force [m]
-    """
-
-    force: float
-    length: float
-
-
-def force_scale(scene: Scene, unit: float) -> ForceScale:
-    """
-    Return the scale of the arrows of a scene.
-
-    :param unit: length of a unit of the view [m]
-    """
-    dynamic = np.flatnonzero(scene.inertia[:, 0] > 0)
-    if not len(dynamic):
-        return ForceScale(1.0, unit)
-    weight = float(np.median(scene.inertia[dynamic, 0]))
-    weight *= float(np.hypot(*scene.settings.gravity)) or _GRAVITY
-    weight = max(weight, _LEAST_WEIGHT)
-    size = float(np.median([scene.bodies[row].shape.form.outer for row in dynamic]))
-    length = min(max(2.0 * size, _SHORT * unit), _LONG * unit)
-    force = nice_number(weight)
-    return ForceScale(force, length * force / weight)
+# In pixels of the image of the camera, so that they stay when the camera moves.
+_ARROW, _BAR, _WORDS = (f'world/camera/legend/{name}' for name in ('arrow', 'bar', 'labels'))
+# Left end of the arrow, and middle of the bar [pixels].
+_ARROW_AT, _BAR_AT = (150.0, 14.0), (640.0, 14.0)
+# Half the length of the bar [pixels], and its number of colours.
+_HALF, _COLORS = 100.0, 11
+# Distance of labels from the arrow and the bar [pixels].
+_BELOW = 4.0
 
 
 class ContactArrows:
     """
-    Sends the contacts of frames.
+    Sends the contacts of frames, and the legend of their forces and of those of joints.
 
     :param recording: stream to log to
     """
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
+        self._legend = _Legend(recording)
+        # The force of the legend [N]; 0 before the first contact.
+        self._force = 0.0
+        # The greatest force in each of the last frames with contacts [N].
+        self._greatest: deque[float] = deque(maxlen=_FITTED)
         _log_style(recording, CONTACTS, CONTACT_COLOR)
         # Whether the last row that was sent has arrows, and the time of the frame before [ns].
         self._shown = False
         self._stamp: int | None = None
 
-    def send(self, batch: FrameBatch, scale: ForceScale, *, height: float) -> None:
-        """
-        Send the contacts of a batch.
-
-        :param scale: of the arrows
-        :param height: z of them [m]
-        """
+    def send(self, batch: FrameBatch, change: Change) -> None:
+        """Send the contacts of a batch: an empty row after the last contact, then none."""
         most = max(
             0 if each.contacts is None else len(each.contacts.pairs) for each in batch.frames
         )
-        # An empty row after the last contact, then none.
-        if not self._shown and not most:
-            self._stamp = batch.frames[-1].snapshot.stamp
+        chosen = batch.sampled(sampling_period(most)) if self._shown or most else []
+        rows = [self._forces(batch, index) for index in chosen]
+        self._stamp = batch.frames[-1].snapshot.stamp
+        rescaled = self._fit([forces for _, forces in rows])
+        if change.scene or rescaled:
+            self._legend.send(batch, self._force)
+        if not rows:
             return
-        chosen = batch.sampled(sampling_period(most))
-        arrows = [self._arrows(batch, index, scale) for index in chosen]
-        origins, vectors = zip(*arrows, strict=True)
+        origins, forces = zip(*rows, strict=True)
         lengths = [len(each) for each in origins]
-        self._shown, self._stamp = lengths[-1] > 0, batch.frames[-1].snapshot.stamp
-        self._recording.send_columns(
-            CONTACTS,
-            batch.times_at(chosen),
-            _arrow_columns(np.concatenate(origins), np.concatenate(vectors), height, lengths),
-        )
+        self._shown = lengths[-1] > 0
+        vectors = np.concatenate(forces) / (self._force or 1.0)
+        vectors /= np.maximum(1.0, np.hypot(*vectors.T) / CUT)[:, None]
+        ways = LENGTH * change.unit * vectors
+        height = ARROWS * change.unit
+        arrows = _arrow_columns(np.concatenate(origins), ways, height, lengths)
+        self._recording.send_columns(CONTACTS, batch.times_at(chosen), arrows)
 
-    def _arrows(self, batch: FrameBatch, index: int, scale: ForceScale) -> tuple[Floats, Floats]:
-        """Return points and vectors of the contacts of a frame, (m, 2) float64 each [m]."""
+    def _forces(self, batch: FrameBatch, index: int) -> tuple[Floats, Floats]:
+        """Return points [m] and forces [N] of the contacts of a frame, (m, 2) float64 each."""
         frame = batch.frames[index]
         if frame.contacts is None or not len(frame.contacts.pairs):
             return _NONE, _NONE
         before = batch.frames[index - 1].snapshot.stamp if index else self._stamp
         period = 0 if before is None else abs(frame.snapshot.stamp - before)
-        forces = contact_forces(frame.contacts, batch.scene) / ((period or _FIRST_PERIOD) * 1e-9)
-        vectors = forces * (scale.length / scale.force)
-        lengths = np.hypot(vectors[:, 0], vectors[:, 1])[:, None]
-        vectors *= np.minimum(1.0, LONGEST * scale.length / np.maximum(lengths, 1e-12))
-        return frame.contacts.points, vectors
+        seconds = (period or _FIRST_PERIOD) * 1e-9
+        return frame.contacts.points, contact_impulses(frame.contacts, batch.scene) / seconds
+
+    def _fit(self, forces: list[Floats]) -> bool:
+        """Fit the force of the legend to those of most frames; return whether it is new."""
+        self._greatest += (float(np.hypot(*each.T).max()) for each in forces if len(each))
+        most = float(np.median(self._greatest)) if self._greatest else 0.0
+        if most == 0.0 or _SMALL * self._force <= most <= self._force:
+            return False
+        self._force = nice_number(most)
+        return True
 
 
-def contact_forces(contacts: Contacts, scene: Scene) -> Floats:
+def contact_impulses(contacts: Contacts, scene: Scene) -> Floats:
     """Return the impulses on the dynamic body of each pair, (m, 2) float64 [N s]."""
     dynamic = np.append(scene.inertia[:, 0] > 0, False)
     signs = np.where(dynamic[contacts.pairs[:, 1]], 1.0, -1.0)
@@ -144,12 +131,8 @@ class VelocityArrows:
         self._recording = recording
         _log_style(recording, VELOCITIES, _VELOCITY_COLOR)
 
-    def send(self, batch: FrameBatch, *, height: float) -> None:
-        """
-        Send the velocities of a batch.
-
-        :param height: z of the arrows [m]
-        """
+    def send(self, batch: FrameBatch, change: Change) -> None:
+        """Send the velocities of a batch."""
         moving = np.flatnonzero([not body.anchored for body in batch.scene.bodies])
         if not len(moving):
             return
@@ -157,13 +140,68 @@ class VelocityArrows:
         snapshots = [batch.frames[index].snapshot for index in chosen]
         origins = np.concatenate([each.centers[moving] for each in snapshots])
         ways = _AHEAD * np.concatenate([each.twists[moving, :2] for each in snapshots])
-        arrows = _arrow_columns(origins, ways, height, [len(moving)] * len(chosen))
+        lengths = [len(moving)] * len(chosen)
+        arrows = _arrow_columns(origins, ways, ARROWS * change.unit, lengths)
         self._recording.send_columns(VELOCITIES, batch.times_at(chosen), arrows)
 
 
-def sampling_period(count: int) -> int:
-    """Return the period at which arrows are sent [frames], by their number in a frame."""
-    return max(1, math.ceil(count / _BUDGET))
+class _Legend:
+    """
+    Sends the legend: an arrow for forces of contacts, a bar of colours for those of joints.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        recording.log(_WORDS, IMAGE_LABELS, static=True)
+        arrow = rr.Arrows2D.from_fields(colors=[CONTACT_COLOR], radii=rr.Radius.ui_points(1.2))
+        recording.log(_ARROW, arrow, static=True)
+        edges = np.linspace(-_HALF, _HALF, _COLORS + 1) + _BAR_AT[0]
+        self._strips = [
+            [(left, _BAR_AT[1]), (right, _BAR_AT[1])]
+            for left, right in itertools.pairwise(edges.tolist())
+        ]
+        shares = np.linspace(-1.0, 1.0, _COLORS)[:, None]
+        full = np.where(shares < 0.0, PUSH, PULL)
+        levels = (1.0 - np.abs(shares)) * np.array(SLATE) + np.abs(shares) * full
+        bar = rr.LineStrips2D.from_fields(
+            colors=np.rint(levels * 255).astype(np.uint8), radii=rr.Radius.ui_points(3.0)
+        )
+        recording.log(_BAR, bar, static=True)
+
+    def send(self, batch: FrameBatch, force: float) -> None:
+        """
+        Send the legend of a scene, at the first frame of a batch.
+
+        :param force: of the arrow; 0 where there was no contact yet [N]
+        """
+        labels, arrows, strips = [], [], []
+        if force:
+            x, y = _ARROW_AT
+            arrows = [(LENGTH * PIXELS, 0.0)]
+            words = f'contact force: this length = {force:g} N (max {CUT * force:g} N)'
+            labels.append(((x + LENGTH * PIXELS / 2, y + _BELOW), words))
+        if batch.scene.joints:
+            x, y = _BAR_AT
+            strips, full = self._strips, full_scale_force(batch.scene)
+            labels += [
+                ((x - _HALF, y + _BELOW), f'joint pushes {full:g} N'),
+                ((x + _HALF, y + _BELOW), f'joint pulls {full:g} N'),
+            ]
+        points = rr.Points2D.columns(
+            positions=np.array([at for at, _ in labels]).reshape(-1, 2),
+            labels=[text for _, text in labels],
+        )
+        origins = np.array([_ARROW_AT] * len(arrows)).reshape(-1, 2)
+        vectors = np.array(arrows).reshape(-1, 2)
+        times = batch.times_at([0])
+        for path, columns, count in (
+            (_ARROW, rr.Arrows2D.columns(origins=origins, vectors=vectors), len(arrows)),
+            (_BAR, rr.LineStrips2D.columns(strips=strips), len(strips)),
+            (_WORDS, points, len(labels)),
+        ):
+            self._recording.send_columns(path, times, columns.partition([count]))
 
 
 def _arrow_columns(

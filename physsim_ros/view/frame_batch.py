@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Frames of one scene that are logged together, and the times at which they are logged.
+Frames of one scene that are logged together, the times at which they are logged, line strips.
 
 The timeline `recorded` is the time of the picture: it never goes back, also while the world does,
 and runs at the pace of the wall clock while the world keeps up. `sim_time` is the world's.
@@ -12,11 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import groupby
+from typing import NamedTuple, Protocol
 
 import numpy as np
-from physsim_ros.model.arrays import Floats, Ints
+from numpy.typing import NDArray
+from physsim_ros.model.arrays import Floats, Ints, Singles
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
+import pyarrow as pa
 import rerun as rr
 
 RECORDED = 'recorded'
@@ -24,8 +27,26 @@ Times = list[rr.TimeColumn]
 
 # Time between two frames where stamps and speed do not give it [ns]: a period of 60 Hz.
 _PERIOD = 16_666_667
+_VECTOR = pa.list_(pa.field('item', pa.float32(), nullable=False), 3)
+_STRIP = pa.list_(pa.field('item', _VECTOR, nullable=False))
 # Shortest and longest time between two frames [ns]: after a seek the picture does not wait.
 _SHORTEST, _LONGEST = 1_000_000, 1_000_000_000
+
+
+class Change(NamedTuple):
+    """
+    What is to be sent with a batch.
+
+    :ivar unit: length of a unit of the view [m]
+    :ivar scene: whether components that change only with the scene are to be sent
+    :ivar everything: whether those that did not change are to be sent, too
+    :ivar moved: (n,) bool: whether each body has moved since it was sent last
+    """
+
+    unit: float
+    scene: bool
+    everything: bool
+    moved: NDArray[np.bool_]
 
 
 class FrameBatch:
@@ -98,3 +119,43 @@ class RecordedClock:
             self.recorded += round(min(max(period, _SHORTEST), _LONGEST))
         self._before = frame
         return self.recorded
+
+
+class _StripBatch:
+    """
+    Line strips as an Arrow array: `LineStrip3DBatch` (Rerun 0.41) is a loop in Python.
+
+    :param corners: (c, 3) float32: of all strips [m]
+    :param counts: (s,) intp: number of corners of each strip
+    """
+
+    def __init__(self, corners: Singles, counts: NDArray[np.intp]) -> None:
+        self._corners, self._counts = corners, counts
+
+    def as_arrow_array(self) -> pa.Array:
+        """Return a list of corners for each strip."""
+        offsets = np.concatenate(([0], np.cumsum(self._counts))).astype(np.int32)
+        vectors = pa.FixedSizeListArray.from_arrays(pa.array(self._corners.ravel()), type=_VECTOR)
+        return pa.ListArray.from_arrays(pa.array(offsets), vectors, type=_STRIP)
+
+
+def strip_column(
+    corners: Singles, counts: NDArray[np.intp] | int, lengths: Sequence[int]
+) -> rr.ComponentColumn:
+    """
+    Return line strips as a column.
+
+    :param corners: (c, 3) float32: of all strips [m]
+    :param counts: (s,) intp: number of corners of each strip; or that of every strip
+    :param lengths: number of strips of each row
+    """
+    each = np.broadcast_to(counts, sum(lengths)).astype(np.intp)
+    batch = _StripBatch(corners, each)
+    return rr.ComponentColumn(rr.LineStrips3D.descriptor_strips(), batch, lengths=lengths)
+
+
+class Track(Protocol):
+    """A part of the picture: it sends its entities of each batch."""
+
+    def send(self, batch: FrameBatch, change: Change) -> None:
+        """Send what has changed."""

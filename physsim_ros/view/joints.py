@@ -5,15 +5,13 @@
 The joints in a recording: symbols that keep their form, lines that do not, and dots of force.
 
 Laws: a scene without joints sends nothing, and joints whose bodies did not move are not sent
-again. A joint that has no line shows its force by a dot.
-
-A symbol belongs to the mesh of its body, so that it costs nothing while it moves. Where two bodies
-are joined at one point, the symbol is drawn on the later spawned one, which lies above the other.
+again. Symbols that look alike share a mesh. A joint that has no line shows its force by a dot.
 """
 
 from __future__ import annotations
 
 from collections import defaultdict
+from itertools import count
 from typing import NamedTuple
 
 import numpy as np
@@ -27,30 +25,29 @@ from physsim_ros.appearance import (
     symbol_sizes,
 )
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point
-from physsim_ros.view.frame_batch import FrameBatch, Times
-from physsim_ros.view.line_strips import strip_column
-from physsim_ros.view.meshes.body_mesh import JOINT_INK, JOINT_LINE
-from physsim_ros.view.meshes.mesh import MeshBuilder, Strips
-from physsim_ros.view.meshes.mesh_track import MeshGroup, MeshTrack
+from physsim_ros.view.frame_batch import Change, FrameBatch, strip_column
+from physsim_ros.view.mesh import Mesh, MeshBuilder, MeshGroup, MeshTrack, Path
+from physsim_ros.view.scenery import JOINTS
 import rerun as rr
 
 ROOT = 'world/joints'
 LINES, DOTS = f'{ROOT}/lines', f'{ROOT}/forces'
+# Half the width of the lines [units], and their colour where it does not tell the force.
+_LINE, _INK = 0.02, (0.16, 0.19, 0.24, 1.0)
 # Half the size of the smallest visible symbol [units].
 _LEAST = 0.1
 # Radius of a dot, in half sizes of the symbol.
 _DOT = 0.6
 # Decimals that corners are rounded to, so that equal symbols are equal: a micrometre.
 _DIGITS = 6
-# Kinds whose two points are one.
-_POINTED = {JointKind.PIN, JointKind.AXLE, JointKind.MOTOR}
+# The lines of a symbol, each through its corners, about a point of its joint [m].
+_Symbol = tuple[tuple[Point, ...], ...]
 
 
-class Place(NamedTuple):
+class _Place(NamedTuple):
     """
     The frame of a symbol.
 
@@ -70,45 +67,25 @@ class JointGeometry:
 
     :param scene: with the joints
     :param unit: length of a unit of the view [m]
-    :param height: z of the joints, above all bodies [m]
 
-    :ivar body_symbols: by the row of a body: the symbols in the mesh of that body
-    :ivar groups: the other symbols: on the background, or turning with the other body
+    :ivar symbols: the lines of each, and the frames in which it is drawn
     """
 
-    def __init__(self, scene: Scene, unit: float, height: float) -> None:
-        self._scene = scene
+    def __init__(self, scene: Scene, unit: float) -> None:
+        self.scene, self.unit = scene, unit
         sizes = symbol_sizes(scene, least=_LEAST * unit)
         strips = [joint_strips(each, size) for each, size in zip(scene.joints, sizes, strict=True)]
-        rigid = [list(filter(is_rigid, each)) for each in strips]
-        self._lines = JointLines(
-            scene, [[strip for strip in each if not is_rigid(strip)] for each in strips]
-        )
+        loose = [[strip for strip in each if not is_rigid(strip)] for each in strips]
+        self._lines = JointLines(scene, loose)
         self._colors = JointColors(scene)
-        self._height, self._radius = height, JOINT_LINE * unit
         self._bodies = np.unique(scene.joint_rows[scene.joint_rows >= 0])
         self._dotted = np.setdiff1d(np.arange(len(scene.joints)), self._lines.owner)
         self._dots = np.array([_DOT * sizes[row] for row in self._dotted], dtype=np.float32)
-        self.body_symbols, loose = _symbols(scene, rigid, self._lines.seats)
-        joints, points, sides = np.array(list(loose), np.intp).reshape(-1, 3).T
-        self._places = joints, points
+        self.symbols = _symbols(strips)
+        places = [place for each in self.symbols.values() for place in each]
+        joints, points, sides = np.array(places, np.intp).reshape(-1, 3).T
+        self._points = joints, points
         self._rows = scene.joint_rows[joints, sides]
-        self.groups = [
-            self._group(row, scene.joints[place.joint].name, loose[place])
-            for row, place in enumerate(loose)
-        ]
-
-    def _group(self, row: int, joint: str, strips: Strips) -> MeshGroup:
-        builder = MeshBuilder()
-        for strip in strips:
-            builder.add_line(strip, self._radius, JOINT_INK)
-        return MeshGroup(
-            path=(*ROOT.split('/'), *joint.rsplit('/', 1), str(row)),
-            names=(joint,),
-            mesh=builder.mesh(),
-            rows=np.array([row], np.intp),
-            depths=np.full(1, self._height, np.float32),
-        )
 
     def has_moved(self, moved: NDArray[np.bool_]) -> bool:
         """
@@ -118,15 +95,25 @@ class JointGeometry:
         """
         return bool(moved[self._bodies].any())
 
+    def moved_symbols(self, moved: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """
+        Return whether a body of the joint of each symbol has moved, (s,) bool.
+
+        :param moved: (n,) bool: whether each body has
+        """
+        joints, _ = self._points
+        of_bodies = np.append(moved, False)[self.scene.joint_rows[joints]]
+        either: NDArray[np.bool_] = of_bodies[:, 0] | of_bodies[:, 1]
+        return either
+
     def symbol_poses(self, poses: Floats) -> Floats:
         """
-        Return the poses of the symbols of `groups` in frames, (f, s, 3) float64.
+        Return the poses of the symbols in frames, (f, s, 3) float64.
 
         :param poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
         """
         result = np.empty((len(poses), len(self._rows), 3))
-        points = self._lines.points(poses)
-        result[..., :2] = points[:, *self._places]
+        result[..., :2] = self._lines.points(poses)[:, *self._points]
         background = np.zeros((len(poses), 1))
         result[..., 2] = np.concatenate((poses[..., 2], background), axis=1)[:, self._rows]
         return result
@@ -142,15 +129,14 @@ class JointGeometry:
         if not len(lines.owner):
             return []
         corners = lines.corners(poses)
-        places = np.full((frames, corners.shape[1], 3), self._height, dtype=np.float32)
+        places = np.full((frames, corners.shape[1], 3), JOINTS * self.unit, dtype=np.float32)
         places[..., :2] = corners
         lengths = [len(lines.owner)] * frames
-        every = np.tile(lines.lengths, frames)
         levels = self._levels(snapshots, lines.owner)
         return [
-            strip_column(places.reshape(-1, 3), every, lengths),
+            strip_column(places.reshape(-1, 3), np.tile(lines.lengths, frames), lengths),
             *rr.LineStrips3D.columns(colors=levels).partition(lengths),
-            *rr.LineStrips3D.columns(radii=[self._radius] * frames),
+            *rr.LineStrips3D.columns(radii=[_LINE * self.unit] * frames),
         ]
 
     def dot_columns(self, poses: Floats, snapshots: list[Snapshot]) -> list[rr.ComponentColumn]:
@@ -160,17 +146,17 @@ class JointGeometry:
         :param poses: (f, n, 3) float64: of the bodies, x, y [m], yaw [rad]
         :param snapshots: of the frames, with the forces of joints
         """
-        frames, count = len(poses), len(self._dotted)
-        if not count:
+        frames, dots = len(poses), len(self._dotted)
+        if not dots:
             return []
-        places = np.full((frames, count, 3), self._height, dtype=np.float32)
+        places = np.full((frames, dots, 3), JOINTS * self.unit, dtype=np.float32)
         places[..., :2] = self._lines.points(poses)[:, self._dotted, 0]
         points = rr.Points3D.columns(
             positions=places.reshape(-1, 3),
             colors=self._levels(snapshots, self._dotted),
             radii=np.tile(self._dots, frames),
         )
-        return list(points.partition([count] * frames))
+        return list(points.partition([dots] * frames))
 
     def _levels(self, snapshots: list[Snapshot], joints: NDArray[np.intp]) -> NDArray[np.uint8]:
         """Return the colours of some joints in each frame, (f * k, 4) uint8."""
@@ -179,7 +165,7 @@ class JointGeometry:
         return levels.reshape(-1, 4)
 
 
-class JointTrack:
+class Joints:
     """
     Sends the joints of frames.
 
@@ -188,53 +174,25 @@ class JointTrack:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        self._symbols = MeshTrack(recording)
-        self._joints: JointGeometry | None = None
+        self._track = MeshTrack(recording)
+        self._geometry: JointGeometry | None = None
+        self._groups: list[MeshGroup] = []
+        # Path and mesh of each symbol of the scene, for one unit of the view.
+        self._meshes: dict[_Symbol, tuple[Path, Mesh]] = {}
+        self._numbers = count()
         self._filled: set[str] = set()
-        # Poses of the symbols that were sent last.
-        self._poses: Floats = np.empty((0, 3))
         recording.log(DOTS, rr.Points3D.from_fields(point_shading='flat'), static=True)
 
-    def change_scene(self, scene: Scene, unit: float, height: float) -> dict[int, Strips]:
-        """
-        Send the joints of another scene from now on.
-
-        :param unit: length of a unit of the view [m]
-        :param height: z of the joints [m]
-        :return: symbols for the meshes of bodies, by the rows of these
-        """
-        self._joints = JointGeometry(scene, unit, height) if scene.joints else None
-        return {} if self._joints is None else self._joints.body_symbols
-
-    def send_symbols(self, times: Times, *, everything: bool) -> None:
-        """
-        Send new symbols, and clear symbols and lines of joints that are gone.
-
-        :param times: of one frame
-        :param everything: send the symbols that have been sent, too
-        """
-        groups = [] if self._joints is None else self._joints.groups
-        self._poses = np.empty((0, 3))
-        self._symbols.send_meshes(groups, times, everything=everything)
-        for path in self._filled:
-            self._recording.send_columns(path, times, rr.Clear.columns(is_recursive=[False]))
-        self._filled.clear()
-
-    def send(self, batch: FrameBatch, moved: NDArray[np.bool_]) -> None:
-        """
-        Send the joints of a batch, if one of their bodies has moved.
-
-        :param moved: (n,) bool: whether each body has
-        """
-        joints = self._joints
-        if joints is None or not joints.has_moved(moved):
+    def send(self, batch: FrameBatch, change: Change) -> None:
+        """Send the joints of a batch, if they are others or one of their bodies has moved."""
+        if change.scene:
+            self._change_scene(batch, change)
+        joints = self._geometry
+        if joints is None or not joints.has_moved(change.moved):
             return
         poses = joints.symbol_poses(batch.poses)
-        turned = np.ones(poses.shape[1], dtype=bool)
-        if self._poses.shape == poses.shape[1:]:
-            turned = (poses != self._poses).any(axis=(0, 2))
-        self._poses = poses[-1]
-        self._symbols.send_poses(joints.groups, poses, batch.times, turned)
+        moved = joints.moved_symbols(change.moved)
+        self._track.send_poses(self._groups, poses, batch.times, moved)
         snapshots = [each.snapshot for each in batch.frames]
         for path, values in (
             (LINES, joints.line_columns(batch.poses, snapshots)),
@@ -244,35 +202,61 @@ class JointTrack:
                 self._filled.add(path)
                 self._recording.send_columns(path, batch.times, values)
 
+    def _change_scene(self, batch: FrameBatch, change: Change) -> None:
+        """Send new symbols, and clear symbols and lines of joints that are gone."""
+        scene, known, times = batch.scene, self._geometry, batch.times_at([0])
+        if known is not None and known.unit != change.unit:
+            self._meshes.clear()
+        self._geometry = JointGeometry(scene, change.unit) if scene.joints else None
+        self._groups = [] if self._geometry is None else self._symbol_groups(self._geometry)
+        self._track.send_meshes(self._groups, times, everything=change.everything)
+        for path in self._filled:
+            self._recording.send_columns(path, times, rr.Clear.columns(is_recursive=[False]))
+        self._filled.clear()
 
-def _symbols(
-    scene: Scene, strips: list[list[Strip]], seats: Floats
-) -> tuple[dict[int, Strips], dict[Place, Strips]]:
+    def _symbol_groups(self, joints: JointGeometry) -> list[MeshGroup]:
+        """Return the symbols of joints, in the order of their poses."""
+        groups, start, known = [], 0, self._meshes
+        self._meshes = {}
+        for symbol, places in joints.symbols.items():
+            path, mesh = self._meshes[symbol] = known.get(symbol) or self._new(symbol, joints.unit)
+            rows = np.arange(start, start + len(places))
+            start += len(places)
+            groups.append(
+                MeshGroup(
+                    path=path,
+                    names=tuple(joints.scene.joints[place.joint].name for place in places),
+                    mesh=mesh,
+                    rows=rows,
+                    depths=np.full(len(places), JOINTS * joints.unit, np.float32),
+                )
+            )
+        return groups
+
+    def _new(self, symbol: _Symbol, unit: float) -> tuple[Path, Mesh]:
+        """Return path and mesh of a symbol."""
+        builder = MeshBuilder()
+        for line in symbol:
+            builder.add_line(line, _LINE * unit, _INK)
+        return (*ROOT.split('/'), 'symbols', str(next(self._numbers))), builder.mesh()
+
+
+def _symbols(strips: list[list[Strip]]) -> dict[_Symbol, list[_Place]]:
     """
-    Return the symbols in the frames of bodies, by their rows, and all others by their places.
+    Return the symbols, with the frames in which each is drawn.
 
-    :param strips: of each joint, those that keep their form
-    :param seats: (j, 2, 2) float64: points of the joints in the frames of a and b [m]
+    :param strips: of each joint
     """
-    fixed: defaultdict[int, Strips] = defaultdict(tuple)
-    loose: defaultdict[Place, Strips] = defaultdict(tuple)
-    for number, joint in enumerate(scene.joints):
-        rows = scene.joint_rows[number].tolist()
-        for strip in strips[number]:
-            point, side = int(strip[0].along), int(strip[0].on_b)
-            if joint.kind in _POINTED:
-                point = side = int(np.argmax(rows))
-            if point == side and rows[side] >= 0:
-                x, y = seats[number, side].tolist()
-                fixed[rows[side]] += (_placed(strip, (x, y)),)
-            else:
-                loose[Place(number, point, side)] += (_placed(strip, (0.0, 0.0)),)
-    return fixed, loose
+    symbols: defaultdict[_Symbol, list[_Place]] = defaultdict(list)
+    for number, each in enumerate(strips):
+        lines: defaultdict[_Place, _Symbol] = defaultdict(tuple)
+        for strip in filter(is_rigid, each):
+            place = _Place(number, int(strip[0].along), int(strip[0].on_b))
+            lines[place] += (tuple(_rounded(corner.arm) for corner in strip),)
+        for place, symbol in lines.items():
+            symbols[symbol].append(place)
+    return symbols
 
 
-def _placed(strip: Strip, at: Point) -> tuple[Point, ...]:
-    """Return the corners of a strip about a point."""
-    return tuple(
-        (round(corner.arm[0] + at[0], _DIGITS), round(corner.arm[1] + at[1], _DIGITS))
-        for corner in strip
-    )
+def _rounded(point: Point) -> Point:
+    return round(point[0], _DIGITS), round(point[1], _DIGITS)

@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.transform import cross
-from physsim_ros.view.frame_batch import FrameBatch, RECORDED
-from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view.frame_batch import Change, FrameBatch, RECORDED
 import rerun as rr
 import rerun.blueprint as rrb
 
@@ -30,7 +29,7 @@ _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = (
     (178, 121, 162),
     (120, 120, 120),
 )
-# Period of real-time factor and cost [ns].
+# Period of the real-time factor, which is measured each second [ns].
 _PACE_PERIOD = 1_900_000_000
 Style = tuple[str, tuple[int, int, int]]
 # Index of a frame in a batch, and values of a plot.
@@ -82,7 +81,7 @@ PLOTS = {
         'Momentum [kg m/s]', (('x', _ORANGE), ('y', _BLUE)), lambda frame: frame.snapshot.momentum
     ),
     'plots/angular_momentum': Plot(
-        'Angular momentum about the origin [kg m²/s]',
+        'Angular momentum [kg m²/s]',
         (('angular momentum', _PURPLE),),
         lambda frame: (angular_momentum(frame.snapshot),),
     ),
@@ -93,7 +92,7 @@ PLOTS = {
         stepped=True,
     ),
 }
-PACE, COST = 'plots/pace', 'plots/cost'
+PACE = 'plots/pace'
 
 
 class Plots:
@@ -115,13 +114,10 @@ class Plots:
             mode = rr.components.InterpolationMode.StepAfter if plot.stepped else None
             style = rr.SeriesLines(names=names, colors=colors, interpolation_mode=mode)
             recording.log(path, style, static=True)
-        for path, name, color in (
-            (PACE, 'real-time factor by speed', _GREEN),
-            (COST, 'frame [ms]', _ORANGE),
-        ):
-            recording.log(path, rr.SeriesLines(names=name, colors=[color]), static=True)
+        style = rr.SeriesLines(names='real-time factor / speed', colors=[_GREEN])
+        recording.log(PACE, style, static=True)
 
-    def send(self, batch: FrameBatch) -> None:
+    def send(self, batch: FrameBatch, _: Change) -> None:
         """Send the values of every `SAMPLE`-th frame of a batch, and of its last one."""
         for path, plot in PLOTS.items():
             rows = [(index, plot.values(batch.frames[index])) for index in batch.sampled(SAMPLE)]
@@ -143,51 +139,36 @@ class Plots:
                 changes.append((index, values))
         return changes
 
-    def send_pace(self, batch: FrameBatch, context: FrameContext) -> None:
+    def send_pace(self, batch: FrameBatch, real_time_factor: float) -> None:
         """
-        Send real-time factor and cost of the last frame of a batch, where they are known and due.
+        Send the real-time factor at the last frame of a batch, where it is known and due.
 
-        The factor is that of the asked speed: 1 is a world that keeps up.
+        It is sent by the asked speed: 1 is a world that keeps up.
+
+        :param real_time_factor: simulation seconds a second
         """
         last, speed = len(batch) - 1, batch.frames[-1].speed
         now = int(batch.recorded[last])
-        if self._paced is not None and now - self._paced < _PACE_PERIOD:
-            return
-        values = {
-            PACE: context.real_time_factor / speed if speed else 0.0,
-            COST: 1e3 * (context.cost or 0.0),
-        }
-        for path, value in values.items():
-            if value:
-                self._paced = now
-                scalars = rr.Scalars.columns(scalars=[value])
-                self._recording.send_columns(path, batch.times_at([last]), scalars)
+        late = self._paced is None or now - self._paced >= _PACE_PERIOD
+        if late and speed and real_time_factor:
+            self._paced = now
+            scalars = rr.Scalars.columns(scalars=[real_time_factor / speed])
+            self._recording.send_columns(PACE, batch.times_at([last]), scalars)
 
 
-def plot_views(*, paced: bool, traced: bool) -> list[rrb.Horizontal]:
+def plot_views(*, paced: bool) -> list[rrb.TimeSeriesView]:
     """
     Return the views of the plots that have values, for the blueprint.
 
     :param paced: whether there is a real-time factor
-    :param traced: whether bodies are traced
     """
-    energy, momentum, angular, counts = (_view(path, plot.name) for path, plot in PLOTS.items())
-    views = [
-        rrb.Horizontal(energy, name='Energy'),
-        rrb.Horizontal(momentum, angular, name='Momentum'),
-        rrb.Horizontal(counts, name='Counts'),
-    ]
-    if traced:
-        heights = _view('plots/bodies', 'Height of traced bodies, and in free flight [m]')
-        views.append(rrb.Horizontal(heights, name='Traced bodies'))
-    if paced:
-        pace = _view(PACE, 'Real-time factor by speed', low=0.0)
-        cost = _view(COST, 'Cost of a frame [ms]')
-        views.append(rrb.Horizontal(pace, cost, name='Pace'))
-    return views
+    views = [_view(path, plot.name, legend=len(plot.series) > 1) for path, plot in PLOTS.items()]
+    return [*views, _view(PACE, 'Real-time factor / speed', low=0.0)] if paced else views
 
 
-def _view(path: str, name: str, *, low: float | None = None) -> rrb.TimeSeriesView:
+def _view(
+    path: str, name: str, *, legend: bool = False, low: float | None = None
+) -> rrb.TimeSeriesView:
     return rrb.TimeSeriesView(
         origin=path,
         name=name,
@@ -197,5 +178,6 @@ def _view(path: str, name: str, *, low: float | None = None) -> rrb.TimeSeriesVi
             start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_SPAN),
             end=rrb.TimeRangeBoundary.cursor_relative(),
         ),
-        plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.LeftTop),
+        # Of a single series the title tells enough.
+        plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.LeftTop, visible=legend),
     )

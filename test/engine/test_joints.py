@@ -47,8 +47,8 @@ def test_the_only_body_under_the_point_is_joined_to_the_background() -> None:
 def test_what_was_joined_and_what_was_changed_is_said() -> None:
     world = pair()
     axle = joining('axle', [(0.4, 0.0)], a='a/0', b='world')
-    assert world.apply(axle)[1] == 'joined a/0 to the background by axle joint/0'
-    assert world.apply(axle)[1] == 'changed axle joint/0 of a/0 and the background'
+    assert world.apply(axle).message == 'joined a/0 to the background by axle joint/0'
+    assert world.apply(axle).message == 'changed axle joint/0 of a/0 and the background'
 
 
 def test_a_line_joins_the_bodies_at_its_ends() -> None:
@@ -80,10 +80,10 @@ def test_points_may_be_given_in_the_frame_of_a_body() -> None:
 @pytest.mark.parametrize(('request_', 'kind'), [(Pin, 'pin'), (Axle, 'axle')])
 def test_a_click_gives_the_joint_the_lowest_free_name(request_: Any, kind: str) -> None:
     world = pair()
-    names = [world.apply(request_(point=(0.4, 0.0)))[0] for _ in range(3)]
+    names = [world.apply(request_(point=(0.4, 0.0))).subject for _ in range(3)]
     world.apply(Unjoin(name=f'{kind}/1'))
     assert names == [f'{kind}/0', f'{kind}/1', f'{kind}/2']
-    assert world.apply(request_(point=(0.4, 0.0)))[0] == f'{kind}/1'
+    assert world.apply(request_(point=(0.4, 0.0))).subject == f'{kind}/1'
 
 
 # Constraints

@@ -13,6 +13,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -164,7 +165,7 @@ def test_a_command_moves_many_bodies_at_once(world: World) -> None:
         )
     )
 
-    assert answer == ('', 'set pose and velocity of 2 bodies')
+    assert answer == Answer(message='set pose and velocity of 2 bodies')
     assert world.snapshot().poses[:, 0].tolist() == [2.0, 0.0, 1.0]
     assert world.snapshot().twists[:, 0].tolist() == [4.0, 0.0, 3.0]
 

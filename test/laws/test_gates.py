@@ -42,6 +42,24 @@ def test_a_sensor_reports_each_body_that_crosses_it_once(report, speed, shape):
     report.check(50, 'gate of 1 cm, reports of a crossing', max(begun), 1, 0, 'reports')
 
 
+@pytest.mark.parametrize('speed', [0.5, 7.0, 90.0])
+def test_two_gates_tell_a_speed(report, speed):
+    sim = simulation(gravity=NOWHERE)
+    sim.reports_contacts = True
+    for number, place in enumerate((0.013, 1.013)):
+        gate = Box(width=0.01, height=2.0)
+        spawn(sim, f'gate/{number}', gate, (place, 0.0, 0.0), anchored=True, sensor=True)
+    spawn(sim, 'ball/0', SHAPES['disc'], (-0.5, 0.0, 0.0), velocity=(speed, 0.0))
+    times = []
+    for _ in range(int(120 / speed) + 4):
+        contacts = sim.advance_frame().contacts
+        times += [(sim.world.step_count - contacts.steps + at) * DT for at in contacts.begun_at]
+
+    told = 1.0 / (times[1] - times[0])
+
+    report.check(50, 'two gates at 1 m, speed of 0.5 to 90 m/s', told, speed, 1e-3 * speed, 'm/s')
+
+
 def test_a_sensor_does_not_report_what_passes_by(report):
     sim = simulation(gravity=NOWHERE)
     sim.reports_contacts = True

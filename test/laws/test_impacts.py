@@ -14,9 +14,8 @@ import pytest
 from .scenes import cross, DT, floor, G, NOWHERE, run, simulation, spawn, steps, turned
 from ..slow import slow
 
-# Ratio of masses [1] and height of the fall [m]. From 2 m on, a plate under a hundred times its
-# mass rocks.
-CLAY = [*itertools.product((5.0, 10.0, 30.0), (0.3, 1.0, 3.0)), (100.0, 0.3), (100.0, 1.0)]
+# Ratio of masses [1] and height of the fall [m].
+CLAY = [*itertools.product((5.0, 10.0, 30.0, 100.0), (0.3, 1.0, 3.0)), (200.0, 10.0)]
 
 
 @pytest.mark.parametrize(('ratio', 'height'), CLAY)

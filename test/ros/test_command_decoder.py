@@ -10,8 +10,7 @@ import struct
 from hypothesis import given
 from hypothesis import strategies as st
 from physsim_ros.model.errors import Malformed
-from physsim_ros.ros.requests.cdr_reader import Truncated
-from physsim_ros.ros.requests.decoders import command_from, CommandMessage
+from physsim_ros.ros.requests.decoding import command_from, CommandMessage, Truncated
 from physsim_ros.testing import command
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message

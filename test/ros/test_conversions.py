@@ -36,7 +36,7 @@ from physsim_ros.ros.requests.conversions import (
     name_of,
     point_request,
 )
-from physsim_ros.ros.requests.decoders import command_from
+from physsim_ros.ros.requests.decoding import command_from
 from physsim_ros.testing import box, command, delete, delete_all, marker, point, polygon
 import pytest
 from rclpy.serialization import serialize_message

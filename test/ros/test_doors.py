@@ -20,7 +20,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.snapshot import Answer, Preview
-from physsim_ros.ros import frame_outputs, world_files
+from physsim_ros.ros import parameters, world_files
 from physsim_ros.ros.encoders.poses import PosesEncoder
 from physsim_ros.ros.publishers import event_publisher, interactive_markers, publishers
 from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
@@ -58,11 +58,11 @@ TOPICS = {
     '~/seek': Clock,
 }
 SERVICES: dict[str, tuple[object, str]] = {
-    'play': (frame_outputs.parameters, 'set_value'),
-    'pause': (frame_outputs.parameters, 'set_value'),
-    'rewind': (frame_outputs.parameters, 'set_value'),
-    'fast_forward': (frame_outputs.parameters, 'set_value'),
-    'fast_rewind': (frame_outputs.parameters, 'set_value'),
+    'play': (parameters, 'set_value'),
+    'pause': (parameters, 'set_value'),
+    'rewind': (parameters, 'set_value'),
+    'fast_forward': (parameters, 'set_value'),
+    'fast_rewind': (parameters, 'set_value'),
     'step': (Past, 'fit_memory'),
     'undo': (Past, 'undo'),
     'redo': (Past, 'redo'),
@@ -193,7 +193,7 @@ def test_a_parameter_that_is_set(
     goes_on: Callable[[], Event],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(frame_outputs.parameters, 'drawing_settings', fail)
+    monkeypatch.setattr(parameters, 'drawing_settings', fail)
     message = Parameter('snap', value=0.5).to_parameter_msg()
     response = client.request(
         SetParameters, '~/set_parameters', SetParameters.Request(parameters=[message])

@@ -32,7 +32,7 @@ from physsim_ros.ros.encoders.poses import PosesEncoder
 from physsim_ros.ros.encoders.states import StatesEncoder
 from physsim_ros.ros.publishers.event_publisher import encode_event
 from physsim_ros.ros.requests import conversions
-from physsim_ros.ros.requests.decoders import command_from, CommandMessage
+from physsim_ros.ros.requests.decoding import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, disc
 from physsim_ros.testing.messages import rotation

@@ -25,7 +25,6 @@ class Machine:
     def __init__(self, *, tick: int, message: int) -> None:
         self.now = 0
         self.message_delay = 0.0
-        self.requests = self.queue = self
         self.ticks: list[int] = []
         self.handled: list[int] = []
         self.waiting: deque[Callable[[], object]] = deque()
@@ -38,7 +37,7 @@ class Machine:
         self.ticks.append(now)
         self.now += self._cost_of_tick
 
-    def add_call_behind_arrived(self, call: Callable[[], object]) -> None:
+    def create_task(self, call: Callable[[], object]) -> None:
         self.waiting.append(call)
 
     def send(self, count: int) -> None:

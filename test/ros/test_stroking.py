@@ -90,7 +90,7 @@ def test_a_stroke_sees_what_was_asked_just_before(client: Client) -> None:
     [
         ([(0, 0)], '', ''),
         ([(0, 0), (math.nan, 1), (2, 2)], 'malformed', ''),
-        ([(0.001 * number, 0.0) for number in range(20_000)], 'malformed', 'poses'),
+        ([(0.001 * number, 0.0) for number in range(11_000)], 'malformed', 'poses'),
     ],
     ids=['one point', 'nan', 'too long'],
 )

@@ -35,8 +35,7 @@ from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.simulation.past.history_memory import HistoryMemory
-from physsim_ros.simulation.past.past import Past
+from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
 
@@ -453,7 +452,7 @@ class Player:
 
     def _note_requests(self, frame: Frame) -> list[Made]:
         """Return the requests that have changed the world since the last frame, from its log."""
-        history, line = self.sim.past.timeline.history, self.line
+        history, line = self.sim.past.tree, self.line
         dropped, logged = history.nodes[0].serial, history.nodes[1:]
         pairs = zip(line.made[dropped:], logged, strict=False)
         same_yet = itertools.takewhile(lambda pair: pair[0].request is pair[1].request, pairs)
@@ -515,20 +514,20 @@ class Player:
             settings=state.settings,
             length=1e6,
             checkpoints=self.checkpoints,
-            memory=HistoryMemory(1e6),
+            memory=1e6,
             boundary=ErrorBoundary(),
         )
         past.begin(state)
-        timeline = past.timeline
-        yield state, [], timeline.world.snapshot()
+        cursor = past.cursor
+        yield state, [], cursor.world.snapshot()
         for count in range(len(made) + 1):
             goal = made[count].step if count < len(made) else end
-            while timeline.world.step_count < goal:
-                timeline.advance(1)
-                yield state, made[:count], timeline.world.snapshot()
+            while cursor.world.step_count < goal:
+                cursor.advance(1)
+                yield state, made[:count], cursor.world.snapshot()
             if count < len(made):
-                timeline.apply(made[count].request, count)
-                yield state, made[: count + 1], timeline.world.snapshot()
+                cursor.apply(made[count].request, count)
+                yield state, made[: count + 1], cursor.world.snapshot()
 
     def digest(self) -> str:
         """Return a hash of all that was shown."""

@@ -12,6 +12,7 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import ChangeBody, DeleteBodies, MoveBodies, Request
 from physsim_ros.model.shapes import Disc
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -21,7 +22,7 @@ from ..building import body, BOX, DISC, ELL, NOWHERE, spawn, spawning, twist
 
 def changed(world: World, **properties: object) -> None:
     message = world.apply(ChangeBody(name='a/0', properties=Properties(**properties)))
-    assert message == ('a/0', 'changed a/0')
+    assert message == Answer(subject='a/0', message='changed a/0')
 
 
 def test_only_what_is_named_changes() -> None:
@@ -65,7 +66,9 @@ def test_bodies_are_moved_together_and_keep_their_motion() -> None:
     spawn(world, 'a/2', BOX, (9.0, 0.0, 0.0))
     before = world.snapshot()
 
-    assert world.apply(MoveBodies(names=('a/0', 'a/1'), by=(1.0, -2.0))) == ('', 'moved 2 bodies')
+    assert world.apply(MoveBodies(names=('a/0', 'a/1'), by=(1.0, -2.0))) == Answer(
+        message='moved 2 bodies'
+    )
 
     moved = world.snapshot().poses - before.poses
     assert moved == pytest.approx(np.array([[1, -2, 0], [1, -2, 0], [0, 0, 0]]))

@@ -18,6 +18,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -51,7 +52,7 @@ def test_a_change_keeps_what_is_not_said(world: World) -> None:
     answer = world.apply(spawning('a/0', BOX, (1.0, 2.0, 0.3)))
 
     after = body(world, 'a/0')
-    assert answer == ('a/0', 'changed a/0')
+    assert answer == Answer(subject='a/0', message='changed a/0')
     assert after.shape == BOX
     assert pose(world, 'a/0') == pytest.approx((1.0, 2.0, 0.3), abs=ROUNDING)
     assert (after.color, after.expires) == (before.color, before.expires)
@@ -195,13 +196,17 @@ def test_an_anchored_body_stays_where_it_was_and_released_it_falls(shape: Shape)
     point = (0.0, 0.2) if shape is SHAPES['chain'] else point
     point = (0.0, 0.0) if shape is SHAPES['boxes'] else point
 
-    assert world.apply(Anchor(point=point, frame='a/0')) == ('a/0', 'anchored a/0')
+    assert world.apply(Anchor(point=point, frame='a/0')) == Answer(
+        subject='a/0', message='anchored a/0'
+    )
     assert pose(world, 'a/0') == pytest.approx(held, abs=ROUNDING)
     world.step(24)
     assert pose(world, 'a/0') == pytest.approx(held, abs=ROUNDING)
     assert twist(world, 'a/0').tolist() == [0.0, 0.0, 0.0]
 
-    assert world.apply(Release(point=point, frame='a/0')) == ('a/0', 'released a/0')
+    assert world.apply(Release(point=point, frame='a/0')) == Answer(
+        subject='a/0', message='released a/0'
+    )
     assert pose(world, 'a/0') == pytest.approx(held, abs=ROUNDING)
     assert twist(world, 'a/0') == pytest.approx((0.0, 0.0, 0.0), abs=ROUNDING)
     world.step(24)
@@ -211,12 +216,12 @@ def test_an_anchored_body_stays_where_it_was_and_released_it_falls(shape: Shape)
 
 def test_anchoring_twice_and_releasing_twice_is_no_mistake(world: World) -> None:
     spawn(world, 'a/0', DISC, velocity=(1.0, 0.0))
-    assert world.apply(Release(point=(0.0, 0.0))) == ('a/0', 'released a/0')
+    assert world.apply(Release(point=(0.0, 0.0))) == Answer(subject='a/0', message='released a/0')
     assert twist(world, 'a/0').tolist() == [1.0, 0.0, 0.0]
 
     world.apply(Anchor(point=(0.0, 0.0)))
     before = world.digest()
-    assert world.apply(Anchor(point=(0.0, 0.0))) == ('a/0', 'anchored a/0')
+    assert world.apply(Anchor(point=(0.0, 0.0))) == Answer(subject='a/0', message='anchored a/0')
     assert world.digest() == before
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Command, Delete
 from physsim_ros.model.shapes import Box
-from physsim_ros.simulation.past.lines import MOST_COURSES
+from physsim_ros.simulation.past.tree import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 

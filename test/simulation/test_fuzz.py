@@ -7,7 +7,7 @@ from collections.abc import Callable
 import math
 from typing import Any
 
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.model.body_properties import Properties
@@ -354,6 +354,8 @@ def test_any_sequence_gives_the_same_digests_and_a_state_that_is_restored(
             carry_out(world, make)
             world.step(FRAME)
     assert worlds[0].digest() == worlds[1].digest()
+    # Bodies stay when their greatest number becomes less; a state with them is beyond it.
+    assume(len(worlds[0]) <= worlds[0].settings.max_bodies)
 
     before = worlds[0].digest()
     state = worlds[0].save()

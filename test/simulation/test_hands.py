@@ -141,8 +141,10 @@ def test_the_topmost_movable_body_is_grabbed() -> None:
     spawn(world, 'a/2', BOX, group=1, anchored=True)
     spawn(world, 'a/3', BOX, group=1, kinematic=True)
 
-    assert world.apply(Grab(hand='h', point=(0.0, 0.0))) == ('a/1', 'grabbed a/1')
-    assert world.apply(Grab(hand='h', point=(0.1, 0.0), frame='a/0'))[0] == 'a/1'
+    assert world.apply(Grab(hand='h', point=(0.0, 0.0))) == Answer(
+        subject='a/1', message='grabbed a/1'
+    )
+    assert world.apply(Grab(hand='h', point=(0.1, 0.0), frame='a/0')).subject == 'a/1'
 
 
 @pytest.mark.parametrize('point', [(9.0, 9.0), (0.0, -0.5)])
@@ -275,13 +277,15 @@ def test_a_paused_hand_places_an_anchored_body_and_does_not_pull_it_while_time_r
     spawn(world, 'b/0', DISC, (9.0, 0.0, 0.0))
     world.apply(GrabToPlace(hand='h', point=(0.2, 0.0)))
 
-    assert world.apply(PlaceHand(hand='h', point=(1.2, 0.0))) == ('a/0', 'placed a/0')
+    assert world.apply(PlaceHand(hand='h', point=(1.2, 0.0))) == Answer(
+        subject='a/0', message='placed a/0'
+    )
     world.apply(MoveHand(hand='h', point=(3.0, 0.0)))
     world.step(60)
 
     assert world.snapshot().poses[0].tolist() == [1.0, 0.0, 0.0]
     world.apply(Delete(name='a/0'))
-    assert world.apply(PlaceHand(hand='h', point=(2.0, 0.0))) == ('', 'h holds no body')
+    assert world.apply(PlaceHand(hand='h', point=(2.0, 0.0))) == Answer(message='h holds no body')
 
 
 def test_a_paused_hand_that_does_not_move_changes_nothing() -> None:

@@ -9,7 +9,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import Amend
+from physsim_ros.simulation.request_queue import Amend, Wait
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -47,7 +47,7 @@ def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(
     past: tuple[Simulation, dict[int, str]],
 ) -> None:
     simulation, digests = past
-    simulation.past.frame_cache.drop_from(0)
+    simulation.past.frames.drop_from(0)
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     ticks, frame = ticks_to_a_frame(simulation, 0)
@@ -73,7 +73,7 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(
     past: tuple[Simulation, dict[int, str]], speed: float
 ) -> None:
     simulation, _ = past
-    simulation.past.frame_cache.drop_from(0)
+    simulation.past.frames.drop_from(0)
     simulation.speed = speed
     simulation.requests.submit_seek(2 * SECOND, topic='~/seek')
     simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
@@ -106,7 +106,7 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
         return [Answer(topic='~/clear', message=simulation.perform(DeleteAll()))]
 
     requests.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
-    requests.submit_call(clear)
+    requests.submit_call(clear, Wait.FOR_SEEK)
     requests.submit(spawning('late/0', DISC, (7.0, 1.0, 0.0)), topic='~/spawn')
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 50
@@ -171,7 +171,7 @@ def test_another_seek_takes_the_place_of_one_under_way(
     past: tuple[Simulation, dict[int, str]],
 ) -> None:
     simulation, digests = past
-    simulation.past.frame_cache.drop_from(0)
+    simulation.past.frames.drop_from(0)
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     for tick in range(50):
@@ -189,7 +189,7 @@ def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_tim
 ) -> None:
     simulation, digests = past
     simulation.speed = 0.0
-    timeline = simulation.past.timeline
+    cursor = simulation.past.cursor
     for number, step in enumerate((480, 240, 360)):
         simulation.seek(step * SECOND // 240)
         now = number * SECOND
@@ -197,13 +197,13 @@ def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_tim
         assert (ticks, frame.snapshot.step) == (1, step)
         # On the way to the moment before, another one is sought.
         assert not simulation.advance(now + SECOND // 2, is_overdue=lambda: True)
-        assert not timeline.continue_seek(lambda: True)
+        assert cursor.continue_seek()
     ticks = 0
-    while not timeline.continue_seek(lambda: True):
+    while cursor.continue_seek():
         assert not simulation.advance(4 * SECOND + ticks, is_overdue=lambda: True)
         ticks += 1
     assert 10 < ticks < 200
-    assert timeline.world.digest() == digests[360]
+    assert cursor.world.digest() == digests[360]
     simulation.advance_frame()
     assert simulation.world.digest() == digests[364]
 
@@ -233,7 +233,7 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
     past: tuple[Simulation, dict[int, str]],
 ) -> None:
     simulation, digests = past
-    simulation.past.frame_cache.drop_from(0)
+    simulation.past.frames.drop_from(0)
     simulation.speed = -1.0
     simulation.apply_requests()
     ticks_to_a_frame(simulation, 0)

@@ -47,7 +47,7 @@ def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
     simulation.apply_requests()
     run(60)
     # Nothing that was shown is kept: the past is simulated again.
-    simulation.past.frame_cache.drop_from(0)
+    simulation.past.frames.drop_from(0)
     simulation.speed = -1.0
     run(200)
 

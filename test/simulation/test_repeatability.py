@@ -34,6 +34,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -306,7 +307,7 @@ def test_restoring_replaces_everything_but_the_time() -> None:
 
     answer = world.apply(Restore(state=state))
 
-    assert answer == ('', 'loaded 1 body')
+    assert answer == Answer(message='loaded 1 body')
     assert names(world) == ('a/0',)
     assert world.settings == WorldSettings(max_bodies=7)
     assert world.step_count == 10

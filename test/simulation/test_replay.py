@@ -18,8 +18,8 @@ from physsim_ros.model.requests import (
     DeleteAll,
     UnjoinAll,
 )
-from physsim_ros.simulation.past.frame_cache import CachedFrame
-from physsim_ros.simulation.past.tree import Node
+from physsim_ros.simulation.past import CachedFrame
+from physsim_ros.simulation.past.node import Node
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 import pytest
 
@@ -113,9 +113,7 @@ def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest() -> None:
     driven.simulation.seek(2 * SECOND)
     driven.simulation.limit_history(1.0)
     frame = driven.apply_requests()
-    assert (
-        frame.snapshot.step == driven.simulation.past.timeline.history.oldest == 19 * 240 - FRAME
-    )
+    assert frame.snapshot.step == driven.simulation.past.tree.oldest == 19 * 240 - FRAME
     driven.assert_same(frame)
     assert 'oldest' in told([frame], 'history')[0].message
     driven.ask(spawning('b/0', BOX, (0.0, 8.0, 0.0)))
@@ -133,7 +131,7 @@ def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history: float) -> No
     driven.simulation.reset()
     driven.simulation.limit_history(history)
     driven.simulation.undo()
-    oldest = driven.simulation.past.timeline.history.oldest
+    oldest = driven.simulation.past.tree.oldest
     assert driven.simulation.step == oldest == 15 * 240 - FRAME - round(history * 240)
     driven.assert_same(driven.apply_requests())
 
@@ -166,7 +164,7 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
                 looks[-1] += 1
             super().__setattr__(name, value)
 
-    monkeypatch.setattr('physsim_ros.simulation.past.history.Node', Counted)
+    monkeypatch.setattr('physsim_ros.simulation.past.tree.Node', Counted)
     driven = Driven(speed=0.0)
     driven.ask(spawning('a/0', BOX))
     for _ in range(1000):
@@ -175,7 +173,7 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
         driven.apply_requests()
     assert max(looks) < 10
     driven.simulation.seek(0)
-    assert driven.simulation.past.timeline.serial == 1001
+    assert driven.simulation.past.cursor.serial == 1001
 
 
 def test_few_bodies_take_no_more_memory_than_their_poses_would() -> None:
@@ -184,7 +182,7 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would() -> None:
         driven.ask(spawning(f'a/{number}', BOX, (1.5 * number - 6.0, 1.0, 0.0)))
     driven.record(20.0)
     a_segment = 60 * CHECKPOINTS * (1000 + bodies * 2 * 24)
-    assert driven.simulation.past.frame_cache.size <= max(120 * 60 * 24 * bodies, 3 * a_segment)
+    assert driven.simulation.past.frames.size <= max(120 * 60 * 24 * bodies, 3 * a_segment)
     for frame in driven.run(-4.0, 5.0):
         driven.assert_same(frame)
 
@@ -204,7 +202,7 @@ def test_what_is_worked_out_from_the_past_is_not_kept(driven: Driven) -> None:
 
 
 def test_other_bits_than_before_are_told(driven: Driven) -> None:
-    history = driven.simulation.past.timeline.history
+    history = driven.simulation.past.tree
     wrong = history.keyframes[2]._replace(digest='not that')
     history.keyframes[2] = wrong
     driven.simulation.seek(0)
@@ -215,7 +213,7 @@ def test_other_bits_than_before_are_told(driven: Driven) -> None:
 
 
 def test_a_request_that_is_refused_when_it_is_made_again_is_told(driven: Driven) -> None:
-    history = driven.simulation.past.timeline.history
+    history = driven.simulation.past.tree
     history.nodes[-1].request = Delete(name='nobody/0')
     driven.simulation.seek(0)
     answer, *_ = told(driven.run(8.0, 0.7), 'divergence')
@@ -246,7 +244,7 @@ def test_checkpoints_come_at_the_same_steps_however_the_steps_were_made(
     for speed in speeds:
         driven.run(speed, 0.8 / speed)
     # At the beginning there are two, before and after the first requests.
-    steps = sorted({mark.step for mark in driven.simulation.past.timeline.history.keyframes})
+    steps = sorted({mark.step for mark in driven.simulation.past.tree.keyframes})
     assert steps == list(range(0, 41 * len(steps), 41))
     assert len(steps) > 4
 
@@ -261,7 +259,7 @@ def test_redo_that_the_history_is_too_short_for_says_so() -> None:
     driven.simulation.undo()
     driven.simulation.limit_history(2.0)
     message = driven.simulation.redo()
-    oldest = driven.simulation.past.timeline.history.oldest
+    oldest = driven.simulation.past.tree.oldest
     assert driven.simulation.step == oldest > 360
     time = f'{oldest / 240:.3f} s'
     assert message.endswith(time)
@@ -284,7 +282,7 @@ def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was() -> N
     collide(driven)
     for _ in range(150):
         driven.simulation.advance_frame()
-    checkpoint = driven.simulation.past.timeline.history.keyframes[-1].step
+    checkpoint = driven.simulation.past.tree.keyframes[-1].step
     driven.simulation.seek(round(checkpoint / 240 * SECOND))
     driven.ask(spawning('b/0', BOX, (0.2, 6.0, 0.5)))
     for _ in range(120):
@@ -305,7 +303,7 @@ def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was() -> N
     # Deep in the floor, so that it goes on otherwise in a space that is built anew.
     sim.perform(spawning('a/0', DISC, (2.4, 0.1, 3.0), velocity=(1.8, 2.7)))
     sim.advance_frame()
-    sim.past.timeline.add_keyframe()
+    sim.past.cursor.add_keyframe()
     for _ in range(14):
         sim.advance_frame()
     sim.seek(round(FRAME * SECOND / 240))
@@ -370,7 +368,7 @@ def test_what_is_deleted_at_a_checkpoint_is_gone_from_the_contacts(names: str | 
     for number in range(5):
         driven.ask(spawning(f'a/{number}', BOX, (0.0, 0.5 + number, 0.0)))
     for _ in range(3):
-        while driven.simulation.past.timeline.history.head % 480 or not driven.simulation.step:
+        while driven.simulation.past.tree.head % 480 or not driven.simulation.step:
             driven.simulation.advance_frame()
         driven.ask(DeleteAll() if names is None else Delete(name=names))
         driven.ask(spawning('a/0' if names is None else names, BOX, (3.0, 0.5, 0.0)))

@@ -8,7 +8,7 @@ from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation import request_queue
-from physsim_ros.simulation.request_queue import Call, RequestQueue, Seek, size_of
+from physsim_ros.simulation.request_queue import Call, RequestQueue, Seek, size_of, Wait
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -30,10 +30,10 @@ def test_of_seeks_in_a_row_the_last_is_carried_out_and_each_is_answered(
     for _ in range(120):
         sim.advance_frame()
     # A frame that is cached would be shown without a seek.
-    sim.past.frame_cache.drop_from(0)
+    sim.past.frames.drop_from(0)
     sought = []
-    seek = sim.past.timeline.seek
-    monkeypatch.setattr(sim.past.timeline, 'seek', lambda step: (sought.append(step), seek(step)))
+    seek = sim.past.cursor.seek
+    monkeypatch.setattr(sim.past.cursor, 'seek', lambda step: (sought.append(step), seek(step)))
     for number in range(1000):
         sim.requests.submit_seek(round((0.2 + number / 1000) * SECOND), topic='~/seek')
 
@@ -106,13 +106,13 @@ def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out() 
     queue.submit_seek(2, topic='~/seek')
     queue.submit(move, topic='~/drag/feedback')
     queue.submit(other, topic='~/drag/feedback')
-    queue.submit_call(list)
+    queue.submit_call(list, Wait.FOR_SEEK)
     queue.submit(move, topic='~/drag/feedback')
     queue.submit_seek(3, topic='~/seek')
 
     requests = [each.request for each in queue.take() if not isinstance(each.request, Answer)]
 
-    assert requests == [move, Seek(2), other, Call(list), move, Seek(3)]
+    assert requests == [move, Seek(2), other, Call(list, Wait.FOR_SEEK), move, Seek(3)]
 
 
 def test_a_move_of_a_hand_overtakes_nothing_but_moves() -> None:

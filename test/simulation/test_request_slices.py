@@ -10,7 +10,7 @@ from collections.abc import Callable
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.request_handler import DeferredCalls, Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 
 from ..building import BOX, NOWHERE, spawning
@@ -91,9 +91,6 @@ def test_commands_of_robots_do_not_stop_time() -> None:
 
 def test_a_call_behind_requests_waits_for_them() -> None:
     simulation = Simulation(settings=NOWHERE)
-    calls = DeferredCalls(
-        simulation.requests, lambda: simulation.apply_up_to_seek(spent_after(SLICE))
-    )
     submit(simulation, joined=True)
     seen: list[int] = []
 
@@ -101,9 +98,10 @@ def test_a_call_behind_requests_waits_for_them() -> None:
         seen.append(len(simulation.world))
         return [Answer(topic='~/undo')]
 
-    calls.submit(call, Wait.BEHIND_REQUESTS)
+    simulation.requests.submit_call(call, Wait.BEHIND_REQUESTS)
+    simulation.apply_up_to_seek(spent_after(SLICE))
     assert seen == []
-    calls.submit(call, Wait.NONE)
+    simulation.requests.submit_call(call, Wait.NONE)
     assert seen == [SLICE]
     for number in range(COUNT // SLICE + 1):
         tick(simulation, number)

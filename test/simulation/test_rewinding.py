@@ -76,7 +76,7 @@ def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: f
 def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) -> None:
     driven = Driven()
     driven.record(12.0)
-    driven.simulation.past.frame_cache.drop_from(0)
+    driven.simulation.past.frames.drop_from(0)
     driven.simulation.seek(round(4.5 * SECOND))
     driven.apply_requests()
     driven.run(1.0, on)
@@ -96,7 +96,7 @@ def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None
 
 
 def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
-    driven.simulation.past.frame_cache.drop_from(0)
+    driven.simulation.past.frames.drop_from(0)
     driven.simulation.seek(round(4.8 * SECOND))
     driven.apply_requests()
     driven.run(1.0, 0.2)

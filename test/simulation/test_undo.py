@@ -199,7 +199,7 @@ def test_older_steps_than_are_kept_are_dropped() -> None:
     driven = Driven(history=3.0)
     driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
     driven.record(10.0)
-    history = driven.simulation.past.timeline.history
+    history = driven.simulation.past.tree
     assert history.head - history.oldest == 3 * 240
     assert len(history.keyframes) <= 3
     frames = driven.run(-64.0, 0.5)

@@ -22,6 +22,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Shape
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 from physsim_ros.simulation.world.world import HANDLERS
 import pytest
@@ -61,7 +62,7 @@ def test_a_spawned_body_is_what_was_said_and_where(world: World) -> None:
         )
     )  # fmt: skip
 
-    assert answer == ('box/3', 'spawned box/3')
+    assert answer == Answer(subject='box/3', message='spawned box/3')
     assert body(world, 'box/3') == Body(
         name='box/3', shape=Box(width=2.0, height=1.0), color=RED, mass=4.0, density=2.0,
         friction=0.25, elasticity=0.75, anchored=False, kinematic=False, group=5, sensor=True,
@@ -114,7 +115,7 @@ def test_a_deleted_body_is_gone(world: World) -> None:
 
     answer = world.apply(Delete(name='a/1'))
 
-    assert answer == ('a/1', 'deleted a/1')
+    assert answer == Answer(subject='a/1', message='deleted a/1')
     assert names(world) == ('a/0', 'a/2')
     assert 'a/1' not in world
     with pytest.raises(UnknownBody):
@@ -139,10 +140,10 @@ def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world: World) -> No
 
     answer = world.apply(DeleteAll(namespace='a'))
 
-    assert answer == ('', 'deleted 2 bodies')
+    assert answer == Answer(message='deleted 2 bodies')
     assert names(world) == ('b/0', 'ab/0', 'a/b/0')
-    assert world.apply(DeleteAll(namespace='ab')) == ('', 'deleted 1 body')
-    assert world.apply(DeleteAll(namespace='nobody')) == ('', 'deleted 0 bodies')
+    assert world.apply(DeleteAll(namespace='ab')) == Answer(message='deleted 1 body')
+    assert world.apply(DeleteAll(namespace='nobody')) == Answer(message='deleted 0 bodies')
 
 
 def test_everything_is_deleted_and_the_world_goes_on(world: World) -> None:

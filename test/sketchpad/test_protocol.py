@@ -466,7 +466,7 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     assert len(told) == 1
 
 
-def test_touches_of_a_body_that_a_page_follows_have_the_time_of_their_step(
+def test_touches_of_a_body_that_a_page_follows_have_the_time_of_the_first_touch(
     browser: Browser,
 ) -> None:
     physsim, page, other = browser.physsim, browser.open_page(), browser.open_page()
@@ -481,9 +481,8 @@ def test_touches_of_a_body_that_a_page_follows_have_the_time_of_their_step(
     (message,) = page.of_type('touches')
     ((name, toucher, time),) = message['touches']
     assert (name, toucher) == ('gate/0', 'ball/0')
-    # 2.4 m at 1 m/s; the time is that of a step.
-    assert time == pytest.approx(2.4, abs=1.1 / 240.0)
-    assert round(time * 240.0) / 240.0 == time
+    # 2.4 m at 1 m/s.
+    assert time == pytest.approx(2.4, abs=1e-4)
     assert not other.of_type('touches')
     assert page.ask('follow', names=[])['ok']
     assert page.ask('follow', names='gate/0')['code'] == 'bad_property'

@@ -202,6 +202,7 @@ def _spans(text):
 OF_DOCUMENTS = {'damper.py', 'fall.py', 'test_fall.py', 'parser.py', 'test_crash.py'}
 OF_DOCUMENTS |= {'wall_follower.py', 'test_wall_follower.py'}
 OF_DOCUMENTS |= {'conftest.py', 'stopper.py', 'test_stopper.py', 'tracker.py', 'test_tracker.py'}
+OF_DOCUMENTS |= {'follower.py', 'wall_task.py'}
 OF_DOCUMENTS |= {'ament_add_pytest_test'}
 OF_DOCUMENTS |= {'enable_stamped_cmd_vel', 'map_server'}
 # Parameters of Nav2.

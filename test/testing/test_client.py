@@ -61,8 +61,8 @@ def test_a_large_array_is_answered_whole(physsim: PhysSim) -> None:
 
 
 def test_an_array_that_is_refused_whole_is_refused_at_once(physsim: PhysSim) -> None:
-    with pytest.raises(Refused, match='markers') as caught:
-        physsim.spawn(MarkerArray(markers=[box('a/1')] * 20_001))
+    with pytest.raises(Refused, match='KiB') as caught:
+        physsim.spawn(MarkerArray(markers=[box('a/1')] * 30_000))
     assert caught.value.code == 'malformed'
     assert physsim.names == ()
 

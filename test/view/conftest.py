@@ -16,7 +16,7 @@ def server(tmp_path, monkeypatch):
     from .viewers import PATIENCE, Server  # noqa: PLC0415  Rerun may be missing
 
     # For the last frames, which a busy machine sends late.
-    monkeypatch.setattr('physsim_ros.view.sinks.endpoints.ClientEndpoint.closing', PATIENCE)
+    monkeypatch.setattr('physsim_ros.view.endpoints.ClientEndpoint.closing', PATIENCE)
     it = Server(tmp_path / 'server.rrd')
     yield it
     if it.process is not None:

@@ -14,7 +14,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.transform import cross
-from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view import FrameContext
 from physsim_ros.view.recording import FrameRecorder
 import pytest
 

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import textwrap
 
-from physsim_ros.view.sinks.child_process import end_child, start_child
+from physsim_ros.view.child_process import end_child, start_child
 import pytest
 
 from ..outside import PATIENCE
@@ -20,7 +20,7 @@ psutil = pytest.importorskip('psutil')
 
 PARENT = """
     import os, sys, time
-    from physsim_ros.view.sinks.child_process import start_child
+    from physsim_ros.view.child_process import start_child
 
     print(start_child(['sleep', '1000'], environment=os.environ).pid, flush=True)
     sys.stdin.read()

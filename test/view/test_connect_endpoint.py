@@ -10,7 +10,7 @@ import signal
 
 from physsim_ros.view import ViewerMode
 
-from .viewers import bulk, CONTEXT, Events, frame, rows, run_alone, show, until
+from .viewers import bulk, Events, frame, rows, run_alone, show, until
 from ..rerun_program import free_port
 
 
@@ -32,15 +32,15 @@ def test_a_server_that_comes_late_is_found_and_gets_every_answer(viewers, server
     viewer = viewers(mode=ViewerMode.CONNECT, url=server.url)
     until(lambda: 'nobody there' in viewer.state)
     for step in range(200):
-        viewer.show(frame(step, f'answer {step}'), context=CONTEXT)
+        viewer.show(frame(step, f'answer {step}'))
 
     server.start()
     Events(viewer).wait_for('')
-    until(lambda: ' 60 frames, 140 dropped' in viewer.state)
+    until(lambda: ' 200 frames, 0 dropped' in viewer.state)
     viewer.close()
 
     written = server.wait_for('/events', 200)
-    assert written['/world/bodies/box/0'] >= 60
+    assert written['/world/bodies/box/0'] >= 200
 
 
 def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
@@ -65,11 +65,10 @@ def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
 FROZEN = """
     import os, signal, sys, threading
     from pathlib import Path
-    from test.view.viewers import bulk, CONTEXT, Events, frame, until
-    from physsim_ros.view import Viewer, ViewerMode
-    from physsim_ros.view.sinks.sink import Endpoint
+    from test.view.viewers import bulk, Events, frame, until
+    from physsim_ros.view import output, Viewer, ViewerMode
 
-    Endpoint.patience = 0.5
+    output.SILENT_AFTER = 1.0
     url, path, server = sys.argv[1], sys.argv[2], int(sys.argv[3])
     viewer = Viewer()
     viewer.record(Path(path))
@@ -78,8 +77,9 @@ FROZEN = """
     until(lambda: viewer.state.count(', open,') == 2)
     os.kill(server, signal.SIGSTOP)
     step = 0
-    while 'takes nothing' not in viewer.state:
-        viewer.show(frame(step, bulk()), context=CONTEXT)
+    while 'no answer' not in viewer.state:
+        viewer.show(frame(step, bulk()))
+        events.all += viewer.poll()
         step += 1
         threading.Event().wait(0.01)
     events.wait_for('viewer_lost')
@@ -99,7 +99,8 @@ def test_a_frozen_viewer_holds_up_neither_frames_nor_closing_nor_the_end(server,
     assert rows(path)['/events'] == int(done)
 
 
-def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server):
+def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server, monkeypatch):
+    monkeypatch.setattr('physsim_ros.view.output.SILENT_AFTER', 1.0)
     server.start()
     viewer = viewers(mode=ViewerMode.CONNECT, url=server.url)
     until(lambda: ', open,' in viewer.state)
@@ -108,13 +109,14 @@ def test_a_viewer_that_thaws_is_shown_what_is_new(viewers, server):
     steps = iter(range(10_000))
 
     def is_stuck():
-        viewer.show(frame(next(steps), bulk()), context=CONTEXT)
-        return 'takes nothing' in viewer.state
+        viewer.show(frame(next(steps), bulk()))
+        viewer.poll()
+        return 'no answer' in viewer.state
 
     until(is_stuck)
     os.kill(server.process.pid, signal.SIGCONT)
     until(lambda: ', open,' in viewer.state)
-    viewer.show(frame(20_000), context=CONTEXT)
+    viewer.show(frame(20_000))
     viewer.close()
 
     server.wait_for('/events', next(steps))

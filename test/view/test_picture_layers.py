@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Over and under the bodies: walls, grid, contacts, time, what is being drawn; and the camera."""
+"""Over and under the bodies: walls, grid, contacts, what is being drawn; and the camera."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ import math
 
 import numpy as np
 from physsim_ros.model.snapshot import Contacts, NO_PREVIEW, Preview
-from physsim_ros.view.preview_lines import LINGER
+from physsim_ros.view.arrows import CUT
+from physsim_ros.view.preview import LINGER
 import pytest
 
 from .picture_file import body, frame, scene, TOLERANCE
@@ -60,8 +61,14 @@ def test_contacts_are_arrows_by_force_on_the_movable_body_as_long_as_they_last(r
     weight = 2.0 * 9.81
     press, heavy = contacts((0.0, -weight / 60)), contacts((0.0, -2 * weight / 60))
 
-    for number, each in enumerate((contacts(), press, heavy, contacts(), contacts())):
-        recording.draw(frame(box, [(number, 0, 0)], step=4 * number, contacts=each))
+    # Two in one batch, so that they have one scale.
+    step = 0
+    for several in ((contacts(),), (press, heavy), (contacts(),), (contacts(),)):
+        frames = []
+        for each in several:
+            frames.append(frame(box, [(step, 0, 0)], step=step, contacts=each))
+            step += 4
+        recording.draw(*frames)
 
     origins = recording.rows('world/contacts', 'Arrows3D:origins')
     vectors = recording.rows('world/contacts', 'Arrows3D:vectors')
@@ -71,6 +78,30 @@ def test_contacts_are_arrows_by_force_on_the_movable_body_as_long_as_they_last(r
     assert first[0] == 0
     assert first[1] > 0
     assert second == pytest.approx(2 * first, rel=1e-4)
+
+
+def test_arrows_fit_the_greatest_force_of_most_frames_and_the_legend_tells_it(recording):
+    box, step = scene(body()), 0
+    forces = {40: 50, 30: 50, 90: 100, 10: 10, 8: 10}
+    for force in forces:
+        # The last is an impact: its arrow is cut.
+        frames = []
+        for each in (*[force] * 31, 100 * force):
+            pressed = contacts((0.0, -each / 60))
+            frames.append(frame(box, [(step, 0, 0)], step=step, contacts=pressed))
+            step += 4
+        recording.draw(*frames)
+
+    rows = recording.rows('world/contacts', 'Arrows3D:vectors')
+    lengths = [np.hypot(*row.value[0, :2]) for row in rows]
+    unit = lengths[31] / CUT
+    assert lengths[31::32] == pytest.approx([CUT * unit] * 5, rel=1e-4)
+    shares = [length / unit for length in lengths[30::32]]
+    assert shares == pytest.approx([force / full for force, full in forces.items()], rel=1e-4)
+    labels = recording.rows('world/camera/legend/labels', 'Points2D:labels')
+    assert [row.value[0] for row in labels] == [
+        f'contact force: this length = {full} N (max {CUT * full:g} N)' for full in (50, 100, 10)
+    ]
 
 
 def test_contacts_in_next_to_no_gravity_are_arrows_too(recording):
@@ -92,20 +123,6 @@ def test_thousands_of_contacts_are_sent_less_often(recording):
     rows = recording.rows('world/contacts', 'Arrows3D:origins')
     assert 1 < len(rows) <= 8
     assert rows[-1].frame == 59
-
-
-def test_time_speed_and_the_past_are_written_in_the_picture(recording):
-    box = scene(body())
-    for number, (step, speed) in enumerate(((240, 1.0), (236, -2.0), (236, 0.0))):
-        past = step < 240
-        recording.draw(frame(box, [(number, 0, 0)], step=step, speed=speed, past=past))
-
-    words = [row.value.item() for row in recording.rows('world/camera/status', 'Points2D:labels')]
-    assert words == [
-        '1.00 s  × 1',
-        '0.98 s  × 2 back  in the past',
-        '0.98 s  paused  in the past',
-    ]
 
 
 def test_what_is_half_drawn_lies_over_the_world_until_it_is_dropped(recording):

@@ -16,7 +16,7 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view import FrameContext
 from physsim_ros.view.recording import FrameRecorder
 import pytest
 
@@ -55,7 +55,7 @@ class Film:
 
     def draw(self, frame, *, mark=''):
         """Draw a frame; `mark` names its time."""
-        context = FrameContext(cost=0.001, real_time_factor=1.0)
+        context = FrameContext(real_time_factor=1.0)
         self._recorder.draw([frame], context=context)
         self.times[mark] = self._recorder.recorded
 

@@ -5,10 +5,9 @@
 
 from __future__ import annotations
 
-from physsim_ros.model.shapes import Disc
 import pytest
 
-from .picture_file import body, frame, scene, STEP_NS
+from .picture_file import body, frame, scene
 
 
 def test_energies_and_momenta_are_plotted(recording):
@@ -48,18 +47,3 @@ def test_counts_are_sent_when_they_change_and_each_second(recording):
     # A plot shows what lies in its last 15 s; values are sampled every tenth of a second.
     assert [row.frame for row in rows[:2]] == [0, 60]
     assert 100 <= rows[2].frame <= 106
-
-
-def test_a_body_that_is_traced_leaves_its_way_and_flies_beside_its_parabola(recording):
-    ball = scene(body('ball/0', Disc(radius=0.5)))
-    for number in range(10):
-        time = 4 * number * STEP_NS * 1e-9
-        at = (time, 5 + time - 9.81 * time**2 / 2, 0)
-        recording.draw(frame(ball, [at], step=4 * number), traced=('ball/0', 'nobody/0'))
-
-    heights = [row.value for row in recording.rows('plots/bodies/ball/0', 'Scalars:scalars')]
-    assert len(heights) == 10
-    for height, flight in heights:
-        assert flight == pytest.approx(height, abs=1e-9)
-    way = recording.last('world/traces', 'LineStrips3D:strips')
-    assert len(way) == 1

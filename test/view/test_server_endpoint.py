@@ -6,13 +6,11 @@
 from __future__ import annotations
 
 import shutil
-import subprocess
 import threading
 from urllib.parse import parse_qs, urlsplit
 from urllib.request import urlopen
 
-from physsim_ros.view import ViewerMode
-from physsim_ros.view.sinks.sink_worker import SinkWorker
+from physsim_ros.view import endpoints, ViewerMode
 import pytest
 
 from .viewers import Events, PATIENCE, rows_when, show, until
@@ -75,23 +73,20 @@ def test_nothing_is_left_running_after_closing(viewers):
     assert not program.is_running()
 
 
-@pytest.fixture
-def impatient(monkeypatch):
-    """Make closing give up at once on a viewer that has not ended."""
-    monkeypatch.setattr('physsim_ros.view.sinks.endpoints.ServerEndpoint.closing', 0.0)
-
-
-def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
+def test_what_is_just_being_started_does_not_outlive_closing(viewers, monkeypatch):
     began, go_on, started = threading.Event(), threading.Event(), []
+    start = endpoints.start_child
 
-    def program():
+    def slowly(*arguments, **options):
         # As long as it takes to begin: Rerun may have to be read from a cold disk.
         began.set()
         assert go_on.wait(PATIENCE)
-        return 'rerun'
+        started.append(start(*arguments, **options))
+        return started[0]
 
-    monkeypatch.setattr('physsim_ros.view.sinks.endpoints._program', program)
-    monkeypatch.setattr('subprocess.Popen', lambda *_, **__: started.append('a program'))
+    monkeypatch.setattr(endpoints.ServerEndpoint, 'closing', 0.0)
+    monkeypatch.setattr(endpoints, '_program', lambda: shutil.which('yes'))
+    monkeypatch.setattr(endpoints, 'start_child', slowly)
     viewer = viewers(mode=ViewerMode.WEB)
     assert began.wait(PATIENCE)
 
@@ -99,63 +94,27 @@ def test_nothing_is_started_after_closing(viewers, monkeypatch, impatient):
     go_on.set()
 
     until(lambda: not viewer.is_open)
-    assert started == []
-
-
-def test_what_is_just_being_started_is_ended_by_closing(viewers, monkeypatch, impatient):
-    began, closed, started = threading.Event(), threading.Event(), []
-    start, join = subprocess.Popen, SinkWorker.join
-
-    def slowly(*arguments, **options):
-        began.set()
-        assert closed.wait(PATIENCE)
-        started.append(start(*arguments, **options))
-        return started[0]
-
-    def joins(worker):
-        closed.set()
-        return join(worker)
-
-    monkeypatch.setattr('physsim_ros.view.sinks.endpoints._program', lambda: shutil.which('yes'))
-    monkeypatch.setattr('subprocess.Popen', slowly)
-    viewer = viewers(mode=ViewerMode.WEB)
-    assert began.wait(PATIENCE)
-    monkeypatch.setattr(SinkWorker, 'join', joins)
-
-    viewer.close()
-
     assert started[0].poll() is not None
 
 
-def test_a_page_server_that_dies_is_started_again(viewers, monkeypatch):
-    # It has settled at once.
-    monkeypatch.setattr('physsim_ros.view.sinks.endpoints.SETTLING', 0.0)
-    viewer = viewers(mode=ViewerMode.WEB)
-    events = Events(viewer)
-    events.wait_for('')
-    (program,) = psutil.Process().children()
-
-    program.kill()
-    events.wait_for('viewer_lost')
-
-    port = until(lambda: urlsplit(viewer.state.removeprefix('web: ').split(', ')[0]).port)
-    until(lambda: is_open(port))
-
-
 @pytest.mark.parametrize('program', ['true', 'false'])
-def test_a_page_server_that_ends_at_once_is_not_started_again(viewers, monkeypatch, program):
-    started = []
-    monkeypatch.setattr(
-        'physsim_ros.view.sinks.endpoints._program',
-        lambda: started.append(program) or shutil.which(program),
-    )
-    viewer = viewers(mode=ViewerMode.WEB)
+def test_a_page_server_that_ends_is_told_and_opened_again_when_asked(
+    viewers, monkeypatch, program
+):
+    with monkeypatch.context() as patch:
+        patch.setattr(endpoints, '_program', lambda: shutil.which(program))
+        viewer = viewers(mode=ViewerMode.WEB)
+        events = Events(viewer)
 
-    assert 'no page could be served' in Events(viewer).wait_for('viewer_lost').message
-    assert len(started) == 1
-    # The address is for a viewer that is installed elsewhere.
-    assert viewer.is_open
-    assert 'any Rerun viewer at rerun+http://127.0.0.1:' in viewer.state
+        assert 'another one: rerun rerun+http://' in events.wait_for('viewer_lost').message
+        # The address is for a viewer that is installed elsewhere.
+        assert viewer.is_open
+        assert 'any Rerun viewer at rerun+http://127.0.0.1:' in viewer.state
+        assert viewer.page_address == ''
+    viewer.open_viewer(ViewerMode.WEB)
+
+    until(lambda: viewer.poll() is not None and viewer.page_address)
+    until(lambda: is_open(urlsplit(viewer.page_address).port))
 
 
 @pytest.fixture

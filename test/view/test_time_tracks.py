@@ -15,8 +15,8 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.view.frame_batch import RecordedClock
-from physsim_ros.view.time_tracks import TimeTracks
+from physsim_ros.view.events import TimeTracks
+from physsim_ros.view.frame_batch import Change, RecordedClock
 import pytest
 
 rr = pytest.importorskip('rerun')
@@ -40,7 +40,7 @@ def drawn(path: Path, *batches: list[Frame]) -> dict[str, list[tuple[int, str]]]
     clock = RecordedClock()
     for frames in batches:
         for batch in clock.batches(frames):
-            track.send(batch)
+            track.send(batch, Change(1.0, False, False, NONE))
     recording.flush()
     recording.disconnect()
     states: dict[str, list[tuple[int, str]]] = {}

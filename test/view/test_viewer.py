@@ -7,26 +7,23 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from types import SimpleNamespace
 
-from physsim_ros.view import viewer as viewer_module
-from physsim_ros.view import ViewerMode
-from physsim_ros.view.sinks import endpoints
+from physsim_ros.view import endpoints, ViewerMode
 
-from .viewers import CONTEXT, frame, rows, run_alone, until
+from .viewers import frame, rows, run_alone, until
 
 
 def test_what_is_recorded_goes_on_when_the_viewer_changes(viewers, server, tmp_path):
     server.start()
     path = tmp_path / 'it.rrd'
     viewer = viewers(record_file=str(path))
-    viewer.show(frame(0, 'first'), context=CONTEXT)
+    viewer.show(frame(0, 'first'))
     viewer.open_viewer(ViewerMode.CONNECT, server.url)
-    viewer.show(frame(4, 'second'), context=CONTEXT)
+    viewer.show(frame(4, 'second'))
     # The one before is in the new viewer too: the world may stand still.
     server.wait_for('/events', 2)
     viewer.open_viewer(ViewerMode.NONE)
-    viewer.show(frame(8, 'third'), context=CONTEXT)
+    viewer.show(frame(8, 'third'))
     assert 'connect' not in viewer.state
     viewer.close()
 
@@ -42,15 +39,11 @@ def test_of_a_flood_of_changes_the_last_counts_and_few_are_carried_out(viewers, 
         return started[-1]
 
     monkeypatch.setattr(endpoints, 'start_child', count)
-    # A busy machine takes longer for all of them than until the next may be opened.
-    now = [0.0]
-    monkeypatch.setattr(viewer_module, 'time', SimpleNamespace(monotonic=lambda: now[0]))
     viewer = viewers()
     for _ in range(100):
         viewer.open_viewer(ViewerMode.WEB)
         viewer.open_viewer(ViewerMode.NONE)
     viewer.open_viewer(ViewerMode.WEB)
-    now[0] += viewer_module.CHANGE_PERIOD
 
     def one_runs():
         viewer.poll()
@@ -65,9 +58,8 @@ def test_of_a_flood_of_changes_the_last_counts_and_few_are_carried_out(viewers, 
 MANY_VIEWERS = """
     import psutil, threading
     from test.view.viewers import Events, show, until
-    from physsim_ros.view import Viewer, ViewerMode, viewer as module
+    from physsim_ros.view import Viewer, ViewerMode
 
-    module.CHANGE_PERIOD = 0.0
     process = psutil.Process()
     viewer = Viewer()
     events = Events(viewer)

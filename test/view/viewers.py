@@ -19,7 +19,6 @@ import numpy as np
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.view import FrameContext
 import pytest
 
 from ..building import PLAIN_BODY
@@ -28,7 +27,6 @@ from ..rerun_program import free_port, is_open, rerun
 
 chunk = pytest.importorskip('rerun.chunk')
 
-CONTEXT = FrameContext(real_time_factor=1.0)
 SCENE = Scene(bodies=(PLAIN_BODY,), settings=WorldSettings())
 
 
@@ -51,7 +49,7 @@ def until(predicate, timeout=PATIENCE):
 
 def show(viewer, count, first=0):
     for step in range(first, first + count):
-        viewer.show(frame(step), context=CONTEXT)
+        viewer.show(frame(step))
 
 
 def bulk():

@@ -22,7 +22,6 @@ from . import (
     outside,
     pages,
     picture,
-    recording_page,
     resting,
     rewinding,
     robots,
@@ -50,7 +49,6 @@ _TABLES = {
         classroom,
         chromium_page,
         picture,
-        recording_page,
         startup,
     )
 }

@@ -20,7 +20,7 @@ import time
 
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view import FrameContext
 from physsim_ros.view.recording import FrameRecorder
 import rerun as rr
 
@@ -32,7 +32,7 @@ LATE = 5
 FRAMES = 60
 # Frames in a batch: of a file, and of a viewer.
 FILED, SHOWN = 60, 6
-CONTEXT = FrameContext(real_time_factor=1.0, cost=0.001)
+CONTEXT = FrameContext(real_time_factor=1.0)
 
 
 def table() -> None:

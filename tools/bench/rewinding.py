@@ -24,7 +24,7 @@ def measure(count: int, seconds: int) -> None:
     fill(simulation.world, count)
     gc.collect()
     gc.freeze()
-    history = simulation.past.timeline.history
+    history = simulation.past.tree
     frames, stalls = [], []
     for _ in range(60 * seconds):
         before = history.keyframes[-1]
@@ -36,7 +36,7 @@ def measure(count: int, seconds: int) -> None:
     rng = random.Random(count)
     print(
         f'{count:6} {usual:10.2f} {statistics.median(stalls) - usual:12.1f}'
-        f' {bytes_kept / seconds * 60 / 1e6:14.2f} {simulation.past.frame_cache.size / 1e6:12.1f}',
+        f' {bytes_kept / seconds * 60 / 1e6:14.2f} {simulation.past.frames.size / 1e6:12.1f}',
         end='',
     )
     for distance in (1, 10, seconds):

@@ -4,8 +4,8 @@
 """
 `make evaluate`: how well strokes are read, by hands that were not there when limits were chosen.
 
-`make evaluate ARGS='300 tuning'` chooses the strokes of each kind and the half: `report`, or
-`tuning`, by which limits are chosen.
+`make evaluate ARGS='300 tuning'` chooses the strokes of each kind and the half: `report`,
+`tuning`, by which limits are chosen, or `apart`, hands of another kind.
 """
 
 from __future__ import annotations
@@ -86,10 +86,10 @@ class Tally:
     def show(self) -> None:
         """Print the tables."""
         columns = [*MEANINGS, _REFUSED]
-        print(f'{"drawn":<20}' + ''.join(f'{column[:9]:>10}' for column in columns))
+        print(f'{"drawn":<24}' + ''.join(f'{column[:9]:>10}' for column in columns))
         for name, counts in self.readings.items():
             cells = (f'{counts[column] or "·":>10}' for column in columns)
-            print(f'{name:<20}' + ''.join(cells))
+            print(f'{name:<24}' + ''.join(cells))
         print()
         for name, hits in self.faulty.items():
             print(f'{"fault: " + name:<34}{statistics.fmean(hits):7.1%} of {len(hits)}')
@@ -117,7 +117,7 @@ _CORNERED = {
     'check, caret, V': 'open',
     'bracket': 'open',
 }
-_SIGNS = ('anchor', 'axle', 'deletion', 'gravity', 'spring')
+_SIGNS = ('anchor', 'axle', 'deletion', 'gravity', 'spring', 'velocity')
 
 
 def main(arguments: list[str]) -> None:

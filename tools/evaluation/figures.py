@@ -48,7 +48,7 @@ def disc(rng: Random) -> Figure:
     lump = rng.normal(0.0, 0.015) * np.cos(3 * angle + rng.uniform(0, 7))
     radius = 0.5 * (1.0 + egg + lump)
     way = np.column_stack((radius * np.cos(angle), max(flat, 0.72) * radius * np.sin(angle)))
-    return Figure(kind='disc', way=_turned(way, rng.uniform(0, 7)), closed=True, smooth=True)
+    return Figure(kind='disc', way=turned(way, rng.uniform(0, 7)), closed=True, smooth=True)
 
 
 def rectangle(rng: Random) -> Figure:
@@ -68,14 +68,14 @@ def rectangle(rng: Random) -> Figure:
     turn = rng.choice([rng.normal(0.0, 0.04), rng.uniform(0.0, 7.0)])
     if rng.random() < 0.5:
         way = way[:, ::-1]
-    return Figure(kind='rectangle', way=_turned(way, turn), closed=True, corners=4, thin=height)
+    return Figure(kind='rectangle', way=turned(way, turn), closed=True, corners=4, thin=height)
 
 
 def polygon(rng: Random) -> Figure:
     """Return one of the polygons that people draw."""
     way = POLYGONS[rng.integers(len(POLYGONS))](rng)
     way = way * (1.0, rng.uniform(0.75, 1.3)) if rng.random() < 0.5 else way
-    way = _turned(way, rng.uniform(0, 7))
+    way = turned(way, rng.uniform(0, 7))
     return Figure(kind='polygon', way=way, closed=True, corners=len(way))
 
 
@@ -83,14 +83,14 @@ def ramp(rng: Random) -> Figure:
     """Return a thin right triangle, as cars and balls go up and down."""
     height = rng.uniform(0.12, 0.4)
     way = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, height)])
-    way = _turned(way, rng.choice([rng.normal(0.0, 0.04), rng.uniform(0.0, 7.0)]))
+    way = turned(way, rng.choice([rng.normal(0.0, 0.04), rng.uniform(0.0, 7.0)]))
     return Figure(kind='polygon', way=way, closed=True, corners=3, thin=height)
 
 
 def line(rng: Random) -> Figure:
     """Return a straight line."""
     way = np.array([(-0.5, 0.0), (0.5, 0.0)])
-    return Figure(kind='line', way=_turned(way, rng.uniform(0, 7)), corners=2)
+    return Figure(kind='line', way=turned(way, rng.uniform(0, 7)), corners=2)
 
 
 def bent_line(rng: Random) -> Figure:
@@ -109,7 +109,7 @@ def bent_line(rng: Random) -> Figure:
     points /= np.ptp(points, axis=0).max()
     if _meets_itself(points) or math.dist(points[0], points[-1]) < 0.45:
         return bent_line(rng)
-    return Figure(kind='line', way=_turned(points, rng.uniform(0, 7)), corners=len(points))
+    return Figure(kind='line', way=turned(points, rng.uniform(0, 7)), corners=len(points))
 
 
 def curve(rng: Random) -> Figure:
@@ -121,17 +121,25 @@ def curve(rng: Random) -> Figure:
     else:
         y = rng.uniform(0.06, 0.16) * np.sin(2 * math.pi * (x * rng.uniform(1.0, 1.6)))
     way = np.column_stack((x, y))
-    return Figure(kind='line', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+    return Figure(kind='line', way=turned(way, rng.uniform(0, 7)), smooth=True)
 
 
 def zigzag(rng: Random) -> Figure:
     """Return a spring: teeth, sharp or round, with or without straight ends."""
-    teeth = int(rng.integers(6, 13))
+    return _teeth(rng, int(rng.integers(6, 13)))
+
+
+def short_zigzag(rng: Random) -> Figure:
+    """Return a spring of five to eight swings: three or four teeth."""
+    return _teeth(rng, int(rng.integers(5, 9)))
+
+
+def _teeth(rng: Random, teeth: int) -> Figure:
     high = rng.uniform(0.07, 0.2)
     if rng.random() < 0.3:
         x = np.linspace(-0.5, 0.5, 30 * teeth)
         way = np.column_stack((x, high * np.sin(math.pi * teeth * (x + 0.5))))
-        return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+        return Figure(kind='zigzag', way=turned(way, rng.uniform(0, 7)), smooth=True)
     lead = rng.choice([0.0, rng.uniform(0.05, 0.2)])
     x = np.linspace(-0.5 + lead, 0.5 - lead, teeth + 1)
     x[1:-1] += rng.uniform(-0.2, 0.2, teeth - 1) * (1.0 - 2.0 * lead) / teeth
@@ -142,7 +150,7 @@ def zigzag(rng: Random) -> Figure:
     way = np.column_stack((x, y))
     if lead:
         way = np.vstack(((-0.5, 0.0), way, (0.5, 0.0)))
-    return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)))
+    return Figure(kind='zigzag', way=turned(way, rng.uniform(0, 7)))
 
 
 def coil(rng: Random) -> Figure:
@@ -152,7 +160,7 @@ def coil(rng: Random) -> Figure:
     radius = rng.uniform(0.06, 0.13)
     x = angle / angle[-1] - 0.5 - rng.uniform(0.7, 1.0) * radius * np.sin(angle)
     way = np.column_stack((x, radius * np.cos(angle) * rng.choice([-1.0, 1.0])))
-    return Figure(kind='zigzag', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+    return Figure(kind='zigzag', way=turned(way, rng.uniform(0, 7)), smooth=True)
 
 
 def cross(rng: Random) -> Figure:
@@ -165,51 +173,26 @@ def cross(rng: Random) -> Figure:
         way *= rng.uniform(0.6, 1.4, (4, 1))
     if rng.random() < 0.4:
         way = _rounded(way, rng.uniform(0.03, 0.09))
+    return _any_way_round(way, rng)
+
+
+def short_cross(rng: Random) -> Figure:
+    """Return an x whose second line ends soon after it crosses the first, or begins late."""
+    way = np.array([(-0.5, 0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, -0.5)])
+    way = way * (1.0, rng.uniform(0.7, 1.35)) + rng.uniform(-0.07, 0.07, way.shape)
+    short = rng.uniform(0.06, 0.25)
+    way[3] = short * way[3] / float(np.hypot(*way[3]))
+    if rng.random() < 0.4:
+        way = _rounded(way, rng.uniform(0.02, 0.06))
+    return _any_way_round(way, rng)
+
+
+def _any_way_round(way: Floats, rng: Random) -> Figure:
+    """Return an x that is begun at any of its ends."""
     way = way * (rng.choice([-1.0, 1.0]), rng.choice([-1.0, 1.0]))
     if rng.random() < 0.3:
         way = way[:, ::-1]
-    return Figure(kind='x', way=_turned(way, rng.normal(0.0, 0.15)))
-
-
-def arrow(rng: Random) -> Figure:
-    """Return an arrow in one stroke: a shaft, often bowed, and a head, in any order."""
-    length, opening = rng.uniform(0.15, 0.36), rng.uniform(0.35, 0.85)
-    along, across = length * math.cos(opening), length * math.sin(opening)
-    tip, tail = np.array([0.5, 0.0]), np.array([-0.5, rng.normal(0.0, 0.03)])
-    side = rng.choice([-1.0, 1.0])
-    bow = rng.normal(0.0, 0.07) if rng.random() < 0.5 else 0.0
-    share = np.linspace(0.0, 1.0, 12, endpoint=False)
-    shaft = tail + share[:, None] * (tip - tail)
-    shaft[:, 1] += 4.0 * bow * share * (1.0 - share)
-    # Barbs of different lengths and heights, about the end of the shaft as it is bowed.
-    barbs = np.array([(-along, side * across), (-along, -side * across)])
-    barbs *= rng.uniform(0.7, 1.3, (2, 2))
-    one, other = tip + head_along(bow, barbs)
-    again = tip + rng.normal(0.0, 0.03, 2)
-    neck = tip + head_along(bow, np.array((-along, 0.0)))
-    heads = (
-        (tip, one, again, other),
-        (tip, one, again, other),
-        # One barb drawn forth and back, or the head closed.
-        (tip, one, again, other, tip + rng.normal(0.0, 0.03, 2)),
-        (tip, one, other),
-        (tip, one, other, again),
-        (neck, one, tip, other, neck + rng.normal(0.0, 0.02, 2)),
-    )
-    head = heads[rng.integers(len(heads))]
-    if rng.random() < 0.15:
-        way = np.vstack((one, tip, other, again, shaft[::-1]))
-    else:
-        way = np.vstack((shaft, head))
-    return Figure(kind='arrow', way=_turned(way, rng.uniform(0, 7)))
-
-
-def head_along(bow: float, barbs: Floats) -> Floats:
-    """Return the barbs of a straight arrow, (..., 2), turned for a shaft that is bowed."""
-    # The slope of a parabola at its end. Some of it the hand does not follow.
-    angle = -0.7 * math.atan(4.0 * bow)
-    cos, sin = math.cos(angle), math.sin(angle)
-    return np.asarray(barbs @ np.array([(cos, sin), (-sin, cos)]))
+    return Figure(kind='x', way=turned(way, rng.normal(0.0, 0.15)))
 
 
 def oval(rng: Random) -> Figure:
@@ -217,7 +200,7 @@ def oval(rng: Random) -> Figure:
     angle = np.linspace(0.0, 2.0 * math.pi, 120, endpoint=False)
     radius = 0.5 * (1.0 + rng.normal(0.0, 0.02) * np.cos(3 * angle + rng.uniform(0, 7)))
     flat = rng.uniform(0.25, 0.58)
-    way = _turned(np.column_stack((np.cos(angle), flat * np.sin(angle))), rng.uniform(0, 7))
+    way = turned(np.column_stack((np.cos(angle), flat * np.sin(angle))), rng.uniform(0, 7))
     way *= radius[:, None]
     return Figure(kind='polygon', way=way, closed=True, thin=flat, smooth=True)
 
@@ -229,19 +212,24 @@ def pentagram(rng: Random) -> Figure:
     way = np.column_stack((radius * np.cos(angle), radius * np.sin(angle)))
     way[-1] = way[0] + rng.normal(0.0, 0.05, 2)
     way = way * (1.0, rng.uniform(0.8, 1.2))
-    return Figure(kind='polygon', way=_turned(way, rng.uniform(0, 7)))
+    return Figure(kind='polygon', way=turned(way, rng.uniform(0, 7)))
 
 
 def check(rng: Random) -> Figure:
-    """Return a check, a caret or a V; the longer arm of a check is bowed."""
+    """Return a check, a caret or a V; the arms of a check are bowed."""
     opening = rng.uniform(0.5, 1.7)
     short = rng.choice([1.0, rng.uniform(0.25, 0.7)])
+    spread = 0.11 if short < 1.0 else 0.04
+    first, second = (_bowed_arm(rng.normal(0.0, spread)) for _ in range(2))
+    first = short * turned_about_origin(first[::-1], opening)
+    way = np.vstack((first[:-1], second)) * (1.0, rng.choice([-1.0, 1.0]))
+    return Figure(kind='line', way=turned(way, rng.uniform(0, 7)), corners=3)
+
+
+def _bowed_arm(bow: float) -> Floats:
+    """Return an arc from (0, 0) to (1, 0), as high as a share of its length."""
     arm = np.linspace(0.0, 1.0, 20)
-    bow = rng.uniform(-0.14, 0.14) if short < 1.0 else rng.normal(0.0, 0.02)
-    long = np.column_stack((arm, 4.0 * bow * arm * (1.0 - arm)))
-    start = short * np.array((math.cos(opening), math.sin(opening)))
-    way = np.vstack((start, long)) * (1.0, rng.choice([-1.0, 1.0]))
-    return Figure(kind='line', way=_turned(way, rng.uniform(0, 7)), corners=3)
+    return np.column_stack((arm, 4.0 * min(max(bow, -0.2), 0.2) * arm * (1.0 - arm)))
 
 
 def bracket(rng: Random) -> Figure:
@@ -249,19 +237,21 @@ def bracket(rng: Random) -> Figure:
     arms = rng.uniform(0.25, 0.6, 2)
     way = np.array([(arms[0], 1.0), (0.0, 1.0), (0.0, 0.0), (arms[1], 0.0)])
     way += rng.uniform(-0.04, 0.04, way.shape)
-    return Figure(kind='line', way=_turned(way, rng.normal(0.0, 0.3)), corners=4)
+    return Figure(kind='line', way=turned(way, rng.normal(0.0, 0.3)), corners=4)
 
 
 def brace(rng: Random) -> Figure:
     """Return a brace, round or with a sharp tip."""
-    wide, nose = rng.uniform(0.12, 0.25), rng.uniform(0.12, 0.25)
+    wide, nose = rng.uniform(0.1, 0.3), rng.uniform(0.1, 0.3)
     y = np.array([0.5, 0.47, 0.4, 0.3, 0.15, 0.06, 0.0])
     x = np.array([wide, 0.4 * wide, 0.05 * wide, 0.0, 0.0, -0.4 * nose, -nose])
     upper = np.column_stack((x, y))
     way = np.vstack((upper, upper[:-1][::-1] * (1.0, -1.0)))
     way = _rounded(way, 0.05) if rng.random() < 0.5 else way
+    # Both halves lean back from the tip, or forth.
+    way[:, 0] += rng.normal(0.0, 0.25) * np.abs(way[:, 1])
     way = way * (rng.choice([-1.0, 1.0]), rng.uniform(0.7, 1.4))
-    return Figure(kind='line', way=_turned(way, rng.normal(0.0, 0.3)), smooth=True)
+    return Figure(kind='line', way=turned(way, rng.normal(0.0, 0.3)), smooth=True)
 
 
 def question_mark(rng: Random) -> Figure:
@@ -270,7 +260,7 @@ def question_mark(rng: Random) -> Figure:
     hook = 0.28 * np.column_stack((np.cos(angle), np.sin(angle))) + (0.0, 0.25)
     stem = np.array([(0.0, -0.1), (0.0, -0.25 - rng.uniform(0.0, 0.2))])
     way = np.vstack((hook, stem))
-    return Figure(kind='line', way=_turned(way, rng.normal(0.0, 0.2)), smooth=True)
+    return Figure(kind='line', way=turned(way, rng.normal(0.0, 0.2)), smooth=True)
 
 
 def pigtail(rng: Random) -> Figure:
@@ -281,19 +271,19 @@ def pigtail(rng: Random) -> Figure:
     along = np.where(share < 0.5, np.minimum(share, 0.3), np.maximum(share, 0.7) - 0.4) - 0.3
     x = along / 0.3 * rng.uniform(0.4, 0.7) + radius * np.sin(angle)
     way = np.column_stack((x, radius * (1.0 - np.cos(angle)) * rng.choice([-1.0, 1.0])))
-    return Figure(kind='', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+    return Figure(kind='', way=turned(way, rng.uniform(0, 7)), smooth=True)
 
 
 def scribble(rng: Random) -> Figure:
     """Return a scribble: to and fro, or round and round."""
-    # People make six swings and more.
-    swings = int(rng.integers(7, 17))
+    # People make five swings and more.
+    swings = int(rng.integers(6, 17))
     if rng.random() < 0.25:
         angle = np.linspace(0.0, 2.0 * math.pi * rng.uniform(3.1, 6.5), 300)
         radius = 0.3 + 0.15 * np.sin(angle * rng.uniform(0.2, 0.7) + rng.uniform(0, 7))
         drift = np.outer(angle / angle[-1] - 0.5, rng.uniform(-0.4, 0.4, 2))
         way = np.column_stack((radius * np.cos(angle), radius * np.sin(angle))) + drift
-        return Figure(kind='scribble', way=_turned(way, rng.uniform(0, 7)), smooth=True)
+        return Figure(kind='scribble', way=turned(way, rng.uniform(0, 7)), smooth=True)
     x = np.linspace(-0.5, 0.5, swings) * rng.uniform(0.4, 1.0)
     x += rng.normal(0.0, 0.04, swings)
     sign = np.where(np.arange(swings) % 2, 1.0, -1.0)
@@ -301,14 +291,18 @@ def scribble(rng: Random) -> Figure:
     way = np.column_stack((x + y * rng.uniform(-0.3, 0.3), y))
     if rng.random() < 0.5:
         way = _rounded(way, rng.uniform(0.01, 0.05))
-    return Figure(kind='scribble', way=_turned(way, rng.uniform(0, 7)))
+    return Figure(kind='scribble', way=turned(way, rng.uniform(0, 7)))
 
 
-def _turned(way: Floats, angle: float) -> Floats:
+def turned(way: Floats, angle: float) -> Floats:
     """Turn about the middle."""
+    return turned_about_origin(way - (way.min(axis=0) + way.max(axis=0)) / 2, angle)
+
+
+def turned_about_origin(way: Floats, angle: float) -> Floats:
+    """Turn about the origin."""
     cos, sin = math.cos(angle), math.sin(angle)
-    middle = (way.min(axis=0) + way.max(axis=0)) / 2
-    return (way - middle) @ np.array([(cos, sin), (-sin, cos)])
+    return np.asarray(way @ np.array([(cos, sin), (-sin, cos)]))
 
 
 def _rounded(way: Floats, radius: float) -> Floats:

@@ -55,6 +55,8 @@ class Hand:
     :param first_step: length within which a touch screen sends nothing after the first sample
     :param dropped: share of the samples that are lost
     :param simplified: greatest distance of samples left out from the line through the others
+    :param slant: shear of all that is drawn
+    :param warp: amplitude of a smooth distortion whose waves are as long as the figure
     """
 
     size: float
@@ -78,10 +80,17 @@ class Hand:
     first_step: float
     dropped: float
     simplified: float
+    slant: float = 0.0
+    warp: float = 0.0
 
 
 def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
-    """Return somebody of a half of the people: no hand of one half has the habits of the other."""
+    """
+    Return somebody of a half of the people: no hand of one half has the habits of the other.
+
+    Hands `apart` are of another kind: they slant and distort what they draw, and their other
+    habits have longer tails.
+    """
     corners = max(turning(figure.way) / (math.pi / 2) if figure.smooth else len(figure.way), 3)
     # Whoever draws something thin takes more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
@@ -114,11 +123,25 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
     # A finger on a tablet goes 61 to 71 pixels before the screen calls it a stroke.
     first_step = rng.uniform(0.1, 0.3) if rng.random() < 0.25 else 0.0
     sending = rng.random()
-    return replace(
+    somebody = replace(
         somebody,
         first_step=first_step,
         dropped=rng.uniform(0.2, 0.7) if sending < 0.3 else 0.0,
         simplified=rng.uniform(0.004, 0.01) if sending > 0.85 else 0.0,
+    )
+    return _apart(somebody, care, rng) if half == 'apart' else somebody
+
+
+def _apart(somebody: Hand, care: float, rng: Random) -> Hand:
+    """Return a hand that distorts; its wandering, rounding and bows have exponential tails."""
+    return replace(
+        somebody,
+        drift=care * rng.exponential(0.007),
+        rounding=care * rng.exponential(0.02),
+        bow=care * rng.exponential(0.02),
+        slowing=rng.uniform(0.2, 0.9),
+        slant=care * rng.normal(0.0, 0.06),
+        warp=care * rng.exponential(0.012),
     )
 
 
@@ -129,6 +152,8 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
     :return: (n, 3) float64: x, y [m], time [s]
     """
     way = _dense(_way(figure, somebody, rng))
+    if somebody.slant or somebody.warp:
+        way = _distorted(way, somebody, rng)
     if not figure.smooth:
         way = _bowed(way, figure, somebody, rng)
     length = float(np.hypot(*np.diff(way, axis=0).T).sum())
@@ -179,6 +204,8 @@ def stroke(figure: Figure, rng: Random) -> Floats:
 
 def _habit(rng: Random, low: float, high: float, half: str) -> float:
     """Return a number of a range that is cut into eight bands: every other one is a half's."""
+    if half == 'apart':
+        return float(rng.uniform(low, high))
     band = 2 * rng.integers(4) + (half == 'report')
     return float(low + (high - low) * (band + rng.random()) / 8)
 
@@ -236,6 +263,14 @@ def _dense(way: Floats, count: int = 600) -> Floats:
     length = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(way, axis=0).T))))
     at = np.linspace(0.0, length[-1], count)
     return np.column_stack([np.interp(at, length, way[:, axis]) for axis in (0, 1)])
+
+
+def _distorted(way: Floats, somebody: Hand, rng: Random) -> Floats:
+    """Return a way sheared, and moved by a smooth field of two waves."""
+    way = way + somebody.slant * np.column_stack((way[:, 1], np.zeros(len(way))))
+    waves = rng.normal(0.0, 4.0, (2, 2))
+    phases = rng.uniform(0.0, 7.0, 2)
+    return np.asarray(way + somebody.warp * np.sin(way @ waves + phases))
 
 
 def _bowed(way: Floats, figure: Figure, somebody: Hand, rng: Random) -> Floats:

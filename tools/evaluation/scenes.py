@@ -19,13 +19,13 @@ from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.simulation.world import World
 
-from . import figures
+from . import arrows, figures
 from .faults import Fault, FAULTS
 from .figures import Figure
 from .hands import drawn, Hand, hand
 from .outlines import Floats, Random
 
-SEEDS = {'tuning': 1, 'report': 2}
+SEEDS = {'tuning': 1, 'report': 2, 'apart': 3}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -114,6 +114,11 @@ def _at_ends(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     return placed
 
 
+def _at_start(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+    """Put a body about where the pen is set down."""
+    return _at_ends(figure, somebody, rng)[:1]
+
+
 def _under(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     """Put a body under a sign that is a good deal smaller."""
     del figure
@@ -193,13 +198,17 @@ KINDS: tuple[Kind, ...] = (
     Kind('x, on a body', figures.cross, 'anchor', _under),
     Kind('circle, on a body', figures.disc, 'axle', _under),
     Kind('circle, on 2', figures.disc, 'axle', _under_both),
-    Kind('arrow', figures.arrow, 'gravity', _nothing),
+    Kind('arrow', arrows.arrow, 'gravity', _nothing),
     Kind('scribble, on a body', figures.scribble, 'deletion', _scribbled),
     Kind('pigtail, on a body', figures.pigtail, None, _under),
     Kind('x', figures.cross, None, _nothing),
     Kind('squiggle', _squiggle, None, _nothing),
     # Behind the others, whose random numbers depend on their places.
     Kind('ramp', figures.ramp, 'polygon', _nothing),
+    Kind('arrow, from a body', arrows.arrow, 'velocity', _at_start),
+    Kind('zigzag, 1 body', figures.short_zigzag, 'spring', _at_start),
+    Kind('short zigzag, 2 bodies', figures.short_zigzag, 'spring', _at_ends),
+    Kind('short x, on a body', figures.short_cross, 'anchor', _under),
 )
 # All meanings of strokes, in the order of their kinds.
 MEANINGS = tuple(dict.fromkeys(kind.meaning for kind in KINDS if kind.meaning is not None))

@@ -25,6 +25,7 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.simulation import Simulation
 
 from . import figures
+from .arrows import shaft_and_head
 from .hands import drawn, Hand, hand
 from .outlines import Floats, Random
 from .people import figure_of, placed
@@ -196,7 +197,8 @@ def _body_under(ways: Sequence[Floats], rng: Random) -> Spawn:
 
 def _anchoring(turn: float) -> Callable[[Random], Thing]:
     def thing(rng: Random) -> Thing:
-        ways = _placed_at_random(rng, *(_rotated(way, turn) for way in _x(rng)), turn=0.2)
+        lines = (figures.turned_about_origin(way, turn) for way in _x(rng))
+        ways = _placed_at_random(rng, *lines, turn=0.2)
         body = _body_under(ways, rng)
 
         def right(snapshot: Snapshot) -> bool:
@@ -210,30 +212,8 @@ def _anchoring(turn: float) -> Callable[[Random], Thing]:
     return thing
 
 
-def _rotated(way: Floats, angle: float) -> Floats:
-    cos, sin = math.cos(angle), math.sin(angle)
-    return np.asarray(way @ np.array(((cos, sin), (-sin, cos))))
-
-
-def _arrow(rng: Random) -> list[Floats]:
-    """Return a shaft, often bowed, that ends short of its head or beyond it, and the head."""
-    length, opening = rng.uniform(0.18, 0.4), rng.uniform(0.4, 0.9)
-    gap = rng.uniform(0.03, 0.2) if rng.random() < 0.6 else rng.uniform(-0.1, 0.03)
-    tip = np.array((0.5, 0.0)) + rng.normal(0.0, 0.02, 2)
-    barbs = np.array(
-        [(-math.cos(opening), math.sin(opening)), (-math.cos(opening), -math.sin(opening))]
-    )
-    barbs = tip + length * rng.uniform(0.75, 1.25, (2, 1)) * barbs
-    bow = rng.normal(0.0, 0.07) if rng.random() < 0.5 else 0.0
-    share = np.linspace(0.0, 1.0, 12)
-    x, y = (1.0 - gap) * share - 0.5, share * rng.normal(0.0, 0.02)
-    shaft = np.column_stack((x, y + 4.0 * bow * share * (1.0 - share)))
-    head = tip + figures.head_along(bow, np.array((barbs[0], tip, barbs[1])) - tip)
-    return [shaft, head]
-
-
 def _gravity_arrow(rng: Random) -> Thing:
-    ways = _placed_at_random(rng, *_arrow(rng))
+    ways = _placed_at_random(rng, *shaft_and_head(rng))
     shaft = ways[0][-1] - ways[0][0]
 
     def right(snapshot: Snapshot) -> bool:
@@ -250,7 +230,7 @@ def _gravity_arrow(rng: Random) -> Thing:
 
 
 def _velocity_arrow(rng: Random) -> Thing:
-    ways = _placed_at_random(rng, *_arrow(rng))
+    ways = _placed_at_random(rng, *shaft_and_head(rng))
     tail, tip = ways[0][[0, -1]]
     radius = float(np.hypot(*(tip - tail))) * rng.uniform(0.2, 0.5)
     body = Spawn(name='a/0', shape=Disc(radius=radius), pose=(*tail.tolist(), 0.0))

@@ -16,7 +16,7 @@ from test.worlds.digests import scene, SCENES
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.view.frame_context import FrameContext
+from physsim_ros.view import FrameContext
 from physsim_ros.view.recording import FrameRecorder
 from PIL import Image
 import rerun as rr
@@ -25,7 +25,7 @@ from .car_story import car_story
 from .page import draw_page
 
 DOCS = Path(__file__).parents[2] / 'docs'
-# Window of the pictures [pixels]: the world in it is 16 : 7.
+# Window of the pictures [pixels]: the world in it is 16 : 9.
 WIDTH, HEIGHT = 1400, 920
 # Simulation time of the picture of a scene [s], where most is going on.
 TIMES = {
@@ -65,7 +65,7 @@ class Recording:
 
     def draw(self, frames: list[Frame]) -> int:
         """Draw frames; return the time of the last on the timeline of the picture [ns]."""
-        context = FrameContext(real_time_factor=frames[-1].speed, cost=0.002)
+        context = FrameContext(real_time_factor=frames[-1].speed)
         for first in range(0, len(frames), BATCH):
             end = first + BATCH
             self._recorder.draw(frames[first:end], context=context)

@@ -15,8 +15,12 @@
 // outermost contacts of each normal, between which the others have nothing to add. With them all contacts of these
 // bodies and of those that they touch in turn, up to `MOST_POINTS`: the ground that carries a body which is hit, a
 // short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a part of a pile throw its light
-// bodies out. Cost: 1 µs for each pair of bodies that hit each other so. Without it laws 8 (bodies that fall flat) and
-// 21 (elastic polygons keep their energy) fail.
+// bodies out.
+// Energy: Newton's law of restitution for several points at once can create energy, as where a light body is pinched
+// between a heavy one and the ground. Such an impact is mixed with the inelastic one of the same points, to the share
+// at which it gains none: the energy of such a mix is a quadratic of the share.
+// Cost: 1 µs for each pair of bodies that hit each other so. Without it laws 8 (bodies that fall flat) and
+// 21 (elastic polygons keep their energy) fail; without its bound of energy law 34 (random crowds).
 
 #include "impact_propagation.h"
 #include "lcp.h"
@@ -95,7 +99,7 @@ static int list_hits(World *world, Hit *hits) {
     int count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *each = arbiter_at(world, number);
-        if (each->count > 0 && approach_of(each) > slowest_impact) {
+        if (is_impact(each)) {
             int a = moves(each->body_a) ? place_of(world, each->body_a) : world->body_count;
             int b = moves(each->body_b) ? place_of(world, each->body_b) : world->body_count;
             hits[count++] = (Hit){each, a < b ? a : b, a < b ? b : a, false};
@@ -169,6 +173,12 @@ static Twist free_twist(const World *world, const cpBody *body) {
         twist = (Twist){add(scaled(twist.v, kept), scaled(pull, dt)), twist.w * kept + body->t * body->i_inv * dt};
     }
     return twist;
+}
+
+// The velocity of the surfaces against each other in a point [m/s]: along the normal, and along the face.
+static Vec surface_velocity(const Point *point, Twist a, Twist b) {
+    Vec v = add(sub(velocity_at(b, point->contact->r2), velocity_at(a, point->contact->r1)), point->slip);
+    return vec(dot(v, point->normal), dot(v, perpendicular(point->normal)));
 }
 
 // The velocity at which the bodies part in a point, without impulses [m/s].
@@ -247,11 +257,13 @@ static double improve(const Point *point) {
 
 enum { ROUNDS = 200 };
 
-// Set the normal impulses of an island, and add those of contacts that begin to velocities.
-static void solve(const World *world, const Island *island) {
-    Point points[MOST_POINTS];
+static Vec impulse_of(const Point *point) {
+    return vec(point->contact->jnAcc - point->added, point->contact->jtAcc - point->added_t);
+}
+
+// Find the impulses of the points, and the velocities `without` of their bodies after them.
+static void find_impulses(const World *world, Point *points, int count) {
     double matrix[LCP_ROWS][LCP_ROWS] = {{0}}, rates[LCP_ROWS] = {0}, impulses[LCP_ROWS] = {0};
-    int count = list_points(island, points);
     for (int row = 0; row < count; row++) {
         const Point *point = points + row;
         rates[row] = parting(world, point) + point->contact->bounce;
@@ -260,9 +272,6 @@ static void solve(const World *world, const Island *island) {
             matrix[row][column] += change_through(point->b, point, points + column);
             rates[row] -= matrix[row][column] * points[column].added;
         }
-    }
-    if (count == 0) {
-        return;
     }
     bool solved = solve_lcp(count, matrix, rates, impulses);
     for (int row = 0; row < count; row++) {
@@ -274,9 +283,9 @@ static void solve(const World *world, const Island *island) {
         }
     }
     for (int row = 0; row < count; row++) {
-        Point *point = points + row;
-        push(point, add(scaled(point->normal, point->contact->jnAcc - point->added),
-                        scaled(perpendicular(point->normal), point->contact->jtAcc - point->added_t)));
+        const Point *point = points + row;
+        Vec impulse = impulse_of(point);
+        push(point, add(scaled(point->normal, impulse.x), scaled(perpendicular(point->normal), impulse.y)));
     }
     for (int round = 0; round < ROUNDS; round++) {
         double most = 0.0;
@@ -287,12 +296,76 @@ static void solve(const World *world, const Island *island) {
             break;
         }
     }
+}
+
+// The energy that the impulses give to the bodies beyond what gravity may give in a step [J]; < 0 is lost.
+static double gain_of(const World *world, const Point *points, int count) {
+    double gain = 0.0, fall = length(world->space->gravity) * world->dt;
+    for (int row = 0; row < count; row++) {
+        const Point *point = points + row;
+        Vec before = surface_velocity(point, free_twist(world, point->a), free_twist(world, point->b));
+        Vec after = surface_velocity(point, body_of(point->a)->without, body_of(point->b)->without);
+        Vec impulse = impulse_of(point);
+        gain += dot(impulse, add(before, after)) / 2.0 - fabs(impulse.x) * fall;
+    }
+    return gain;
+}
+
+// The greatest share of the elastic impact that gains no energy, the rest of it being inelastic (0 .. 1): the root of a
+// quadratic, since the energy is one of the impulses. `apart` is the energy of the difference of the two.
+static double share_of(double elastic_gain, double inelastic_gain, double apart) {
+    if (inelastic_gain >= 0.0) {
+        return 0.0;
+    }
+    double slope = elastic_gain - inelastic_gain - apart;
+    double root = sqrt(slope * slope - 4.0 * apart * inelastic_gain);
+    // The form of the formula that does not subtract numbers that are alike.
+    return clamped(slope > 0.0 ? -2.0 * inelastic_gain / (slope + root) : (root - slope) / (2.0 * apart), 0.0, 1.0);
+}
+
+// Mix an impact that would gain energy with an inelastic one.
+static void lose_gain(const World *world, Point *points, int count, double gain) {
+    Vec elastic[MOST_POINTS], velocity[MOST_POINTS];
+    double bounce[MOST_POINTS], apart = 0.0;
+    for (int row = 0; row < count; row++) {
+        const Point *point = points + row;
+        elastic[row] = vec(point->contact->jnAcc, point->contact->jtAcc);
+        velocity[row] = surface_velocity(point, body_of(point->a)->without, body_of(point->b)->without);
+        bounce[row] = point->contact->bounce;
+        point->contact->bounce = 0.0;
+    }
+    find_impulses(world, points, count);
+    for (int row = 0; row < count; row++) {
+        const Point *point = points + row;
+        Vec inelastic = vec(point->contact->jnAcc, point->contact->jtAcc);
+        Vec after = surface_velocity(point, body_of(point->a)->without, body_of(point->b)->without);
+        apart += dot(sub(elastic[row], inelastic), sub(velocity[row], after)) / 2.0;
+    }
+    double share = share_of(gain, gain_of(world, points, count), apart);
+    for (int row = 0; row < count; row++) {
+        cpContact *contact = points[row].contact;
+        contact->bounce = share * bounce[row];
+        contact->jnAcc += share * (elastic[row].x - contact->jnAcc);
+        contact->jtAcc += share * (elastic[row].y - contact->jtAcc);
+    }
+}
+
+// Set the impulses of an island, and add those of contacts that begin to velocities.
+static void solve(const World *world, const Island *island) {
+    Point points[MOST_POINTS];
+    int count = list_points(island, points);
+    find_impulses(world, points, count);
+    // A single point follows Newton's law, also where friction adds to its energy (Kane and Levinson 1985).
+    double gain = count > 1 ? gain_of(world, points, count) : 0.0;
+    if (gain > 0.0) {
+        lose_gain(world, points, count, gain);
+    }
     for (int row = 0; row < count; row++) {
         Point *point = points + row;
         // Chipmunk applies that of other contacts itself (`cpArbiterApplyCachedImpulse`).
         if (point->begins) {
-            Vec impulse = add(scaled(point->normal, point->contact->jnAcc - point->added),
-                              scaled(perpendicular(point->normal), point->contact->jtAcc - point->added_t));
+            Vec along = impulse_of(point);
+            Vec impulse = add(scaled(point->normal, along.x), scaled(perpendicular(point->normal), along.y));
             apply(world, point->a, negated(impulse), point->contact->r1);
             apply(world, point->b, impulse, point->contact->r2);
         }

@@ -6,7 +6,8 @@
 // Problem: a frame has several steps; a pair that touches in one of them has to be told, with the sum of its impulses.
 // Method: a hash table of pairs by the places of their bodies, which each step updates. A pair has the mean of its
 // points and normals of the last step in which it touched. Chipmunk does not list the contacts of sleeping bodies:
-// while a pair sleeps, the impulse of its last step awake is repeated. Cost: 15 ns a contact and step.
+// while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch is that
+// at which a sensor is met, else that of the impact, within the step. Cost: 15 ns a contact and step.
 
 #include "stages.h"
 #include <stdlib.h>
@@ -100,6 +101,14 @@ static Pair *pair_of(Report *report, int a, int b) {
     return pair;
 }
 
+// The time of the first touch of a pair within this sub-step, as a share of it (0 .. 1).
+static double first_touch(World *world, Body *a, Body *b) {
+    if (a->sensor || b->sensor) {
+        return crossing_time(world, a, b);
+    }
+    return 1.0 - least(a->since + a->left, b->since + b->left) / world->dt;
+}
+
 static void add_begun(World *world, Report *report, const Pair *pair) {
     if (world->begun_count == report->begun_room) {
         report->begun_room = 2 * report->begun_room + 16;
@@ -110,7 +119,9 @@ static void add_begun(World *world, Report *report, const Pair *pair) {
         free(world->begun);
         world->begun = begun;
     }
-    world->begun[world->begun_count++] = (Begun){{pair->a, pair->b}, world->frame_steps};
+    double share = first_touch(world, world->bodies + pair->a, world->bodies + pair->b);
+    double time = world->frame_steps - 1 + (world->own->sub_step + share) / SUB_STEPS;
+    world->begun[world->begun_count++] = (Begun){{pair->a, pair->b}, time};
 }
 
 // Begin the step of a pair, unless another contact of it has.
@@ -262,10 +273,10 @@ static int by_rows(const void *one, const void *other) {
     return x[0] != y[0] ? by_number(x[0], y[0]) : by_number(x[1], y[1]);
 }
 
-static int by_step_and_rows(const void *one, const void *other) {
+static int by_time_and_rows(const void *one, const void *other) {
     const Begun *x = one, *y = other;
-    if (x->step != y->step) {
-        return by_number(x->step, y->step);
+    if (x->time != y->time) {
+        return (x->time > y->time) - (x->time < y->time);
     }
     return x->rows[0] != y->rows[0] ? by_number(x->rows[0], y->rows[0]) : by_number(x->rows[1], y->rows[1]);
 }
@@ -294,7 +305,7 @@ void core_take_contacts(World *world) {
     }
     qsort(world->contacts, (size_t)world->contact_count, sizeof(Contact), by_rows);
     if (world->begun_count > 0) {
-        qsort(world->begun, (size_t)world->begun_count, sizeof(Begun), by_step_and_rows);
+        qsort(world->begun, (size_t)world->begun_count, sizeof(Begun), by_time_and_rows);
     }
     for (int number = 0; number < world->begun_count; number++) {
         Begun *begun = world->begun + number;
@@ -335,7 +346,7 @@ void rename_contacts(World *world, const int32_t *former, int count) {
         Begun each = world->begun[number];
         int a = places[each.rows[0]], b = places[each.rows[1]];
         if (a >= 0 && b >= 0) {
-            world->begun[begun++] = (Begun){{a, b}, each.step};
+            world->begun[begun++] = (Begun){{a, b}, each.time};
         }
     }
     world->begun_count = begun;
@@ -364,6 +375,6 @@ void core_copy_contacts(World *world, const World *old) {
     for (int number = 0; number < old->begun_count; number++) {
         Pair pair = {.a = (int)old->begun[number].rows[0], .b = (int)old->begun[number].rows[1]};
         add_begun(world, report, &pair);
-        world->begun[number].step = old->begun[number].step;
+        world->begun[number].time = old->begun[number].time;
     }
 }

@@ -190,10 +190,10 @@ typedef struct Contact {
     int64_t points;  // count of contact points; 0 for an overlap of a sensor
 } Contact;
 
-// A pair of bodies that began to touch in a step of a frame, 1 and on.
+// A pair of bodies that began to touch during a frame.
 typedef struct Begun {
     int64_t rows[2]; // as those of a contact
-    int64_t step;
+    double time;     // since the frame began [steps]
 } Begun;
 
 // A world: what Python sets, and what the core keeps between steps.

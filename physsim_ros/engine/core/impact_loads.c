@@ -17,15 +17,6 @@ typedef struct Load {
     double normal, friction;
 } Load;
 
-// A contact that bears nothing yet and is approached; one under load may tremble.
-static bool is_impact(const cpArbiter *arbiter) {
-    bool bears = false;
-    for (int number = 0; number < arbiter->count && arbiter->state != ARBITER_FIRST_COLLISION; number++) {
-        bears = bears || arbiter->contacts[number].jnAcc > 0.0;
-    }
-    return arbiter->count > 0 && !bears && approach_of(arbiter) > slowest_impact;
-}
-
 // An impact reaches the island of a body that forces move.
 static void mark_hit(const World *world, int *parents, const cpBody *engine, bool *hit) {
     if (engine->m_inv > 0.0) {

@@ -21,4 +21,8 @@ static inline double approach_of(const cpArbiter *arbiter) {
     return approach;
 }
 
+static inline bool is_impact(const cpArbiter *arbiter) {
+    return arbiter->count > 0 && approach_of(arbiter) > slowest_impact;
+}
+
 #endif

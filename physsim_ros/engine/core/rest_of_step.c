@@ -81,7 +81,8 @@ static Twist way_left(const Body *body, double dt) {
     return twist_sum(twist_sum((Twist){0}, mean, left), gone, -1.0);
 }
 
-// The same of bodies that could pass through something on it.
+// The same of bodies that could pass through the smallest thing there is on it; of others, the sweep would find
+// nothing.
 static Twist far_way(const World *world, const Body *body) {
     Twist way = way_left(body, world->dt);
     bool is_far = length(way.v) + fabs(way.w) * body->turning_radius > world->own->least_depth;
@@ -120,6 +121,9 @@ void finish_moves(World *world) {
     for (int number = 0; number < count; number++) {
         const Mover *mover = sweep.movers + far[number];
         Vec pivot;
-        set_pose(mover->body->engine, pose_at(mover, 1.0, &pivot));
+        Pose pose = pose_at(mover, 1.0, &pivot);
+        // A disc turns all of its way, whatever it meets (`mover_of`).
+        pose.yaw += mover->turning > 0.0 ? 0.0 : far_way(world, mover->body).w;
+        set_pose(mover->body->engine, pose);
     }
 }

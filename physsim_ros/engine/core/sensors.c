@@ -1,13 +1,13 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// Sensors see what crosses them within a sub-step.
+// Sensors see what crosses them within a sub-step, and when.
 //
 // Problem: Chipmunk tells of what overlaps a sensor where a step ends. A ball of 4 cm is past a gate of 1 cm after a
 // sub-step at 50 m/s.
-// Method: of each body that went further than it may be entered unseen, the way back to where the sub-step began is
-// swept
-// (`swept_boxes.h`), and its time of impact with each sensor on it looked for (`time_of_impact.h`).
+// Method: the way that a body has gone in the sub-step is swept (`swept_boxes.h`) where it is further than the body may
+// be entered unseen, and its time of impact with each sensor on it looked for (`time_of_impact.h`). That time is also
+// when a sensor begins to overlap something, however slow.
 // Cost: none without sensors; with them a look at the ways of bodies, and some 2 µs for each pair that could meet.
 // Without it law 50 (gates) holds up to 40 m/s only.
 
@@ -26,10 +26,28 @@ typedef struct Search {
     Crossing *found;
 } Search;
 
-// The way back of a body to where the sub-step began.
-static Twist way_back(const Body *body) {
+// The way that a body has gone in the sub-step.
+static Twist way_of(const Body *body) {
     Pose end = pose_of(body->engine);
-    return (Twist){sub(body->begin.p, end.p), body->begin.yaw - end.yaw};
+    return (Twist){sub(end.p, body->begin.p), end.yaw - body->begin.yaw};
+}
+
+// A body as the sub-step began, with the way that it has gone since.
+static Mover gone(Body *body) {
+    Mover mover = mover_of(body, way_of(body));
+    mover.pose = body->begin;
+    mover.pivot = body->begin.p;
+    fit_box(&mover);
+    return mover;
+}
+
+static double meeting_of(World *world, const Mover *body, const Mover *sensor) {
+    return first_impact(world, body, sensor, touching * least(body->depth, sensor->depth));
+}
+
+double crossing_time(World *world, Body *body, Body *sensor) {
+    Mover one = gone(body), other = gone(sensor);
+    return clamped(meeting_of(world, &one, &other), 0.0, 1.0);
 }
 
 static bool is_fast(const Body *body, Twist way) {
@@ -39,8 +57,7 @@ static bool is_fast(const Body *body, Twist way) {
 static bool find_crossing(int number, void *data) {
     const Search *search = data;
     const Mover *body = search->movers + number, *sensor = search->sensor;
-    double depth = touching * least(body->depth, sensor->depth);
-    if (may_meet(body->body, sensor->body) && first_impact(search->world, body, sensor, depth) <= 1.0) {
+    if (may_meet(body->body, sensor->body) && meeting_of(search->world, body, sensor) <= 1.0) {
         search->found(search->world, body->body, sensor->body);
     }
     return true;
@@ -52,7 +69,7 @@ void find_crossings(World *world, Crossing *found) {
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;
         any = any || body->sensor;
-        any_fast = any_fast || (body->sensor && is_fast(body, way_back(body)));
+        any_fast = any_fast || (body->sensor && is_fast(body, way_of(body)));
     }
     if (!any) {
         return;
@@ -63,9 +80,8 @@ void find_crossings(World *world, Crossing *found) {
     int count = 0;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        Twist way = way_back(body);
-        if (!body->sensor && !body->anchored && (any_fast || is_fast(body, way))) {
-            movers[count] = mover_of(body, way);
+        if (!body->sensor && !body->anchored && (any_fast || is_fast(body, way_of(body)))) {
+            movers[count] = gone(body);
             boxes[count] = movers[count].box;
             count++;
         }
@@ -74,7 +90,7 @@ void find_crossings(World *world, Crossing *found) {
     for (int place = 0; place < world->body_count && count > 0; place++) {
         Body *body = world->bodies + place;
         if (body->sensor) {
-            Mover sensor = mover_of(body, way_back(body));
+            Mover sensor = gone(body);
             Search search = {world, &sensor, movers, found};
             tree_query(&tree, sensor.box, find_crossing, &search);
         }

@@ -54,6 +54,8 @@ void keep_awake(World *world);
 // Which sensors were crossed within the sub-step (`sensors.c`).
 typedef void Crossing(World *world, const Body *body, const Body *sensor);
 void find_crossings(World *world, Crossing *found);
+// When a body and a sensor first met in this sub-step, as a share of it (0 .. 1).
+double crossing_time(World *world, Body *body, Body *sensor);
 
 // What touched, and how it pressed (`contact_report.c`).
 void report_contacts(World *world);

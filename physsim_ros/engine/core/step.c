@@ -90,7 +90,7 @@ int32_t core_step(World *world, int32_t count) {
         damp_resting(world);
         begin_totals(world);
         world->frame_steps += world->reports_contacts;
-        for (int sub = 0; sub < SUB_STEPS; sub++) {
+        for (world->own->sub_step = 0; world->own->sub_step < SUB_STEPS; world->own->sub_step++) {
             step(world);
         }
         find_broken(world);

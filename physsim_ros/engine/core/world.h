@@ -30,6 +30,7 @@ typedef struct Private {
     struct Load *loads; // that the next step starts from, after an impact
     int load_count;
     int call_step; // number of the step in this call
+    int sub_step;  // number of the sub-step in this step
     struct Report *report;
 } Private;
 

@@ -16,7 +16,7 @@ from physsim_ros.model.checks import flag, OneOf, text, Vector, Whole, Within
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.robots.frames import RobotTf
-from physsim_ros.simulation.past.history_memory import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
+from physsim_ros.simulation.past import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
 from rclpy.parameter import Parameter
@@ -138,11 +138,6 @@ class NodeSettings(Checked):
         '`viewer_url`) or `auto` (`spawn` if there is a display, else `web`); setting it again '
         'restarts a failed recording in a new file beside the old one',
     ] = 'auto'
-    trace: Annotated[
-        str,
-        text,
-        'names of bodies, separated by commas, whose path and flight the viewer shows',
-    ] = ''
     viewer_url: Annotated[
         str,
         text,
@@ -152,8 +147,8 @@ class NodeSettings(Checked):
     record_file: Annotated[
         str,
         text,
-        '`.rrd` file, written in addition to any viewer; an older recording of that name is '
-        'replaced, any other file is not',
+        '`.rrd` file, written in addition to any viewer and indexed when the node ends; an older '
+        'recording of that name is replaced, any other file is not',
         READ_ONLY,
     ] = ''
     sketchpad: Annotated[

@@ -199,7 +199,7 @@ def world_parameters(settings: WorldSettings) -> list[Parameter]:
 
 @lru_cache(maxsize=2)
 def listed_names(value: str) -> tuple[str, ...]:
-    """Return the names of bodies in the value of a parameter, `trace` or `sketchpad_locked`."""
+    """Return the names of bodies in the value of parameter `sketchpad_locked`."""
     return tuple(name for each in value.split(',') if (name := each.strip()))
 
 

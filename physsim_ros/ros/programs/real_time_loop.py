@@ -34,7 +34,7 @@ class RealTimeLoop:
         self, nodes: Sequence[PhysSimNode], executor: Executor, is_over: Callable[[], bool]
     ) -> None:
         self._nodes = nodes
-        self._marks = [_Mark(node) for node in nodes]
+        self._marks = [_Mark(node, executor) for node in nodes]
         self._executor = executor
         self._is_over = is_over
         self._period = round(nodes[0].publish_period * 1e9)
@@ -76,10 +76,12 @@ class _Mark:
     A call behind the messages of a node that have arrived, to measure how long they wait.
 
     :param node: that is told their delay
+    :param executor: that has the node
     """
 
-    def __init__(self, node: PhysSimNode) -> None:
+    def __init__(self, node: PhysSimNode, executor: Executor) -> None:
         self._node = node
+        self._executor = executor
         # Steady time at which it was queued [ns]; None if it is reached.
         self._queued: int | None = None
 
@@ -93,7 +95,7 @@ class _Mark:
         now = time.monotonic_ns()
         if self._queued is None:
             self._queued = now
-            self._node.requests.queue.add_call_behind_arrived(self._reach)
+            self._executor.create_task(self._reach)
         else:
             self._node.message_delay = (now - self._queued) * 1e-9
 

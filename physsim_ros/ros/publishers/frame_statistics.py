@@ -11,8 +11,6 @@ from rclpy.time import Time
 
 # Time constant of the smoothed real-time factor, in wall time [s]: legible to a person.
 _SMOOTHING = 1.0
-# Share of the last frame in the smoothed cost of a frame: a tenth of a second at 60 Hz.
-_COST_SHARE = 1 / 6
 # Wait of messages above which the diagnostics warn [s].
 LONG_DELAY = 1.0
 # CPU time of a message above which they do [s]: six frames at 60 Hz.
@@ -25,9 +23,8 @@ class FrameStatistics:
     """Measures the cost of frames and the real-time factor; it reads no clock."""
 
     def __init__(self) -> None:
-        self.real_time_factor = 0.0
-        # Smoothed cost of a frame [s]; None before the first.
-        self.frame_cost: float | None = None
+        # None before the first frame.
+        self.real_time_factor: float | None = None
         self._last: tuple[int, int] | None = None
         self._frames = 0
         self._step_ns = 0
@@ -51,22 +48,22 @@ class FrameStatistics:
         self._frames += 1
         self._step_ns += step_ns
         self._frame_ns += frame_ns
-        cost, before = frame_ns * 1e-9, self.frame_cost
-        self.frame_cost = cost if before is None else before + _COST_SHARE * (cost - before)
+        known = self.real_time_factor = self.real_time_factor or 0.0
         if self._last is not None and now_ns > self._last[0]:
             elapsed = now_ns - self._last[0]
             self._elapsed_ns += elapsed
             self._simulated_ns += stamp - self._last[1]
             # The first factor is not smoothed.
-            share = min(1.0, elapsed * 1e-9 / _SMOOTHING) if self.real_time_factor else 1.0
+            share = min(1.0, elapsed * 1e-9 / _SMOOTHING) if known else 1.0
             factor = (stamp - self._last[1]) / elapsed
-            self.real_time_factor += share * (factor - self.real_time_factor)
+            self.real_time_factor = known + share * (factor - known)
         self._last = (now_ns, stamp)
 
     def reset_pace(self) -> None:
         """Reset the real-time factor: the world is paused, or time has jumped."""
         self._last = None
-        self.real_time_factor = 0.0
+        if self.real_time_factor is not None:
+            self.real_time_factor = 0.0
 
     def report(
         self,

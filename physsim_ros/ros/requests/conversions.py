@@ -15,11 +15,12 @@ import math
 from typing import Any, TypeVar
 
 from geometry_msgs.msg import PointStamped
-from nav_msgs.msg import OccupancyGrid
+from nav_msgs.msg import OccupancyGrid, Path
 import numpy as np
 from physsim_ros.files import load_mapping, PROPERTIES, with_shipped_robot
 from physsim_ros.maps import OccupancyGrid as Grid
 from physsim_ros.maps import walls_of
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import shown
 from physsim_ros.model.colors import Color
@@ -46,11 +47,11 @@ from physsim_ros.model.requests import (
     Unjoin,
     UnjoinAll,
 )
+from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.texts import property_meant
 from physsim_ros.model.transform import Pose
 from physsim_ros.ros.marker_shapes import points_from, shape_from
-from physsim_ros.ros.requests.cdr_reader import MOST_ELEMENTS
-from physsim_ros.ros.requests.decoders import CommandMessage
+from physsim_ros.ros.requests.decoding import CommandMessage
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
 # The namespaces of markers with an empty one.
@@ -66,8 +67,8 @@ LONGEST_TEXT = 10_000
 # The greatest number of brackets in `text`; two are needed. PyYAML takes 1 s for 1000 nested ones.
 MOST_BRACKETS = 50
 
-# Namespace of the walls of a map.
-WALLS = 'walls'
+# Namespace of the walls of a map, and their greatest number: the default of `max_bodies`.
+WALLS, MOST_WALLS = 'walls', 20_000
 # Occupancy from which on a cell is a wall [percent], as map_server's `occupied_thresh` is.
 OCCUPIED = 65
 
@@ -219,6 +220,35 @@ def command_request(message: CommandMessage, *, frame_id: str) -> Command:
     )
 
 
+def stroke_samples(path: Path) -> tuple[str, Floats, float | None]:
+    """
+    Return the frame of a stroke, its samples, and the time of the first.
+
+    :param path: from `~/stroke`
+    :return: name of its frame; (n, 3) float64: x, y [m] and time from the first sample [s]; stamp
+        of the first sample [s], None where all have the same
+    :raises Malformed: there are too many samples, or they are in different frames
+    """
+    if len(path.poses) > MOST_SAMPLES:
+        raise Malformed(
+            f'poses has at most {MOST_SAMPLES} elements, not {len(path.poses)}', field='poses'
+        )
+    # A pose without a frame is in that of the path, and a path without one in that of its poses.
+    frames = {each.header.frame_id for each in (path, *path.poses)} - {''}
+    if len(frames) > 1:
+        one, other, *_ = map(shown, sorted(frames))
+        raise Malformed(
+            f'a stroke is drawn in one frame, not in {one} and {other}', field='header.frame_id'
+        )
+    stamps = [each.header.stamp.sec * 10**9 + each.header.stamp.nanosec for each in path.poses]
+    places = [(each.pose.position.x, each.pose.position.y) for each in path.poses]
+    times = ((stamp - stamps[0]) * 1e-9 for stamp in stamps)
+    samples = np.array([(*place, time) for place, time in zip(places, times, strict=True)])
+    samples = samples.reshape(-1, 3)
+    began = stamps[0] * 1e-9 if samples[:, 2].any() else None
+    return next(iter(frames), ''), samples, began
+
+
 def walls_requests(message: OccupancyGrid, *, frame_id: str) -> tuple[DeleteAll | Spawn, ...]:
     """
     Return the requests that make walls of the occupied cells of a map, in place of earlier ones.
@@ -245,7 +275,7 @@ def walls_requests(message: OccupancyGrid, *, frame_id: str) -> tuple[DeleteAll 
         resolution=float(info.resolution),
         origin=(position.x, position.y, yaw),
     )
-    return DeleteAll(namespace=WALLS), *walls_of(grid, WALLS, MOST_ELEMENTS)
+    return DeleteAll(namespace=WALLS), *walls_of(grid, WALLS, MOST_WALLS)
 
 
 def point_in_frame(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:

@@ -19,8 +19,7 @@ from physsim_ros.drawing import DrawingSession, Reading, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.ros.requests import conversions
-from physsim_ros.ros.requests.decoders import StrokeMessage
-from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
+from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
 
 
@@ -28,7 +27,7 @@ class DrawingTopics:
     """
     The topics on which a person draws.
 
-    :param subscriptions: of the node
+    :param topics: of requests
     :param simulation: to which requests are submitted
     :param session: of the person
     :param frame_id: name of the world frame
@@ -38,7 +37,7 @@ class DrawingTopics:
 
     def __init__(
         self,
-        subscriptions: RequestSubscriptions,
+        topics: RequestTopics,
         simulation: Simulation,
         session: DrawingSession,
         *,
@@ -51,8 +50,8 @@ class DrawingTopics:
         self._frame_id = frame_id
         self._current_snapshot = current_snapshot
         self._publish_preview = publish_preview
-        subscriptions.add(PointStamped, 'clicked_point', self._click)
-        subscriptions.add(Path, '~/stroke', self._stroke)
+        topics.subscribe(PointStamped, 'clicked_point', self._click)
+        topics.subscribe(Path, '~/stroke', self._stroke)
 
     def read_instead(self) -> str:
         """
@@ -77,11 +76,12 @@ class DrawingTopics:
             for number, request in enumerate(result.requests):
                 queue.submit(request, topic=topic, joined=number > 0, field=field)
 
-    def _stroke(self, message: StrokeMessage) -> None:
+    def _stroke(self, message: Path) -> None:
         with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
-            frame = conversions.named_frame(message.frame_id, self._frame_id)
-            began = time.monotonic() if message.began is None else message.began
-            reading = self._session.stroke(message.samples, frame, snapshot, began=began)
+            name, samples, began = conversions.stroke_samples(message)
+            frame = conversions.named_frame(name, self._frame_id)
+            began = time.monotonic() if began is None else began
+            reading = self._session.stroke(samples, frame, snapshot, began=began)
             self._submit_reading(reading, '~/stroke')
 
     def _submit_reading(self, reading: Reading, topic: str) -> None:

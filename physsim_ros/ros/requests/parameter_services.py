@@ -22,7 +22,7 @@ from physsim_ros.model.texts import abbreviated, message_text, nearest_name
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.parameters.table import Type
 from physsim_ros.ros.requests.services import ServiceCalls
-from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.simulation.request_queue import Wait
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.msg import SetParametersResult
 from rcl_interfaces.srv import (
@@ -63,7 +63,7 @@ class ParameterServices(ParameterService):
         self._calls = calls
         for service in node.services:
             if service.srv_type in (SetParameters, SetParametersAtomically):
-                calls.delay_replies(service)
+                calls.reply_when_done(service)
             elif service.srv_type in _READING:
                 service.callback = partial(_read_bounded, service.callback)
 

@@ -4,24 +4,29 @@
 """
 The topics of requests.
 
-Law: a callback converts a message and submits the request, or reports the refusal; all decisions
-are taken by the simulation.
+Laws: a callback converts a message and submits the request, or reports the refusal; all decisions
+are taken by the simulation. No message of a burst is lost, and one that cannot be decoded is
+answered: rclpy drops such messages silently, so they arrive as bytes here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import OccupancyGrid
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release, Request
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros.qos_safe_node import LOSSLESS
 from physsim_ros.ros.requests import conversions
-from physsim_ros.ros.requests.subscriptions import RequestSubscriptions
-from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.ros.requests.decoding import decoded, Truncated
+from physsim_ros.simulation.request_queue import RequestQueue, Unread
+from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.node import Node
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 
@@ -43,79 +48,82 @@ class RequestTopics:
     """
     The topics of which each message is a request; of `~/spawn_array` and `~/walls`, several.
 
-    :param subscriptions: of the node
-    :param requests: the queue that they are submitted to
+    :param node: that subscribes
+    :param requests: the queue to which they are submitted
+    :param boundary: of the node
     :param frame_id: name of the world frame
+
+    :ivar undecodable: number of messages that could not be decoded
     """
 
     def __init__(
-        self, subscriptions: RequestSubscriptions, requests: RequestQueue, frame_id: str
+        self, node: Node, requests: RequestQueue, boundary: ErrorBoundary, frame_id: str
     ) -> None:
+        self.undecodable = 0
+        self._node = node
         self._requests = requests
+        self._boundary = boundary
         self._frame_id = frame_id
         for topic, (kind, convert) in _TOPICS.items():
-            field = 'point' if kind is PointStamped else ''
-            callback = partial(self._submit, topic=topic, convert=convert, field=field)
-            subscriptions.add(kind, topic, callback)
-        subscriptions.add(MarkerArray, '~/spawn_array', self._spawn_array)
-        subscriptions.add(OccupancyGrid, '~/walls', self._make_walls)
+            self.subscribe(kind, topic, partial(self._submit, topic, convert))
+        self.subscribe(MarkerArray, '~/spawn_array', self._spawn_array)
+        self.subscribe(OccupancyGrid, '~/walls', self._make_walls)
 
-    def _spawn_array(self, message: MarkerArray) -> Iterator[None]:
-        """Convert the markers in pieces, then submit them together."""
+    def subscribe(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
+        """
+        Subscribe to messages of a type.
+
+        :param callback: handles a message; a `Refusal` that it raises is answered
+        """
+
+        def receive(data: bytes) -> None:
+            try:
+                with self._boundary.message(topic):
+                    callback(self._decoded(data, kind))
+            except Refusal as refusal:
+                self._requests.refuse(refusal, topic=topic, subject='')
+
+        self._node.create_subscription(kind, topic, receive, LOSSLESS, raw=True)
+
+    def _decoded(self, data: bytes, kind: type) -> Any:
+        """
+        Return a message, and count one that cannot be decoded.
+
+        :raises Malformed: it is too large, or cannot be decoded
+        """
+        try:
+            return decoded(data, kind)
+        except (Truncated, rclpy_implementation.RMWError) as error:
+            self.undecodable += 1
+            message = f'the message cannot be decoded as a {kind.__name__}'
+            raise Malformed(message) from error
+
+    def _submit(self, topic: str, convert: _Conversion, message: Any) -> None:
+        """Submit the request of a message, or the refusal of the message."""
+        field = 'point' if isinstance(message, PointStamped) else ''
+        try:
+            request = convert(message, frame_id=self._frame_id)
+        except Refusal as refusal:
+            subject = conversions.subject_of(message, joint=topic == '~/join')
+            self._requests.refuse(refusal, topic=topic, subject=subject)
+        else:
+            self._requests.submit(request, topic=topic, field=field)
+
+    def _spawn_array(self, message: MarkerArray) -> None:
+        """Submit the markers of an array as one gesture; each is converted in its turn."""
         topic = '~/spawn_array'
         if not message.markers:
             self._requests.tell(Answer(topic=topic, message='the array is empty'))
-        converted: list[Request | Refusal] = []
-        for marker in message.markers:
-            converted.append(self._converted(marker, conversions.body_request))
-            yield
-        for number, (marker, request) in enumerate(zip(message.markers, converted, strict=True)):
-            self._submit_converted(request, marker, topic=topic, joined=number > 0)
+
+        def convert(marker: Marker) -> Request:
+            with self._boundary.message(topic):
+                return conversions.body_request(marker, frame_id=self._frame_id)
+
+        for number, marker in enumerate(message.markers):
+            unread = Unread(conversions.name_of(marker), partial(convert, marker))
+            self._requests.submit(unread, topic=topic, joined=number > 0)
 
     def _make_walls(self, message: OccupancyGrid) -> None:
         requests = conversions.walls_requests(message, frame_id=self._frame_id)
         for number, request in enumerate(requests):
             self._requests.submit(request, topic='~/walls', joined=number > 0)
-
-    def _submit(
-        self,
-        message: Any,
-        *,
-        topic: str,
-        convert: _Conversion,
-        field: str = '',
-    ) -> None:
-        """
-        Submit the request of a message.
-
-        :param field: the one field of the message, to be named by a refusal; '' is several
-        """
-        converted = self._converted(message, convert)
-        self._submit_converted(converted, message, topic=topic, field=field)
-
-    def _converted(self, message: Any, convert: _Conversion) -> Request | Refusal:
-        """Return the request of a message, or the refusal of the message."""
-        try:
-            return convert(message, frame_id=self._frame_id)
-        except Refusal as refusal:
-            return refusal
-
-    def _submit_converted(
-        self,
-        request: Request | Refusal,
-        message: Any,
-        *,
-        topic: str,
-        joined: bool = False,
-        field: str = '',
-    ) -> None:
-        """
-        Submit a request, or a refusal, of a message; other parameters are those of `_submit`.
-
-        :param joined: whether it is undone together with the one before
-        """
-        if isinstance(request, Refusal):
-            subject = conversions.subject_of(message, joint=topic == '~/join')
-            self._requests.refuse(request, topic=topic, subject=subject, joined=joined)
-        else:
-            self._requests.submit(request, topic=topic, joined=joined, field=field)

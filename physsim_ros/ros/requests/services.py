@@ -17,14 +17,15 @@ from typing import Any, NamedTuple
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros.requests.message_queue import MessageQueue
-from physsim_ros.ros.requests.reply_pacer import ReplyPacer, SERVICE_QOS
-from physsim_ros.simulation.request_handler import DeferredCalls, Wait
+from physsim_ros.simulation.request_queue import RequestQueue, Wait
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 import rclpy.service
 from rclpy.task import Future
 from std_srvs.srv import Trigger
 
+# Depth of the calls that wait to be read: 50 clients with 20 calls each.
+_QOS = QoSProfile(depth=1000)
 # Carries out a service, and returns a message about it; raises a Refusal where it cannot.
 Action = Callable[[], str]
 # Fills in a response, with a refusal where the call is not carried out, and returns the answers.
@@ -45,26 +46,22 @@ class Service(NamedTuple):
 
 class ServiceCalls:
     """
-    Calls of services, in order with messages and requests, with paced replies.
+    Calls of services, each in its turn among the requests.
 
-    :param queue: of messages; a call waits behind the messages that came before it
-    :param calls: the calls that wait among the requests
-    :param pacer: of their replies
+    :param requests: the queue of requests, which has the answers
+    :param submit: makes a call at its time among the requests
     :param boundary: of the node
     """
 
     def __init__(
         self,
-        queue: MessageQueue,
-        calls: DeferredCalls,
-        pacer: ReplyPacer,
+        requests: RequestQueue,
+        submit: Callable[[Callable[[], Iterable[Answer]], Wait], None],
         boundary: ErrorBoundary,
     ) -> None:
-        self._queue = queue
-        self._calls = calls
-        self._pacer = pacer
+        self._requests = requests
+        self._submit = submit
         self._boundary = boundary
-        self.delay_replies = pacer.add
 
     def fill(self, topic: str, fill: Fill, refusal: Refusal | None = None) -> Iterable[Answer]:
         """Fill in a response now, and return the answers."""
@@ -85,19 +82,41 @@ class ServiceCalls:
 
         def finish(refusal: Refusal | None = None) -> Iterable[Answer]:
             answers = self.fill(topic, fill, refusal)
-            self._pacer.finish(reply, response)
+            reply.set_result(response)
             return answers
 
-        def unless_refused(call: Callable[[], None]) -> None:
-            try:
-                with self._boundary.reading(topic):
-                    call()
-            except (Busy, Failed) as refusal:
-                self._calls.tell(finish(refusal))
-
-        submit = partial(unless_refused, partial(self._calls.submit, finish, wait))
-        unless_refused(partial(self._queue.add_call, submit))
+        try:
+            with self._boundary.reading(topic):
+                self._submit(finish, wait)
+        except (Busy, Failed) as refusal:
+            for answer in finish(refusal):
+                self._requests.tell(answer)
         return reply
+
+    def reply_when_done(self, service: rclpy.service.Service) -> None:
+        """Have a service whose callback returns a future reply when that is done."""
+        send = service.send_response
+
+        def send_when_done(reply: Any, header: Any) -> None:
+            def send_now(_: Future) -> None:
+                with self._boundary.output(service.srv_name):
+                    send(reply.result(), header)
+
+            reply.add_done_callback(send_now)
+
+        # The executor of rclpy 7.1 takes no coroutine for a callback, and looks this name up for
+        # each reply.
+        service.send_response = send_when_done  # type: ignore[method-assign, assignment]
+
+    def create(
+        self, node: Node, kind: Any, topic: str, respond: Callable[[Any, Any], Future]
+    ) -> None:
+        """
+        Create a service.
+
+        :param respond: returns the future of a response, of a request and the empty response
+        """
+        self.reply_when_done(node.create_service(kind, topic, respond, qos_profile=_QOS))
 
 
 def create_services(
@@ -129,12 +148,9 @@ def create_services(
         response.success = True
         return [Answer(topic=topic, message=response.message)]
 
-    def create_service(name: str) -> rclpy.service.Service:
-        def callback(_: Trigger.Request, response: Trigger.Response) -> Future:
-            call = partial(fill, name, response)
-            return calls.add(f'~/{name}', response, call, services[name].wait)
-
-        return node.create_service(Trigger, f'~/{name}', callback, qos_profile=SERVICE_QOS)
+    def respond(name: str, _: Trigger.Request, response: Trigger.Response) -> Future:
+        call = partial(fill, name, response)
+        return calls.add(f'~/{name}', response, call, services[name].wait)
 
     for name in services:
-        calls.delay_replies(create_service(name))
+        calls.create(node, Trigger, f'~/{name}', partial(respond, name))

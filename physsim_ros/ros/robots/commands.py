@@ -19,7 +19,7 @@ from typing import Any
 from geometry_msgs.msg import Twist, TwistStamped
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.requests import DriveRobot
-from physsim_ros.ros.requests.cdr_reader import CdrReader, Truncated
+from physsim_ros.ros.requests.decoding import CdrReader, Truncated
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy

@@ -22,7 +22,7 @@ from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.ros.robots.frames import RobotTf
-from physsim_ros.ros.robots.messages import View
+from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.simulation.request_queue import RequestQueue
 from rclpy.node import Node
@@ -58,7 +58,7 @@ class Fleet:
         self._requests = requests
         self._boundary = boundary
         self._scene: Scene | None = None
-        self.view: View | None = None
+        self.view: StampedView | None = None
         self._look_due = 0.0
         # Steady time since which a command is waited for [s]; None is none.
         self._waiting_since: float | None = None
@@ -158,7 +158,7 @@ class Fleet:
         before = None
         if last is not None:
             before = last.before if stands else last.snapshot
-        self.view = view = View(frame, before)
+        self.view = view = StampedView(frame, before)
         frozen = frame.past and self._values['robots_in_past'] == 'freeze'
         if frozen or (before is not None and snapshot.stamp < before.stamp):
             # The scan that was to be answered is of a time that is not shown.

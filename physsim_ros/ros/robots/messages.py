@@ -28,19 +28,9 @@ from physsim_ros.model.robots.sensors import (
     WheelEncoders,
 )
 from physsim_ros.model.robots.sensors.range_finder import Radiation
-from physsim_ros.model.snapshot import Frame, NO_CONTACTS, Snapshot
-from physsim_ros.model.transform import Pose, rotated
+from physsim_ros.model.transform import Pose
 from physsim_ros.ros.robots.frames import rotation_of
-from physsim_ros.sensing import (
-    FloorMarks,
-    read_bumper,
-    read_floor,
-    read_imu,
-    read_laser,
-    read_range,
-    read_wheels,
-    Surroundings,
-)
+from physsim_ros.sensing import read_sensor, View
 from rclpy.time import Time
 from sensor_msgs.msg import Image, JointState, LaserScan, Range
 from sensor_msgs.msg import Imu as ImuMessage
@@ -57,38 +47,17 @@ _PLANAR, _OTHERS = (0, 7, 35), (14, 21, 28)
 _ABOVE, _BELOW = (0, 1, 7, 5, 11, 35), (0, 6, 7, 30, 31, 35)
 
 
-class View:
-    """
-    A frame as the sensors of all robots see it; what they share is made when it is first needed.
-
-    :param frame: that is shown
-    :param before: the last snapshot of another time, which was shown before it; None is none
-    """
-
-    def __init__(self, frame: Frame, before: Snapshot | None) -> None:
-        self.snapshot = frame.snapshot
-        self.contacts = NO_CONTACTS if frame.contacts is None else frame.contacts
-        self.before = before
-        self.seed = frame.snapshot.scene.settings.seed
+class StampedView(View):
+    """A frame as the sensors of all robots see it, with its time as ROS has it."""
 
     @cached_property
     def stamp(self) -> TimeMessage:
         """Time of the frame, in the simulation."""
         return Time(nanoseconds=self.snapshot.stamp).to_msg()
 
-    @cached_property
-    def surroundings(self) -> Surroundings:
-        """Bodies and walls that rays can meet."""
-        return Surroundings(self.snapshot)
-
-    @cached_property
-    def floor_marks(self) -> FloorMarks:
-        """Sensor bodies on the floor, as colours."""
-        return FloorMarks(self.snapshot)
-
 
 def odometry_message(
-    view: View,
+    view: StampedView,
     pose: Pose,
     twist: Pose,
     *,
@@ -115,16 +84,6 @@ def odometry_message(
     return message
 
 
-def body_twist(view: View, row: int) -> Pose:
-    """Return the twist of a robot at its origin, forward, left [m/s] and turn [rad/s]."""
-    snapshot = view.snapshot
-    vx, vy, turn = snapshot.twists[row].tolist()
-    x, y, yaw = snapshot.poses[row].tolist()
-    center_x, center_y = snapshot.centers[row].tolist()
-    ahead, aside = rotated((vx - turn * (y - center_y), vy + turn * (x - center_x)), -yaw)
-    return ahead, aside, turn
-
-
 def _covariance(planar: Covariance) -> list[float]:
     covariance = [0.0] * 36
     for above, below, value in zip(_ABOVE, _BELOW, planar, strict=True):
@@ -136,10 +95,10 @@ def _covariance(planar: Covariance) -> list[float]:
     return covariance
 
 
-def scan_message(view: View, row: int, laser: Laser) -> LaserScan:
+def scan_message(view: StampedView, row: int, laser: Laser) -> LaserScan:
     """Return the scan of a laser."""
     least, greatest = laser.range
-    ranges = read_laser(view.surroundings, row, laser, view.seed)
+    ranges = read_sensor(view, row, laser)
     return LaserScan(
         angle_min=laser.angle[0],
         angle_max=laser.angle[0] + (laser.beams - 1) * laser.increment,
@@ -151,7 +110,7 @@ def scan_message(view: View, row: int, laser: Laser) -> LaserScan:
     )
 
 
-def range_message(view: View, row: int, finder: RangeFinder) -> Range:
+def range_message(view: StampedView, row: int, finder: RangeFinder) -> Range:
     """Return the reading of a range finder."""
     least, greatest = finder.range
     sonar = finder.radiation is Radiation.SONAR
@@ -160,18 +119,18 @@ def range_message(view: View, row: int, finder: RangeFinder) -> Range:
         field_of_view=finder.cone,
         min_range=least,
         max_range=greatest,
-        range=read_range(view.surroundings, row, finder, view.seed),
+        range=read_sensor(view, row, finder),
     )
 
 
-def bumper_message(view: View, row: int, bumper: Bumper) -> Bool:
+def bumper_message(view: StampedView, row: int, bumper: Bumper) -> Bool:
     """Return the reading of a bumper."""
-    return Bool(data=read_bumper(view.snapshot, view.contacts, row, bumper))
+    return Bool(data=read_sensor(view, row, bumper))
 
 
-def imu_message(view: View, row: int, imu: Imu) -> ImuMessage:
+def imu_message(view: StampedView, row: int, imu: Imu) -> ImuMessage:
     """Return the reading of an inertial measurement unit."""
-    reading = read_imu(view.snapshot, view.before, row, imu, view.seed)
+    reading = read_sensor(view, row, imu)
     message = ImuMessage(orientation=rotation_of(reading.yaw))
     message.angular_velocity.z = reading.turn_rate
     message.linear_acceleration.x, message.linear_acceleration.y = reading.acceleration
@@ -185,9 +144,9 @@ def imu_message(view: View, row: int, imu: Imu) -> ImuMessage:
     return message
 
 
-def wheels_message(view: View, row: int, _: WheelEncoders) -> JointState:
+def wheels_message(view: StampedView, row: int, encoders: WheelEncoders) -> JointState:
     """Return the turns of the wheels [rad], and their rates [rad/s]."""
-    wheels = read_wheels(view.snapshot, row)
+    wheels = read_sensor(view, row, encoders)
     return JointState(
         name=wheels.names,
         position=array('d', wheels.positions.tobytes()),
@@ -195,9 +154,9 @@ def wheels_message(view: View, row: int, _: WheelEncoders) -> JointState:
     )
 
 
-def floor_message(view: View, row: int, eye: FloorEye) -> Image:
+def floor_message(view: StampedView, row: int, eye: FloorEye) -> Image:
     """Return the picture of a line follower's eye."""
-    colors = read_floor(view.floor_marks, row, eye, view.seed)
+    colors = read_sensor(view, row, eye)
     return Image(
         height=1,
         width=eye.pixels,
@@ -217,7 +176,7 @@ class Reading(NamedTuple):
     """
 
     kind: type
-    message: Callable[[View, int, Any], Any]
+    message: Callable[[StampedView, int, Any], Any]
     stamped: bool = True
 
 

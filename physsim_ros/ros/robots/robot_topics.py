@@ -30,13 +30,8 @@ from physsim_ros.ros.robots.frames import (
     TF_DEPTH,
     tf_message_type,
 )
-from physsim_ros.ros.robots.messages import (
-    body_twist,
-    odometry_message,
-    READINGS,
-    View,
-)
-from physsim_ros.sensing import is_due
+from physsim_ros.ros.robots.messages import odometry_message, READINGS, StampedView
+from physsim_ros.sensing import is_due, true_motion
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -131,7 +126,7 @@ class RobotTopics:
             for sensor, publisher in self._sensors
         )
 
-    def publish(self, view: View, row: int, number: int) -> bool:
+    def publish(self, view: StampedView, row: int, number: int) -> bool:
         """
         Publish what is due at a frame and has subscribers.
 
@@ -157,7 +152,7 @@ class RobotTopics:
                 scanned |= isinstance(sensor, Laser)
         return scanned
 
-    def odometry(self, view: View, number: int) -> Odometry:
+    def odometry(self, view: StampedView, number: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
         states = view.snapshot.robots
         ahead, aside, turn = states.wheels[number].tolist()
@@ -180,18 +175,17 @@ class RobotTopics:
             ),
         )
 
-    def truth(self, view: View, row: int) -> Odometry:
+    def truth(self, view: StampedView, row: int) -> Odometry:
         """Return where the robot is, and how it moves."""
         return odometry_message(
             view,
-            tuple(view.snapshot.poses[row].tolist()),
-            body_twist(view, row),
+            *true_motion(view.snapshot, row),
             parent=self._world_frame,
             child=self._frames.name(BASE),
             covariances=(SPAWNED.covariance, SPAWNED.covariance),
         )
 
-    def reading(self, view: View, row: int, sensor: Sensor) -> Any:
+    def reading(self, view: StampedView, row: int, sensor: Sensor) -> Any:
         """Return the message of a sensor of it."""
         reading = READINGS[type(sensor)]
         message = reading.message(view, row, sensor)
@@ -206,7 +200,7 @@ class RobotTopics:
         for publisher in self._publishers:
             self._node.destroy_publisher(publisher)
 
-    def _is_due(self, name: str, rate: float, view: View) -> bool:
+    def _is_due(self, name: str, rate: float, view: StampedView) -> bool:
         """Return whether what has a rate [Hz] reads at a frame, a past one as before."""
         now, before = view.snapshot.stamp, view.before
         if before is None:

@@ -11,7 +11,6 @@ from typing import Any
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros.requests.reply_pacer import SERVICE_QOS
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
 from physsim_ros.ros.simulation_services.named_poses import NamedPoses
@@ -19,7 +18,7 @@ from physsim_ros.ros.simulation_services.results import Failed, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import Worlds
-from physsim_ros.simulation.request_handler import Wait
+from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad import WorldControl
 from rclpy.action import ActionServer
 from rclpy.node import Node
@@ -79,8 +78,7 @@ class SimulationServices:
             fill = partial(self._fill, topic, perform, request, response)
             return self._calls.add(topic, response, fill, Wait.FOR_SEEK)
 
-        service = node.create_service(kind, topic, callback, qos_profile=SERVICE_QOS)
-        self._calls.delay_replies(service)
+        self._calls.create(node, kind, topic, callback)
 
     def _fill(
         self,

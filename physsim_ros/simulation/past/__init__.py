@@ -2,8 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The past of a world: a tree of requests with checkpoints, cached frames, replay, courses and undo.
+The past of a world: a tree of requests with checkpoints, a cursor on it, cached frames, undo.
 
 Not here: the moment that is shown (`playback`). Start with the theory of operation at the head of
-`tree`, then `past`, `history`, `lines`, `timeline` and `frame_cache`.
+`node`; then `tree` (all lines of events), `cursor` (a world at a moment of one) and `past`, the
+front. Other folders import the names below.
 """
+
+from physsim_ros.simulation.past.budget import (
+    DEFAULT_MEMORY,
+    LEAST_MEMORY,
+    MEGABYTE,
+    MOST_MEMORY,
+    request_size,
+)
+from physsim_ros.simulation.past.node import CachedFrame, Moment
+from physsim_ros.simulation.past.past import Past
+
+__all__ = [
+    'DEFAULT_MEMORY',
+    'LEAST_MEMORY',
+    'MEGABYTE',
+    'MOST_MEMORY',
+    'CachedFrame',
+    'Moment',
+    'Past',
+    'request_size',
+]

@@ -2,189 +2,471 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The past as one version tree, and the memory that it takes.
+The tree of all lines of events: the one in force, flat, and those that were left.
 
-Theory of operation
--------------------
-
-*Nodes.* A node is a request that changed the world, with the run of the world after it: the
-checkpoints that were made up to the next request, and the last step that was reached. Its parent
-is the request before. The root is the state with which the world began. The requests from the root
-to a node, each at its step, decide every bit of the world; two requests after the same one are two
-branches. Nodes never change: a node is added at an end, and removed when nothing uses it.
-
-*The cursor.* A line of events is a node, its tip, with the last step that was reached there, its
-head. One line is in force. `History` has it as flat lists, from the oldest checkpoint that is kept
-to the tip. The cursor is a moment of that line: a step, and the number of requests up to it, the
-serial of the last one. Everything that a person does with time moves it:
-
-- Rewind, seek and play move it to another moment of the line in force.
-- A request adds a node at the cursor, the new tip. If steps or requests lay ahead, that line is
-  left as a course, with its number, and the line in force gets the next number.
-- Undo moves it to the moment before a gesture. The node before it is the new tip, and the line
-  keeps the number of its course. The line with the gesture is kept for redo, until the next
-  request.
-- Redo moves it back to the line and the moment of the undo.
-- The return to a course moves it to that line. The line that was in force is left as a course.
-- Reset moves it to a root of its own, with the state that was loaded last. The line before is
-  kept, and undo at the root returns to it.
-
-*A course after an undo in it* ends where the undo went, and continues from there. The undone
-gesture is lost with the next request, or with the return to another course. Other courses lose
-nothing, even if they began in the undone gesture: each is a line with all of its requests.
-
-*Checkpoints* belong to a node; with its moment and the digest of the world, a checkpoint is a
-keyframe. At each one the world moves into a space that is built from it, and so does every line
-that passes it; a line that parted before it does not. Several lines may run from one node: they
-have the same bits, and the first line at a step makes the checkpoint that all lines use. A request
-at the step of a checkpoint comes before or after it, which `Node.after` says. The requests alone
-decide when a checkpoint is due, not the frames in which steps are made.
-
-*Dropping.* The tree counts the users of each node: its children and the lines that end with it. A
-node without users is removed. The oldest checkpoint of the line in force is the root of all
-moments that can be shown: when it is dropped, the next one replaces it, and lines that part before
-that are lost. `history_memory` has the order in which things are dropped.
-
-*Ghosts* are the frames that a course has shown, and keeps when it is left (`lines`). The frames of
-the line in force are in the frame cache.
-
-Source: Driscoll, Sarnak, Sleator, Tarjan, "Making data structures persistent", 1989, full
-persistence. Editors know such a tree as an undo tree.
+Laws: a moment is a step and the number of requests up to it; the same requests from the same
+checkpoint lead to the same bits; requests are counted from the beginning of the world, and the
+number of a request, its serial, never changes. A line that is not in force is independent of the
+others; its ghost has the frames that it has shown, to the bit, and no others. See `node` for the
+theory of operation.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.requests import Join, Request, Restore, Spawn
+from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.simulation.past.memory_size import checkpoint_size, RequestSizes
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.simulation.past.budget import (
+    Budget,
+    checkpoint_size,
+    frames_size,
+    request_size,
+)
+from physsim_ros.simulation.past.node import CachedFrame, Keyframe, Line, Moment, Node
 
-# A step, and the number of requests up to it.
-Moment = tuple[int, int]
-
-
-class Keyframe(NamedTuple):
-    """
-    A checkpoint and its moment.
-
-    :ivar step: of the checkpoint
-    :ivar serial: number of requests up to it
-    :ivar checkpoint: at that moment
-    :ivar digest: of the world then
-    :ivar size: memory of the checkpoint [bytes]
-    """
-
-    step: int
-    serial: int
-    checkpoint: Checkpoint
-    digest: str
-    size: int = 0
-
-    @property
-    def moment(self) -> Moment:
-        """Return step and serial."""
-        return self.step, self.serial
-
-
-class Loaded(NamedTuple):
-    """
-    The state that was loaded last.
-
-    :ivar serial: of the request that loaded it; 0 for the root
-    :ivar state: that was loaded
-    """
-
-    serial: int
-    state: WorldState
-
-
-@dataclass(slots=True, eq=False, kw_only=True)
-class Node:
-    """
-    A request that changed the world, and the run of the world up to the next one.
-
-    :param parent: the node before; None at the root
-    :param step: at which it was applied, and branches off the run of its parent
-    :param request: that was applied; of a root, the one that loads the state
-    :param settings: of the world after the request
-    :param gesture: number of its gesture; requests of one gesture are undone together
-    :param opening: serial of the first request of the gesture
-    :param author: name of the person whose doing it is; '' is nobody's
-    :param subject: name of the body or joint concerned, or ''
-    :param size: memory of the request [bytes]
-    :param shown: whether its step was shown with it; in a running world, a request is first shown
-        in the next frame
-
-    :ivar serial: number of requests from the beginning of the world to this one
-    :ivar after: step of the last checkpoint of its parent before it; -1 is none
-    :ivar loaded: the state that was loaded last
-    :ivar total: memory of all requests from the beginning to this one [bytes]
-    :ivar end: the last step that was reached without another request
-    :ivar keyframes: up to that step
-    :ivar users: number of children, and of lines that end with it
-    """
-
-    parent: Node | None
-    step: int
-    request: Request
-    settings: WorldSettings
-    gesture: int = 0
-    opening: int = 0
-    author: str = ''
-    subject: str = ''
-    size: int = 0
-    shown: bool = False
-    serial: int = field(init=False, default=0)
-    after: int = field(init=False, default=-1)
-    loaded: Loaded = field(init=False)
-    total: int = field(init=False, default=0)
-    end: int = field(init=False)
-    keyframes: list[Keyframe] = field(init=False, default_factory=list)
-    users: int = field(init=False, default=0)
-
-    def __post_init__(self) -> None:
-        self.end, parent = self.step, self.parent
-        if parent is not None:
-            self.serial, self.total = parent.serial + 1, parent.total + self.size
-            steps = (keyframe.step for keyframe in parent.keyframes)
-            self.after = max((step for step in steps if step <= self.step), default=-1)
-            self.loaded = parent.loaded
-            parent.users += 1
-        if isinstance(self.request, Restore):
-            self.loaded = Loaded(self.serial, self.request.state)
+# Greatest number of courses that are kept, as many as a person tells apart; the one that was left
+# first is dropped first.
+MOST_COURSES = 16
 
 
 class Tree:
     """
-    The memory of the nodes of all lines.
+    All lines of events.
+
+    :param budget: with the memory of the requests after a checkpoint from which the next one is
+        due; a checkpoint is dropped only together with the requests after it
+    :param length: number of steps that are kept
+    :param spacing: greatest number of steps from one checkpoint to the next
 
     :ivar size: memory of requests, checkpoints and ghosts [bytes]
-    :ivar requests: sizes of the requests
+    :ivar nodes: of the line in force, the root first
+    :ivar keyframes: of its nodes, oldest first; also those ahead, where another line has run
+        before
+    :ivar head: the last step that it has reached
+    :ivar course: its number
+    :ivar era: number of resets before it
+    :ivar shown: the moment that is shown; the checkpoint before it is not dropped to save memory
+    :ivar left: courses that were left, by number, in the order in which they were left
+    :ivar undone: lines to which redo returns, the next one last
+    :ivar resets: lines before each reset, the latest last
     """
 
-    def __init__(self) -> None:
+    def __init__(self, budget: Budget, *, length: int, spacing: int) -> None:
+        self.budget = budget
+        self.length = length
+        self.spacing = spacing
         self.size = 0
-        self.requests = RequestSizes()
+        self.nodes: list[Node] = []
+        self.keyframes: list[Keyframe] = []
+        self.head = 0
+        self.course, self.era = 1, 0
+        self.shown = (0, 0)
+        self.left: dict[int, Line] = {}
+        self.undone: list[Line] = []
+        self.resets: list[Line] = []
+        # Serial of the first request of each gesture.
+        self._openings: dict[int, int] = {}
+        # By tip and head of another line, the step at which that line parts from this one.
+        self._partings: dict[tuple[Node, int], int | None] = {}
+        # The oldest keyframe when lines that part before it were dropped last.
+        self._oldest: Keyframe | None = None
 
-    def add_keyframe(self, node: Node, keyframe: Keyframe, before: Checkpoint | None) -> Keyframe:
-        """
-        Add a keyframe to a node, as its last; return it with its size.
+    # The line in force
 
-        :param before: the checkpoint before it, with which it may share the scene
+    @property
+    def oldest(self) -> int:
+        """Return the oldest step that can be shown."""
+        root, first = self.nodes[0], self.keyframes[0].step
+        # The root's step was shown without its request, and so it cannot be shown again.
+        begins_later = root.step == first and not root.shown
+        return min(self.head, max(first + begins_later, self.head - self.length))
+
+    @property
+    def tip(self) -> Node:
+        """Return the last node."""
+        return self.nodes[-1]
+
+    @property
+    def end(self) -> Moment:
+        """Return the last moment that was reached."""
+        return self.head, self.tip.serial
+
+    @property
+    def _first(self) -> int:
+        return self.nodes[0].serial if self.nodes else 0
+
+    def node(self, serial: int) -> Node:
+        """Return the node of a serial."""
+        return self.nodes[serial - self._first]
+
+    def nodes_between(self, serial: int, end: int) -> list[Node]:
+        """Return the nodes after a serial, up to another one."""
+        first, last = serial - self._first + 1, end - self._first + 1
+        return self.nodes[first:last]
+
+    def serial_at(self, step: int) -> int:
+        """Return the serial of the last request before or at a step."""
+        place = bisect_right(self.nodes, step, key=lambda each: each.step)
+        return self._first + max(0, place - 1)
+
+    def serial_shown_at(self, step: int) -> int:
+        """Return the serial of the last request with which a step was shown."""
+        # At one step, the requests that were shown come first.
+        not_shown = (step, True)
+        place = bisect_left(self.nodes, not_shown, key=lambda each: (each.step, not each.shown))
+        return self._first + max(0, place - 1)
+
+    def keyframe_before(self, step: int, serial: int) -> Keyframe:
+        """Return the last keyframe from which a moment can be reached."""
+        place = bisect_right(self.keyframes, (step, serial), key=lambda each: each.moment)
+        return self.keyframes[place - 1]
+
+    def keyframe_at(self, step: int, serial: int) -> Keyframe | None:
+        """Return the keyframe at a moment, if there is one."""
+        keyframe = self.keyframe_before(step, serial)
+        return keyframe if keyframe.moment == (step, serial) else None
+
+    def segment(self, step: int) -> tuple[Keyframe, int]:
+        """Return the keyframe before a step, and the step of the next one or the last step."""
+        place = bisect_left(self.keyframes, step, key=lambda each: each.step)
+        first = self.keyframes[max(0, place - 1)]
+        end = self.head
+        if place < len(self.keyframes):
+            end = min(end, self.keyframes[place].step)
+        return first, max(step, end)
+
+    def next_stop(self, step: int, end: int) -> int:
+        """Return the next step with a request or a checkpoint, or the end."""
+        place = bisect_right(self.keyframes, step, key=lambda each: each.step)
+        if place < len(self.keyframes):
+            end = min(end, self.keyframes[place].step)
+        elif (due := self.keyframes[-1].step + self.spacing) > step:
+            # A checkpoint comes at the same step, however many steps are made in a call.
+            end = min(end, due)
+        place = bisect_right(self.nodes, step, key=lambda each: each.step)
+        return min(end, self.nodes[place].step) if place < len(self.nodes) else end
+
+    def is_checkpoint_due(self, step: int) -> bool:
+        """Return whether a checkpoint is due at the tip; a loaded state begins with one."""
+        last = self.keyframes[-1]
+        long = step - last.step >= self.spacing or self.is_log_long
+        return long or self.tip.loaded.serial > last.serial
+
+    @property
+    def is_log_long(self) -> bool:
+        """Whether the memory of the requests since the last checkpoint exceeds the limit."""
+        last = self.node(self.keyframes[-1].serial)
+        return self.tip.total - last.total > self.budget.log_limit
+
+    def last_gesture(self, serial: int) -> tuple[Node, int] | None:
         """
-        keyframe = keyframe._replace(size=checkpoint_size(keyframe.checkpoint, before))
+        Return the first request of the last gesture up to a serial.
+
+        :return: its node, and the number of requests from there to the serial, those of other
+            gestures included, since an undo goes back before them; None if the beginning of the
+            gesture is not kept, since it is undone as a whole or not at all
+        """
+        if serial <= self._first:
+            return None
+        opening = self.node(serial).opening
+        return (self.node(opening), serial - opening + 1) if opening > self._first else None
+
+    def last_gesture_of(self, author: str) -> Node | None:
+        """Return the first request of the last gesture of a person; None if none is kept."""
+        for node in reversed(self.nodes[1:]):
+            if node.author == author:
+                return self.node(node.opening) if node.opening > self._first else None
+        return None
+
+    def added_by(self, author: str, scene: Scene) -> tuple[tuple[str, ...], tuple[str, ...]]:
+        """Return the bodies and the joints of a scene that a person has added, by name."""
+        requests = [node.request for node in self.nodes[1:] if node.author == author]
+        added = {each.name for each in requests if isinstance(each, Spawn | Join)}
+        joints = tuple(joint.name for joint in scene.joints if joint.name in added)
+        return tuple(name for name in scene.names if name in added), joints
+
+    def gesture_start(self, gesture: int, serial: int) -> Moment | None:
+        """Return the moment before the first request of a gesture up to a serial, if kept."""
+        opening = self._openings.get(gesture, serial + 1)
+        kept = self._first < opening <= serial
+        return (self.node(opening).step, opening - 1) if kept else None
+
+    def parting(self, tip: Node, head: int) -> int | None:
+        """
+        Return the first step at which another line differs from this one.
+
+        :param tip: of the other line
+        :param head: the last step that it has reached
+        :return: None if they have no kept moment in common
+        """
+        if (tip, head) not in self._partings:
+            kept, apart = self._apart(tip)
+            # The last step of the root's run that the other line needs a checkpoint before.
+            after = apart[0].after if apart else head
+            lost = kept == 0 or (kept == 1 and after < self.keyframes[0].step)
+            steps = [each[0].step for each in (self.nodes[kept:], apart) if each]
+            self._partings[tip, head] = None if lost else min(steps, default=self.head)
+        return self._partings[tip, head]
+
+    def _apart(self, tip: Node) -> tuple[int, list[Node]]:
+        """Return the number of nodes in common with another line, and its other nodes."""
+        apart: list[Node] = []
+        node: Node | None = tip
+        while node is not None:
+            place = node.serial - self._first
+            if 0 <= place < len(self.nodes) and self.nodes[place] is node:
+                return place + 1, apart[::-1]
+            apart.append(node)
+            node = node.parent
+        return 0, apart[::-1]
+
+    def begin(self, state: WorldState, checkpoint: Checkpoint, digest: str) -> None:
+        """Begin a world at a checkpoint; the state was loaded last, at time 0."""
+        step, settings = checkpoint.step, checkpoint.scene.settings
+        request = Restore(state=state)
+        root = Node(parent=None, step=0, request=request, settings=settings, shown=True)
+        self._add_keyframe(root, (step, 0), checkpoint, digest, None)
+        self.follow(root, step)
+
+    def follow(self, tip: Node, head: int) -> int:
+        """
+        Put another line in force.
+
+        :param tip: of the line
+        :param head: the last step that it has reached
+        :return: the first step at which it differs from the line before
+        """
+        kept, apart = self._apart(tip)
+        left = self.nodes[kept:]
+        tip.users += 1
+        if self.nodes:
+            self._release(self.tip)
+        self.nodes[kept:] = apart
+        if left:
+            self._openings.clear()
+        if not kept:
+            self.keyframes.clear()
+        for node in self.nodes if left else apart:
+            self._openings[node.gesture] = node.opening
+        # Keyframes of the last node in common depend on the node after it.
+        last = max(0, kept - 1)
+        while self.keyframes and self.keyframes[-1].serial >= self.nodes[last].serial:
+            self.keyframes.pop()
+        for node, following in pairwise(self.nodes[last:]):
+            self.keyframes += [
+                keyframe for keyframe in node.keyframes if keyframe.step <= following.after
+            ]
+        self.keyframes += tip.keyframes
+        self._partings.clear()
+        steps = [head, *(each[0].step for each in (left, apart) if each)]
+        self.head = head
+        self._drop_old()
+        return min(steps) if kept else 0
+
+    def add_request(
+        self,
+        moment: Moment,
+        request: Request,
+        *,
+        gesture: int,
+        author: str,
+        subject: str,
+        settings: WorldSettings,
+    ) -> None:
+        """
+        Add a request that changed the world at a moment of this line, and follow it.
+
+        :param author: name of the person who did it; '' is nobody
+        :param subject: name of the body or joint concerned, or ''
+        :param settings: of the world after the request
+        """
+        step, serial = moment
+        opening = self._openings.get(gesture, serial + 1)
+        node = Node(
+            parent=self.node(serial),
+            step=step,
+            request=request,
+            settings=settings,
+            gesture=gesture,
+            opening=min(opening, serial + 1),
+            author=author,
+            subject=subject,
+            size=request_size(request),
+        )
+        self.size += node.size
+        self.follow(node, step)
+
+    def add_keyframe(self, moment: Moment, checkpoint: Checkpoint, digest: str) -> Keyframe:
+        """Add a checkpoint at the tip."""
+        before = self.keyframes[-1].checkpoint
+        keyframe = self._add_keyframe(self.tip, moment, checkpoint, digest, before)
+        self.keyframes.append(keyframe)
+        return keyframe
+
+    def _add_keyframe(
+        self,
+        node: Node,
+        moment: Moment,
+        checkpoint: Checkpoint,
+        digest: str,
+        before: Checkpoint | None,
+    ) -> Keyframe:
+        keyframe = Keyframe(*moment, checkpoint, digest, checkpoint_size(checkpoint, before))
         node.keyframes.append(keyframe)
         self.size += keyframe.size
         return keyframe
 
-    def hold(self, node: Node) -> None:
-        """Note that a line ends with a node."""
-        node.users += 1
+    def note_step(self, step: int) -> None:
+        """Note that the world has reached a step."""
+        self.tip.end = max(self.tip.end, step)
+        if step > self.head:
+            self.head = step
+            self._drop_old()
 
-    def release(self, node: Node | None) -> None:
+    def note_shown(self, step: int, serial: int) -> None:
+        """Note that a step was shown with the requests up to a serial."""
+        place = serial - self._first
+        while place > 0 and self.nodes[place].step == step and not self.nodes[place].shown:
+            self.nodes[place].shown = True
+            place -= 1
+
+    # Lines that are not in force
+
+    def line(self, moment: Moment) -> Line:
+        """Return the line in force, left at a moment and kept from now on."""
+        return self.line_to(self.tip, self.head, moment)
+
+    def line_to(self, tip: Node, head: int, moment: Moment) -> Line:
+        """Return a line of the course in force up to a node, kept from now on."""
+        tip.users += 1
+        return Line(tip=tip, head=head, moment=moment, course=self.course, era=self.era)
+
+    def lines(self) -> Iterator[Line]:
+        """Iterate over the lines that are not in force, the first to be dropped first."""
+        yield from self.left.values()
+        yield from self.undone
+        yield from self.resets
+
+    def courses_left(self) -> list[tuple[Line, int]]:
+        """Return the courses that can be returned to, each with the step at which it parts."""
+        partings = ((line, self.parting(line.tip, line.head)) for line in self.left.values())
+        return [(line, step) for line, step in partings if step is not None]
+
+    def keep_course(self, line: Line, ghost: Sequence[CachedFrame]) -> None:
+        """Keep a line as a course that was left, with the frames that only it has shown."""
+        line.ghost = [frame._replace(contacts=None) for frame in ghost]
+        line.size = frames_size(line.ghost)
+        self.size += line.size
+        self.left[line.course] = line
+        of_era = [each for each in self.left.values() if each.era == line.era]
+        if len(of_era) > MOST_COURSES:
+            self.drop(of_era[0])
+
+    def ghost_at(self, course: int, step: int) -> Snapshot | None:
+        """Return the last snapshot that a course has shown up to a step, if it is kept."""
+        line = self.left.get(course)
+        ghost = line.ghost if line is not None else []
+        place = bisect_right(ghost, step, key=lambda frame: frame.snapshot.step)
+        return ghost[place - 1].snapshot if place else None
+
+    def drop(self, line: Line) -> None:
+        """Drop a line."""
+        if self.left.get(line.course) is line:
+            del self.left[line.course]
+        for stack in (self.undone, self.resets):
+            if line in stack:
+                stack.remove(line)
+        self._drop_ghost(line)
+        self._release(line.tip)
+
+    def drop_undone(self) -> None:
+        """Drop the undone lines, and the courses of eras that were undone: there is no redo."""
+        undone = [line for line in self.left.values() if line.era > self.era]
+        for line in [*self.undone, *undone]:
+            self.drop(line)
+
+    def drop_lost(self) -> None:
+        """Drop the lines that part from the line in force before the oldest checkpoint."""
+        if self._oldest is not self.keyframes[0]:
+            self._oldest = self.keyframes[0]
+            self.drop_where(
+                lambda line: line.era == self.era and self.parting(line.tip, line.head) is None
+            )
+
+    def drop_where(self, is_lost: Callable[[Line], bool]) -> None:
+        """
+        Drop the lines for which a function is true.
+
+        Redo returns to one undone line after another: those behind a lost one go with it.
+        """
+        lost = [line for line in self.lines() if is_lost(line)]
+        places = [place for place, line in enumerate(self.undone) if line in lost]
+        behind = self.undone[: max(places, default=0)]
+        for line in [*lost, *(line for line in behind if line not in lost)]:
+            self.drop(line)
+
+    # The budget
+
+    def drop_oldest_ghost(self) -> bool:
+        """Drop the ghost of the line that was left first; return whether there was one."""
+        line = next((line for line in self.lines() if line.size), None)
+        if line is not None:
+            self._drop_ghost(line)
+        return line is not None
+
+    def drop_oldest_line(self) -> bool:
+        """Drop the line that was left first; return whether there was one."""
+        line = next(self.lines(), None)
+        if line is not None:
+            self.drop(line)
+        return line is not None
+
+    def limit_length(self, length: int) -> None:
+        """Set the number of steps that are kept."""
+        self.length = length
+        self._drop_old()
+
+    def _drop_old(self) -> None:
+        """Drop the checkpoints before the last one that is older than `length`."""
+        oldest = self.head - self.length
+        old = bisect_right(self.keyframes, oldest, key=lambda each: each.step) - 1
+        if old > 0:
+            self._drop_before(old)
+
+    def drop_oldest_checkpoint(self) -> bool:
+        """Drop the oldest checkpoint, with the requests up to the next one, if not needed."""
+        if len(self.keyframes) == 1 or self.keyframes[1].moment > self.shown:
+            return False
+        self._drop_before(1)
+        return True
+
+    def _drop_before(self, place: int) -> None:
+        """Drop the checkpoints before a place in the list, with their requests."""
+        keyframe = self.keyframes[place]
+        root = self.node(keyframe.serial)
+        del self.keyframes[:place]
+        del self.nodes[: root.serial - self._first]
+        kept = root.keyframes.index(keyframe)
+        self.size -= root.size + sum(each.size for each in root.keyframes[:kept])
+        del root.keyframes[:kept]
+        parent, root.parent, root.size = root.parent, None, 0
+        root.request = Restore(state=root.loaded.state)
+        self._release(parent)
+        # A gesture that began before the root keeps its opening, the serial of a dropped node.
+        self._openings = {each.gesture: each.opening for each in self.nodes}
+        self._partings.clear()
+
+    def _drop_ghost(self, line: Line) -> None:
+        self.size -= line.size
+        line.ghost, line.size = [], 0
+
+    def _release(self, node: Node | None) -> None:
         """Note that a line or child no longer uses a node; remove nodes without users."""
         while node is not None:
             node.users -= 1
@@ -192,12 +474,3 @@ class Tree:
                 return
             self.size -= node.size + sum(keyframe.size for keyframe in node.keyframes)
             node = node.parent
-
-    def make_root(self, node: Node, keyframe: Keyframe) -> None:
-        """Make a node the root, at one of its keyframes; drop what lies before it."""
-        place = node.keyframes.index(keyframe)
-        self.size -= node.size + sum(each.size for each in node.keyframes[:place])
-        del node.keyframes[:place]
-        parent, node.parent, node.size = node.parent, None, 0
-        node.request = Restore(state=node.loaded.state)
-        self.release(parent)

@@ -10,7 +10,6 @@ folders import the names below.
 """
 
 from physsim_ros.simulation.world.live_space import steps_in
-from physsim_ros.simulation.world.lookup import Done
 from physsim_ros.simulation.world.world import World
 
-__all__ = ['Done', 'World', 'steps_in']
+__all__ = ['World', 'steps_in']

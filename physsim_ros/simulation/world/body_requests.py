@@ -34,6 +34,7 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.scene import Body
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import joint_requests
@@ -46,14 +47,13 @@ from physsim_ros.simulation.world.body_description import (
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import (
     body_of_name,
-    Done,
     points_in_world,
     pose_in_world,
 )
 from physsim_ros.simulation.world.robot_requests import check_robot
 
 
-def spawn(live: LiveSpace, request: Spawn) -> Done:
+def spawn(live: LiveSpace, request: Spawn) -> Answer:
     """Add a body, or change the one of that name."""
     space, name = live.space, request.name
     old = space.bodies.by_name.get(name)
@@ -61,16 +61,16 @@ def spawn(live: LiveSpace, request: Spawn) -> Done:
     expires = live.step_after(request.lifetime)
     if old is not None:
         _change(live, old, spawn_changes(request, expires), pose, request.properties)
-        return Done(name, f'changed {name}')
+        return Answer(subject=name, message=f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
     check_robot(space, body)
     live.capacity.check_robot(body)
     live.capacity.check_body(body, pose)
     space.add(body, pose, twist)
-    return Done(name, f'spawned {name}')
+    return Answer(subject=name, message=f'spawned {name}')
 
 
-def change_body(live: LiveSpace, request: ChangeBody) -> Done:
+def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
     """Change the properties of a body that a request names."""
     space, name = live.space, request.name
     rigid = body_of_name(space, name)
@@ -79,10 +79,10 @@ def change_body(live: LiveSpace, request: ChangeBody) -> Done:
         pose = pose_in_world(space, request.pose, request.frame)
     changes = {} if request.color is None else {'color': request.color}
     _change(live, rigid, changes, pose, request.properties)
-    return Done(name, f'changed {name}')
+    return Answer(subject=name, message=f'changed {name}')
 
 
-def move_bodies(live: LiveSpace, request: MoveBodies) -> Done:
+def move_bodies(live: LiveSpace, request: MoveBodies) -> Answer:
     """Move bodies by one vector; their velocities are kept."""
     space = live.space
     rigids = [body_of_name(space, name, 'names') for name in request.names]
@@ -94,7 +94,7 @@ def move_bodies(live: LiveSpace, request: MoveBodies) -> Done:
     return _done('moved', request.names)
 
 
-def command(live: LiveSpace, request: Command) -> Done:
+def command(live: LiveSpace, request: Command) -> Answer:
     """Set poses, twists or wrenches of bodies."""
     space = live.space
     rigids = [body_of_name(space, name, 'joint_names') for name in request.names]
@@ -127,7 +127,7 @@ def check_command(body: Body, request: Command) -> None:
         raise BadProperty(f'{body.name} is kinematic; forces do not move it', field='wrench')
 
 
-def anchor(live: LiveSpace, request: Anchor) -> Done:
+def anchor(live: LiveSpace, request: Anchor) -> Answer:
     """
     Anchor the topmost body at a point.
 
@@ -140,10 +140,10 @@ def anchor(live: LiveSpace, request: Anchor) -> Done:
         raise BadProperty(f'{rigid.body.name} is a robot; it cannot be anchored', field='point')
     if not rigid.body.anchored:
         space.change(rigid, replace(rigid.body, anchored=True), rigid.pose, REST)
-    return Done(rigid.body.name, f'anchored {rigid.body.name}')
+    return Answer(subject=rigid.body.name, message=f'anchored {rigid.body.name}')
 
 
-def release(live: LiveSpace, request: Release) -> Done:
+def release(live: LiveSpace, request: Release) -> Answer:
     """
     Release the topmost body at a point, and remove the pins and axles there.
 
@@ -157,25 +157,25 @@ def release(live: LiveSpace, request: Release) -> Done:
         live.capacity.check_body(body, rigid.pose, old=rigid)
         space.change(rigid, body, rigid.pose, REST)
     loosened = joint_requests.loosen(space, name, point)
-    return Done(name, ' and removed '.join((f'released {name}', *loosened)))
+    return Answer(subject=name, message=' and removed '.join((f'released {name}', *loosened)))
 
 
-def delete(live: LiveSpace, request: Delete) -> Done:
+def delete(live: LiveSpace, request: Delete) -> Answer:
     """Remove a body, and its joints."""
     return _delete(live.space, (request.name,), 'name')
 
 
-def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Done:
+def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
     """Remove several bodies, and their joints."""
     return _delete(live.space, request.names, 'names')
 
 
-def delete_all(live: LiveSpace, request: DeleteAll) -> Done:
+def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
     """Remove all bodies, or all of a namespace, and their joints."""
     names = names_in(live.space.bodies.by_name, request.namespace)
     for name in names:
         live.space.remove(name)
-    return Done('', f'deleted {len(names)} {"body" if len(names) == 1 else "bodies"}')
+    return Answer(message=f'deleted {len(names)} {"body" if len(names) == 1 else "bodies"}')
 
 
 def _topmost(space: Space, request: AtPoint) -> tuple[RigidBody, Point]:
@@ -187,7 +187,7 @@ def _topmost(space: Space, request: AtPoint) -> tuple[RigidBody, Point]:
     return space.bodies.by_name[name], point
 
 
-def _delete(space: Space, names: tuple[str, ...], field: str) -> Done:
+def _delete(space: Space, names: tuple[str, ...], field: str) -> Answer:
     """Remove bodies; none if a name is unknown, which `field` of the request has."""
     for name in names:
         body_of_name(space, name, field)
@@ -201,10 +201,10 @@ def _tuples(rows: Floats) -> Iterator[tuple[float, float, float]]:
     return ((x, y, z) for x, y, z in rows.tolist())
 
 
-def _done(verb: str, names: tuple[str, ...]) -> Done:
+def _done(verb: str, names: tuple[str, ...]) -> Answer:
     if len(names) == 1:
-        return Done(names[0], f'{verb} {names[0]}')
-    return Done('', f'{verb} {counted(len(names), "body")}')
+        return Answer(subject=names[0], message=f'{verb} {names[0]}')
+    return Answer(message=f'{verb} {counted(len(names), "body")}')
 
 
 def _set_poses(live: LiveSpace, rigids: list[RigidBody], poses: list[Pose]) -> None:

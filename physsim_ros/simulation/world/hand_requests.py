@@ -19,13 +19,13 @@ from physsim_ros.model.requests import (
     MoveHand,
     PlaceHand,
 )
-from physsim_ros.model.snapshot import Grip
+from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.model.transform import rotated, world_to_local
 from physsim_ros.simulation.world.live_space import LiveSpace
-from physsim_ros.simulation.world.lookup import Done, points_in_world, pose_in_world
+from physsim_ros.simulation.world.lookup import points_in_world, pose_in_world
 
 
-def grab(live: LiveSpace, request: Grab) -> Done:
+def grab(live: LiveSpace, request: Grab) -> Answer:
     """
     Add the grip of a hand on the topmost body at a point.
 
@@ -47,10 +47,10 @@ def grab(live: LiveSpace, request: Grab) -> Done:
     name = names[0]
     anchor = world_to_local(point, space.bodies.by_name[name].pose)
     space.set_grip(Grip(request.hand, name, anchor, point))
-    return Done(name, f'grabbed {name}')
+    return Answer(subject=name, message=f'grabbed {name}')
 
 
-def move_hand(live: LiveSpace, request: MoveHand) -> Done:
+def move_hand(live: LiveSpace, request: MoveHand) -> Answer:
     """Move a hand, which draws its body after it."""
     space = live.space
     (point,) = points_in_world(space, (request.point,), request.frame)
@@ -58,10 +58,10 @@ def move_hand(live: LiveSpace, request: MoveHand) -> Done:
     if grip is None:
         return _holds_nothing(request)
     space.set_grip(grip._replace(target=point))
-    return Done(grip.body, f'draws {grip.body}')
+    return Answer(subject=grip.body, message=f'draws {grip.body}')
 
 
-def place_hand(live: LiveSpace, request: PlaceHand) -> Done:
+def place_hand(live: LiveSpace, request: PlaceHand) -> Answer:
     """
     Move a hand, and put its body where the anchor of the grip is at the hand.
 
@@ -81,22 +81,22 @@ def place_hand(live: LiveSpace, request: PlaceHand) -> Done:
         live.capacity.check_body(rigid.body, pose, old=rigid)
         space.set_pose(rigid, pose)
     space.set_grip(grip._replace(target=(x, y)))
-    return Done(grip.body, f'placed {grip.body}')
+    return Answer(subject=grip.body, message=f'placed {grip.body}')
 
 
-def keep_hand(_: LiveSpace, request: KeepHand) -> Done:
+def keep_hand(_: LiveSpace, request: KeepHand) -> Answer:
     """Change nothing: the request says that the hand is still there."""
-    return Done('', f'{request.hand} is there')
+    return Answer(message=f'{request.hand} is there')
 
 
-def let_go(live: LiveSpace, request: LetGo) -> Done:
+def let_go(live: LiveSpace, request: LetGo) -> Answer:
     """Remove the grip of a hand."""
     grip = live.space.grip_of(request.hand)
     if grip is None:
         return _holds_nothing(request)
     live.space.remove_grip(request.hand)
-    return Done(grip.body, f'let go of {grip.body}')
+    return Answer(subject=grip.body, message=f'let go of {grip.body}')
 
 
-def _holds_nothing(request: HandRequest) -> Done:
-    return Done('', f'{request.hand} holds no body')
+def _holds_nothing(request: HandRequest) -> Answer:
+    return Answer(message=f'{request.hand} holds no body')

@@ -20,6 +20,7 @@ from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, Join, Pin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import (
     local_to_world,
     ORIGIN,
@@ -29,7 +30,7 @@ from physsim_ros.model.transform import (
     world_to_local,
 )
 from physsim_ros.simulation.world.live_space import LiveSpace
-from physsim_ros.simulation.world.lookup import body_of_name, Done, points_in_world
+from physsim_ros.simulation.world.lookup import body_of_name, points_in_world
 
 # Distance within which two points are the same [1, of their size]: markers that come back have the
 # digits of a double; no person draws a point twice so exactly.
@@ -41,7 +42,7 @@ _NEAR_SHARE, _NEAR = 0.35, 0.1
 _STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
 
 
-def join(live: LiveSpace, request: Join) -> Done:
+def join(live: LiveSpace, request: Join) -> Answer:
     """Make a joint, or change the one of that name."""
     space = live.space
     points = points_in_world(space, request.points, request.frame)
@@ -68,11 +69,11 @@ def join(live: LiveSpace, request: Join) -> Done:
     other = 'the background' if b == WORLD else b
     which = f'{request.kind} {request.name}'
     if old is not None:
-        return Done(request.name, f'changed {which} of {a} and {other}')
-    return Done(request.name, f'joined {a} to {other} by {which}')
+        return Answer(subject=request.name, message=f'changed {which} of {a} and {other}')
+    return Answer(subject=request.name, message=f'joined {a} to {other} by {which}')
 
 
-def join_at_point(live: LiveSpace, request: Pin | Axle) -> Done:
+def join_at_point(live: LiveSpace, request: Pin | Axle) -> Answer:
     """Join the two topmost bodies at a point, or the only one and the background."""
     kind = JointKind.PIN if isinstance(request, Pin) else JointKind.AXLE
     number = 0
@@ -82,7 +83,7 @@ def join_at_point(live: LiveSpace, request: Pin | Axle) -> Done:
     return join(live, Join(name=name, kind=kind, points=points, frame=request.frame))
 
 
-def unjoin(live: LiveSpace, request: Unjoin) -> Done:
+def unjoin(live: LiveSpace, request: Unjoin) -> Answer:
     """
     Remove a joint.
 
@@ -92,15 +93,15 @@ def unjoin(live: LiveSpace, request: Unjoin) -> Done:
     if name not in joints:
         raise no_joint(name, joints, 'name')
     live.space.unjoin(name)
-    return Done(name, f'deleted joint {name}')
+    return Answer(subject=name, message=f'deleted joint {name}')
 
 
-def unjoin_all(live: LiveSpace, request: UnjoinAll) -> Done:
+def unjoin_all(live: LiveSpace, request: UnjoinAll) -> Answer:
     """Remove all joints, or all of a namespace."""
     names = names_in(live.space.joints.by_name, request.namespace)
     for name in names:
         live.space.unjoin(name)
-    return Done('', f'deleted {len(names)} joint{"" if len(names) == 1 else "s"}')
+    return Answer(message=f'deleted {len(names)} joint{"" if len(names) == 1 else "s"}')
 
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:

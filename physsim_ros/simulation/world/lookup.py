@@ -1,12 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What handlers share: bodies, poses and points of a request, found in a space; and the result."""
+"""What handlers share: bodies, poses and points of a request, found in a space."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
@@ -14,18 +13,6 @@ from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import no_body, UnknownFrame
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import local_to_world, Point, Pose
-
-
-class Done(NamedTuple):
-    """
-    The result of a request.
-
-    :ivar subject: name of the body or joint concerned; '' for several or none
-    :ivar message: sentence that says what was done
-    """
-
-    subject: str
-    message: str
 
 
 def body_of_name(

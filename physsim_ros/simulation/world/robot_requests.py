@@ -7,31 +7,58 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import BadProperty, Exists
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robot_states import NEVER
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world.live_space import LiveSpace
-from physsim_ros.simulation.world.lookup import body_of_name, Done
+from physsim_ros.simulation.world.lookup import body_of_name
 
 
-def drive(live: LiveSpace, request: DriveRobot) -> Done:
+def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     """
     Have a robot drive at a velocity.
 
     :raises UnknownBody: there is no such body
     :raises BadProperty: it is no robot
     """
-    name = request.name
-    rigid = body_of_name(live.space, name)
-    robot = rigid.body.robot
-    if robot is None:
-        raise BadProperty(f'{name} is not a robot', field='name')
+    rigid, robot = robot_of_name(live.space, request.name)
     until = live.step_after(robot.drive.timeout)
     live.space.drive(rigid, request.velocity, NEVER if until is None else until)
-    return Done(name, f'drives {name}')
+    return Answer(subject=request.name, message=f'drives {request.name}')
+
+
+def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
+    """
+    Return the body of a name, and the robot that it is.
+
+    :raises UnknownBody: there is no such body
+    :raises BadProperty: it is no robot
+    """
+    rigid = body_of_name(space, name)
+    if rigid.body.robot is None:
+        raise BadProperty(f'{name} is not a robot', field='name')
+    return rigid, rigid.body.robot
+
+
+def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
+    """
+    Return whether a robot does what a command says for some steps; true of one that is not there.
+
+    :param steps: from now on
+    """
+    rigid = live.space.bodies.by_name.get(request.name)
+    if rigid is None or rigid.body.robot is None:
+        return True
+    aim, until = live.space.drive_of(rigid)
+    if aim != rigid.body.robot.drive.aim(request.velocity):
+        return False
+    # One that stands still does so after its timeout, too.
+    return not any(aim) or until >= live.step_count + steps
 
 
 def check_robot(space: Space, body: Body) -> None:

@@ -23,7 +23,7 @@ from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Contacts, Grip, Snapshot
+from physsim_ros.model.snapshot import Answer, Contacts, Grip, Snapshot
 from physsim_ros.model.texts import counted
 from physsim_ros.simulation.world import (
     body_requests,
@@ -32,10 +32,9 @@ from physsim_ros.simulation.world import (
     robot_requests,
 )
 from physsim_ros.simulation.world.live_space import LiveSpace
-from physsim_ros.simulation.world.lookup import Done
 
 
-def configure(live: LiveSpace, request: Configure) -> Done:
+def configure(live: LiveSpace, request: Configure) -> Answer:
     """
     Change settings.
 
@@ -50,10 +49,10 @@ def configure(live: LiveSpace, request: Configure) -> Done:
         for rigid in space.wrenched():
             if rigid.wrench_until is None or rigid.wrench_until > until:
                 space.set_wrench(rigid, rigid.wrench, until)
-    return Done('', f'set {", ".join(request.changes)}')
+    return Answer(message=f'set {", ".join(request.changes)}')
 
 
-def restore(live: LiveSpace, request: Restore) -> Done:
+def restore(live: LiveSpace, request: Restore) -> Answer:
     """
     Replace bodies, joints and settings by those of a saved state, in a space of its own.
 
@@ -63,11 +62,11 @@ def restore(live: LiveSpace, request: Restore) -> Done:
     state = request.state
     live.begin(state, live.step_count)
     joints = f' and {counted(len(state.joints), "joint")}' if state.joints else ''
-    return Done('', f'loaded {counted(len(state.bodies), "body")}{joints}')
+    return Answer(message=f'loaded {counted(len(state.bodies), "body")}{joints}')
 
 
 # The handler of each type of request. It checks everything, then changes the space.
-HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Done]] = {
+HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.Spawn: body_requests.spawn,
     requests.ChangeBody: body_requests.change_body,
     requests.MoveBodies: body_requests.move_bodies,
@@ -189,7 +188,7 @@ class World(LiveSpace):
 
     # Changing
 
-    def apply(self, request: Request) -> Done:
+    def apply(self, request: Request) -> Answer:
         """
         Carry out a request.
 

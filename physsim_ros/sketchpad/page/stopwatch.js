@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The stopwatch that gates start and stop, and the counter of collisions: to the step, as the server tells touches. */
+/** The stopwatch that gates start and stop, and the counter of collisions: within the step, as the server tells touches. */
 
 import {createElement, inRow, textButton} from './dom.js';
 

@@ -46,8 +46,9 @@ export class TopBar {
     return button;
   }
 
-  /** @param {string} address of the recording; '' where no viewer serves browsers */
+  /** @param {string} address of Rerun's page on the machine of the world; '' where it serves none */
   #link(address) {
-    Object.assign(this.recording, {href: address, hidden: !address});
+    const here = ['127.0.0.1', 'localhost', '[::1]'].includes(location.hostname);
+    Object.assign(this.recording, {href: address, hidden: !(address && here)});
   }
 }

@@ -11,7 +11,7 @@ from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 import pytest
-from tools.evaluation import figures
+from tools.evaluation import arrows, figures
 from tools.evaluation.figures import Figure
 from tools.evaluation.hands import stroke as drawn_by_anybody
 
@@ -102,7 +102,7 @@ def test_turned_mirrored_backwards_and_in_any_size_it_is_the_same(name: str, tur
         (figures.bent_line, 36),
         (figures.zigzag, 37),
         (figures.cross, 38),
-        (figures.arrow, 38),
+        (arrows.arrow, 32),
         (figures.scribble, 38),
     ],
 )

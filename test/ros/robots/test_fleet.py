@@ -14,7 +14,9 @@ from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 import numpy as np
+from physsim_ros.model.requests import DriveRobot
 from physsim_ros.ros.robots import fleet
+from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
 import rclpy
@@ -459,15 +461,14 @@ def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: Phys
 def submitted(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Give a test the times at which drives are submitted [s]."""
     times: list[float] = []
-    requests = flat.node.simulation.requests
-    submit = requests.submit
+    apply = RequestHandler.apply
 
-    def note(request: Any, **others: Any) -> None:
-        if others['topic'] == 'drive':
+    def note(handler: RequestHandler, request: Any, *others: Any) -> Any:
+        if isinstance(request, DriveRobot):
             times.append(flat.time)
-        submit(request, **others)
+        return apply(handler, request, *others)
 
-    monkeypatch.setattr(requests, 'submit', note)
+    monkeypatch.setattr(RequestHandler, 'apply', note)
     return times
 
 

@@ -35,7 +35,7 @@ PRIMITIVE = 'arrow'
 _LEAST_GAP = 0.1
 # The part of a shaft that shows how it is bowed, from its tail on, and the part of an arrow in
 # which its head is, before its tip; in shares of the distance between both.
-_SHAFT, _HEAD = 0.6, 0.55
+_SHAFT, _HEAD = 0.6, 0.9
 # The length of the shaft behind its head that still counts to the head, in lengths of that.
 _NECK = 0.2
 # The shares of a barb at which the pen passes.
@@ -94,7 +94,7 @@ def _arrow_from_tail(points: Floats) -> Hypothesis:
         falls(more, 1.3, 0.05),
         rises(shorter / size, 0.25, 0.035),
         rises(longer, 0.1, 0.006),
-        falls(longer, 0.53, 0.02),
+        falls(longer, 0.85, 0.02),
         falls(math.sqrt(float((off**2).mean())) / size, 0.125, 0.008),
         falls(float(max(missed)) / size, 0.36, 0.02),
         # It goes back, and farther than along one barb.

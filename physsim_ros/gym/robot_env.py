@@ -1,0 +1,134 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+An environment: one world, in which an agent drives a robot.
+
+Laws: an episode depends on its seed and on the actions alone, to the bit; so does what follows a
+saved episode, in this environment and in any other of the task.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from copy import deepcopy
+from dataclasses import dataclass, replace
+from typing import Any, SupportsFloat
+
+from gymnasium import Env
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.appearance import picture_of
+from physsim_ros.gym.task import Action, Observation, Task
+from physsim_ros.simulation.robot import Robot
+from physsim_ros.simulation.simulation import SavedMoment, Simulation
+
+# Seeds of episodes are below it; a world takes as many.
+_SEEDS = 2**31
+# Frames a second of a video, and the width of its pictures [pixels].
+_FRAMES, _WIDTH = 10, 480
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SavedEpisode:
+    """
+    A moment of an episode; it pickles.
+
+    :param moment: of the world
+    :param steps: since the episode began
+    :param random: state of the generator that draws the seeds of the next episodes
+    """
+
+    moment: SavedMoment
+    steps: int
+    random: Mapping[str, Any]
+
+
+class RobotEnv(Env[Observation, Action]):
+    """
+    One world in which an agent has a task.
+
+    :param task: of the agent
+    :param render_mode: 'rgb_array' has `render` return pictures; None none
+    :raises BadProperty: the period of the task does not divide into steps of its physics rate
+    :raises UnknownBody: its robot is not in its world
+
+    :ivar task: of the agent
+    :ivar robot: that it drives; `robot.simulation` is its world
+    """
+
+    metadata = {'render_modes': ['rgb_array'], 'render_fps': _FRAMES}  # noqa: RUF012 - Gymnasium's
+
+    def __init__(self, task: Task, *, render_mode: str | None = None) -> None:
+        self.task = task
+        self.render_mode = render_mode
+        simulation = Simulation(
+            physics_rate=task.physics_rate, publish_rate=1.0 / task.period, history=0.0
+        )
+        simulation.begin(task.world)
+        self.robot = Robot(simulation, task.robot)
+        # Each environment samples by a generator of its own.
+        self.action_space = deepcopy(task.action_space)
+        self.observation_space = deepcopy(task.observed(self.robot))
+        self._longest = round(task.longest / task.period)
+        self._steps = 0
+
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[Observation, dict[str, Any]]:
+        """
+        Begin an episode.
+
+        :param seed: of this episode and those after it; None is the next one
+        :param options: none is known
+        :return: the first observation, and under `seed` the seed of the episode's noise
+        """
+        super().reset(seed=seed, options=options)
+        of_episode = int(self.np_random.integers(_SEEDS))
+        world = self.task.world
+        settings = replace(world.settings, seed=of_episode)
+        self.robot.simulation.begin(replace(world, settings=settings))
+        self.task.begin(self.robot, np.random.default_rng(of_episode))
+        self._steps = 0
+        return self.task.observe(self.robot), {'seed': of_episode}
+
+    def step(
+        self, action: Action
+    ) -> tuple[Observation, SupportsFloat, bool, bool, dict[str, Any]]:
+        """
+        Act for a period.
+
+        :return: observation, reward, whether the episode is over, whether it is cut off, and
+            nothing more
+        """
+        task, robot = self.task, self.robot
+        task.act(robot, action)
+        robot.simulation.run(task.period)
+        self._steps += 1
+        reward, is_over = float(task.reward(robot, action)), bool(task.is_over(robot))
+        return task.observe(robot), reward, is_over, self._steps >= self._longest, {}
+
+    def save(self) -> SavedEpisode:
+        """
+        Return this moment of the episode, from which it continues to the bit.
+
+        This environment continues in the same way; see `Simulation.checkpoint`.
+        """
+        return SavedEpisode(
+            moment=self.robot.simulation.checkpoint(),
+            steps=self._steps,
+            random=self.np_random.bit_generator.state,
+        )
+
+    def restore(self, saved: SavedEpisode) -> Observation:
+        """Continue from a saved moment; return what is observed then."""
+        self.robot.simulation.restore(saved.moment)
+        self._steps = saved.steps
+        self.np_random.bit_generator.state = saved.random
+        return self.task.observe(self.robot)
+
+    def render(self) -> NDArray[np.uint8] | None:
+        """Return a picture of the world, (height, width, 3) uint8; None without a render mode."""
+        if self.render_mode is None:
+            return None
+        return picture_of(self.robot.simulation.frame.snapshot, _WIDTH)

@@ -1,0 +1,113 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+A task: a world with a robot, what the agent sees and does, and what it is rewarded for.
+
+All is given by functions of the robot. A function that is defined in a module, and has no state,
+makes a task pickle, and an episode the same whenever it is repeated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from gymnasium.spaces import Box, Space
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots.sensors import Laser
+from physsim_ros.simulation.robot import Robot
+
+# What an agent does and sees: values of its spaces.
+Action: TypeAlias = Any
+Observation: TypeAlias = Any
+
+
+def drive(robot: Robot, action: NDArray[np.float32]) -> None:
+    """
+    Drive at shares of the greatest speed and turn rate of the robot.
+
+    :param action: (2,) float32: forward and counter-clockwise, each -1 .. 1
+    """
+    limits = robot.description.drive
+    speed, turn = np.clip(action, -1.0, 1.0).tolist()
+    robot.drive(speed * limits.max_speed, turn * limits.max_turn)
+
+
+def observe_scan(robot: Robot) -> NDArray[np.float32]:
+    """
+    Return the scan of the first laser, (beams,) float32: 0 .. 1, shares of its greatest range.
+
+    It is 1 where nothing is within range, and 0 where something is nearer than the least range.
+    """
+    laser = _first_laser(robot)
+    shares: NDArray[np.float32] = np.clip(robot.scan() / laser.range[1], 0.0, 1.0)
+    return shares.astype(np.float32)
+
+
+def _shares() -> Space[Any]:
+    """Return the space of the actions of `drive`."""
+    return Box(-1.0, 1.0, (2,), np.float32)
+
+
+def _never(_: Robot) -> bool:
+    return False
+
+
+def _stay(_: Robot, __: np.random.Generator) -> None:
+    """Leave the world as it is."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """
+    What an agent is to do with a robot.
+
+    :param world: with the robot; an episode begins with it, and with noise of its own seed
+    :param reward: of a robot after a step, for the action of that step
+    :param robot: name of its body
+    :param begin: changes the world at the beginning of an episode, by random numbers of its seed,
+        as by `robot.place`
+    :param act: has the robot do an action until the next step
+    :param action_space: of the actions
+    :param observe: what the agent sees
+    :param observation_space: of that; None is that of `observe_scan`
+    :param is_over: whether an episode has ended, well or badly (Gymnasium: terminated)
+    :param period: simulation time of a step [s]
+    :param longest: simulation time after which an episode is cut off [s] (Gymnasium: truncated)
+    :param physics_rate: steps a second of the world [Hz], a multiple of 1 / period
+    """
+
+    world: WorldState
+    reward: Callable[[Robot, Action], float]
+    robot: str = 'robot/0'
+    begin: Callable[[Robot, np.random.Generator], object] = _stay
+    act: Callable[[Robot, Action], object] = drive
+    action_space: Space[Any] = field(default_factory=_shares)
+    observe: Callable[[Robot], Observation] = observe_scan
+    observation_space: Space[Any] | None = None
+    is_over: Callable[[Robot], bool] = _never
+    period: float = 0.1
+    longest: float = 60.0
+    physics_rate: float = 240.0
+
+    def observed(self, robot: Robot) -> Space[Any]:
+        """
+        Return the space of the observations.
+
+        :raises BadProperty: none is given, and the robot has no laser
+        """
+        if self.observation_space is not None:
+            return self.observation_space
+        return Box(0.0, 1.0, (_first_laser(robot).beams,), np.float32)
+
+
+def _first_laser(robot: Robot) -> Laser:
+    for sensor in robot.description.sensors:
+        if isinstance(sensor, Laser):
+            return sensor
+    raise BadProperty(f'{robot.name} has no laser to observe', field='sensors')

@@ -1,0 +1,76 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A frame as the sensors of all robots see it, and the reading of any sensor in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cached_property
+from typing import Any
+
+from physsim_ros.model.robots.sensors import (
+    Bumper,
+    FloorEye,
+    Imu,
+    Laser,
+    RangeFinder,
+    Sensor,
+    WheelEncoders,
+)
+from physsim_ros.model.snapshot import Frame, NO_CONTACTS, Snapshot
+from physsim_ros.sensing.bumper import read_bumper
+from physsim_ros.sensing.floor_eye import FloorMarks, read_floor
+from physsim_ros.sensing.imu import read_imu
+from physsim_ros.sensing.laser import read_laser
+from physsim_ros.sensing.range_finder import read_range
+from physsim_ros.sensing.surroundings import Surroundings
+from physsim_ros.sensing.wheel_encoders import read_wheels
+
+
+class View:
+    """
+    A frame as the sensors of all robots see it; what they share is made when it is first needed.
+
+    :param frame: that is shown
+    :param before: the last snapshot of another time, which was shown before it; None is none
+    """
+
+    def __init__(self, frame: Frame, before: Snapshot | None) -> None:
+        self.frame = frame
+        self.snapshot = frame.snapshot
+        self.contacts = NO_CONTACTS if frame.contacts is None else frame.contacts
+        self.before = before
+        self.seed = frame.snapshot.scene.settings.seed
+
+    @cached_property
+    def surroundings(self) -> Surroundings:
+        """Bodies and walls that rays can meet."""
+        return Surroundings(self.snapshot)
+
+    @cached_property
+    def floor_marks(self) -> FloorMarks:
+        """Sensor bodies on the floor, as colours."""
+        return FloorMarks(self.snapshot)
+
+
+# What a sensor of a kind on the body of a row reads.
+_READERS: Mapping[type[Sensor], Callable[[View, int, Any], Any]] = {
+    Laser: lambda view, row, laser: read_laser(view.surroundings, row, laser, view.seed),
+    RangeFinder: lambda view, row, finder: read_range(view.surroundings, row, finder, view.seed),
+    Bumper: lambda view, row, bumper: read_bumper(view.snapshot, view.contacts, row, bumper),
+    Imu: lambda view, row, imu: read_imu(view.snapshot, view.before, row, imu, view.seed),
+    WheelEncoders: lambda view, row, _: read_wheels(view.snapshot, row),
+    FloorEye: lambda view, row, eye: read_floor(view.floor_marks, row, eye, view.seed),
+}
+
+
+def read_sensor(view: View, row: int, sensor: Sensor) -> Any:
+    """
+    Return the reading of a sensor: what the function of its kind in this folder returns.
+
+    :param view: of the frame
+    :param row: of the robot's body in the scene
+    :param sensor: on it
+    """
+    return _READERS[type(sensor)](view, row, sensor)

@@ -1,0 +1,410 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The cursor: a world at a moment of the line of events in force.
+
+Laws: a world that continues from a moment of the past makes the same bits as before, from the same
+checkpoints and with the same requests, until a request changes its course; a difference is
+reported. A refused request changes nothing. A seek under way counts as done: moment and settings
+are those of its goal, a reader of the world finishes it, and another seek replaces it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
+from physsim_ros.model.requests import Request
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.past.node import Keyframe, Moment, Node
+from physsim_ros.simulation.past.tree import Tree
+from physsim_ros.simulation.world import World
+
+# Share of the time between two checkpoints in which the bodies for the next one are built [1], so
+# that no frame builds all.
+_AHEAD = 0.75
+
+
+class _Seek(NamedTuple):
+    """
+    A seek that is under way.
+
+    :ivar goal: the moment that is shown
+    :ivar parts: of the replay that leads there
+    """
+
+    goal: Moment
+    parts: Iterator[None]
+
+
+class Cursor:
+    """
+    A world at a moment of the line in force.
+
+    :param world: at a moment of the line, or sent there by `begin` or `resume`
+    :param tree: of all lines
+    :param reports: of events without a request, to which it adds
+    :param boundary: of the requests
+
+    :ivar serial: number of the last request that was applied
+    """
+
+    def __init__(
+        self, world: World, tree: Tree, reports: list[Answer], boundary: ErrorBoundary
+    ) -> None:
+        self.serial = 0
+        self._world = world
+        self._tree = tree
+        self._reports = reports
+        self._boundary = boundary
+        # The checkpoint from which the present space was built.
+        self._resumed: Moment | None = None
+        self._seek: _Seek | None = None
+
+    # The moment
+
+    @property
+    def world(self) -> World:
+        """Return the world, at this moment."""
+        self.finish_seek()
+        return self._world
+
+    @property
+    def settings(self) -> WorldSettings:
+        """Return the settings of the world at this moment."""
+        return self._tree.node(self.moment[1]).settings
+
+    @property
+    def moment(self) -> Moment:
+        """Return step and serial, those of the goal while a seek is under way."""
+        return self._here if self._seek is None else self._seek.goal
+
+    @property
+    def _here(self) -> Moment:
+        """Step and serial of the world as it is."""
+        return self._world.step_count, self.serial
+
+    @property
+    def is_newest(self) -> bool:
+        """Whether nothing lies ahead of this moment."""
+        return self.moment == self._tree.end
+
+    @property
+    def is_seeking(self) -> bool:
+        """Whether a seek is under way."""
+        return self._seek is not None
+
+    # To another moment
+
+    def begin(self, state: WorldState) -> None:
+        """
+        Begin a line with a state, at time 0.
+
+        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        """
+        self._world.begin(state, 0)
+        self._begin_line(state, self._world.renew())
+
+    def restore(self, checkpoint: Checkpoint, loaded: WorldState) -> None:
+        """
+        Begin a line at a checkpoint, at its time.
+
+        :param loaded: the state that was loaded last
+        """
+        self._world.resume(checkpoint)
+        self._begin_line(loaded, checkpoint)
+
+    def _begin_line(self, loaded: WorldState, checkpoint: Checkpoint) -> None:
+        self._seek, self.serial = None, 0
+        self._tree.begin(loaded, checkpoint, self._world.digest())
+        self._resumed = self.moment
+
+    def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
+        """
+        Go to a keyframe.
+
+        :param going_over: whether the world is at that moment now, with the same bits
+        """
+        self._world.resume(keyframe.checkpoint, going_over=going_over)
+        self.serial = keyframe.serial
+        self._resumed = keyframe.moment
+
+    def seek(self, step: int, *, with_contacts: bool = True) -> None:
+        """
+        Go to a step of the line, as it was shown.
+
+        :param with_contacts: whether the contacts of its frame are still to be shown
+        :raises OutOfHistory: the time is no longer kept, or in the future
+        """
+        tree, dt = self._tree, self._world.dt
+        if not tree.oldest <= step <= tree.head:
+            raise OutOfHistory(
+                f'{step * dt:.3f} s is not in the history, which reaches from '
+                f'{tree.oldest * dt:.3f} to {tree.head * dt:.3f} s',
+                field='clock',
+            )
+        self.seek_moment(step, tree.serial_shown_at(step), with_contacts=with_contacts)
+
+    def seek_moment(
+        self, step: int, serial: int, *, with_contacts: bool = True, elsewhere: bool = False
+    ) -> None:
+        """
+        Go to a moment of the past, from the checkpoint before it or from this moment.
+
+        :param elsewhere: whether the world is on another line now
+        """
+        tree, frame, goal = self._tree, self._world.frame_steps, (step, serial)
+        # Contacts are those of one frame, as they were the first time.
+        begin = max(tree.oldest, step - (step % frame or frame))
+        start = min((begin, tree.serial_shown_at(begin)), goal)
+        first = start if self._world.reports_contacts else goal
+        keyframe = tree.keyframe_before(*first)
+        # A seek that this one replaces has also come to a moment of the line.
+        if elsewhere or not keyframe.moment <= self._here <= first:
+            self.resume(keyframe)
+        self._seek = _Seek(goal, self._parts_of_seek(start, goal, with_contacts=with_contacts))
+
+    def _parts_of_seek(
+        self, start: Moment, goal: Moment, *, with_contacts: bool
+    ) -> Iterator[None]:
+        yield from self._replay_to(*start)
+        self._world.clear_contacts()
+        yield from self._replay_to(*goal)
+        if not with_contacts:
+            self._world.clear_contacts()
+
+    def continue_seek(self) -> bool:
+        """Replay a frame or a request of a seek; return whether it is still under way."""
+        if self._seek is not None and next(self._seek.parts, self) is self:
+            self._seek = None
+        return self._seek is not None
+
+    def finish_seek(self) -> None:
+        """Replay up to the goal of a seek."""
+        while self.continue_seek():
+            pass
+
+    def follow(self, tip: Node, head: int, moment: tuple[int, int | None]) -> int:
+        """
+        Put another line in force, and go to a moment of it, or to the oldest that is kept.
+
+        :param tip: of the line
+        :param head: the last step that it has reached
+        :param moment: step and serial; a serial of None is that with which the step was shown
+        :return: the first step at which the lines differ
+        """
+        tree = self._tree
+        differs = tree.follow(tip, head)
+        step, serial = max(moment[0], tree.oldest), moment[1]
+        if serial is None or step != moment[0] or (step, serial) < tree.keyframes[0].moment:
+            serial = tree.serial_shown_at(step)
+        self.seek_moment(step, serial, elsewhere=True)
+        return differs
+
+    def keep_within(self, length: int) -> bool:
+        """
+        Limit the past; if the world is before the oldest step that is kept then, go to it.
+
+        :param length: steps that are kept
+        :return: whether the world is at the same moment as before
+        """
+        # Before the steps that it replays are dropped.
+        self.finish_seek()
+        tree = self._tree
+        tree.limit_length(length)
+        if self._world.step_count >= tree.oldest and self.moment >= tree.keyframes[0].moment:
+            return True
+        self.seek(tree.oldest)
+        return False
+
+    # Replay
+
+    def replay_shown(self, step: int) -> None:
+        """Replay up to a step of the line, with the requests with which it was shown."""
+        _finish(self._replay_to(step, self._tree.serial_shown_at(step)))
+
+    def _replay_to(self, step: int, serial: int) -> Iterator[None]:
+        """Replay up to a moment of the line, no earlier than now; yield after each part."""
+        world = self._world
+        while world.step_count < step:
+            yield from self._replay_to_stop(min(step, world.step_count + world.frame_steps))
+            yield
+        yield from self._apply_logged(serial)
+
+    def _replay_to_stop(self, end: int) -> Iterator[None]:
+        """Replay up to the next step with a request or a checkpoint, or to the end."""
+        tree, world = self._tree, self._world
+        yield from self._apply_logged(tree.serial_at(world.step_count))
+        self._enter_checkpoint()
+        self._make_steps(end)
+        yield from self._apply_logged(tree.serial_shown_at(world.step_count))
+
+    def _make_steps(self, end: int) -> None:
+        step = self._world.step_count
+        stop = self._tree.next_stop(step, end)
+        lost, broken = self._world.step(stop - step), self._world.take_broken()
+        # In a replay, events were reported the first time.
+        if stop > self._tree.head:
+            for name in lost:
+                self._report(
+                    'divergence', f'{name} left the range of numbers and was removed', name
+                )
+            for name, force in broken:
+                self._report(
+                    'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
+                )
+
+    def _apply_logged(self, serial: int) -> Iterator[None]:
+        """Apply the logged requests of this step up to a serial; yield after each."""
+        for node in self._tree.nodes_between(self.serial, serial):
+            self._enter_checkpoint()
+            try:
+                self._world.replay(node.request)
+            except Refusal as refusal:
+                self._report('divergence', f'a request of the log is refused now: {refusal}')
+            self.serial += 1
+            yield
+
+    def _enter_checkpoint(self) -> None:
+        """Move into a space that is built from the checkpoint of this moment, if there is one."""
+        keyframe = self._tree.keyframe_at(*self._here)
+        if keyframe is not None and self._resumed != keyframe.moment:
+            self.resume(keyframe, going_over=self.check_digest())
+
+    def check_digest(self) -> bool:
+        """Return whether the world has the digest of the keyframe here; report a difference."""
+        keyframe = self._tree.keyframe_at(*self._here)
+        same = keyframe is None or self._world.digest() == keyframe.digest
+        if not same:
+            seconds = self._world.step_count * self._world.dt
+            self._report('divergence', f'{seconds:.3f} s was reached with other bits than before')
+        return same
+
+    def _report(self, code: str, message: str, subject: str = '') -> None:
+        self._reports.append(Answer(topic=code, subject=subject, message=message, code=code))
+
+    # Going on
+
+    def apply(self, request: Request, gesture: int, author: str = '') -> Answer:
+        """
+        Carry out a request; if it changes anything, it is the new tip.
+
+        :param author: name of the person who did it; '' is nobody
+        :raises Refusal: and nothing is changed
+        """
+        world, tree = self.world, self._tree
+        # A replay will carry it out in that space, too.
+        self._enter_checkpoint()
+        try:
+            with self._boundary.message(type(request).__name__):
+                done = world.apply(request)
+        except Failed:
+            # Half of it may be done: the world is built again from the checkpoint before it.
+            self.seek_moment(*self.moment, elsewhere=True)
+            raise
+        if world.changed:
+            tree.add_request(
+                self.moment,
+                request,
+                gesture=gesture,
+                author=author,
+                subject=done.subject,
+                settings=world.settings,
+            )
+            self.serial += 1
+            if tree.is_log_long:
+                # So that a paused world can drop its oldest requests.
+                self.add_keyframe()
+        return done
+
+    def advance(self, steps: int) -> None:
+        """Advance by a number of steps: by replay up to the head, then by new steps."""
+        world, tree = self.world, self._tree
+        end = world.step_count + steps
+        while world.step_count < end:
+            if world.step_count < tree.head:
+                _finish(self._replay_to_stop(min(end, tree.head)))
+            else:
+                _finish(self._apply_logged(tree.serial_at(world.step_count)))
+                self._make_checkpoint()
+                self._make_steps(end)
+                tree.note_step(world.step_count)
+
+    def amend(
+        self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
+    ) -> tuple[int, list[Answer | Refusal], list[Refusal]]:
+        """
+        Replace the requests of earlier gestures, and simulate again up to this moment.
+
+        Later requests that the amended past refuses are dropped, and so is the future of this
+        moment. Gestures that changed nothing or are no longer kept are ignored; without any other,
+        the requests are applied now.
+
+        :param gestures: their numbers, at least one; the requests get the first number
+        :param requests: that replace theirs, at their first step
+        :param author: name of the person who did it; '' is nobody
+        :return: the first step that differs; for each new request its result or its refusal; the
+            refusals of later requests
+        """
+        now, tree, gesture = self.moment, self._tree, gestures[0]
+        starts = [tree.gesture_start(each, now[1]) for each in gestures]
+        found = [start for start in starts if start is not None]
+        step, serial = min(found, key=lambda start: start[1], default=now)
+        # Commands of robots join the gesture before them, whose author is another one.
+        later = [
+            each
+            for each in tree.nodes_between(serial, now[1])
+            if each.gesture not in gestures or each.author != tree.node(each.opening).author
+        ]
+        self.follow(tree.node(serial), step, (step, serial))
+        done = [self._try_apply(request, gesture, author) for request in requests]
+        again = []
+        for node in later:
+            self.advance(node.step - self.world.step_count)
+            again.append(self._try_apply(node.request, node.gesture, node.author))
+        self.advance(now[0] - self.world.step_count)
+        self.world.clear_contacts()
+        return step, done, [each for each in again if isinstance(each, Refusal)]
+
+    def _try_apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
+        try:
+            return self.apply(request, gesture, author)
+        except Refusal as refusal:
+            return refusal
+
+    # Checkpoints
+
+    def _make_checkpoint(self) -> None:
+        """Make a checkpoint if one is due, or if a request followed the last one at its step."""
+        self._enter_checkpoint()
+        step = self._world.step_count
+        # Another line has run from this node before: its checkpoints are used.
+        if step < self._tree.tip.end:
+            return
+        due = self._tree.is_checkpoint_due(step) or (
+            self._resumed is not None and self._resumed[0] == step
+        )
+        if due and self._tree.keyframe_at(*self._here) is None:
+            self.add_keyframe()
+
+    def add_keyframe(self) -> Checkpoint:
+        """Make a checkpoint now, the last of the line, continue from it, and return it."""
+        checkpoint, digest = self.world.renew(), self.world.digest()
+        self._resumed = self._tree.add_keyframe(self._here, checkpoint, digest).moment
+        return checkpoint
+
+    def build_ahead(self, steps: int) -> None:
+        """Build the share of the bodies for the next checkpoint that is due in some steps."""
+        bodies, spacing = len(self.world), self._tree.spacing
+        self._world.build_bodies(-(-bodies * steps // max(1, int(spacing * _AHEAD))))
+
+
+def _finish(parts: Iterator[None]) -> None:
+    """Carry out all parts of a replay."""
+    for _ in parts:
+        pass

@@ -1,0 +1,256 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Frame cache: snapshots and contacts of the past, kept within a budget, replayed beyond it.
+
+Laws: a step of the past is shown as it was the first time, to the bit; its contacts to a rounding,
+since the engine lists them by address, and they are summed in that order. A replay that ends with
+another digest than the checkpoint there is reported.
+
+A rewind through cached frames, or a seek to one, costs nothing. Beyond them, a segment, the frames
+between two checkpoints, is replayed forward while the segment after it is shown backward.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left, bisect_right, insort
+from collections import Counter
+from collections.abc import Iterator
+from itertools import islice
+from typing import NamedTuple
+
+import numpy as np
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.simulation.past.budget import frame_size, scene_size
+from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.past.node import CachedFrame, Keyframe
+from physsim_ros.simulation.past.tree import Tree
+from physsim_ros.simulation.world import World
+
+# Greatest memory of a body in a frame, on average of all frames [bytes]: a pose.
+_BODY = 24
+
+
+class _Segment(NamedTuple):
+    """
+    The replay of a segment that is under way.
+
+    :ivar of: its first checkpoint, its last step, and whether contacts are reported
+    :ivar stride: steps from one frame to the next
+    :ivar parts: of the replay
+    """
+
+    of: tuple[Keyframe, int, bool]
+    stride: int
+    parts: Iterator[None]
+
+
+class FrameCache:
+    """
+    The cached frames of the line in force.
+
+    :param cursor: of a world that replays segments
+    :param world: of that cursor
+    :param tree: of all lines, with the budget; for few bodies frames take less of it: a pose of
+        each body in each frame of the history
+
+    :ivar size: memory that the frames take [bytes]
+    """
+
+    def __init__(self, cursor: Cursor, world: World, tree: Tree) -> None:
+        self.size = 0
+        self._cursor = cursor
+        self._world = world
+        self._tree = tree
+        # The frames by step, and their steps in the order of time.
+        self._frames: dict[int, CachedFrame] = {}
+        self._steps: list[int] = []
+        # Number of frames of each scene, whose memory is counted once.
+        self._scenes: Counter[int] = Counter()
+        # The step that is shown.
+        self._shown = 0
+        # Number of bodies in the last frame.
+        self._bodies = 0
+        self._segment: _Segment | None = None
+
+    def snapshots(self, end: int, count: int) -> list[Snapshot]:
+        """
+        Return the last cached snapshots up to a step, in the order of time.
+
+        :param end: the step
+        :param count: greatest number of snapshots
+        """
+        steps = self._steps[: bisect_right(self._steps, end)]
+        return [self._frames[step].snapshot for step in steps[-count:]]
+
+    def add_frame(self, frame: CachedFrame) -> None:
+        """Add a frame that has just been shown; to a history without length none is added."""
+        if not self._tree.length:
+            return
+        self._bodies = len(frame.snapshot.poses)
+        self._add(frame)
+        self._evict(frame.snapshot.step)
+
+    def with_first_contacts(self, frame: CachedFrame) -> CachedFrame:
+        """Return a frame with the contacts of its cached frame, if that shows the same poses."""
+        old = self._frames.get(frame.snapshot.step)
+        if old is None or old.contacts is None or not _same(old.snapshot, frame.snapshot):
+            return frame
+        return CachedFrame(frame.snapshot, old.contacts)
+
+    def drop_from(self, step: int) -> list[CachedFrame]:
+        """Drop the frames from a step on, and return them in the order of time."""
+        self._segment = None
+        return self._drop(bisect_left(self._steps, step), len(self._steps))
+
+    def cached_frame(self, step: int) -> CachedFrame | None:
+        """Return the cached frame of a step; None if it is not cached, or not in the history."""
+        if self._tree.oldest <= step <= self._tree.head and self._is_cached(step):
+            return self._frames[step].copy()
+        return None
+
+    def frame_at(self, step: int) -> CachedFrame | None:
+        """Return the frame of a step if it is cached; else replay the next frame on its way."""
+        if not self._is_cached(step):
+            _, end = self._tree.segment(step)
+            frame = self._world.frame_steps
+            stride = frame if step == end or step % frame == 0 else 1
+            next(self._replay_segment(step, stride), None)
+            self._evict(step)
+        return self.cached_frame(step)
+
+    def replay_ahead(self, step: int, steps: int, *, fine: bool) -> Iterator[None]:
+        """
+        Replay some of the frames that a rewind shows later, so that no frame has to wait.
+
+        Yield after each of them.
+
+        :param step: the step that is shown
+        :param steps: from that to the step that is shown next
+        :param fine: whether every step is shown
+        """
+        stride = 1 if fine else self._world.frame_steps
+        # At whole speeds all frames but the first, which may be shorter, go by as many steps.
+        apart = 1 if fine else -(-steps // stride) * stride
+        before = self._begin_of_segments(step)
+        missing = (at for at in range(step - apart, before, -apart) if not self._is_cached(at))
+        gap = next(missing, None)
+        if gap is not None:
+            parts = self._replay_segment(gap, stride)
+            _, end = self._tree.segment(gap)
+            left, calls = end - self._world.step_count, max(1, (step - gap) // max(1, steps))
+            yield from islice(parts, -(-left // (calls * stride)))
+            self._evict(step)
+
+    def _is_cached(self, step: int) -> bool:
+        """Return whether the frame of a step is cached, with contacts if they are reported."""
+        frame, with_contacts = self._frames.get(step), self._world.reports_contacts
+        return frame is not None and not (frame.contacts is None and with_contacts)
+
+    def _begin_of_segments(self, step: int) -> int:
+        """Return the first step of the segment before that of a step."""
+        keyframe, _ = self._tree.segment(step)
+        before, _ = self._tree.segment(keyframe.step)
+        return before.step
+
+    def _replay_segment(self, step: int, stride: int) -> Iterator[None]:
+        """
+        Return the parts of the replay of the segment of a step, of that under way if it suits.
+
+        :param stride: steps from one frame to the next
+        """
+        keyframe, end = self._tree.segment(step)
+        of, segment = (keyframe, end, self._world.reports_contacts), self._segment
+        if segment is None or segment.of != of or segment.stride > stride:
+            self._cursor.resume(keyframe)
+            self._cursor.replay_shown(keyframe.step)
+            segment = _Segment(of, stride, self._parts_of_segment(keyframe, end, stride))
+            self._segment = segment
+        return segment.parts
+
+    def _parts_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
+        """Replay a segment from its keyframe; at its end its frames replace those cached."""
+        cursor, world, frames = self._cursor, self._world, []
+        # The step may have been shown without the requests before the keyframe.
+        if cursor.serial == self._tree.serial_shown_at(keyframe.step):
+            frames.append(self._frame())
+        while (at := world.step_count) < end:
+            cursor.replay_shown(min(end, at - at % stride + stride))
+            frames.append(self._frame())
+            if world.step_count < end:
+                yield
+        cursor.check_digest()
+        self._segment = None
+        # The frame at its keyframe is the last one of the segment before, if there is one.
+        begin = keyframe.step
+        if begin == self._tree.keyframes[0].step and not self._is_cached(begin):
+            begin -= 1
+        self._drop(bisect_right(self._steps, begin), bisect_right(self._steps, end))
+        for frame in frames:
+            if frame.snapshot.step > begin:
+                self._add(frame)
+
+    def _frame(self) -> CachedFrame:
+        snapshot, world = self._world.snapshot(), self._world
+        return CachedFrame(snapshot, world.contacts(snapshot) if world.reports_contacts else None)
+
+    def _add(self, frame: CachedFrame) -> None:
+        """Add a frame, in place of the one of the same step."""
+        step = frame.snapshot.step
+        if step in self._frames:
+            self._count(self._frames[step], -1)
+        else:
+            insort(self._steps, step)
+        self._frames[step] = frame.copy()
+        self._count(frame, 1)
+
+    def _drop(self, begin: int, end: int) -> list[CachedFrame]:
+        """Drop and return the frames from one place to another in the order of time."""
+        dropped = [self._frames.pop(step) for step in self._steps[begin:end]]
+        del self._steps[begin:end]
+        for frame in dropped:
+            self._count(frame, -1)
+        return dropped
+
+    def _count(self, frame: CachedFrame, sign: int) -> None:
+        """Add the memory of a frame, or subtract it."""
+        scene = frame.snapshot.scene
+        others = self._scenes[id(scene)] - (sign < 0)
+        self.size += sign * (frame_size(*frame) + (0 if others else scene_size(scene)))
+        self._scenes[id(scene)] += sign
+        if not self._scenes[id(scene)]:
+            del self._scenes[id(scene)]
+
+    def _evict(self, step: int) -> None:
+        """Drop the frames before the history, and more until all fit."""
+        self._shown = step
+        tree, frame = self._tree, self._world.frame_steps
+        self._drop(0, bisect_left(self._steps, tree.keyframes[0].step))
+        poses = tree.length // frame * self._bodies
+        limit = min(tree.budget.frame_limit, poses * _BODY)
+        while self.size > limit and self.drop_oldest():
+            pass
+
+    def drop_oldest(self) -> bool:
+        """
+        Drop a frame: the last one, if it lies after the segment that is shown, else the first.
+
+        A rewind shows the frames before the step; playback adds those after it again. The frames
+        of the segment that is shown, and of the one that a rewind shows next, are kept.
+
+        :return: whether there was one
+        """
+        _, end = self._tree.segment(self._shown)
+        if self._steps and self._steps[-1] > end:
+            self._drop(len(self._steps) - 1, len(self._steps))
+        elif self._steps and self._steps[0] < self._begin_of_segments(self._shown):
+            self._drop(0, 1)
+        else:
+            return False
+        return True
+
+
+def _same(one: Snapshot, other: Snapshot) -> bool:
+    """Return whether two snapshots have the same bodies at the same poses."""
+    return one.scene.names == other.scene.names and np.array_equal(one.poses, other.poses)

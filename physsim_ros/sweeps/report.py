@@ -1,0 +1,100 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""What came of a sweep: a table, a picture, and world files of the runs that failed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.appearance import picture_of
+from physsim_ros.files import save_world
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sweeps.experiment import Experiment, Run
+
+# Ways of runs that ended well, and of those that failed.
+_WELL, _FAILED = (0.15, 0.45, 0.85, 0.35), (0.85, 0.15, 0.15, 0.8)
+# Seeds of failed runs in a row of the table; more are counted.
+_MOST_SEEDS = 8
+
+
+def table_of_runs(runs: Iterable[Run]) -> str:
+    """
+    Return a table: for each combination of parameters how many runs failed, and which.
+
+    Its columns are the parameters, runs, failures, mean time [s] and mean way [m] until failure or
+    end, the mean score where there are scores, and the seeds of the runs that failed.
+    """
+    groups: dict[str, list[Run]] = {}
+    for run in runs:
+        groups.setdefault(_text_of(run), []).append(run)
+    scored = any(not np.isnan(run.score) for group in groups.values() for run in group)
+    head = ['parameters', 'runs', 'failed', 'time [s]', 'way [m]', 'failed seeds']
+    rows = [head if not scored else [*head[:5], 'score', head[5]]]
+    for text, group in groups.items():
+        failed = [run for run in group if run.failure]
+        row = [text, f'{len(group)}', f'{len(failed)}']
+        row += [f'{np.mean([run.seconds for run in group]):.1f}']
+        row += [f'{np.mean([run.length for run in group]):.2f}']
+        if scored:
+            row += [f'{np.mean([run.score for run in group]):.3g}']
+        rows.append([*row, _seeds_of(failed)])
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = []
+    for text, *numbers, seeds in rows:
+        cells = [each.rjust(width) for each, width in zip(numbers, widths[1:-1], strict=True)]
+        lines.append('  '.join((text.ljust(widths[0]), *cells, seeds)).rstrip())
+    return '\n'.join(lines)
+
+
+def _text_of(run: Run) -> str:
+    return ', '.join(f'{name}={value}' for name, value in run.case.parameters.items()) or '-'
+
+
+def _seeds_of(failed: Sequence[Run]) -> str:
+    seeds = [str(run.case.seed) for run in failed[:_MOST_SEEDS]]
+    more = len(failed) - len(seeds)
+    return ' '.join([*seeds, f'and {more} more'] if more else seeds)
+
+
+def picture_of_runs(
+    experiment: Experiment, runs: Iterable[Run], width: int = 960
+) -> NDArray[np.uint8]:
+    """
+    Return a picture of the world with the ways of all runs, red those that failed.
+
+    :param experiment: of the runs
+    :param width: of the picture [pixels]
+    :return: (height, width, 3) uint8; `PIL.Image.fromarray(picture).save('runs.png')` writes it
+    """
+    simulation = Simulation(physics_rate=experiment.physics_rate, publish_rate=1.0)
+    simulation.begin(experiment.world)
+    # The failed ones on top.
+    ordered = sorted(runs, key=lambda run: bool(run.failure))
+    lines = [(run.way, _FAILED if run.failure else _WELL) for run in ordered]
+    ends = [(run.way[-1], _FAILED) for run in ordered if run.failure]
+    return picture_of(simulation.frame.snapshot, width, lines=lines, crosses=ends)
+
+
+def save_failures(runs: Iterable[Run], folder: Path) -> list[Path]:
+    """
+    Write the world of each failed run, shortly before its failure; return the paths.
+
+    The page opens them, as with `physsim --ros-args -p world_file:=failures/run_3_seed_3.yaml`.
+
+    :param folder: for the files; it is made where it is not there
+    :raises BadWorldFile: a file cannot be written
+    """
+    return [
+        save_world(
+            run.before,
+            f'run_{number}_seed_{run.case.seed}',
+            world_dir=folder,
+            physics_rate=run.physics_rate,
+        )
+        for number, run in enumerate(runs)
+        if run.before is not None
+    ]

@@ -1,0 +1,142 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The mesh of a body: filled, with a darker outline and symbols of its properties.
+
+A free disc has a radius as its turning mark, an anchored body an anchor, a kinematic body a wide
+outline, and a sensor is translucent.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from itertools import pairwise
+import math
+
+import numpy as np
+from physsim_ros.model.colors import Color
+from physsim_ros.model.scene import Body
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Disc, Piece, Polygon, Triangles
+from physsim_ros.model.transform import Point
+from physsim_ros.view.mesh import inset, Mesh, MeshBuilder
+
+# Width of outlines [units], and as a share of the inner half width of a body at most.
+_OUTLINE, _OUTLINE_SHARE = 0.03, 0.25
+# Width of outlines of kinematic bodies [units].
+_WIDE = 0.08
+# Factor on the components of a colour for the outline.
+_DARKER = 0.6
+# Half the width of marks [units], and as a share of the radius at most.
+_MARK, _MARK_SHARE = 0.03, 0.05
+# Half the height of an anchor [units], and as a share of the inner half width at most.
+_ANCHOR, _ANCHOR_SHARE = 0.3, 0.75
+# Opacity of a sensor.
+_TRANSLUCENT = 0.4
+_DARK, _LIGHT = (0.08, 0.08, 0.1, 1.0), (1.0, 1.0, 1.0, 1.0)
+
+
+def opacity(body: Body) -> float:
+    """Return the opacity of the whole mesh of a body, 0 .. 1."""
+    return body.color[3] * (_TRANSLUCENT if body.sensor else 1.0)
+
+
+def body_mesh(body: Body, unit: float) -> Mesh:
+    """
+    Return the mesh of a body, in the body's frame.
+
+    :param unit: length that is drawn as some 50 pixels [m]
+    """
+    form = body.shape.form
+    red, green, blue, _ = body.color
+    color, dark = (red, green, blue, 1.0), (_DARKER * red, _DARKER * green, _DARKER * blue, 1.0)
+    # Luminance of the NTSC standard, in rounded weights.
+    ink = _DARK if 0.3 * red + 0.6 * green + 0.1 * blue > 0.35 else _LIGHT
+    if body.kinematic:
+        width, edge = min(_WIDE * unit, 2 * _OUTLINE_SHARE * form.inner), ink
+    else:
+        width, edge = min(_OUTLINE * unit, _OUTLINE_SHARE * form.inner), dark
+    builder = MeshBuilder()
+    if isinstance(body.shape, Polygon | Triangles):
+        for piece in form.pieces:
+            _add_piece(builder, piece, 0.0, color)
+        _add_edges(builder, body.shape, width, edge)
+    else:
+        # The area that two pieces share has no outline.
+        for piece in form.pieces:
+            _add_piece(builder, piece, 0.0, edge)
+        for piece in form.pieces:
+            _add_piece(builder, piece, width, color)
+    if body.anchored:
+        middle = min(map(_middle, form.pieces), key=lambda at: math.dist(at, form.centroid))
+        _add_anchor(builder, middle, min(_ANCHOR_SHARE * form.inner, _ANCHOR * unit), ink)
+    elif isinstance(body.shape, Disc):
+        radius = body.shape.radius
+        half = min(_MARK * unit, _MARK_SHARE * radius)
+        corners = ((0.0, -half), (0.9 * radius, -half), (0.9 * radius, half), (0.0, half))
+        builder.add_convex(corners, ink)
+    return builder.mesh()
+
+
+def _add_piece(builder: MeshBuilder, piece: Piece, margin: float, color: Color) -> None:
+    """Add a piece that is smaller than itself by a margin on all sides [m]."""
+    match piece:
+        case Circle(center, radius):
+            builder.add_disc(center, radius - margin, color)
+        case Capsule(start, end, radius):
+            builder.add_line((start, end), radius - margin, color)
+        case Convex(vertices):
+            builder.add_convex(inset(vertices, margin) if margin else vertices, color)
+
+
+def _add_edges(
+    builder: MeshBuilder, shape: Polygon | Triangles, width: float, color: Color
+) -> None:
+    """Add the outline of a polygon, or the edges of a single triangle each."""
+    if isinstance(shape, Polygon):
+        outline = shape.outline
+        (x1, y1) = outline[-1]
+        doubled = 0.0
+        for x2, y2 in outline:
+            doubled += x1 * y2 - x2 * y1
+            x1, y1 = x2, y2
+        builder.add_band(outline if doubled > 0 else outline[::-1], width, color)
+        return
+    loops = [piece.vertices for piece in shape.form.pieces if isinstance(piece, Convex)]
+    edges = [edge for loop in loops for edge in pairwise((*loop, loop[0]))]
+    uses = Counter(frozenset(edge) for edge in edges)
+    for start, end in edges:
+        if uses[frozenset((start, end))] == 1:
+            inward = np.array((start[1] - end[1], end[0] - start[0])) * width
+            inward /= math.dist(start, end)
+            builder.add_convex(np.array((start, end, end + inward, start + inward)), color)
+
+
+def _middle(piece: Piece) -> Point:
+    match piece:
+        case Circle(center, _):
+            return center
+        case Capsule((x1, y1), (x2, y2), _):
+            return (x1 + x2) / 2, (y1 + y2) / 2
+        case Convex(corners):
+            x, y = zip(*corners, strict=True)
+            return math.fsum(x) / len(x), math.fsum(y) / len(y)
+
+
+def _add_anchor(builder: MeshBuilder, at: Point, size: float, color: Color) -> None:
+    """Add an anchor of half a height: ring, shank, stock, arms and flukes."""
+
+    def line(*points: Point, half: float = 0.09) -> None:
+        placed = [(at[0] + size * x, at[1] + size * y) for x, y in points]
+        builder.add_line(placed, half * size, color)
+
+    ring = [(0.22 * math.sin(a), 0.75 + 0.22 * math.cos(a)) for a in np.linspace(0, math.tau, 17)]
+    arms = [(0.75 * math.sin(a), -0.15 - 0.75 * math.cos(a)) for a in np.linspace(-1.3, 1.3, 15)]
+    line(*ring)
+    line((0.0, 0.53), (0.0, -0.9))
+    line((-0.42, 0.3), (0.42, 0.3))
+    line(*arms)
+    for side in (-1.0, 1.0):
+        x, y = arms[-1] if side > 0 else arms[0]
+        tip = (x + 0.04 * side, y + 0.28)
+        line((x - 0.22 * side, y - 0.02), tip, (x + 0.12 * side, y - 0.12))

@@ -1,0 +1,313 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Endpoints of frames: a file, a Rerun server elsewhere, and one here with its viewer program.
+
+Law: whatever is opened or started here is closed and ended here, by the same thread.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+import errno
+import importlib.util
+from itertools import count
+import os
+from pathlib import Path
+import shutil
+import socket
+import subprocess
+import time
+from typing import ClassVar
+from urllib.parse import quote, urlsplit
+
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.view.child_process import end_child, start_child
+from physsim_ros.view.stream import RerunStream
+
+DEFAULT_URL = 'rerun+http://127.0.0.1:9876/proxy'
+# Memory of a server for late viewers.
+SERVER_MEMORY = '256MiB'
+# Timeouts of a connection, and of the end of a program [s].
+CONNECTING, ENDING = 0.5, 0.5
+# Time after its start within which a window that ends was never open [s].
+SETTLING = 10.0
+# Longest time for the index of a file [s]: 600 MB on an idle machine.
+INDEXING = 7.0
+# What `.rrd` files begin with, before the digit of their version (Rerun 0.41: RRF2).
+_MAGIC = b'RRF'
+
+
+class Endpoint(ABC):
+    """
+    The receiver of frames.
+
+    :cvar kind: name of it, for messages
+    :cvar where: address of it, for messages
+    :cvar code: of the event when it is lost
+    :cvar period: time for which frames are gathered [s]
+    :cvar closing: longest time for the last frames [s]
+    :cvar reopens: whether it is opened again after it was lost
+    """
+
+    kind = ''
+    where = ''
+    code: ClassVar[str] = 'viewer_lost'
+    period: ClassVar[float] = 0.1
+    closing: ClassVar[float] = 2.0
+    reopens: ClassVar[bool] = True
+
+    @abstractmethod
+    def open(self) -> RerunStream:
+        """
+        Return a new stream to the receiver.
+
+        :raises ConnectionError: it is not there, or cannot be opened
+        """
+
+    def check(self) -> None:  # noqa: B027  most have nothing to check
+        """
+        Report a program that has ended.
+
+        :raises ConnectionError: the receiver is lost
+        """
+
+    def complete(self) -> None:  # noqa: B027  the same
+        """Complete a file whose stream was closed, and not lost."""
+
+    def close(self) -> None:  # noqa: B027  the same
+        """End the program, if there is one."""
+
+    @property
+    def address(self) -> str:
+        """Return kind and address, as a sentence."""
+        return f'{self.kind}: {self.where}'
+
+    @property
+    def page_address(self) -> str:
+        """Return the address where that is a web page; else ''."""
+        return self.where if self.kind == 'web' and self.where.startswith('http:') else ''
+
+    def lost_answer(self, reason: str) -> Answer:
+        """Return the answer that reports that it was lost, or is another than was asked for."""
+        return Answer(topic='viewer', message=f'{self.address}: {reason}', code=self.code)
+
+
+class FileEndpoint(Endpoint):
+    """
+    A `.rrd` file.
+
+    :param path: of the file
+    :param overwrite: whether a recording of that name is replaced; else another name is taken
+    """
+
+    kind, code = 'record', 'record_failed'
+    # Long batches take less room.
+    period, closing, reopens = 1.0, 9.0, False
+
+    def __init__(self, path: Path, *, overwrite: bool) -> None:
+        self.where = str(path)
+        self._path = path
+        self._overwrite = overwrite
+        # Device and inode of the open file.
+        self._identity = (0, 0)
+
+    def open(self) -> RerunStream:
+        """Create the file, and return a stream to it."""
+        import rerun as rr
+
+        # Rerun (0.41) keeps the global interpreter lock while it opens a file: where that blocks,
+        # as with a FIFO, all threads would wait.
+        try:
+            if not self._overwrite:
+                self._path = _without_content(self._path)
+                self.where = str(self._path)
+            self._identity = _create_regular_file(self._path)
+        except OSError as error:
+            raise ConnectionError(error.strerror) from error
+        # A footer would list all chunks, and grow in memory with the recording: 3 MB a minute.
+        return RerunStream(rr.FileSink(self._path, write_footer=False))
+
+    def check(self) -> None:
+        """Check that the file is still there: Rerun would go on writing to a deleted file."""
+        try:
+            found = self._path.stat()
+        except OSError as error:
+            raise ConnectionError(f'the file is gone ({error.strerror})') from error
+        if (found.st_dev, found.st_ino) != self._identity:
+            raise ConnectionError('the file was replaced by another')
+
+    def complete(self) -> None:
+        """Give the file its index, the footer; one that takes too long stays without."""
+        if self._identity == (0, 0):
+            return
+        path = self._path.resolve()
+        indexed = path.with_name(f'.{path.name}.{os.getpid()}')
+        command = [_program(), 'rrd', 'optimize', str(path), '-o', str(indexed)]
+        try:
+            program = start_child(command, environment={**os.environ, 'CI': '1'})
+            try:
+                program.wait(INDEXING)
+            except subprocess.TimeoutExpired:
+                end_child(program, timeout=ENDING)
+            self.check()
+            if program.returncode == 0:
+                indexed.chmod(path.stat().st_mode)
+                indexed.replace(path)
+        except OSError:
+            # The disk is full, or the file gone: what there is can be read as it is.
+            return
+        finally:
+            indexed.unlink(missing_ok=True)
+
+
+class ClientEndpoint(Endpoint):
+    """A Rerun server started elsewhere, which may start later than the world and end before it."""
+
+    kind = 'connect'
+
+    def __init__(self, url: str) -> None:
+        self.where = url
+
+    def open(self) -> RerunStream:
+        """Return a stream to the server."""
+        import rerun as rr
+
+        try:
+            sink = rr.GrpcSink(self.where)
+            address = urlsplit(self.where)
+            host, port = address.hostname or '127.0.0.1', address.port or 9876
+        except (RuntimeError, ValueError) as error:
+            raise ConnectionError(error) from error
+        # Without a server, GrpcSink (Rerun 0.41) waits 5 s and then keeps all data in memory.
+        try:
+            socket.create_connection((host, port), timeout=CONNECTING).close()
+        except OSError as error:
+            raise ConnectionError('nobody there') from error
+        return RerunStream(sink)
+
+
+class ServerEndpoint(Endpoint):
+    """
+    A Rerun server in this process, on loopback only, and a viewer program connected to it.
+
+    :param native: whether the program is a window, where there is a display; else a web page
+    :param report: takes answers about the program
+    """
+
+    def __init__(self, *, native: bool, report: Callable[[Answer], None]) -> None:
+        self._report = report
+        self.kind = 'spawn' if native else 'web'
+        self._uri = ''
+        self._program: subprocess.Popen[bytes] | None = None
+        self._started = 0.0
+
+    def open(self) -> RerunStream:
+        """Start a server and the program, and return a stream to it."""
+        import rerun as rr
+
+        server = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVER_MEMORY)
+        stream = RerunStream(server)
+        self._uri = server.uri
+        if self.kind == 'spawn' and not has_display():
+            self._fall_back('there is no display')
+        else:
+            self._start_program()
+        return stream
+
+    def check(self) -> None:
+        """Report a program that has ended; a window that never opened becomes a page."""
+        program = self._program
+        if program is None or (code := program.poll()) is None:
+            return
+        self._program = None
+        if self.kind == 'spawn' and code and time.monotonic() - self._started < SETTLING:
+            self._fall_back(f'no window could be opened ({code})')
+        else:
+            self._lose_program(f'the viewer was closed ({code})')
+
+    def close(self) -> None:
+        """End the program."""
+        if self._program is not None:
+            end_child(self._program, timeout=ENDING)
+
+    def _fall_back(self, reason: str) -> None:
+        self.kind = 'web'
+        self._start_program()
+        self._report(self.lost_answer(f'{reason}, so this page instead'))
+
+    def _start_program(self) -> None:
+        if self.kind == 'spawn':
+            self.where = f'window on {self._uri}'
+            arguments = [f'--connect={self._uri}', '--port=auto', '--hide-welcome-screen']
+        else:
+            port = _free_port(9090)
+            self.where = f'http://127.0.0.1:{port}/?url={quote(self._uri, safe="")}'
+            arguments = ['--serve-web', f'--web-viewer-port={port}', self._uri]
+        # On loopback; `rerun.serve_web_viewer` (0.41) listens on all interfaces.
+        command = [_program(), '--bind=127.0.0.1', *arguments]
+        # Both variables keep the program from asking about analytics.
+        environment = {**os.environ, 'CI': '1', 'RERUN_APP_ONLY': 'true'}
+        try:
+            self._program = start_child(command, environment=environment)
+        except OSError as error:
+            self._lose_program(f'{command[0]} cannot be run: {error}')
+        self._started = time.monotonic()
+
+    def _lose_program(self, reason: str) -> None:
+        """Report that there is no program; the server goes on, for another one."""
+        self.where = f'any Rerun viewer at {self._uri}'
+        self._report(self.lost_answer(f'{reason}; another one: rerun {self._uri}'))
+
+
+def has_display() -> bool:
+    """Return whether a window can be opened."""
+    return bool(os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'))
+
+
+def _create_regular_file(path: Path) -> tuple[int, int]:
+    """
+    Create a file, or open it, to see that it can be written; return device and inode.
+
+    :raises OSError: it cannot be written, is not a regular file, or holds something else
+    """
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, 'it is not a regular file')
+    with path.open('a+b') as file:
+        found = os.fstat(file.fileno())
+        file.seek(0)
+        if found.st_size and file.read(len(_MAGIC)) != _MAGIC:
+            raise OSError(errno.EEXIST, 'it is no recording, and is not written over')
+    return found.st_dev, found.st_ino
+
+
+def _without_content(path: Path) -> Path:
+    """Return a path, or the first of `name-2.rrd`, `name-3.rrd`, ... that has no content."""
+    others = (path.with_stem(f'{path.stem}-{number}') for number in count(2))
+    while path.exists() and path.stat().st_size > 0:
+        path = next(others)
+    return path
+
+
+def _free_port(wanted: int = 0) -> int:
+    """Return a free TCP port of this machine: the wanted one, or any other."""
+    with socket.socket() as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind(('127.0.0.1', wanted))
+        except OSError:
+            return _free_port()
+        port: int = probe.getsockname()[1]
+        return port
+
+
+def _program() -> str:
+    """Return the path of the viewer program of the rerun-sdk wheel, or of that on PATH."""
+    spec = importlib.util.find_spec('rerun_cli')
+    if spec is not None and spec.origin is not None:
+        program = Path(spec.origin).with_name('rerun')
+        if program.exists():
+            return str(program)
+    return shutil.which('rerun') or 'rerun'

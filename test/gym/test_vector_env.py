@@ -1,0 +1,58 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Many worlds in one process: each has the episodes that it would have alone."""
+
+from __future__ import annotations
+
+import numpy as np
+from physsim_ros.gym import RobotEnv, RobotVectorEnv
+import pytest
+
+from .tasks import task
+
+COUNT, STEPS = 3, 90
+
+
+def actions(step: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+    return np.random.default_rng(step).uniform((0.5, -0.5), (1.0, 1.0), (COUNT, 2))
+
+
+def test_each_world_has_the_episodes_of_an_environment_of_its_seed() -> None:
+    many, alone = RobotVectorEnv(task(), COUNT), [RobotEnv(task()) for _ in range(COUNT)]
+    observed, _ = many.reset(seed=7)
+    for number, env in enumerate(alone):
+        assert env.reset(seed=7 + number)[0].tolist() == observed[number].tolist()
+    ended, crashes = [False] * COUNT, 0
+    for step in range(STEPS):
+        observed, rewards, overs, cuts, _ = many.step(actions(step))
+        for number, env in enumerate(alone):
+            if ended[number]:
+                observation, _ = env.reset()
+                reward, over, cut = 0.0, False, False
+            else:
+                observation, reward, over, cut, _ = env.step(actions(step)[number])
+            assert observed[number].tolist() == observation.tolist()
+            assert (rewards[number], overs[number], cuts[number]) == (reward, over, cut)
+            ended[number] = over or cut
+            crashes += over
+    assert crashes >= 1
+
+
+def test_saved_worlds_continue_to_the_bit_ended_ones_too() -> None:
+    many = RobotVectorEnv(task(longest=2.0), COUNT)
+    many.reset(seed=1)
+    for step in range(20):
+        _, _, _, cuts, _ = many.step(actions(step))
+    assert cuts.any()
+    saved = many.save()
+    told = []
+    for _ in range(2):
+        observed = many.restore(saved)
+        assert observed.shape == (COUNT, 36)
+        told.append(
+            [tuple(each.tolist() for each in many.step(actions(step))[:4]) for step in range(45)]
+        )
+    assert told[0] == told[1]
+    with pytest.raises(ValueError, match='zip'):
+        many.restore(saved[:-1])

@@ -1,0 +1,249 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Robots of a simulation without ROS: driven, read, reset, and continued from a saved moment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from copy import copy
+import math
+import pickle
+
+import numpy as np
+from physsim_ros import (
+    Box,
+    Delete,
+    find_world,
+    load_world,
+    Properties,
+    Robot,
+    robot_spawn,
+    SavedMoment,
+    Simulation,
+    Spawn,
+    WorldSettings,
+)
+from physsim_ros.model.errors import BadProperty, InPast, OutOfHistory, UnknownBody
+import pytest
+
+NOISY = {'from': 'turtlebot3_burger', 'odometry': {'slip': [0.05, 0.05]}}
+
+
+def corridor(**options: float) -> Robot:
+    simulation = Simulation(**options)
+    simulation.load(load_world(find_world('corridor')))
+    simulation.perform(robot_spawn(NOISY))
+    simulation.load(simulation.save())
+    return Robot(simulation, 'robot/0')
+
+
+def wander(robot: Robot, periods: int) -> list[object]:
+    """Drive into walls and along them; return all that is read."""
+    readings: list[object] = []
+    for period in range(periods):
+        robot.drive(0.22, 1.5 * math.sin(0.2 * period))
+        robot.simulation.run(0.1)
+        readings.append((robot.scan().tolist(), robot.odom(), robot.truth(), robot.bumped))
+        readings.append(robot.read('imu'))
+    return readings
+
+
+def test_a_robot_drives_until_told_otherwise() -> None:
+    robot = corridor()
+    robot.drive(0.2)
+    robot.simulation.run(3.0)
+    assert robot.truth().twist == pytest.approx((0.2, 0.0, 0.0), abs=1e-6)
+    assert robot.truth().pose[0] == pytest.approx(0.2 * 3.0, abs=0.02)
+    robot.drive(0.0, 1.0)
+    robot.simulation.run(1.0)
+    assert robot.truth().twist == pytest.approx((0.0, 0.0, 1.0), abs=1e-6)
+    assert robot.odom().pose != robot.truth().pose
+
+
+def test_a_scan_measures_the_wall_ahead() -> None:
+    robot = corridor()
+    robot.place(0.0, 0.0, math.pi)
+    scan = robot.scan()
+    assert scan.shape == (360,)
+    # The wall of 5 cm is at -0.6 m, the laser 32 mm behind the middle; noise of 1 cm.
+    assert scan[0] == pytest.approx(0.6 - 0.025 + 0.032, abs=0.05)
+    assert robot.scan('scan') is not scan
+    assert np.array_equal(robot.scan('scan'), scan)
+
+
+def test_a_robot_that_meets_a_wall_is_bumped() -> None:
+    robot = corridor()
+    robot.place(0.0, 0.0, math.pi)
+    robot.drive(0.2)
+    assert not robot.bumped
+    robot.simulation.run(4.0)
+    assert robot.bumped
+    robot.drive(-0.2)
+    robot.simulation.run(1.0)
+    # It was, since it was read before.
+    assert robot.bumped
+    robot.simulation.run(0.1)
+    assert not robot.bumped
+
+
+def test_no_frame_is_made_that_nobody_reads(monkeypatch: pytest.MonkeyPatch) -> None:
+    robot = corridor()
+    made: list[int] = []
+    observe = Simulation._observe_frame  # noqa: SLF001 - it is counted
+
+    def note(simulation: Simulation, *, moved: bool) -> object:
+        made.append(simulation.step)
+        return observe(simulation, moved=moved)
+
+    monkeypatch.setattr(Simulation, '_observe_frame', note)
+    robot.simulation.run(1.0)
+    assert not made
+    for read in (robot.odom, robot.truth, robot.scan, lambda: robot.simulation.frame):
+        read()
+    assert made == [240]
+
+
+@pytest.mark.parametrize('options', [{}, {'history': 0.0}, {'publish_rate': 10.0}])
+def test_an_episode_is_repeated_by_its_seed(options: dict[str, float]) -> None:
+    robot = corridor(**options)
+    simulation = robot.simulation
+    episodes = []
+    for seed in (1, 2, 1):
+        simulation.reset(seed)
+        assert simulation.settings.seed == seed
+        assert simulation.step == 0
+        episodes.append(wander(robot, 40))
+    assert episodes[0] == episodes[2]
+    assert episodes[0] != episodes[1]
+
+
+def test_a_reset_without_a_seed_has_the_noise_of_the_world() -> None:
+    robot = corridor()
+    first = wander(robot, 5)
+    robot.simulation.reset()
+    assert wander(robot, 5) == first
+    robot.simulation.reset(7)
+    robot.simulation.reset(8)
+    robot.simulation.undo()
+    assert robot.simulation.settings.seed == 7
+
+
+def test_without_a_past_the_bits_are_the_same_and_no_frame_is_kept() -> None:
+    kept, forgotten = corridor(), corridor(history=0.0)
+    assert wander(kept, 60) == wander(forgotten, 60)
+    assert kept.simulation.world.digest() == forgotten.simulation.world.digest()
+    assert kept.simulation.past.frames.size > 0
+    assert forgotten.simulation.past.frames.size == 0
+    # Of the requests and checkpoints, those since the last checkpoint.
+    assert forgotten.simulation.past.budget.used < kept.simulation.past.budget.used / 5
+    forgotten.simulation.seek(forgotten.simulation.frame.snapshot.stamp)
+    with pytest.raises(OutOfHistory):
+        forgotten.simulation.seek(0)
+
+
+def pickled(saved: SavedMoment) -> SavedMoment:
+    return pickle.loads(pickle.dumps(saved))  # noqa: S301 - its own
+
+
+@pytest.mark.parametrize('copied', [copy, pickled])
+def test_a_saved_moment_is_continued_to_the_bit(
+    copied: Callable[[SavedMoment], SavedMoment],
+) -> None:
+    robot = corridor()
+    simulation = robot.simulation
+    # Against a wall, and with a box that it pushes.
+    box = Spawn(
+        name='box/0',
+        shape=Box(width=0.2, height=0.2),
+        pose=(0.3, 0.0, 0.1),
+        properties=Properties(mass=0.5),
+    )
+    simulation.perform(box)
+    wander(robot, 33)
+    saved = copied(simulation.checkpoint())
+    step, bumped, imu = simulation.step, robot.bumped, robot.read('imu')
+    first = wander(robot, 60)
+    digest = simulation.world.digest()
+    for another in (simulation, Simulation(history=0.0)):
+        another.restore(saved)
+        assert another.held['robot/0'] == saved.held[0]
+        again = Robot(another, 'robot/0')
+        assert (another.step, again.bumped, again.read('imu')) == (step, bumped, imu)
+        assert wander(again, 60) == first
+        assert another.world.digest() == digest
+
+
+def test_a_restored_simulation_has_a_past_of_its_own_and_is_reset_as_the_first() -> None:
+    robot = corridor()
+    wander(robot, 20)
+    saved = robot.simulation.checkpoint()
+    simulation = Simulation()
+    simulation.restore(saved)
+    assert simulation.status.oldest == simulation.status.now == pytest.approx(2.0)
+    robot = Robot(simulation, 'robot/0')
+    wander(robot, 50)
+    digest = simulation.world.digest()
+    simulation.seek(3_000_000_000)
+    with pytest.raises(InPast):
+        simulation.checkpoint()
+    simulation.seek(round(simulation.status.newest * 1e9))
+    assert simulation.world.digest() == digest
+    with pytest.raises(OutOfHistory):
+        simulation.seek(1_000_000_000)
+    simulation.reset()
+    assert simulation.step == 0
+    assert 'box/0' not in simulation.world
+    assert Robot(simulation, 'robot/0').truth().pose == (0.0, 0.0, 0.0)
+
+
+def test_a_checkpoint_in_a_running_history_can_be_rewound_over() -> None:
+    robot = corridor()
+    digests = {}
+    for _ in range(10):
+        wander(robot, 7)
+        robot.simulation.checkpoint()
+        digests[robot.simulation.frame.snapshot.stamp] = robot.simulation.world.digest()
+    for stamp, digest in reversed(digests.items()):
+        robot.simulation.seek(stamp)
+        assert robot.simulation.world.digest() == digest
+    assert not [answer for answer in robot.simulation.frame.answers if answer.code]
+
+
+def test_a_robot_that_is_gone_is_not_driven_on() -> None:
+    robot = corridor()
+    robot.drive(0.2)
+    robot.simulation.perform(Delete(name='robot/0'))
+    robot.simulation.run(1.0)
+    with pytest.raises(UnknownBody):
+        robot.truth()
+
+
+def test_another_world_and_a_seek_end_what_a_robot_is_held_to() -> None:
+    robot = corridor()
+    robot.drive(0.2)
+    robot.simulation.run(1.0)
+    robot.simulation.seek(500_000_000)
+    assert not robot.simulation.held
+    robot.drive(0.2)
+    robot.simulation.load(load_world(find_world('boxes')))
+    assert not robot.simulation.held
+
+
+def test_what_is_no_robot_or_has_no_such_sensor_is_refused() -> None:
+    robot = corridor()
+    simulation = robot.simulation
+    with pytest.raises(BadProperty, match='not a robot'):
+        Robot(simulation, 'wall/0')
+    with pytest.raises(UnknownBody, match='nearest is'):
+        Robot(simulation, 'robt/0')
+    with pytest.raises(BadProperty, match="no sensor 'scam'; nearest is 'scan'"):
+        robot.scan('scam')
+    with pytest.raises(BadProperty, match='seconds'):
+        simulation.run(-1.0)
+    with pytest.raises(BadProperty):
+        simulation.reset(-1)
+    blind = Simulation(settings=WorldSettings(gravity=(0.0, 0.0)))
+    blind.perform(robot_spawn('mouse'))
+    with pytest.raises(BadProperty, match='no laser'):
+        Robot(blind, 'robot/0').scan()
