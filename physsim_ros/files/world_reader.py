@@ -20,10 +20,9 @@ import numpy as np
 from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.engine.core import sub_step_of
-from physsim_ros.files.driven import driven_from
-from physsim_ros.files.impulse_cache import cache_from
+from physsim_ros.files.engine_state import cache_from, driven_from
 from physsim_ros.files.joint_reader import joints_from
-from physsim_ros.files.robots import with_shipped_robot
+from physsim_ros.files.resources import with_shipped_robot
 from physsim_ros.files.world_schema import (
     BODY_KEYS,
     count_from,

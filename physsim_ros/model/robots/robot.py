@@ -96,7 +96,7 @@ class Robot(Checked):
     @classmethod
     def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
         """
-        Return the robot of a mapping; a shipped name is looked up before (`files.robots`).
+        Return the robot of a mapping; a shipped name is looked up before (`files.resources`).
 
         :raises BadProperty: there is no drive; and as those of other values
         """

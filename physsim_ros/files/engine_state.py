@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The impulse cache in world files, under the key `memory`: arrays as compressed base64 text.
+What the node alone writes of a body and of a world: states of robots, impulses of contacts.
 
-Law: the cache is loaded as it was saved, to the bit. It is not loaded where shapes have been added
-or removed since, and refused where a text is not that of an array.
+A robot has its state under the key `driven` of its body, a world its impulses under `memory`.
+
+Law: impulses are loaded as they were saved, to the bit, from arrays as compressed base64 text.
+They are not loaded where shapes have been added or removed since, and refused where a text is not
+that of an array.
 """
 
 from __future__ import annotations
@@ -21,9 +24,83 @@ from numpy.typing import DTypeLike, NDArray
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.files.world_schema import count_from
 from physsim_ros.model.checkpoint import ImpulseCache, WorldState
+from physsim_ros.model.checks import check_finite, LONGEST, number, pair, shown, Within
 from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.scene import Scene
+from physsim_ros.model.robot_states import Covariance, NEVER, RobotState, SPAWNED
+from physsim_ros.model.robots import Robot
+from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.transform import Pose
+
+_POSES = ('aim', 'wheels', 'travel', 'odometry')
+# Greatest number in them, as of a motion [m, rad, m/s, rad/s].
+_GREATEST = 1e12
+_LENGTH = Within(0.0, _GREATEST)
+# Squares and products of them.
+_VARIANCE = Within(-(_GREATEST**2), _GREATEST**2)
+
+
+def driven_entry(driven: RobotState, physics_rate: float) -> dict[str, object]:
+    """Return the entry of the state of a robot."""
+    entry: dict[str, object] = {key: list(getattr(driven, key)) for key in _POSES}
+    seconds = None if driven.until == NEVER else driven.until / physics_rate
+    return {**entry, 'covariance': list(driven.covariance), 'seconds': seconds}
+
+
+def driven_from(entry: object, body: Body, physics_rate: float) -> RobotState:
+    """
+    Return the state of a robot from its entry.
+
+    :param body: of the robot
+    :param physics_rate: of the world [Hz]
+    :raises Refusal: the body is no robot, or the entry is not what `driven_entry` has returned
+    """
+    values = known_mapping(entry, 'driven', [*_POSES, 'covariance', 'path', 'seconds'])
+    if body.robot is None:
+        raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
+    seconds = values.get('seconds')
+    until = NEVER
+    if seconds is not None:
+        until = round(Within(0.0, LONGEST, 's')(seconds, 'seconds') * physics_rate)
+    poses = [_three(values.get(key, [0.0, 0.0, 0.0]), key) for key in _POSES]
+    aim, wheels, travel, odometry = poses
+    if 'covariance' in values:
+        covariance = _covariance(values['covariance'])
+    else:
+        covariance = _covariance_of_path(values.get('path', [0.0, 0.0]), body.robot)
+    return RobotState(aim, until, wheels, travel, odometry, covariance)
+
+
+def _covariance(value: object) -> Covariance:
+    if not isinstance(value, list) or len(value) != len(SPAWNED.covariance):
+        raise BadProperty(
+            f'covariance must be a list of six numbers, not {shown(value)}', field='covariance'
+        )
+    xx, xy, yy, x_yaw, y_yaw, yaw_yaw = (_VARIANCE(each, 'covariance') for each in value)
+    if min(xx, yy, yaw_yaw) < 0.0:
+        raise BadProperty('a variance is not negative', field='covariance')
+    return xx, xy, yy, x_yaw, y_yaw, yaw_yaw
+
+
+def _covariance_of_path(value: object, robot: Robot) -> Covariance:
+    """Return the covariance by the way and the turns in a file that has no covariance."""
+    way, turned = (_LENGTH(each, 'path') for each in pair(value, 'path'))
+    ahead, heading = (deviation**2 for deviation in robot.odometry.slip)
+    return ahead * way, 0.0, ahead * way, 0.0, 0.0, heading * (way + turned)
+
+
+def _three(value: object, name: str) -> Pose:
+    if not isinstance(value, list):
+        raise BadProperty(
+            f'{name} must be a list of three numbers, not {shown(value)}', field=name
+        )
+    numbers = tuple(number(each, name) for each in value)
+    check_finite(numbers, 3, name)
+    if max(map(abs, numbers)) > _GREATEST:
+        raise BadProperty(f'{name} is out of range', field=name)
+    x, y, turn = numbers
+    return x, y, turn
+
 
 # Greatest size of an array [bytes], far more than any world needs: a few lines of compressed text
 # can expand to all the memory.
