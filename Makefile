@@ -132,7 +132,7 @@ soak: $(TOOLS)  ## disturb a world at random for MINUTES=30, with SEED=0
 	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary $(ARGS)
 
 clean:  ## remove .venv and all that was built
-	rm -rf $(VENV) physsim_ros/engine/core/*.so build install log dist docs/_build docs/api *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
+	rm -rf $(VENV) physsim_ros/engine/core/*.so physsim_ros/engine/core/_declarations.py build install log dist docs/_build docs/api *.egg-info .hypothesis .import_linter_cache .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
 
 # The lines of pip that say what it does now; what was there already, and from where, is left out.
@@ -142,7 +142,6 @@ PROGRESS := sed -u -n -E '/^ *(Collecting|Downloading|Building|Installing|Succes
 PIP = set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --no-compile
 # The step is compiled by the machine's compiler; where there is none, by that of a wheel of 101 MB.
 COMPILER := $(shell command -v cc gcc clang)
-SETUPTOOLS := 'setuptools>=70.1,<80'
 
 # The stamp is written last, so an interrupted installation starts over; a new setup.py is installed on top.
 $(STAMP): setup.py
@@ -150,7 +149,7 @@ $(STAMP): setup.py
 	@[ -e $@ ] || echo '1 of 2: an environment in $(VENV), beside this file.'
 	@[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
 	@echo '2 of 2: packages into it, some 130, of which Rerun is the largest (170 MB); a minute the first time.'
-	@$(PIP) $(SETUPTOOLS) $(if $(COMPILER),,ziglang) | $(PROGRESS)
+	@$(PIP) 'setuptools>=70.1,<80' 'cffi>=1.17' $(if $(COMPILER),,ziglang) | $(PROGRESS)
 	@$(PIP) --no-build-isolation --editable '.[$(EXTRAS)]' | $(PROGRESS)
 	@touch $@ $(BUILT)
 

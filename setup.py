@@ -11,6 +11,7 @@ import runpy
 import shlex
 import sys
 
+from cffi import FFI
 from setuptools import Extension, find_packages, setup
 from setuptools.command.build_ext import build_ext
 
@@ -22,6 +23,7 @@ SOURCE = Path(__file__).resolve().parent
 
 # The core of the engine: a plain shared library, without any Python in it.
 CORE = f'{PACKAGE}/engine/core'
+DECLARATIONS = '_declarations.py'
 HASH = runpy.run_path(str(SOURCE / CORE / 'sources.py'))['hash_of_sources'](SOURCE / CORE)
 COMPILER = runpy.run_path(str(SOURCE / 'tools/build/compiler.py'))
 FLAGS = [
@@ -68,6 +70,31 @@ class BuildCore(build_ext):
         built = Path(self.get_ext_fullpath(ext.name))
         self.force = self.force or (built.is_file() and HASH.encode() not in built.read_bytes())
         super().build_extension(ext)
+        write_declarations(built.with_name(DECLARATIONS))
+
+    def copy_extensions_to_source(self) -> None:
+        """Write the declarations also beside the core that runs from the source tree."""
+        super().copy_extensions_to_source()
+        write_declarations(SOURCE / CORE / DECLARATIONS)
+
+    def get_outputs(self) -> list[str]:
+        """Return what is built: the core, and its declarations."""
+        core = super().get_outputs()
+        return [*core, *(str(Path(each).with_name(DECLARATIONS)) for each in core)]
+
+
+def write_declarations(path: Path) -> None:
+    """
+    Write the declarations of the headers as a module of Python that cffi makes of them.
+
+    Read from the headers at each start, they take a tenth of a second.
+    """
+    texts = [(SOURCE / CORE / name).read_text('utf-8') for name in ('chipmunk.h', 'core.h')]
+    lines = ''.join(texts).splitlines(keepends=True)
+    ffi = FFI()
+    ffi.cdef(''.join(line for line in lines if not line.startswith('#')))
+    ffi.set_source(f'{PACKAGE}.engine.core.{path.stem}', None)
+    ffi.emit_python_code(str(path))
 
 
 def _environment(name: str) -> list[str]:
@@ -110,8 +137,6 @@ setup(
     cmdclass={'build_ext': BuildCore},
     package_data={
         PACKAGE: ['py.typed'],
-        # Their declarations are those of Python, too.
-        f'{PACKAGE}.engine.core': ['chipmunk.h', 'core.h'],
         f'{PACKAGE}.ros.programs': ['*.xml'],
         f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*'],
     },
@@ -156,7 +181,7 @@ setup(
             'ros-jazzy-rclpy[fastrtps]',
         ],
         # The site: `make docs`. 8.2 brings the pages of modules.
-        'docs': ['furo', 'myst-parser>=4', 'sphinx>=8.2,<9'],
+        'docs': ['furo', 'gymnasium>=1.0,<2', 'myst-parser>=4', 'sphinx>=8.2,<9'],
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
         # Environments for learning (`physsim_ros.gym`).

@@ -28,7 +28,10 @@ extensions = ['myst_parser', 'sphinx.ext.apidoc', 'sphinx.ext.autodoc']
 exclude_patterns = ['_build']
 html_theme = 'furo'
 html_title = f'physsim_ros {release}'
-# Pages come before names of the code.
+# Tables that a phone can show.
+html_static_path = ['_static']
+html_css_files = ['narrow.css']
+# Pages come before names of the code, and reference before what else says the word.
 html_search_scorer = str(ROOT / 'docs' / 'search_scorer.js')
 
 # Single backticks in docstrings are names of the code.

@@ -1,10 +1,16 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// How the search of the site ranks: all pages before those of modules, which are made from docstrings. Sphinx's own
-// figures are in searchtools.js; what differs is objNameMatch (11 there), objPartialMatch (6) and score.
+// How the search of the site ranks: what looks things up, then what teaches, then what tells of the inside, then pages
+// of modules, which are made from docstrings. Sphinx's own figures are in searchtools.js; what differs is objNameMatch
+// (11 there), objPartialMatch (6) and score.
+var RANKS = [
+  [/^(interface|robots|drawing|time|testing|python)$/, 30],
+  [/^(decisions\/|changelog|figures|glossary)/, -30],
+  [/^api\//, -100],
+];
 var Scorer = {
-  score: ([page, , , , score]) => (page.startsWith('api/') ? score - 100 : score),
+  score: ([page, , , , score]) => score + (RANKS.find(([pattern]) => pattern.test(page)) ?? [null, 0])[1],
   objNameMatch: 4,
   objPartialMatch: 1,
   objPrio: {0: 1, 1: 0, 2: -5},

@@ -5,6 +5,7 @@
 A convenience for those who start everything by `ros2 launch`; nothing else needs it.
 
 ros2 launch physsim_ros physsim.launch.py world_file:=car rviz:=true
+ros2 launch physsim_ros physsim.launch.py namespace:=second sketchpad_port:=8766
 """
 
 from launch import LaunchDescription
@@ -15,10 +16,11 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 from launch_ros.substitutions import FindPackageShare
 
-# Parameters of the node that are arguments of the launch file, their defaults there, and meanings.
+# Parameters of the node that are arguments of the launch file: their defaults there, and meanings.
 PARAMETERS = {
     'world_file': ('demo', 'a world, by name or path; physsim --help tells which there are'),
-    'sketchpad': ('serve', 'serve: the page in the browser, whose address is printed; or none'),
+    'sketchpad': ('serve', 'the page, whose address is printed: serve or none'),
+    'sketchpad_port': (8765, 'port of the page; if it is taken, one of the next 20'),
     'viewer': ('auto', 'Rerun: none, spawn, web, connect or auto'),
 }
 
@@ -27,7 +29,7 @@ def generate_launch_description() -> LaunchDescription:
     """Start a world, and RViz on it where argument `rviz` is true."""
     config = PathJoinSubstitution([FindPackageShare('physsim_ros'), 'config'])
     arguments = [
-        DeclareLaunchArgument(name, default_value=default, description=meaning)
+        DeclareLaunchArgument(name, default_value=str(default), description=meaning)
         for name, (default, meaning) in PARAMETERS.items()
     ]
     arguments += [
@@ -39,13 +41,20 @@ def generate_launch_description() -> LaunchDescription:
         DeclareLaunchArgument(
             'rviz', default_value='false', description='whether RViz is started'
         ),
+        DeclareLaunchArgument(
+            'namespace',
+            default_value='',
+            description='of the node and its topics: one for each world beside another',
+        ),
     ]
     given = {
-        name: ParameterValue(LaunchConfiguration(name), value_type=str) for name in PARAMETERS
+        name: ParameterValue(LaunchConfiguration(name), value_type=type(default))
+        for name, (default, _) in PARAMETERS.items()
     }
     world = Node(
         package='physsim_ros',
         executable='physsim',
+        namespace=LaunchConfiguration('namespace'),
         parameters=[LaunchConfiguration('params_file'), given],
         output='screen',
         emulate_tty=True,

@@ -114,4 +114,5 @@ def test_the_launch_file_is_understood_by_ros_2_launch() -> None:
     pytest.importorskip('launch_ros', reason='launch and launch_ros have no wheels')
     description = runpy.run_path(str(LAUNCH))['generate_launch_description']()
     names = {each.name for each in description.get_launch_arguments()}
-    assert names == {'world_file', 'sketchpad', 'viewer', 'params_file', 'rviz'}
+    others = {'params_file', 'namespace', 'rviz'}
+    assert names == {'world_file', 'sketchpad', 'sketchpad_port', 'viewer', *others}

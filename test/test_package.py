@@ -248,14 +248,15 @@ def test_the_source_distribution_has_what_builds_the_package_and_no_tests(packed
     assert {path.relative_to(ROOT).as_posix() for path in ROOT.glob('tools/build/*.py')} <= names
     assert _sources_of_the_core() <= {Path(name).name for name in names}
     assert not [name for name in names if name.startswith('test/') or name.endswith('.so')]
+    assert not [name for name in names if Path(name).name == '_declarations.py']
 
 
-def test_the_wheel_of_the_source_distribution_has_the_core_and_the_headers_that_are_read(packed):
+def test_the_wheel_of_the_source_distribution_has_the_core_and_its_declarations(packed):
     with ZipFile(packed[1]) as wheel:
         names = {Path(name) for name in wheel.namelist()}
 
     core = {path.name for path in names if path.match('physsim_ros/engine/core/*')}
-    assert core == {'__init__.py', '_core.abi3.so', 'chipmunk.h', 'core.h', 'sources.py'}
+    assert core == {'__init__.py', '_core.abi3.so', '_declarations.py', 'sources.py'}
     assert not [path for path in names if path.suffix == '.c']
 
 

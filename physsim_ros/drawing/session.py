@@ -300,7 +300,7 @@ def submit_reading(
     :param topic: of the stroke
     :param field: of its message, to be named by a refusal
     :param asker: key of the message that asked
-    :param author: name of the person whose doing it is; '' is nobody's
+    :param author: name of the person who did it; '' is nobody
     """
     queue = simulation.requests
     queue.tell(replace(reading_answer(reading, topic=topic), asker=asker))

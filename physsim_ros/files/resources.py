@@ -5,7 +5,7 @@
 Files that ship with the package: where they are and what they are called, robots, drawings.
 
 A file in `config/robots` is an entry of a world file without name and pose: shape, mass, colour
-and robot. A body that names a robot inherits every key it does not set.
+and robot. A body that names a robot inherits every key that it does not set.
 
 A drawing is JSON with strokes of a pen, in the order in which they are drawn:
 `{"about": "...", "strokes": [{"name": "rod", "points": [[8, 7.98], [10.6, 3.4]]}, ...]}`

@@ -174,7 +174,7 @@ class OutOfHistory(Refusal):
 
 
 class InPast(Refusal):
-    """The past is shown, which takes no command of a robot and no undo of one person."""
+    """While the past is shown, robots are not driven and a person's undo is refused."""
 
     code = 'in_past'
 

@@ -85,7 +85,7 @@ class RobotStates(NamedTuple):
     @property
     def nbytes(self) -> int:
         """Memory of the arrays [bytes]."""
-        return sum(column.nbytes for column in self)
+        return sum(column.nbytes for column in self) if len(self.until) else 0
 
 
 def _columns(rows: Sequence[tuple[float, ...]]) -> Floats:

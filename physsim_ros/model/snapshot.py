@@ -120,8 +120,11 @@ class Snapshot:
     @property
     def nbytes(self) -> int:
         """Memory of its arrays [bytes], without cached properties."""
-        arrays = (self.poses, self.twists, self.forces, self.compressed, self.pulls, *self.springs)
-        return sum(array.nbytes for array in arrays) + self.robots.nbytes
+        size = self.poses.nbytes + self.twists.nbytes + self.robots.nbytes
+        if len(self.forces):
+            arrays = self.forces, self.compressed, self.pulls, *self.springs
+            size += sum(array.nbytes for array in arrays)
+        return size
 
     @cached_property
     def centers(self) -> Floats:

@@ -13,7 +13,7 @@ from __future__ import annotations
 from diagnostic_msgs.msg import DiagnosticArray
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.ros.frame_outputs import FrameOutputs
+from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents, SAME_NAME_REMEDY
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
@@ -37,7 +37,7 @@ class DiagnosticsPublisher:
         self,
         node: NodeWithoutQosEvents,
         simulation: Simulation,
-        outputs: FrameOutputs,
+        outputs: Outputs,
         topics: RequestTopics,
         boundary: ErrorBoundary,
     ) -> None:

@@ -19,6 +19,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.ros import parameters
 from physsim_ros.simulation.simulation import Simulation
 from rcl_interfaces.msg import SetParametersResult
@@ -39,7 +40,11 @@ class LiveParameters:
         check refuses it; raises a Refusal where the value cannot have its effect
     :param on_change: called when any parameter has been set
     :param boundary: of the node
+
+    :ivar name: of the output
     """
+
+    name = 'parameters'
 
     def __init__(
         self,
@@ -65,6 +70,10 @@ class LiveParameters:
         self._mirrored: WorldSettings | None = parameters.world_settings(values)
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._note_set)
+
+    def show(self, _: Frame) -> None:
+        """Set the parameters to the settings and speed of the world at a frame."""
+        self.mirror_settings()
 
     def mirror_settings(self) -> None:
         """Set the parameters to the settings and speed of the world."""

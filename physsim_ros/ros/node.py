@@ -10,7 +10,7 @@ happens then by the simulation.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import ExitStack
 from functools import partial
 from pathlib import Path
@@ -22,12 +22,13 @@ from physsim_ros.drawing import DrawingSession, Tool
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.model.requests import DeleteAll
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.texts import counted
 from physsim_ros.ros import parameters
 from physsim_ros.ros.diagnostics_publisher import DiagnosticsPublisher
-from physsim_ros.ros.frame_outputs import FrameOutputs
+from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
+from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.pages import Pages
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.ros.requests.drawing_topics import DrawingTopics
@@ -47,32 +48,6 @@ from rclpy.parameter import Parameter
 import rclpy.service
 from rclpy.subscription import Subscription
 
-# Time after which a tick simulates no further publish period [ns]: requests, services and signals
-# wait at most so long, which a person hardly notices. At speed 64 a frame has 64 periods.
-MOST_TICK_NS = 100_000_000
-# Time after which no further request is applied in a tick [ns]; or as long as the rest of the last
-# tick took, since in a crowded world each tick with a request makes the scene anew.
-MOST_REQUESTS_NS = 10_000_000
-
-
-class _RequestTime:
-    """
-    The time for requests, from now on.
-
-    :param rest_ns: duration of the last tick without its requests [ns]
-
-    :ivar ended: steady time at which the last request was applied [ns]
-    """
-
-    def __init__(self, rest_ns: int) -> None:
-        self.ended = time.perf_counter_ns()
-        self._until = self.ended + max(MOST_REQUESTS_NS, rest_ns)
-
-    def is_spent(self) -> bool:
-        """Return whether there is no time for a further request; called after each."""
-        self.ended = time.perf_counter_ns()
-        return self.ended > self._until
-
 
 class PhysSimNode(NodeWithoutQosEvents):
     """
@@ -88,6 +63,7 @@ class PhysSimNode(NodeWithoutQosEvents):
     :ivar world_files: reads and writes the world file of parameter `world_file`
     :ivar outputs: the topics, the viewer and the sketchpad
     :ivar fleet: the topics of robots
+    :ivar loop: applies requests, advances time, shows frames
     :ivar requests: the topics of requests
     :ivar message_delay: time that messages wait before they are handled [s]
     :ivar on_quit: ends the program, where a service may; None where it has other worlds as well
@@ -126,49 +102,21 @@ class PhysSimNode(NodeWithoutQosEvents):
 
         :raises PhysSimError: a parameter or the world file is refused
         """
-        self._started = False
-        # Duration of the last tick with a frame, without its requests [ns].
-        self._rest_ns = 0
         self.message_delay = 0.0
         self.on_quit: Callable[[], object] | None = None
         self._is_quitting = False
         self._values = parameters.declare(self)
         # rclpy 7.1 has no public name for the values that it was started with.
         parameters.check_names(self._parameter_overrides, self, sys.argv)
-        self.simulation = Simulation(
-            physics_rate=self._values['physics_rate'],
-            publish_rate=self._values['publish_rate'],
-            settings=parameters.world_settings(self._values),
-            speed=self._values['speed'],
-            history=self._values['history'],
-            history_memory=self._values['history_memory'],
-            boundary=self.boundary,
-        )
-        self._session = DrawingSession(
-            parameters.drawing_settings(self._values),
-            Tool(self._values['tool']),
-            clock=time.thread_time,
-        )
-        self.world_files = WorldFiles(self.simulation, self._values, self.get_logger().info)
-        self.outputs = FrameOutputs(self, self._values, self._session, self.boundary)
-        self._closing.callback(self.outputs.close)
-        self.fleet = Fleet(self, self._values, self.simulation.requests, self.boundary)
-        if self._values['world_file']:
-            with self.boundary.reading('world_file'):
-                self.world_files.begin_with()
-        self.outputs.topics.timeline.publish(self.simulation.status, moving=False)
-        self._create_subscriptions()
-        self._create_services()
+        self._create_world()
+        self._create_loop()
+        self._create_doors()
         self._live_parameters = LiveParameters(
             self,
             self._values,
             self.simulation,
             self._session,
-            effects={
-                'publish_clock': self.outputs.update_clock,
-                'sketchpad': self._pages.update,
-                'viewer': self._open_viewer,
-            },
+            effects={'sketchpad': self._pages.update, 'viewer': self._open_viewer},
             prepare={
                 'sketchpad': self._pages.open_for,
                 'sketchpad_locked': lambda value: locks_of(parameters.listed_names(value)),
@@ -177,75 +125,85 @@ class PhysSimNode(NodeWithoutQosEvents):
             boundary=self.boundary,
         )
         self._live_parameters.mirror_settings()
+        self.outputs.all.insert(0, self._live_parameters)
         self._pages.open_for(self._values['sketchpad'])
         self._pages.update()
 
-    def _create_subscriptions(self) -> None:
-        frame_id = self._values['frame_id']
-        self.requests = RequestTopics(self, self.simulation.requests, self.boundary, frame_id)
-        self._diagnostics = DiagnosticsPublisher(
-            self, self.simulation, self.outputs, self.requests, self.boundary
+    def _create_world(self) -> None:
+        """Create the simulation, which begins with the world file, and the drawing session."""
+        values = self._values
+        self.simulation = Simulation(
+            physics_rate=values['physics_rate'],
+            publish_rate=values['publish_rate'],
+            settings=parameters.world_settings(values),
+            speed=values['speed'],
+            history=values['history'],
+            history_memory=values['history_memory'],
+            boundary=self.boundary,
         )
-        self._drawing_topics = DrawingTopics(
-            self.requests,
-            self.simulation,
-            self._session,
-            frame_id=frame_id,
-            current_snapshot=self._current_snapshot,
-            publish_preview=self.outputs.publish_preview,
+        self._session = DrawingSession(
+            parameters.drawing_settings(values), Tool(values['tool']), clock=time.thread_time
         )
-        self._time_control = TimeControl(
-            self,
-            self.simulation,
-            self._values,
-            apply_up_to_seek=self._apply_up_to_seek,
-            advance_frame=self.advance_frame,
-            on_seek=self.outputs.statistics.reset_pace,
-        )
-        self._time_control.subscribe(self.requests)
+        self.world_files = WorldFiles(self.simulation, values, self.get_logger().info)
+        if values['world_file']:
+            with self.boundary.reading('world_file'):
+                self.world_files.begin_with()
 
-    def _create_services(self) -> None:
-        simulation = self.simulation
-        services = {
-            **{name: Service(action) for name, action in self._time_control.actions.items()},
+    def _create_loop(self) -> None:
+        """Create the outputs and the loop that shows them frames."""
+        values, boundary = self._values, self.boundary
+        self.outputs = Outputs(self, values, self._session, self.simulation, boundary)
+        self._closing.callback(self.outputs.close)
+        self.fleet = Fleet(self, values, self.simulation.requests, boundary)
+        self.outputs.all.append(self.fleet)
+        self.outputs.topics.timeline.publish(may_wait=False)
+        self.loop = FrameLoop(self.simulation, self.outputs, self.fleet)
+
+    def _create_doors(self) -> None:
+        """Create topics and services of requests, and the control of pages."""
+        simulation, outputs, loop, values = self.simulation, self.outputs, self.loop, self._values
+        frame_id, requests = values['frame_id'], simulation.requests
+        self.requests = topics = RequestTopics(self, requests, self.boundary, frame_id)
+        self._diagnostics = DiagnosticsPublisher(self, simulation, outputs, topics, self.boundary)
+        drawing = DrawingTopics(
+            topics, simulation, self._session, frame_id=frame_id, loop=loop, outputs=outputs
+        )
+        control = TimeControl(self, simulation, values, loop, outputs.statistics)
+        control.subscribe(topics)
+        self._actions = {
+            **{name: Service(action) for name, action in control.actions.items()},
             'undo': Service(simulation.undo, Wait.BEHIND_REQUESTS),
             'redo': Service(simulation.redo, Wait.BEHIND_REQUESTS),
             'reset': Service(simulation.reset, Wait.BEHIND_REQUESTS),
-            'instead': Service(self._drawing_topics.read_instead),
+            'instead': Service(drawing.read_instead),
             'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
             'load_world': Service(lambda: self.world_files.load(confined=True), Wait.FOR_SEEK),
             'save_world': Service(self.world_files.save, Wait.FOR_SEEK),
         }
-        calls = ServiceCalls(simulation.requests, self._submit_call, self.boundary)
-        create_services(self, services, calls, on_success=self._note_change)
+        calls = ServiceCalls(requests, loop.submit_call, self.boundary)
+        create_services(self, self._actions, calls, on_success=self._note_change)
         self._parameter_services = ParameterServices(self, calls)
-        control = WorldControl(
+        world = WorldControl(
             boundary=self.boundary,
             simulation=simulation,
-            values=self._values,
+            values=values,
             set_parameter=partial(parameters.set_value, self),
             world_dir=self.world_files.directory,
-            drawing_settings=lambda: parameters.drawing_settings(self._values),
-            current_snapshot=self._current_snapshot,
-            submit_call=self._submit_call,
-            services=services,
+            drawing_settings=lambda: parameters.drawing_settings(values),
+            current_snapshot=loop.current_snapshot,
+            submit_call=loop.submit_call,
+            services=self._actions,
             note_change=self._note_change,
-            perform_on=lambda name, world: self._perform_on(services[name], world),
-            set_speed=self._time_control.set_speed,
-            seek=self._time_control.seek,
-            locked_bodies=lambda: parameters.listed_names(self._values['sketchpad_locked']),
+            perform_on=self._perform_on,
+            set_speed=control.set_speed,
+            seek=control.seek,
+            locked_bodies=lambda: parameters.listed_names(values['sketchpad_locked']),
             end_program=self._end_program,
         )
-        create_simulation_services(self, control, calls)
-        self._pages = Pages(
-            self,
-            self.outputs,
-            control,
-            apply_requests=self.apply_requests,
-            is_started=lambda: self._started,
-        )
+        create_simulation_services(self, world, calls)
+        self._pages = Pages(self, outputs, world, loop)
 
-    def _perform_on(self, service: Service, world: str) -> str:
+    def _perform_on(self, service: str, world: str) -> str:
         """
         Perform a service on the world file of a name; where that is refused, nothing has changed.
 
@@ -254,10 +212,15 @@ class PhysSimNode(NodeWithoutQosEvents):
         before = self._values['world_file']
         parameters.set_value(self, 'world_file', world)
         try:
-            return service.perform()
+            return self._actions[service].perform()
         except PhysSimError:
             parameters.set_value(self, 'world_file', before)
             raise
+
+    def _note_change(self) -> None:
+        """Have the parameters mirror the world, and a short seek be done at once."""
+        self._live_parameters.mirror_settings()
+        self.loop.finish_short_seek()
 
     def _end_program(self) -> bool:
         """Have a later tick end the program; return whether it may."""
@@ -266,7 +229,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
-        self._started = True
+        self.loop.started = True
         self._pages.print_addresses()
         # A viewer that is opened begins a recording anew that has failed.
         self._open_viewer()
@@ -276,7 +239,7 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _open_viewer(self) -> None:
         """Open the viewer of parameter `viewer`, once the node has started."""
-        if self._started:
+        if self.loop.started:
             self.outputs.open_viewer()
 
     def create_subscription(self, *args: Any, **options: Any) -> Subscription:
@@ -324,127 +287,21 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def tick(self, now_ns: int) -> None:
         """
-        Advance the world to a steady time, and publish the frames.
+        Advance the world to a steady time, and show the frames.
 
         :param now_ns: steady time, monotonic [ns]
         """
-        began = time.perf_counter_ns()
         if self._is_quitting and self.on_quit is not None:
             self._is_quitting = False
             self.on_quit()
-        if self._started:
+        if self.loop.started:
             self._diagnostics.publish_due(now_ns, message_delay=self.message_delay)
-        self._handle_pages()
-        self._submit_commands()
-        frames: tuple[Frame, ...] = ()
-        request_time = _RequestTime(self._rest_ns)
-        # While time goes back, no command counts, and controllers may be silent.
-        if self.simulation.speed < 0.0 or not self.fleet.is_waiting:
-            frames = self.simulation.advance(
-                now_ns,
-                is_overdue=lambda: (
-                    self.fleet.in_lockstep or time.perf_counter_ns() - began > MOST_TICK_NS
-                ),
-                is_spent=request_time.is_spent,
-            )
-        stepped = time.perf_counter_ns()
-        for frame in frames:
-            self.publish_frame(frame)
-        if not frames:
-            self._report_answers()
-            self.outputs.republish()
-            return
-        self._rest_ns = time.perf_counter_ns() - request_time.ended
-        last = frames[-1]
-        if last.moved:
-            self.outputs.statistics.add(
-                now_ns=now_ns,
-                stamp=last.snapshot.stamp,
-                step_ns=stepped - began,
-                frame_ns=time.perf_counter_ns() - began,
-            )
-        else:
-            self.outputs.statistics.reset_pace()
+        self.loop.tick(now_ns)
 
     def advance_frame(self) -> None:
-        """Advance the world by one publish period, at any time, and publish the frame."""
-        self._handle_pages()
-        self._submit_commands()
-        self.publish_frame(self.simulation.advance_frame())
-
-    def publish_frame(self, frame: Frame) -> None:
-        """Publish a frame on the topics, in the viewer and on the pages."""
-        self._live_parameters.mirror_settings()
-        self.outputs.publish_frame(frame, self.simulation.status)
-        self.fleet.publish(frame)
-
-    def _submit_commands(self) -> None:
-        """Submit what robots were told since the frame before; none while the past is shown."""
-        shown = self.frame
-        self.fleet.submit_commands(
-            in_past=self.simulation.speed < 0.0 or (shown is not None and shown.past)
-        )
+        """Advance the world by one publish period, at any time, and show the frame."""
+        self.loop.advance_frame()
 
     def apply_requests(self) -> tuple[Answer, ...]:
-        """Apply the waiting requests without advancing time, publish and return the answers."""
-        self._update_contact_recording()
-        frame = self.simulation.apply_requests()
-        if frame is not None:
-            self.publish_frame(frame)
-            return frame.answers
-        answers = self._report_answers()
-        self.outputs.topics.events.flush()
-        return answers
-
-    def _handle_pages(self) -> None:
-        """Carry out the messages of pages."""
-        self._update_contact_recording()
-        if self.outputs.sketchpad is not None:
-            self.outputs.sketchpad.handle_messages()
-
-    def _update_contact_recording(self) -> None:
-        """Record contacts while there is a subscriber, a viewer or a page that shows them."""
-        wanted = self.outputs.wants_contacts or self.fleet.wants_contacts()
-        self.simulation.reports_contacts = wanted
-
-    def _apply_up_to_seek(self) -> bool:
-        """
-        Apply the requests before a seek that there is time for; return whether none waits.
-
-        Before `start` nothing is applied, and True is returned.
-        """
-        if not self._started:
-            return True
-        return self.simulation.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
-
-    def _submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
-        """
-        Make a call at its time among the requests, now if they leave the time for it.
-
-        :raises Busy: too many requests wait
-        """
-        self.simulation.requests.submit_call(call, wait)
-        if self._started:
-            self._apply_up_to_seek()
-        elif wait is not Wait.NONE:
-            self.simulation.apply_waiting()
-
-    def _current_snapshot(self) -> Snapshot:
-        """Return the snapshot that is shown, with the waiting requests if they are applied."""
-        if self._apply_up_to_seek():
-            self.apply_requests()
-        return self.simulation.world.snapshot() if self.frame is None else self.frame.snapshot
-
-    def _note_change(self) -> None:
-        """Have the parameters mirror the world, and a short seek be done at once."""
-        self._live_parameters.mirror_settings()
-        began = time.perf_counter_ns()
-        self.simulation.finish_seek(lambda: time.perf_counter_ns() - began > MOST_TICK_NS)
-
-    # Answers
-
-    def _report_answers(self) -> tuple[Answer, ...]:
-        """Publish and log the answers that no frame carries, and return them."""
-        answers = self.simulation.take_answers()
-        self.outputs.report_answers(answers)
-        return answers
+        """Apply the waiting requests without advancing time; show and return the answers."""
+        return self.loop.apply_requests()

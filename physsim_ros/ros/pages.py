@@ -9,12 +9,12 @@ Law: a value of the parameter that cannot have its effect is refused before it i
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 import sys
 
 from physsim_ros.model.errors import BadProperty, PhysSimError
-from physsim_ros.ros.frame_outputs import FrameOutputs
+from physsim_ros.ros.frame_loop import FrameLoop
+from physsim_ros.ros.outputs import Outputs
 from physsim_ros.sketchpad import Role, Sketchpad, WorldControl
 from rclpy.node import Node
 
@@ -26,24 +26,20 @@ class Pages:
     :param node: whose executor handles their messages before the node has started
     :param outputs: of the node; they have the sketchpad while it is served
     :param control: the actions of the node that pages use
-    :param apply_requests: applies the waiting requests, and publishes what they changed
-    :param is_started: returns whether the node has started: its ticks handle the messages then
+    :param loop: of the node; once it has started, its ticks handle the messages
     """
 
     def __init__(
         self,
         node: Node,
-        outputs: FrameOutputs,
+        outputs: Outputs,
         control: WorldControl,
-        *,
-        apply_requests: Callable[[], object],
-        is_started: Callable[[], bool],
+        loop: FrameLoop,
     ) -> None:
         self._node = node
         self._outputs = outputs
         self._control = control
-        self._apply_requests = apply_requests
-        self._is_started = is_started
+        self._loop = loop
 
     def open_for(self, value: str) -> None:
         """
@@ -67,7 +63,7 @@ class Pages:
         self._outputs.sketchpad = sketchpad
         if self._outputs.frame is not None:
             sketchpad.show(replace(self._outputs.frame, answers=()))
-        if self._is_started():
+        if self._loop.started:
             self.print_addresses()
 
     def update(self) -> None:
@@ -76,7 +72,7 @@ class Pages:
             self._outputs.close_sketchpad()
         elif self._outputs.frame is None:
             # A page shows the world before its time has begun.
-            self._apply_requests()
+            self._loop.apply_requests()
 
     def print_addresses(self) -> None:
         """Print the addresses of the page, for the person at the terminal."""
@@ -96,10 +92,10 @@ class Pages:
         """Queue the handling of messages; called on the thread of the sketchpad."""
         executor = self._node.executor
         # A started node handles them at its next tick.
-        if not self._is_started() and executor is not None:
+        if not self._loop.started and executor is not None:
             executor.create_task(self._handle_now)
 
     def _handle_now(self) -> None:
         if self._outputs.sketchpad is not None:
             self._outputs.sketchpad.handle_messages()
-        self._apply_requests()
+        self._loop.apply_requests()

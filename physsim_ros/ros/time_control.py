@@ -11,6 +11,8 @@ from typing import Any
 from physsim_ros.model.errors import Running
 from physsim_ros.model.snapshot import Answer, run_state
 from physsim_ros.ros import parameters
+from physsim_ros.ros.frame_loop import FrameLoop
+from physsim_ros.ros.publishers.frame_statistics import FrameStatistics
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
@@ -27,9 +29,8 @@ class TimeControl:
     :param node: whose parameter `speed` is the speed
     :param simulation: of the node
     :param values: of the parameters of the node, by name, always up to date
-    :param apply_up_to_seek: applies requests before a seek; returns whether the world is there
-    :param advance_frame: advances the world by one frame, and publishes it
-    :param on_seek: called before time jumps
+    :param loop: makes single frames
+    :param statistics: of frames
     """
 
     def __init__(
@@ -37,17 +38,14 @@ class TimeControl:
         node: Node,
         simulation: Simulation,
         values: Mapping[str, Any],
-        *,
-        apply_up_to_seek: Callable[[], bool],
-        advance_frame: Callable[[], None],
-        on_seek: Callable[[], None],
+        loop: FrameLoop,
+        statistics: FrameStatistics,
     ) -> None:
         self._node = node
         self._simulation = simulation
         self._values = values
-        self._apply_up_to_seek = apply_up_to_seek
-        self._advance_frame = advance_frame
-        self._on_seek = on_seek
+        self._loop = loop
+        self._statistics = statistics
 
     @property
     def actions(self) -> Mapping[str, Callable[[], str]]:
@@ -70,7 +68,7 @@ class TimeControl:
 
         def seek(message: Clock) -> None:
             stamp = message.clock.sec * 10**9 + message.clock.nanosec
-            self._on_seek()
+            self._statistics.reset_pace()
             requests.submit_seek(stamp, topic='~/seek')
 
         topics.subscribe(Float64, '~/speed', set_speed)
@@ -93,7 +91,7 @@ class TimeControl:
 
         :raises Refusal: it is not in the history
         """
-        self._on_seek()
+        self._statistics.reset_pace()
         return self._simulation.seek(stamp)
 
     def step(self) -> str:
@@ -104,9 +102,9 @@ class TimeControl:
         """
         if self._simulation.speed != 0:
             raise Running('time is running; pause first')
-        if not self._apply_up_to_seek():
+        if not self._loop.apply_up_to_seek():
             return f'at {self._simulation.playback.queue_frame() * 1e-9:.6f} s'
-        self._advance_frame()
+        self._loop.advance_frame()
         return f'at {self._simulation.world.stamp * 1e-9:.6f} s'
 
     def _run_at(self, speed: float) -> str:

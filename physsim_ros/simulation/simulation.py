@@ -23,14 +23,14 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
 from physsim_ros.model.requests import DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue
-from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world import forces_now, World
 from physsim_ros.simulation.world.robot_requests import is_driving
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
@@ -247,6 +247,19 @@ class Simulation:
         """
         self._handler.apply_waiting()
         return self.world.save()
+
+    def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
+        """
+        Return the forces of contacts and joints of a world that has not stepped since a change.
+
+        :param snapshot: of the world that is shown
+        :return: contacts as of one step, and a snapshot with the joint forces; None where the
+            world is at another moment, or too large
+        """
+        world = self.world
+        if world.step_count != snapshot.step or world.scene is not snapshot.scene:
+            return None
+        return forces_now(world.save(), world.physics_rate)
 
     def checkpoint(self) -> SavedMoment:
         """

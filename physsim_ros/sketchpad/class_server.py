@@ -14,24 +14,37 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import partial
 import json
 import secrets
 import sys
 from typing import NamedTuple
-from urllib.parse import quote
+from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
 from physsim_ros.sketchpad.access import Access, Role
-from physsim_ros.sketchpad.guarded import Guarded
+from physsim_ros.sketchpad.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_handlers import Login, Missing, PAGE, Page, PageFiles, QrCode
+from physsim_ros.sketchpad.page_handlers import (
+    CookieCheck,
+    Login,
+    Missing,
+    PAGE,
+    Page,
+    PageFiles,
+    QrCode,
+)
+from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.web import Application
+from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
 
 # Size of a request [bytes].
 _MOST_BYTES = 4096
+# Size of a message of a world that is watched [bytes].
+_MOST_WATCHED = 2**25
 # Time from one check whether the class is over to the next [s].
 _CHECK_PERIOD = 0.2
 
@@ -101,6 +114,8 @@ class ClassServer:
                 ('/', Page, {'file': 'class.html'}),
                 ('/login', Login),
                 ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
+                ('/session', CookieCheck),
+                (r'/ws/(\d+)', _Watch, {'seats': seats}),
                 ('/seats', _SeatList, {'seats': seats, 'address': partial(self.url, Role.DRAW)}),
                 ('/join', _Join, {'seats': seats}),
                 ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
@@ -144,6 +159,67 @@ class _SeatList(Guarded):
         listed = [{'name': name, 'address': world.teacher} for name, world in seats]
         told = {'seats': listed, 'pupils': self.address()} if teaches else {'seats': []}
         self.finish({'teacher': teaches, **told})
+
+
+class _Watch(GuardedSocket):
+    """
+    A socket of a teacher's page to the world of a seat, handed on both ways.
+
+    The world sends it as many frames as are watched, and it is nobody there (`/ws?watch`).
+    """
+
+    too_many = ''
+
+    def initialize(self, seats: Seats) -> None:  # type: ignore[override]
+        """Set the seats."""
+        super().initialize()
+        self._seats = seats
+        self._world: WebSocketClientConnection | None = None
+
+    async def open(self, number: str) -> None:  # noqa: A003 - tornado's name
+        """Connect with the world."""
+        if self.role is not Role.TEACH or int(number) >= len(self._seats.worlds):
+            self.close(POLICY_VIOLATION, 'this is for teachers')
+            return
+        try:
+            self._world = await _socket_to(self._seats.worlds[int(number)].teacher)
+        except (OSError, HTTPClientError):
+            # The page connects again.
+            self.close()
+            return
+        self._handing_on = asyncio.create_task(self._hand_on(self._world))
+
+    async def _hand_on(self, world: WebSocketClientConnection) -> None:
+        """Hand on what the world sends until one side leaves."""
+        with suppress(WebSocketClosedError):
+            while (message := await world.read_message()) is not None:
+                await self.write_message(message, binary=isinstance(message, bytes))
+        self.close()
+
+    async def on_message(self, message: str | bytes) -> None:
+        """Hand a message on to the world."""
+        if self._world is not None and self.take_token():
+            await self._world.write_message(message, binary=isinstance(message, bytes))
+
+    def on_close(self) -> None:
+        """Leave the world."""
+        if self._world is not None:
+            self._world.close()
+
+
+async def _socket_to(login: str) -> WebSocketClientConnection:
+    """
+    Return a socket to the world of an address with a token, which watches it.
+
+    :raises OSError: it does not answer
+    :raises HTTPClientError: it refuses
+    """
+    client, origin = AsyncHTTPClient(), '{0.scheme}://{0.netloc}'.format(urlsplit(login))
+    answer = await client.fetch(login, follow_redirects=False, raise_error=False)
+    cookie = answer.headers.get('Set-Cookie', '').partition(';')[0]
+    url = origin.replace('http', 'ws', 1) + '/ws?watch'
+    request = HTTPRequest(url, headers={'Cookie': cookie, 'Origin': origin})
+    return await websocket_connect(request, max_message_size=_MOST_WATCHED)
 
 
 class _Join(Guarded):

@@ -123,6 +123,13 @@ class FrameFeed:
         """Send the newest frame, and its scene, to a page that has not got it and is not busy."""
         if page.is_busy or self._frame is None or page.frame == self._number:
             return
+        now = time.monotonic()
+        if page.period:
+            if now < page.due:
+                # A frame that no other follows is sent then.
+                self._loop.call_later(page.due - now, self.update_page, page)
+                return
+            page.due = now + page.period
         if page.epoch != self._codec.epoch:
             page.epoch = self._codec.epoch
             page.send_part(self._scene_text)

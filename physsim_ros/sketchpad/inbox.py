@@ -34,11 +34,13 @@ class Opened:
     :ivar role: its rights
     :ivar person: number of the person at it
     :ivar key: with which a page is that person again
+    :ivar watches: whether it is a teacher's page of a class, which is nobody in this world
     """
 
     role: Role
     person: int
     key: str
+    watches: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

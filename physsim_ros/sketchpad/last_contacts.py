@@ -2,40 +2,76 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The contacts of a world that stands still: those of its last steps.
+The contacts and joint forces of a world that stands still.
 
-Law: contacts belong to the first frame of a step; later frames of this step have them too, where
-both bodies are where they were then.
+Law: contacts belong to the first frame of a step; later frames of this step have them too. Where
+the world was opened or changed since, they are solved for it as it is now; while a hand drags a
+body, contacts remain where both bodies are where they were.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Ints
 from physsim_ros.model.snapshot import Contacts, Frame, NO_CONTACTS, Snapshot
 
+# The forces of a world as it is now: contacts as of one step, and a snapshot with joint forces.
+Forces = tuple[Contacts, Snapshot]
+
 
 class LastContacts:
-    """The last frame that had contacts."""
+    """
+    The last frame that had contacts.
 
-    def __init__(self) -> None:
+    :param solve: returns the forces of the world as a snapshot shows it; None where it cannot
+    """
+
+    def __init__(self, solve: Callable[[Snapshot], Forces | None]) -> None:
+        self._solve = solve
         self._last: tuple[Snapshot, Contacts] | None = None
+        # The snapshot that was solved for last, and its forces.
+        self._solved: tuple[Snapshot, Forces] | None = None
 
     def completed(self, frame: Frame) -> Frame:
         """Return a frame; one that repeats a step has the contacts of the step's first frame."""
         if frame.contacts is None:
             self._last = None
             return frame
-        if frame.contacts.steps or self._last is None:
-            self._last = frame.snapshot, frame.contacts
+        if frame.contacts.steps:
+            self._last, self._solved = (frame.snapshot, frame.contacts), None
             return frame
-        snapshot, contacts = self._last
-        if snapshot.step != frame.snapshot.step:
+        if self._last is not None and self._last[0].step != frame.snapshot.step:
             self._last = None
+        if self._last is not None:
+            snapshot, contacts = self._last
+            frame = replace(frame, contacts=_still_there(contacts, snapshot, frame.snapshot))
+            if _is_same(snapshot, frame.snapshot):
+                return frame
+        return self._with_forces(frame)
+
+    def _with_forces(self, frame: Frame) -> Frame:
+        """Return the frame of a world at rest with its forces of now, if they are known."""
+        snapshot = frame.snapshot
+        if frame.speed or snapshot.grips:
             return frame
-        return replace(frame, contacts=_still_there(contacts, snapshot, frame.snapshot))
+        if self._solved is None or not _is_same(self._solved[0], snapshot):
+            forces = self._solve(snapshot)
+            self._solved = None if forces is None else (snapshot, forces)
+        if self._solved is None:
+            return frame
+        contacts, loaded = self._solved[1]
+        joints = replace(snapshot, forces=loaded.forces, pulls=loaded.pulls)
+        return replace(frame, contacts=contacts, snapshot=joints)
+
+
+def _is_same(before: Snapshot, now: Snapshot) -> bool:
+    """Return whether nothing has been moved or changed."""
+    if before.step != now.step or before.scene is not now.scene:
+        return False
+    return np.array_equal(before.poses, now.poses) and np.array_equal(before.twists, now.twists)
 
 
 def _still_there(contacts: Contacts, before: Snapshot, now: Snapshot) -> Contacts:

@@ -24,7 +24,7 @@ MOST_CONNECTIONS, _SHARE_OF_FILES = 256, 0.25
 # Further connections that are answered with a refusal at once, and the time for each [s]; all
 # others are closed without an answer.
 MOST_REFUSED, _REFUSING = 16, 2.0
-_SENTENCE = 'there are as many connections as there may be; close some, and try again\n'
+_SENTENCE = 'too many connections; close some, and try again\n'
 _REFUSAL = (
     'HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\n'
     'Content-Type: text/plain; charset=utf-8\r\n'

@@ -122,7 +122,7 @@ def read_message(text: str, role: Role, boundary: ErrorBoundary) -> tuple[str, M
     Return the identifier of a message ('' if it cannot be read), and the message or its refusal.
 
     The refusal names an unknown type, an unknown field, or a field whose value is out of range;
-    or the page has not the right to the message.
+    or the page may not send this message.
 
     :param role: of the page
     :param boundary: of the server

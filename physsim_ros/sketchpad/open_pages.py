@@ -47,6 +47,8 @@ class OpenPage:
     :ivar epoch: of the scene that was sent last; 0 before the first
     :ivar ghost_epoch: of the ghost's scene that was sent last; 0 where there is no ghost
     :ivar frame: number of the frame that was sent last; 0 before the first
+    :ivar period: least time from one frame to the next [s]
+    :ivar due: steady time of the next frame [s]
     """
 
     def __init__(
@@ -63,6 +65,7 @@ class OpenPage:
         self.show = Show.POSES
         self.robot = ''
         self.epoch = self.ghost_epoch = self.frame = 0
+        self.period = self.due = 0.0
         self._socket = socket
         self._on_read = on_read
         # Messages on their way to the page, and the size of those that count [bytes].

@@ -37,6 +37,8 @@ from physsim_ros.sketchpad.world_control import WorldControl
 HAND_PERIOD = 2.0
 # Beginning of the names of people who have chosen none; their numbers follow.
 UNNAMED = 'Page '
+# Name of a teacher who has chosen none.
+TEACHER = 'Teacher'
 
 
 class PageSession:
@@ -51,13 +53,16 @@ class PageSession:
     :param pasts: of bodies, for all pages
     :param own_worlds: of the user
     :param autosave: of the world
-    :param list_worlds: sends all pages the list of worlds
+    :param list_worlds: sends the list of worlds to the page of a number, or to all
+    :param tell_all: sends a message to all pages
 
-    :ivar person: name of the person at it, whose doings its requests are
+    :ivar person: name of the person at it, who makes its requests
     :ivar unnamed: name of that person before one is chosen
     :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world
     :ivar driven: name of the robot that it drives, '' is none; and the gesture of that
+    :ivar answered: to the last lesson that was tried at this page: its `lesson`, `answer`, `right`
+    :ivar raised: whether the person has raised a hand
     :ivar followed: names of the bodies whose touches it is told of
     :ivar material: properties of the bodies that it draws; those that are unset are the world's
     :ivar color: of the bodies that it draws; None is the world's choice
@@ -74,20 +79,24 @@ class PageSession:
         pasts: BodyPasts,
         own_worlds: OwnWorlds,
         autosave: Autosave,
-        list_worlds: Callable[[], None],
+        list_worlds: Callable[..., None],
+        tell_all: Callable[[Content], None],
     ) -> None:
         self.number = number
         self.role = role
-        self.person = self.unnamed = f'{UNNAMED}{person}'
+        self.person = self.unnamed = TEACHER if role is Role.TEACH else f'{UNNAMED}{person}'
         self.world = world
         self.send = send
         self.pasts = pasts
         self.own_worlds = own_worlds
         self.autosave = autosave
         self.list_worlds = list_worlds
+        self.tell_all = tell_all
         self.drawing = DrawingSession(world.drawing_settings(), clock=time.thread_time)
         self.hand = f'page {number}'
         self.driven = '', 0
+        self.answered: dict[str, Any] = {}
+        self.raised = False
         self.followed: frozenset[str] = frozenset()
         self.material = Properties()
         self.color: Color | None = None

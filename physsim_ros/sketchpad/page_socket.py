@@ -25,6 +25,9 @@ from physsim_ros.sketchpad.open_pages import OpenPage
 from physsim_ros.sketchpad.rights import Right
 from physsim_ros.sketchpad.scene_codec import compact
 
+# Time from one frame to the next of a teacher's page that watches a class [s].
+WATCH_PERIOD = 0.25
+
 
 class PageSocket(GuardedSocket):
     """The socket of a page."""
@@ -61,7 +64,14 @@ class PageSocket(GuardedSocket):
         key = self.request.arguments.get('person', [b''])[-1]
         self._page = self._feed.add_page(self, self.address, self.access.person_of(key))
         person = self._page.person
-        opened = Opened(role=self.role, person=person, key=self.access.person_key(person))
+        watches = self.role is Role.TEACH and 'watch' in self.request.arguments
+        self._page.period = WATCH_PERIOD if watches else 0.0
+        opened = Opened(
+            role=self.role,
+            person=person,
+            key=self.access.person_key(person),
+            watches=watches,
+        )
         self._inbox.put(self._page.number, opened)
 
     def on_message(self, message: str | bytes) -> None:

@@ -68,7 +68,7 @@ class Sketchpad:
         self._recording_address = recording_address
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
-        self._contacts = LastContacts()
+        self._contacts = LastContacts(world.simulation.forces_now)
         self._own_worlds = OwnWorlds(world.world_dir)
         self._autosave = Autosave(world.world_dir, self._world_text)
         self._server = Server(
@@ -81,6 +81,8 @@ class Sketchpad:
         )
         self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
+        # Numbers of the pages with which a teacher watches a class.
+        self._watching: set[int] = set()
         # The last one; None before the first.
         self._frame: Frame | None = None
         self._sent_recording = self._recording_address()
@@ -119,6 +121,7 @@ class Sketchpad:
             case Opened():
                 self._open(page, entry)
             case Closed():
+                self._watching.discard(page)
                 if (session := self._sessions.pop(page, None)) is not None:
                     session.close()
             case Upload():
@@ -170,15 +173,22 @@ class Sketchpad:
     def _send_class(self) -> None:
         """Tell all pages who is there, and what a teacher has frozen and locked, if it changed."""
         people = [
-            {'page': number, 'name': session.person, 'role': session.role.value}
+            {
+                'page': number,
+                'name': session.person,
+                'role': session.role.value,
+                'answered': session.answered or None,
+                'raised': session.raised,
+            }
             for number, session in self._sessions.items()
-            if session.role.draws
+            if session.role.draws and number not in self._watching
         ]
         content = {
             'type': 'class',
             'frozen': self._world.is_frozen,
             'locked': self._world.locked_bodies(),
             'people': people,
+            'watched': bool(self._watching),
         }
         if self._sessions and content != self._sent_class:
             self._sent_class = content
@@ -226,6 +236,8 @@ class Sketchpad:
     def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""
         role = opened.role
+        if opened.watches:
+            self._watching.add(number)
         send = partial(self._server.send, page=number)
         self._sessions[number] = PageSession(
             number,
@@ -237,6 +249,7 @@ class Sketchpad:
             own_worlds=self._own_worlds,
             autosave=self._autosave,
             list_worlds=self._server.list_worlds,
+            tell_all=self._server.send,
         )
         simulation, settings = self._simulation, self._simulation.settings
         drawing = self._world.drawing_settings()

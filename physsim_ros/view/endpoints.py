@@ -19,7 +19,6 @@ from pathlib import Path
 import shutil
 import socket
 import subprocess
-import time
 from typing import ClassVar
 from urllib.parse import quote, urlsplit
 
@@ -32,8 +31,6 @@ DEFAULT_URL = 'rerun+http://127.0.0.1:9876/proxy'
 SERVER_MEMORY = '256MiB'
 # Timeouts of a connection, and of the end of a program [s].
 CONNECTING, ENDING = 0.5, 0.5
-# Time after its start within which a window that ends was never open [s].
-SETTLING = 10.0
 # Longest time for the index of a file [s]: 600 MB on an idle machine.
 INDEXING = 7.0
 # What `.rrd` files begin with, before the digit of their version (Rerun 0.41: RRF2).
@@ -202,7 +199,6 @@ class ServerEndpoint(Endpoint):
         self.kind = 'spawn' if native else 'web'
         self._uri = ''
         self._program: subprocess.Popen[bytes] | None = None
-        self._started = 0.0
 
     def open(self) -> RerunStream:
         """Start a server and the program, and return a stream to it."""
@@ -218,13 +214,13 @@ class ServerEndpoint(Endpoint):
         return stream
 
     def check(self) -> None:
-        """Report a program that has ended; a window that never opened becomes a page."""
+        """Report a program that has ended; a window that has failed becomes a page."""
         program = self._program
         if program is None or (code := program.poll()) is None:
             return
         self._program = None
-        if self.kind == 'spawn' and code and time.monotonic() - self._started < SETTLING:
-            self._fall_back(f'no window could be opened ({code})')
+        if self.kind == 'spawn' and code:
+            self._fall_back(f'the window has failed ({code})')
         else:
             self._lose_program(f'the viewer was closed ({code})')
 
@@ -254,7 +250,6 @@ class ServerEndpoint(Endpoint):
             self._program = start_child(command, environment=environment)
         except OSError as error:
             self._lose_program(f'{command[0]} cannot be run: {error}')
-        self._started = time.monotonic()
 
     def _lose_program(self, reason: str) -> None:
         """Report that there is no program; the server goes on, for another one."""

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -19,9 +19,6 @@ import rerun.blueprint as rrb
 SAMPLE = 6
 # Time span of the plots [s].
 _SPAN = 15.0
-# Period at which values that do not change are sent again [frames]: a plot has only the values
-# within its time span.
-_REPEAT = 60
 _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = (
     (76, 120, 168),
     (245, 133, 24),
@@ -29,11 +26,7 @@ _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = (
     (178, 121, 162),
     (120, 120, 120),
 )
-# Period of the real-time factor, which is measured each second [ns].
-_PACE_PERIOD = 1_900_000_000
 Style = tuple[str, tuple[int, int, int]]
-# Index of a frame in a batch, and values of a plot.
-_Row = tuple[int, tuple[float, ...]]
 
 
 class Plot(NamedTuple):
@@ -43,7 +36,7 @@ class Plot(NamedTuple):
     :ivar name: with its unit
     :ivar series: name and colour of each
     :ivar values: of a frame, one for each series
-    :ivar stepped: whether values last until they change; they are sent then, and each second
+    :ivar stepped: whether values last until they change
     """
 
     name: str
@@ -104,11 +97,6 @@ class Plots:
 
     def __init__(self, recording: rr.RecordingStream) -> None:
         self._recording = recording
-        # Values of stepped plots that were sent last, and the frame at which they are due again.
-        self._sent: dict[str, tuple[float, ...]] = {}
-        self._due: dict[str, int] = {}
-        # Time at which the pace was sent last [ns].
-        self._paced: int | None = None
         for path, plot in PLOTS.items():
             names, colors = zip(*plot.series, strict=True)
             mode = rr.components.InterpolationMode.StepAfter if plot.stepped else None
@@ -119,39 +107,24 @@ class Plots:
 
     def send(self, batch: FrameBatch, _: Change) -> None:
         """Send the values of every `SAMPLE`-th frame of a batch, and of its last one."""
+        chosen = batch.sampled(SAMPLE)
+        times = batch.times_at(chosen)
         for path, plot in PLOTS.items():
-            rows = [(index, plot.values(batch.frames[index])) for index in batch.sampled(SAMPLE)]
-            if plot.stepped:
-                rows = self._changes(path, rows, batch.numbers)
-            if rows:
-                values = np.array([each for _, each in rows]).ravel()
-                scalars = rr.Scalars.columns(scalars=values)
-                times = batch.times_at([index for index, _ in rows])
-                parts = scalars.partition([len(plot.series)] * len(rows))
-                self._recording.send_columns(path, times, parts)
-
-    def _changes(self, path: str, rows: list[_Row], numbers: Sequence[int]) -> list[_Row]:
-        """Return the rows whose values differ from those sent last, and those that are due."""
-        changes = []
-        for index, values in rows:
-            if self._sent.get(path) != values or numbers[index] >= self._due[path]:
-                self._sent[path], self._due[path] = values, numbers[index] + _REPEAT
-                changes.append((index, values))
-        return changes
+            values = np.array([plot.values(batch.frames[index]) for index in chosen])
+            scalars = rr.Scalars.columns(scalars=values.ravel())
+            parts = scalars.partition([len(plot.series)] * len(chosen))
+            self._recording.send_columns(path, times, parts)
 
     def send_pace(self, batch: FrameBatch, real_time_factor: float) -> None:
         """
-        Send the real-time factor at the last frame of a batch, where it is known and due.
+        Send the real-time factor by the asked speed at the last frame of a batch, if it is known.
 
-        It is sent by the asked speed: 1 is a world that keeps up.
+        It is 1 for a world that keeps up.
 
-        :param real_time_factor: simulation seconds a second
+        :param real_time_factor: simulation seconds a second; 0 where it is not known
         """
         last, speed = len(batch) - 1, batch.frames[-1].speed
-        now = int(batch.recorded[last])
-        late = self._paced is None or now - self._paced >= _PACE_PERIOD
-        if late and speed and real_time_factor:
-            self._paced = now
+        if speed and real_time_factor:
             scalars = rr.Scalars.columns(scalars=[real_time_factor / speed])
             self._recording.send_columns(PACE, batch.times_at([last]), scalars)
 

@@ -46,7 +46,11 @@ class Viewer:
 
     :param boundary: of the threads of viewers and files; None lets unexpected errors pass
     :param context: returns that of the frame that is shown
+
+    :ivar name: of the output
     """
+
+    name = 'viewer'
 
     def __init__(
         self,

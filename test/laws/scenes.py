@@ -48,7 +48,7 @@ def steps(sim, count):
 
 
 def run(sim, seconds):
-    """Go on by that time, frame by frame; return what is so then."""
+    """Advance frame by frame; return the last snapshot."""
     for _ in range(round(seconds * 60)):
         frame = sim.advance_frame()
     return frame.snapshot

@@ -20,7 +20,7 @@ def plough(sim, speed=30.0, mass=1000.0):
 
 
 def check_way(report, sim, row, what, count=SECOND):
-    """Hold the way of a body against its velocity; return what is so then."""
+    """Hold the way of a body against its velocity; return the last snapshot."""
     first = last = sim.world.snapshot()
     integral = still = 0.0
     for snapshot in steps(sim, count):

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from physsim_ros.ros import node
+from physsim_ros.ros import frame_loop
 from physsim_ros.testing import PhysSim
 import pytest
 
@@ -18,7 +18,7 @@ from ..client import Client
 @pytest.fixture
 def machine_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
     """Give a frame all the time that it takes: the machine that tests run on may be slow."""
-    monkeypatch.setattr(node, 'MOST_TICK_NS', math.inf)
+    monkeypatch.setattr(frame_loop, 'MOST_TICK_NS', math.inf)
 
 
 @pytest.fixture

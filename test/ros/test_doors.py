@@ -266,7 +266,7 @@ OUTPUTS: dict[str, tuple[object, str]] = {
     '~/events': (event_publisher, 'encode_event'),
     '/physsim/poses': (PosesEncoder, 'encode'),
     '~/timeline': (TimelinePublisher, 'publish'),
-    '~/drag/update': (interactive_markers.InteractiveMarkers, 'publish'),
+    '~/drag/update': (interactive_markers.InteractiveMarkers, 'show'),
     'viewer': (Viewer, 'show'),
     'robots': (RobotTopics, 'publish'),
 }
@@ -284,7 +284,8 @@ def test_an_output(
     client.listen(PoseArray, '~/poses')
     client.listen(Odometry, '/tb_0/odom')
     monkeypatch.setattr(*OUTPUTS[output], fail)
-    physsim.node.outputs.topics.publish_preview(Preview(label='a disc'))
+    monkeypatch.setattr(physsim.node._session, 'preview', Preview(label='a disc'))  # noqa: SLF001
+    physsim.node.outputs.publish_preview()
     physsim.node.outputs.report_answers((Answer(topic='viewer', message='it'),))
     physsim.step(3)
     assert goes_on().name == output

@@ -130,7 +130,7 @@ def test_a_history_over_topics_shows_what_its_requests_show_when_they_are_played
         own_context(monkeypatch) as context,
         PhysSim(context, bounds=[*SETTINGS.bounds]) as physsim,
     ):
-        monkeypatch.setattr('physsim_ros.ros.node.MOST_TICK_NS', math.inf)
+        monkeypatch.setattr('physsim_ros.ros.frame_loop.MOST_TICK_NS', math.inf)
         player = TopicsPlayer(physsim, Client(physsim))
         play(history_of_node(seed), player)
     assert player.sent

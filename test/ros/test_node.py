@@ -12,6 +12,7 @@ from typing import Any
 
 from geometry_msgs.msg import PoseArray
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.outputs import Outputs
 from physsim_ros.testing import box, delete, PhysSim
 import pytest
 import rclpy
@@ -320,6 +321,6 @@ def test_a_bug_in_the_world_is_loud(physsim: PhysSim, monkeypatch: pytest.Monkey
     def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError
 
-    monkeypatch.setattr(PhysSimNode, 'publish_frame', fail)
+    monkeypatch.setattr(Outputs, 'show', fail)
     with pytest.raises(ZeroDivisionError):
         physsim.step()

@@ -11,10 +11,10 @@ import time
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 import numpy as np
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
+from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros.encoders.clock import ClockEncoder
 from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.markers import MarkersEncoder
@@ -43,6 +43,8 @@ ALL = {
     '/clock': Clock,
 }
 
+STATUS = TimelineStatus(state='playing', speed=1.0, oldest=0.0, now=0.0, newest=0.0, course=1)
+
 
 class Bench:
     """A world's streams and a listener, two nodes in a context of their own."""
@@ -53,10 +55,26 @@ class Bench:
         self.listener = Node('listener', context=context)
         self.executor.add_node(self.world)
         self.executor.add_node(self.listener)
-        self.streams = Publishers(
-            self.world, ErrorBoundary(), frame_id='map', map_resolution=lambda: 0.05
-        )
+        self.values = {
+            'frame_id': 'map',
+            'map_resolution': 0.05,
+            'publish_tf': False,
+            'publish_clock': True,
+            'robots_in_past': 'follow',
+        }
+        self.streams = Publishers(self.world, self.values, lambda: STATUS)
         self.publishers = {publisher.topic_name: publisher for publisher in self.world.publishers}
+
+    def show(self, frame):
+        """Show a frame to all, as the outputs of a node do."""
+        self.frame = frame
+        for output in self.streams.outputs:
+            output.show(frame)
+
+    def show_late(self):
+        """Show the last frame to late subscribers."""
+        for stream in self.streams.streams:
+            stream.show_late(self.frame)
 
     def listen(self, topic, durability=DurabilityPolicy.VOLATILE):
         """Return the list that the messages of a topic come into, once both ends have met."""
@@ -153,7 +171,7 @@ def encoded(monkeypatch):
 def test_who_listens_gets_every_stream_of_a_frame(bench):
     received = {topic: bench.listen(topic) for topic in ALL}
     frame = frame_of(scene_of('a/0', 'b/1'), step=3, contacts=touching())
-    bench.streams.publish_frame(frame)
+    bench.show(frame)
     bench.streams.events.publish(Answer(topic='~/spawn', subject='a/0', message='a/0 is there'))
     bench.spin_until(lambda: all(received.values()))
     assert [pose.position.x for pose in received['/physsim/poses'][0].poses] == [3.0, 3.0]
@@ -170,7 +188,7 @@ def test_who_listens_gets_every_stream_of_a_frame(bench):
 def test_where_nobody_listens_nothing_is_built_but_a_rare_picture(bench, encoded):
     scene = scene_of('a/0', 'b/1')
     for step in range(1, 2 * LATCH_PERIOD + 1):
-        bench.streams.publish_frame(frame_of(scene, step, touching()))
+        bench.show(frame_of(scene, step, touching()))
         bench.streams.events.publish(Answer(topic='~/spawn'))
     assert encoded == ['markers'] * 2
 
@@ -179,21 +197,21 @@ def test_only_what_somebody_listens_to_is_built(bench, encoded):
     bench.listen('/physsim/states')
     scene = scene_of('a/0', 'b/1')
     for step in range(1, 11):
-        bench.streams.publish_frame(frame_of(scene, step, touching()))
+        bench.show(frame_of(scene, step, touching()))
     assert encoded.count('states') == 10
     assert set(encoded) == {'states', 'markers'}
 
 
 def test_an_unseen_picture_is_kept_up_with_a_changing_scene(bench, encoded):
     for step in range(1, 6):
-        bench.streams.publish_frame(frame_of(scene_of(f'a/{step}'), step))
+        bench.show(frame_of(scene_of(f'a/{step}'), step))
     assert encoded == ['markers'] * 5
 
 
 def test_a_late_listener_gets_the_whole_picture_of_the_last_scene(bench):
     scene = scene_of('a/0')
-    bench.streams.publish_frame(frame_of(scene_of()))
-    bench.streams.publish_frame(frame_of(scene))
+    bench.show(frame_of(scene_of()))
+    bench.show(frame_of(scene))
     pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
     bench.spin_until(lambda: pictures)
     assert [marker.ns for marker in pictures[0].markers] == ['a']
@@ -201,19 +219,19 @@ def test_a_late_listener_gets_the_whole_picture_of_the_last_scene(bench):
 
 def test_a_listener_that_comes_late_to_a_running_world_gets_the_next_picture(bench):
     scene = scene_of('a/0')
-    bench.streams.publish_frame(frame_of(scene, 1))
+    bench.show(frame_of(scene, 1))
     pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
     # The picture that was kept comes first, unless the next one has overtaken it.
-    bench.streams.publish_frame(frame_of(scene, 2))
+    bench.show(frame_of(scene, 2))
     bench.spin_until(lambda: pictures and pictures[-1].markers[0].pose.position.x == 2.0)
 
 
 def test_a_world_that_stands_still_keeps_the_right_picture_for_late_listeners(bench, encoded):
     scene = scene_of('a/0')
     for step in (1, 2, 3):
-        bench.streams.publish_frame(frame_of(scene, step))
+        bench.show(frame_of(scene, step))
     for _ in range(100):
-        bench.streams.publish_to_late_subscribers()
+        bench.show_late()
     assert encoded == ['markers'] * 2
     pictures = bench.listen('/physsim/markers', DurabilityPolicy.TRANSIENT_LOCAL)
     bench.spin_until(lambda: pictures)
@@ -224,11 +242,11 @@ def test_a_world_that_stands_still_keeps_the_right_picture_for_late_listeners(be
     'topic', ['/physsim/poses', '/physsim/states', '/physsim/markers', '/clock']
 )
 def test_a_listener_that_comes_late_to_a_paused_world_is_welcomed_once(bench, topic):
-    bench.streams.publish_frame(frame_of(scene_of('a/0'), 2))
-    bench.streams.publish_to_late_subscribers()
+    bench.show(frame_of(scene_of('a/0'), 2))
+    bench.show_late()
     received = bench.listen(topic)
     for _ in range(5):
-        bench.streams.publish_to_late_subscribers()
+        bench.show_late()
     bench.settle()
     assert len(received) == 1
 
@@ -236,9 +254,9 @@ def test_a_listener_that_comes_late_to_a_paused_world_is_welcomed_once(bench, to
 def test_contacts_are_not_told_twice(bench):
     frame = frame_of(scene_of('a/0', 'b/1'), contacts=touching())
     early = bench.listen('/physsim/contacts')
-    bench.streams.publish_frame(frame)
+    bench.show(frame)
     late = bench.listen('/physsim/contacts')
-    bench.streams.publish_to_late_subscribers()
+    bench.show_late()
     bench.settle()
     assert (len(early), len(late)) == (1, 0)
 
@@ -251,20 +269,19 @@ def test_contacts_are_wanted_while_somebody_listens(bench):
 
 def test_a_frame_without_contacts_gives_no_message_of_them(bench, encoded):
     bench.listen('/physsim/contacts')
-    bench.streams.publish_frame(frame_of(scene_of('a/0')))
+    bench.show(frame_of(scene_of('a/0')))
     assert 'contacts' not in encoded
 
 
 def test_the_clock_can_be_switched_off_and_on(bench):
     clocks = bench.listen('/clock')
     scene = scene_of()
-    assert bench.streams.clock.open
-    bench.streams.clock.open = False
-    bench.streams.publish_frame(frame_of(scene, 1))
-    bench.streams.publish_frame(frame_of(scene, 2))
-    bench.streams.publish_to_late_subscribers()
-    bench.streams.clock.open = True
-    bench.streams.publish_to_late_subscribers()
-    bench.streams.publish_frame(frame_of(scene, 3))
+    bench.values['publish_clock'] = False
+    bench.show(frame_of(scene, 1))
+    bench.show(frame_of(scene, 2))
+    bench.show_late()
+    bench.values['publish_clock'] = True
+    bench.show_late()
+    bench.show(frame_of(scene, 3))
     bench.settle()
     assert [message.clock.nanosec // 1_000_000 for message in clocks] == [2, 3]

@@ -226,7 +226,7 @@ def test_a_service_that_needs_the_world_waits_for_the_end_of_a_seek_and_replies_
     pause = client.node.create_client(Trigger, '/physsim/pause')
     client.spin_until(lambda: clear.service_is_ready() and pause.service_is_ready())
     # As with ticks, which bring the world to the cached frame that is shown.
-    monkeypatch.setattr(physsim.node, '_started', True)
+    monkeypatch.setattr(physsim.node.loop, 'started', True)
     simulation.requests.submit_seek(500_000_000, topic='~/seek')
     if not waits:
         assert not simulation.apply_up_to_seek()
@@ -253,7 +253,7 @@ def test_a_world_that_waits_to_be_loaded_is_that_which_was_named_before(
     client.spin_until(lambda: load.service_is_ready() and name.service_is_ready())
     physsim.run(1.0)
     # As with ticks, which bring the world to the cached frame that is shown.
-    monkeypatch.setattr(physsim.node, '_started', True)
+    monkeypatch.setattr(physsim.node.loop, 'started', True)
     physsim.node.simulation.seek(500_000_000)
     loaded = load.call_async(Trigger.Request())
     physsim.settle()
@@ -274,7 +274,7 @@ def test_a_parameter_waits_for_the_end_of_a_seek_where_the_world_has_it(
     service = client.node.create_client(SetParameters, '/physsim/set_parameters')
     client.spin_until(service.service_is_ready)
     physsim.run(1.0)
-    monkeypatch.setattr(physsim.node, '_started', True)
+    monkeypatch.setattr(physsim.node.loop, 'started', True)
     simulation = physsim.node.simulation
     simulation.seek(500_000_000)
     value = [0.0, -1.0] if name == 'gravity' else 'anchor'

@@ -25,6 +25,14 @@ import pytest
 from .chromium import circle, Sheet
 from ..outside import Outside, PATIENCE
 
+# Colours of the picture of the first seat.
+COLORS = """() => {
+    const canvas = document.querySelector('#seats canvas');
+    const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const seen = new Set();
+    for (let i = 0; i < data.length; i += 4) seen.add([...data.slice(i, i + 3)].join());
+    return [...seen].map((each) => each.split(',').map(Number));
+}"""
 WORLDS = [World(pupil=f'http://p/{each}', teacher=f'http://t/{each}') for each in range(2)]
 
 
@@ -148,6 +156,23 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     links.nth(1).wait_for()
     assert links.all_inner_texts() == ['Anna', 'Ben']
     assert sheet.page.locator('#pupils').inner_text() == pupils
+    # A lesson for all, and what comes of it.
+    sheet.page.get_by_label('Lesson').select_option('slope')
+    sheet.press('Open the lesson for all')
+    anna.page.locator('#lesson').get_by_text('4. Down a slope').wait_for()
+    anna.page.get_by_role('textbox', name='Your answer').fill('4.9')
+    anna.press('Check')
+    anna.press('Raise your hand')
+    card = sheet.page.locator('#seats li').first
+    card.get_by_text('4. Down a slope').wait_for()
+    card.get_by_text('4.9 m/s² ✓ right').wait_for()
+    card.get_by_text('hand raised').wait_for()
+    sheet.page.get_by_label('Message to all').fill('Five minutes left')
+    sheet.press('Send')
+    ben.page.get_by_text('Teacher: Five minutes left').wait_for()
+    # The picture shows the block of ice.
+    color = sheet.page.evaluate(COLORS)
+    assert [118, 183, 178] in color
     with sheet.context.expect_page() as opened:
         links.first.click()
     opened.value.get_by_role('button', name='People').click()

@@ -6,9 +6,11 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
+from physsim_ros.files import shipped_lessons
 from physsim_ros.sketchpad import locks, Role
 from physsim_ros.sketchpad.access import Access
 import pytest
@@ -161,7 +163,7 @@ def test_what_is_for_teachers_is_refused_to_others(browser: Browser, role: Role)
 def test_people_have_names_and_answers_say_who_did_it(browser: Browser) -> None:
     anna, ben, viewer = browser.open_page(), teacher(browser), browser.open_page('/ws?view')
     assert anna.ask('person', name=' Anna ')['ok']
-    ben.until(lambda: people(ben) == [('Anna', 'draw'), ('Page 2', 'teach')])
+    ben.until(lambda: people(ben) == [('Anna', 'draw'), ('Teacher', 'teach')])
     viewer.until(lambda: ('Anna', 'draw') in people(viewer))
     spawn(anna, 'a/0', 0.0)
     ben.until(lambda: any(each.get('subject') == 'a/0' for each in ben.of_type('answer')))
@@ -170,7 +172,7 @@ def test_people_have_names_and_answers_say_who_did_it(browser: Browser) -> None:
     for name in ('', '  ', 'x' * 25, 'a\nb', 7):
         assert anna.ask('person', name=name)['code'] == 'bad_property'
     anna.close()
-    ben.until(lambda: people(ben) == [('Page 2', 'teach')])
+    ben.until(lambda: people(ben) == [('Teacher', 'teach')])
 
 
 def test_each_undoes_what_is_its_own_and_a_teacher_clears_what_one_drew(browser: Browser) -> None:
@@ -264,3 +266,61 @@ def test_driving_is_one_gesture_though_others_draw_meanwhile(browser: Browser) -
     assert browser.physsim.names == ('r/0',)
     moved = browser.physsim.node.frame.snapshot.poses[0, 0]
     assert moved > 0.01
+
+
+def test_a_teacher_sees_answers_to_lessons_and_hands_and_says_something_to_all(
+    browser: Browser,
+) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    assert pupil.ask('answered', lesson='Free fall', answer='1.02', right=True)['ok']
+    assert pupil.ask('raise_hand', raised=True)['ok']
+
+    def seen() -> list[tuple[object, bool]]:
+        last = boss.of_type('class')[-1:]
+        return [(each['answered'], each['raised']) for told in last for each in told['people']]
+
+    answered = {'lesson': 'Free fall', 'answer': '1.02', 'right': True}
+    boss.until(lambda: (answered, True) in seen())
+    assert pupil.ask('raise_hand', raised=False)['ok']
+    boss.until(lambda: (answered, False) in seen())
+    assert boss.ask('say', text='Five minutes left')['ok']
+    pupil.until(lambda: pupil.of_type('said'))
+    assert pupil.of_type('said')[0] == {
+        'type': 'said',
+        'name': 'Teacher',
+        'text': 'Five minutes left',
+    }
+    assert pupil.ask('say', text='no')['code'] == 'teacher_only'
+    # A pupil is nobody's teacher by name.
+    assert pupil.ask('person', name='Teacher')['code'] == 'bad_property'
+
+
+def test_a_page_that_watches_a_class_is_nobody_in_its_world(browser: Browser) -> None:
+    pupil = browser.open_page()
+    cookie = browser.login_cookie(url(browser, Role.TEACH))
+    watching = browser.open_page('/ws?watch', cookie=cookie)
+    pupil.until(lambda: any(each['watched'] for each in pupil.of_type('class')))
+    assert [role for _, role in people(pupil)] == ['draw']
+    # It teaches, and gets the last frame of a world in which nothing moves.
+    assert watching.ask('freeze', frozen=True)['ok']
+    assert watching.ask('service', name='pause')['ok']
+    assert watching.ask('spawn', body=BALL | {'name': 'a/0', 'at': [0.0, 5.0]})['ok']
+    watching.until(lambda: watching.frames and watching.frames[-1].count == 1)
+    watching.close()
+    pupil.until(lambda: not pupil.of_type('class')[-1]['watched'])
+    # A pupil who asks for it is somebody all the same.
+    browser.open_page('/ws?watch')
+    pupil.until(lambda: len(people(pupil)) == 2)
+
+
+def test_lessons_are_listed_as_their_files_are_when_a_page_asks(
+    browser: Browser, tmp_path: Path
+) -> None:
+    pupil = browser.open_page()
+    pupil.until(lambda: pupil.of_type('worlds'))
+    lesson = (shipped_lessons() / 'slope.yaml').read_text()
+    (tmp_path / 'lessons').mkdir()
+    (tmp_path / 'lessons' / 'mine.yaml').write_text(lesson.replace('Down a slope', 'Mine'))
+    assert pupil.ask('list')['ok']
+    titles = [each['title'] for each in pupil.of_type('worlds')[-1]['lessons']]
+    assert 'Mine' in titles

@@ -164,7 +164,7 @@ def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
     tip = sheet.page.get_by_role('tooltip')
     button = sheet.page.get_by_role('button', name='Rectangle', exact=True)
     button.hover()
-    tip.get_by_text('then click the opposite one').wait_for()
+    tip.get_by_text('from corner to corner').wait_for()
     button.focus()
     sheet.page.keyboard.press('Tab')
     tip.get_by_text('Polygon (G)').wait_for()

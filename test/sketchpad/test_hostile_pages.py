@@ -347,7 +347,7 @@ def test_one_connection_too_many_is_told_so(
             closing.enter_context(socket.create_connection((host, int(port))))
         refused = browser.fetch('/session')
         assert refused.code == 503
-        assert b'as many connections' in refused.body
+        assert b'too many connections' in refused.body
     browser.until(lambda: browser.fetch('/session').code == 200)
 
 

@@ -10,7 +10,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.last_contacts import LastContacts
 
-from ..building import BOX, spawn
+from ..building import BOX, spawn, spawning
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 
@@ -30,7 +30,7 @@ def test_bodies_that_stay_keep_their_contacts_and_others_lose_them() -> None:
     for number in range(3):
         spawn(simulation.world, f'a/{number}', BOX, (3.0 * number, 0.5, 0.0))
     simulation.reports_contacts = True
-    kept = LastContacts()
+    kept = LastContacts(simulation.forces_now)
     for _ in range(60):
         kept.completed(simulation.advance_frame())
     simulation.speed = 0.0
@@ -40,6 +40,8 @@ def test_bodies_that_stay_keep_their_contacts_and_others_lose_them() -> None:
     assert touching(simulation, kept) == {'a/0', 'a/2'}
     simulation.perform(Delete(name='a/0'))
     assert touching(simulation, kept) == {'a/2'}
-    spawn(simulation.world, 'b/0', BOX, (12.0, 0.5, 0.0))
+    # What is put onto the floor stands on it at once.
+    simulation.perform(spawning('b/0', BOX, (12.0, 0.5, 0.0)))
+    assert touching(simulation, kept) == {'a/2', 'b/0'}
     simulation.perform(MoveBodies(names=('b/0',), by=(0.0, 4.0)))
     assert touching(simulation, kept) == {'a/2'}

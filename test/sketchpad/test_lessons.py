@@ -87,7 +87,7 @@ def test_the_next_lesson_comes_after_it_and_another_world_has_none(sheet: Sheet)
     sheet.press('Next lesson')
     sheet.page.locator('#lesson').get_by_text('2. Horizontal throw').wait_for()
     sheet.press('Worlds')
-    sheet.press('Empty world')
+    sheet.press('Empty room')
     sheet.until(lambda: not sheet.page.locator('#lesson').is_visible(), 'no lesson')
 
 

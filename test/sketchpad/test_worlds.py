@@ -174,7 +174,7 @@ def test_the_card_of_strokes_is_in_the_help_and_beside_an_empty_canvas(sheet: Sh
     card = sheet.page.get_by_role('complementary', name='Strokes')
     assert not card.is_visible()
     sheet.press('Worlds')
-    sheet.press('Empty world')
+    sheet.press('Empty room')
     card.wait_for()
     assert card.get_by_role('listitem').count() == 14
     sheet.drag(*circle(-3.0, 5.0, 0.8))
@@ -189,7 +189,7 @@ def test_an_empty_world_has_earth_and_walls_of_its_own(sheet: Sheet) -> None:
     sheet.page.get_by_role('status').get_by_text('Gravity set').wait_for()
     sheet.page.keyboard.press('Escape')
     sheet.press('Worlds')
-    sheet.press('Empty world')
+    sheet.press('Empty room')
     sheet.page.get_by_role('status').get_by_text('An empty world').wait_for()
     sheet.press('Material')
     gravity = sheet.page.get_by_label('Gravity [m/s²], typed')

@@ -143,4 +143,4 @@ def test_where_no_window_can_be_opened_it_becomes_a_page(viewers, monkeypatch):
     monkeypatch.delenv('WAYLAND_DISPLAY', raising=False)
     viewer = viewers(mode=ViewerMode.AUTO)
 
-    assert 'no window could be opened' in Events(viewer).wait_for('viewer_lost').message
+    assert 'the window has failed' in Events(viewer).wait_for('viewer_lost').message

@@ -6,7 +6,7 @@ The wheel that is released: for Linux with the C library of `compiler.GLIBC`, or
 
     python tools/build/released_wheel.py    # into dist/
 
-It takes pip, setuptools and ziglang, and downloads nothing.
+It takes pip, setuptools, cffi and ziglang, and downloads nothing.
 """
 
 from __future__ import annotations

@@ -9,7 +9,8 @@ Python. Not here: what is built once for a scene, which is Python's (`engine`). 
 `engine/core/step.c`, then `engine/core/core.h`.
 
 It is a plain shared library without any Python in it, so that one binary serves every Python; cffi
-calls it by its declarations (ABI mode), and lets other threads run meanwhile.
+calls it by its declarations, which `setup.py` writes (ABI mode, out of line), and lets other
+threads run meanwhile.
 """
 
 from __future__ import annotations
@@ -18,7 +19,6 @@ from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.resources import files
 from typing import Any
 
-from cffi import FFI
 import numpy as np
 from physsim_ros.engine.core.sources import hash_of_sources
 
@@ -26,12 +26,10 @@ from physsim_ros.engine.core.sources import hash_of_sources
 _BUILD = '`pip install --editable .`'
 _HERE = files(__name__)
 
-
-def _declarations() -> str:
-    """Return the headers that cffi reads, without what is for the preprocessor."""
-    texts = [(_HERE / name).read_text('utf-8') for name in ('chipmunk.h', 'core.h')]
-    lines = ''.join(texts).splitlines(keepends=True)
-    return ''.join(line for line in lines if not line.startswith('#'))
+try:
+    from physsim_ros.engine.core._declarations import ffi
+except ImportError as error:
+    raise ImportError(f'the core of the engine has not been compiled; run {_BUILD}') from error
 
 
 def _load() -> Any:
@@ -89,6 +87,4 @@ def _dtype(kind: Any) -> np.dtype[Any]:
     return np.dtype(f'{letter}{ffi.sizeof(kind)}')
 
 
-ffi = FFI()
-ffi.cdef(_declarations())
 lib = _load()

@@ -30,6 +30,9 @@ from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
 
+# What no joints did, which frames share: `JointSet.report`.
+NO_REPORT = np.empty(0), np.empty((0, 2)), np.empty(0, np.bool_)
+
 
 class JointSet:
     """
@@ -160,6 +163,8 @@ class JointSet:
         :return: (j,) float64: force of each [N]; (j, 2) float64: force on its body b [N]; (j,)
             bool: whether it pushed its bodies apart
         """
+        if not self.by_name:
+            return NO_REPORT
         impulses, pulls, pressing = self._core.read_joints()
         step = self._dt * lib.SUB_STEPS
         return impulses / step, pulls / step, pressing

@@ -136,7 +136,8 @@ class NodeSettings(Checked):
         OneOf(tuple(mode.value for mode in ViewerMode)),
         '`none`, `spawn` (native Rerun), `web` (served on localhost), `connect` (to '
         '`viewer_url`) or `auto` (`spawn` if there is a display, else `web`); setting it again '
-        'restarts a failed recording in a new file beside the old one',
+        'opens a viewer that was closed, and restarts a failed recording in a new file beside the '
+        'old one',
     ] = 'auto'
     viewer_url: Annotated[
         str,

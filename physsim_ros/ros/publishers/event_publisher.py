@@ -9,7 +9,7 @@ from collections import deque
 import time
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
-from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.snapshot import Answer, Frame
 from rclpy.duration import Duration
 from rclpy.publisher import Publisher
 from rclpy.serialization import serialize_message
@@ -38,7 +38,10 @@ class EventPublisher:
 
     :param publisher: of `~/events`
     :ivar stopped: whether a subscriber has stopped
+    :ivar name: of the topic
     """
+
+    name = '~/events'
 
     def __init__(self, publisher: Publisher) -> None:
         self.stopped = False
@@ -55,6 +58,12 @@ class EventPublisher:
     def waiting(self) -> int:
         """Return the number of answers that wait for acknowledgements."""
         return len(self._waiting)
+
+    def show(self, frame: Frame) -> None:
+        """Publish the answers of a frame."""
+        for answer in frame.answers:
+            self.publish(answer)
+        self.flush()
 
     def publish(self, answer: Answer) -> None:
         """Publish an answer, after those that wait."""

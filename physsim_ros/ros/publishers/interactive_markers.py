@@ -49,12 +49,16 @@ class InteractiveMarkers:
 
     :param node: that owns topic and service
     :param frame_id: name of the world frame
+
+    :ivar name: of the topic
     """
+
+    name = '~/drag/update'
 
     def __init__(self, node: Node, frame_id: str) -> None:
         self._frame_id = frame_id
         self._server = node.get_fully_qualified_name()
-        self._publisher = node.create_publisher(InteractiveMarkerUpdate, '~/drag/update', _DEPTH)
+        self._publisher = node.create_publisher(InteractiveMarkerUpdate, self.name, _DEPTH)
         node.create_service(GetInteractiveMarkers, '~/drag/get_interactive_markers', self._tell)
         self._poses = InteractivePosesEncoder(frame_id, self._server)
         self._frame: Frame | None = None
@@ -63,7 +67,7 @@ class InteractiveMarkers:
         self._told: Frame | None = None
         self._wait = 0
 
-    def publish(self, frame: Frame) -> None:
+    def show(self, frame: Frame) -> None:
         """Publish what has changed, if somebody listens; poses not at every frame."""
         self._frame = frame
         told = self._told

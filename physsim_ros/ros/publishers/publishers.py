@@ -13,15 +13,15 @@ local). It is published without subscribers too, when the scene has changed and 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from nav_msgs.msg import OccupancyGrid
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
+from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
+from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros.encoders.clock import ClockEncoder
 from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.map import MapEncoder
@@ -45,53 +45,58 @@ from visualization_msgs.msg import MarkerArray
 LATCH_PERIOD = 60
 
 
+class Output(Protocol):
+    """
+    An output of frames: a topic, the log, the viewer, the page, the robots.
+
+    :ivar name: by which an error in it is told
+    """
+
+    name: str
+
+    def show(self, frame: Frame) -> None:
+        """Show a new frame."""
+
+
 class Publishers:
     """
     The publishers of the world.
 
     :param node: that owns them
-    :param boundary: of each of them
-    :param frame_id: name of the world frame
-    :param map_resolution: returns the side of a cell of `~/map` [m]
-    :param publish_tf: whether poses are published on `/tf`, too
-    :raises BadProperty: they cannot be, since tf2_msgs is not installed
+    :param values: of the parameters of the node, by name, always up to date
+    :param status: returns the status of the timeline
+    :raises BadProperty: poses cannot be published on `/tf`, since tf2_msgs is not installed
 
-    :ivar clock: the stream of simulation time; closed, it publishes nothing
     :ivar contacts: the stream of contacts
-    :ivar timeline: the publisher of `~/timeline`
     :ivar events: the publisher of `~/events`
+    :ivar timeline: the publisher of `~/timeline`
+    :ivar streams: of states, of which late subscribers receive the last frame
+    :ivar outputs: each with a method `show`, in the order in which they are shown a frame
     """
 
     def __init__(
-        self,
-        node: Node,
-        boundary: ErrorBoundary,
-        *,
-        frame_id: str,
-        map_resolution: Callable[[], float],
-        publish_tf: bool = False,
+        self, node: Node, values: Mapping[str, Any], status: Callable[[], TimelineStatus]
     ) -> None:
         def stream(kind: Any, topic: str, depth: int, encoder: Encoder) -> Stream:
-            return Stream(node.create_publisher(kind, topic, depth), encoder, boundary)
+            return Stream(node.create_publisher(kind, topic, depth), encoder)
 
         def latched(kind: Any, topic: str) -> Publisher:
             qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
             return node.create_publisher(kind, topic, qos)
 
-        self.clock = stream(Clock, 'clock', 10, ClockEncoder())
+        frame_id = values['frame_id']
         # Contacts are those of one frame, so a late subscriber does not receive the last ones.
         self.contacts = stream(MultiDOFJointState, '~/contacts', 5, ContactsEncoder(frame_id))
-        self._state_streams: tuple[Stream, ...] = (
-            self.clock,
+        # DDS keeps the last map for late subscribers; there is another one when it changes.
+        grid = MapEncoder(frame_id, lambda: values['map_resolution'])
+        self.streams = [
+            ClockStream(node.create_publisher(Clock, 'clock', 10), values),
             stream(PoseArray, '~/poses', 5, PosesEncoder(frame_id)),
             stream(MultiDOFJointState, '~/states', 5, StatesEncoder(frame_id)),
-            LatchedStream(latched(MarkerArray, '~/markers'), MarkersEncoder(frame_id), boundary),
-            # DDS keeps the last map for late subscribers; there is another one when it changes.
-            Stream(
-                latched(OccupancyGrid, '~/map'), MapEncoder(frame_id, map_resolution), boundary
-            ),
-        )
-        if publish_tf:
+            LatchedStream(latched(MarkerArray, '~/markers'), MarkersEncoder(frame_id)),
+            Stream(latched(OccupancyGrid, '~/map'), grid),
+        ]
+        if values['publish_tf']:
             message = tf_message_type()
             if message is None:
                 raise BadProperty(
@@ -99,55 +104,33 @@ class Publishers:
                     'Ubuntu ros-jazzy-tf2-msgs; there is no wheel of it)',
                     field='publish_tf',
                 )
-            tf = stream(message, '/tf', TF_DEPTH, TransformsEncoder(frame_id))
-            self._state_streams += (tf,)
-        self._interactive_markers = InteractiveMarkers(node, frame_id)
-        self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'))
-        self._preview_publisher = latched(MarkerArray, '~/preview')
-        self._frame_id = frame_id
-        self._boundary = boundary
-        self._preview: Preview = NO_PREVIEW
-        self._frame: Frame | None = None
+            self.streams.append(stream(message, '/tf', TF_DEPTH, TransformsEncoder(frame_id)))
         self.events = EventPublisher(
             node.create_publisher(DiagnosticStatus, '~/events', EVENTS_DEPTH)
         )
+        self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'), status)
+        markers = InteractiveMarkers(node, frame_id)
+        self.outputs: tuple[Output, ...] = (
+            self.events,
+            *self.streams,
+            self.contacts,
+            markers,
+            self.timeline,
+        )
+        self._preview_publisher = latched(MarkerArray, '~/preview')
+        self._frame_id = frame_id
+        self._preview: Preview = NO_PREVIEW
 
-    def publish_frame(self, frame: Frame) -> None:
-        """Publish the answers of a frame, and those of its streams that have subscribers."""
-        for answer in frame.answers:
-            self.publish_answer(answer)
-        self._flush_events()
-        self._frame = frame
-        for stream in (*self._state_streams, self.contacts):
-            stream.publish(frame)
-        with self._boundary.output('~/drag/update'):
-            self._interactive_markers.publish(frame)
+    def publish_preview(self, preview: Preview, stamp: int) -> None:
+        """
+        Publish a preview if it has changed.
 
-    def publish_answer(self, answer: Answer) -> None:
-        """Publish an answer on `~/events`."""
-        with self._boundary.output('~/events'):
-            self.events.publish(answer)
-
-    def _flush_events(self) -> None:
-        """Publish the answers that have waited, as far as their readers take them."""
-        with self._boundary.output('~/events'):
-            self.events.flush()
-
-    def publish_to_late_subscribers(self) -> None:
-        """Publish the last frame to later subscribers; called at ticks without a frame."""
-        self._flush_events()
-        if self._frame is not None:
-            for stream in self._state_streams:
-                stream.publish_to_late_subscribers(self._frame)
-
-    def publish_preview(self, preview: Preview) -> None:
-        """Publish a preview if it has changed."""
+        :param stamp: simulation time [ns]
+        """
         if preview != self._preview:
             self._preview = preview
-            stamp = self._frame.snapshot.stamp if self._frame else 0
-            with self._boundary.output('~/preview'):
-                message = preview_message(preview, frame_id=self._frame_id, stamp=stamp)
-                self._preview_publisher.publish(message)
+            message = preview_message(preview, frame_id=self._frame_id, stamp=stamp)
+            self._preview_publisher.publish(message)
 
 
 class Encoder(Protocol):
@@ -163,14 +146,12 @@ class Stream:
 
     :param publisher: of the topic
     :param encoder: of frames
-    :param boundary: of both
 
-    :ivar open: whether frames are published at all
+    :ivar name: of the topic
     """
 
-    def __init__(self, publisher: Publisher, encoder: Encoder, boundary: ErrorBoundary) -> None:
-        self.open = True
-        self._boundary = boundary
+    def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
+        self.name = publisher.topic_name
         self._publisher = publisher
         self._encoder = encoder
         # Number of subscriptions at the last frame.
@@ -178,47 +159,71 @@ class Stream:
 
     @property
     def subscriptions(self) -> int:
-        """Return the number of subscriptions; 0 while closed."""
-        return self._publisher.get_subscription_count() if self.open else 0
+        """Return the number of subscriptions."""
+        return self._publisher.get_subscription_count()
 
-    def publish(self, frame: Frame) -> None:
+    def show(self, frame: Frame) -> None:
         """Publish a new frame."""
         self._served = self.subscriptions
         if self._served:
             self._send(frame)
 
-    def publish_to_late_subscribers(self, frame: Frame) -> None:
+    def show_late(self, frame: Frame) -> None:
         """Publish the last frame again if there are more subscriptions since."""
         served, self._served = self._served, self.subscriptions
         if self._served > served:
             self._send(frame)
 
     def _send(self, frame: Frame) -> None:
-        with self._boundary.output(self._publisher.topic_name):
-            message = self._encoder.encode(frame)
-            if message is not None:
-                self._publisher.publish(message)
+        message = self._encoder.encode(frame)
+        if message is not None:
+            self._publisher.publish(message)
+
+
+class ClockStream(Stream):
+    """
+    The stream of simulation time, closed as `publish_clock` and `robots_in_past` say.
+
+    :param publisher: of `clock`
+    :param values: of the parameters of the node, by name, always up to date
+    """
+
+    def __init__(self, publisher: Publisher, values: Mapping[str, Any]) -> None:
+        super().__init__(publisher, ClockEncoder())
+        self._values = values
+        self._in_past = False
+
+    @property
+    def subscriptions(self) -> int:
+        """Return the number of subscriptions; 0 while closed."""
+        frozen = self._in_past and self._values['robots_in_past'] == 'freeze'
+        return super().subscriptions if self._values['publish_clock'] and not frozen else 0
+
+    def show(self, frame: Frame) -> None:
+        """Publish the time of a new frame."""
+        self._in_past = frame.past
+        super().show(frame)
 
 
 class LatchedStream(Stream):
     """A stream whose last message DDS keeps for late subscribers."""
 
-    def __init__(self, publisher: Publisher, encoder: Encoder, boundary: ErrorBoundary) -> None:
-        super().__init__(publisher, encoder, boundary)
+    def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
+        super().__init__(publisher, encoder)
         self._latched: Frame | None = None
         self._age = 0
 
-    def publish(self, frame: Frame) -> None:
+    def show(self, frame: Frame) -> None:
         """Publish a new frame; without subscribers only if the latched one is outdated."""
-        super().publish(frame)
+        super().show(frame)
         self._age += 1
         changed = self._latched is None or self._latched.snapshot.scene is not frame.snapshot.scene
         if changed or self._age >= LATCH_PERIOD:
             self._send(frame)
 
-    def publish_to_late_subscribers(self, frame: Frame) -> None:
+    def show_late(self, frame: Frame) -> None:
         """Publish the last frame again if it is not the latched one, or for new subscriptions."""
-        super().publish_to_late_subscribers(frame)
+        super().show_late(frame)
         # The world is paused: the latched message becomes that of the last frame.
         if self._latched is not frame:
             self._send(frame)

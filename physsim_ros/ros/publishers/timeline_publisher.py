@@ -9,14 +9,18 @@ Law: the last message is that of the last frame; while time runs, its times may 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from operator import attrgetter
 
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.timeline import TimelineStatus
 from rclpy.publisher import Publisher
 
 # Frames from one message to the next while nothing but time changes: 4 Hz at 60 frames a second.
 PERIOD = 15
+
+_BUT_TIMES = attrgetter('state', 'speed', 'course', 'undo', 'redo', 'courses')
 
 
 class TimelinePublisher:
@@ -24,26 +28,35 @@ class TimelinePublisher:
     Publishes the status of the timeline when it changes.
 
     :param publisher: of `~/timeline`
+    :param status: returns the status of the timeline
+
+    :ivar name: of the topic
     """
 
-    def __init__(self, publisher: Publisher) -> None:
+    name = '~/timeline'
+
+    def __init__(self, publisher: Publisher, status: Callable[[], TimelineStatus]) -> None:
         self._publisher = publisher
+        self._status = status
         self._last: TimelineStatus | None = None
         # Frames since the last message.
         self._age = 0
 
-    def publish(self, status: TimelineStatus, *, moving: bool) -> None:
-        """
-        Publish a status if it has changed.
+    def show(self, frame: Frame) -> None:
+        """Publish the status of the timeline at a frame, if it has changed."""
+        self.publish(may_wait=frame.moved)
 
-        :param moving: whether time goes on, or back; then a change of times alone may wait
+    def publish(self, *, may_wait: bool) -> None:
+        """
+        Publish the status if it has changed.
+
+        :param may_wait: whether a change of times alone may wait, as time goes on, or back
         """
         self._age += 1
-        last = self._last
-        if last is not None and moving and self._age < PERIOD:
-            # A change of times alone waits.
-            last = replace(last, oldest=status.oldest, now=status.now, newest=status.newest)
-        if status == last:
+        status, last = self._status(), self._last
+        # A change of times alone waits.
+        waits = last is not None and may_wait and self._age < PERIOD
+        if _BUT_TIMES(status) == _BUT_TIMES(last) if waits else status == last:
             return
         self._last, self._age = status, 0
         self._publisher.publish(_message(status))

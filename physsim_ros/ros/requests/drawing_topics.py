@@ -9,7 +9,7 @@ Law: a click or stroke refers to the snapshot that was shown when it arrived.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 import time
 
@@ -18,6 +18,8 @@ from nav_msgs.msg import Path
 from physsim_ros.drawing import DrawingSession, Reading, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.ros.frame_loop import FrameLoop
+from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
@@ -31,8 +33,8 @@ class DrawingTopics:
     :param simulation: to which requests are submitted
     :param session: of the person
     :param frame_id: name of the world frame
-    :param current_snapshot: applies the waiting requests, and returns the snapshot that is shown
-    :param publish_preview: publishes the preview of the session
+    :param loop: of the node, with the snapshot that is shown
+    :param outputs: of the node, which publish the preview of the session
     """
 
     def __init__(
@@ -42,14 +44,14 @@ class DrawingTopics:
         session: DrawingSession,
         *,
         frame_id: str,
-        current_snapshot: Callable[[], Snapshot],
-        publish_preview: Callable[[], None],
+        loop: FrameLoop,
+        outputs: Outputs,
     ) -> None:
         self._simulation = simulation
         self._session = session
         self._frame_id = frame_id
-        self._current_snapshot = current_snapshot
-        self._publish_preview = publish_preview
+        self._loop = loop
+        self._outputs = outputs
         topics.subscribe(PointStamped, 'clicked_point', self._click)
         topics.subscribe(Path, '~/stroke', self._stroke)
 
@@ -59,10 +61,10 @@ class DrawingTopics:
 
         :raises Refusal: there is none, or the world cannot have it
         """
-        self._current_snapshot()
+        self._loop.current_snapshot()
         reading = self._session.instead()
         self._submit_reading(reading, '~/instead')
-        self._publish_preview()
+        self._outputs.publish_preview()
         return reading.message
 
     def _click(self, message: PointStamped) -> None:
@@ -95,7 +97,7 @@ class DrawingTopics:
         :param field: of the message, for the refusal
         """
         try:
-            yield self._current_snapshot()
+            yield self._loop.current_snapshot()
         except Refusal as refusal:
             self._simulation.requests.refuse(refusal, topic=topic, subject='', field=field)
-        self._publish_preview()
+        self._outputs.publish_preview()

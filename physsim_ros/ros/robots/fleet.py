@@ -41,9 +41,12 @@ class Fleet:
     :param requests: the queue that commands are submitted to
     :param boundary: of the node
 
+    :ivar name: of the output
     :ivar robots: topics of each, by the name of its body, in the order of the scene
     :ivar view: the last frame, as the sensors of all robots see it; None before the first
     """
+
+    name = 'robots'
 
     def __init__(
         self,
@@ -151,7 +154,7 @@ class Fleet:
 
     # Frames
 
-    def publish(self, frame: Frame) -> None:
+    def show(self, frame: Frame) -> None:
         """Publish what is due at a frame, after topics have come and gone with its scene."""
         snapshot, last = frame.snapshot, self.view
         stands = last is not None and last.snapshot.stamp == snapshot.stamp

@@ -9,7 +9,8 @@ handlers in `world`; those for bodies, robots, joints and hands are in files of 
 folders import the names below.
 """
 
+from physsim_ros.simulation.world.forces_now import forces_now
 from physsim_ros.simulation.world.live_space import steps_in
 from physsim_ros.simulation.world.world import World
 
-__all__ = ['World', 'steps_in']
+__all__ = ['World', 'forces_now', 'steps_in']

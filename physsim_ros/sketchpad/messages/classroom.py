@@ -15,8 +15,11 @@ from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.locks import locks_of
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_session import PageSession, UNNAMED
+from physsim_ros.sketchpad.page_session import PageSession, TEACHER, UNNAMED
 from physsim_ros.sketchpad.rights import Right
+
+# Lengths of an answer to a lesson and of a message to all [characters]; the rest is left out.
+LONGEST_ANSWER, LONGEST_MESSAGE = 24, 200
 
 
 def _patterns(value: object, name: str) -> tuple[str, ...]:
@@ -32,10 +35,33 @@ def _patterns(value: object, name: str) -> tuple[str, ...]:
 @message('person', 'page', Right.DRAW, name=fields.person)
 def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     """Choose the name of the person at this page."""
-    if name != page.unnamed and re.fullmatch(rf'{UNNAMED}\d+', name):
+    if name != page.unnamed and re.fullmatch(rf'{UNNAMED}\d+|{TEACHER}', name):
         raise BadProperty(f'{name} may be another person, who has no name', field='name')
     page.person = name
     page.answer_page(origin, f'you are {name}')
+
+
+@message('answered', 'page', Right.DRAW, lesson=fields.text, answer=fields.text, right=flag)
+def note_answer(
+    page: PageSession, origin: Origin, lesson: str, answer: str, *, right: bool
+) -> None:
+    """Note an answer to a lesson, which a teacher sees."""
+    page.answered = {'lesson': lesson, 'answer': answer[:LONGEST_ANSWER], 'right': right}
+    page.answer_page(origin, 'the answer is noted')
+
+
+@message('raise_hand', 'page', Right.DRAW, raised=flag)
+def raise_hand(page: PageSession, origin: Origin, *, raised: bool) -> None:
+    """Raise a hand, or lower it."""
+    page.raised = raised
+    page.answer_page(origin, 'your hand is raised' if raised else 'your hand is down')
+
+
+@message('say', 'page', Right.TEACH, text=fields.text)
+def say(page: PageSession, origin: Origin, text: str) -> None:
+    """Show a message on all pages of this world."""
+    page.tell_all({'type': 'said', 'name': page.person, 'text': text[:LONGEST_MESSAGE]})
+    page.answer_page(origin, 'the message is shown')
 
 
 @message('take_back', '~/undo')

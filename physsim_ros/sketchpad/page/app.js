@@ -6,7 +6,6 @@
  */
 
 import {Arrows} from './arrows.js';
-import {BodyPanel} from './body_panel.js';
 import {Camera} from './camera.js';
 import {Classroom} from './classroom.js';
 import {Connection} from './connection.js';
@@ -20,11 +19,15 @@ import {JointPanel} from './joint_panel.js';
 import {Keyboard} from './keyboard.js';
 import {Lessons} from './lessons.js';
 import {Notes} from './notes.js';
+import {Numbers} from './numbers.js';
+import {Panel} from './panel.js';
 import {PlotWindow} from './plot_window.js';
+import {Plots} from './plots.js';
 import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
 import {Records} from './records.js';
 import {Refusals} from './refusals.js';
+import {Room} from './room.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
 import {Sound} from './sound.js';
@@ -41,9 +44,6 @@ import {WorldState} from './world_state.js';
 
 /** @import {Tool} from './types.js' */
 
-const GAP = 24, LOW_GAP = 12; // px between the bars and a world that is framed, and on a low page
-const LOW = 500; // px
-const LABEL = 10; // px more, for the heights at the left
 const LISTED = 200; // bodies in the list for screen readers
 const LIST_EVERY = 1000; // ms
 
@@ -57,9 +57,6 @@ export class App {
     this.version = undefined;
     /** @type {?string | number[]} of the next drawings, where this page chose none */
     this.color = null;
-    this.framed = false;
-    this.bounds = ''; // of the world that was framed; a world with other bounds is framed again
-    this.extent = [0, 0, 0, 0]; // that was framed [m]
 
     this.connection = new Connection();
     this.world = new WorldState(this.connection);
@@ -78,7 +75,9 @@ export class App {
     this.records = new Records(this);
     this.trail = new Trail(this);
     this.plotWindow = new PlotWindow(this);
-    this.panel = new BodyPanel(this);
+    this.numbers = new Numbers(this);
+    this.plots = new Plots(this);
+    this.panel = new Panel(this);
     this.joints = new JointPanel(this);
     this.stopwatch = new Stopwatch(this);
     this.arrow = new VelocityArrow(this);
@@ -96,10 +95,10 @@ export class App {
     this.classroom = new Classroom(this);
     this.tips = new Tips(this.camera);
     this.card = new EmptyCard(this);
+    this.room = new Room(this);
     this.#listen();
     this.connection.connect();
     setInterval(() => this.#listBodies(), LIST_EVERY);
-    this.#followSizes();
   }
 
   #listen() {
@@ -127,21 +126,6 @@ export class App {
         status ? 'The server refused this page; trying again …' :
           'The server is gone. This page comes back with it.';
     });
-    connection.on('frame', () => {
-      const {frame, scene} = this.world, others = String(scene.bounds) !== this.bounds;
-      if (frame.epoch === scene.epoch && (!this.framed || others && this.camera.fitted)) this.frame();
-    });
-  }
-
-  /** Keep the tools of a narrow page above its bar, and the world in a window that changes. */
-  #followSizes() {
-    const bar = elementOf('bar', HTMLElement), top = elementOf('top', HTMLElement);
-    const sizes = new ResizeObserver(() => {
-      document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
-      document.documentElement.style.setProperty('--top', `${top.offsetHeight}px`);
-      this.refit();
-    });
-    for (const each of [bar, top, this.view.canvas]) sizes.observe(each, {box: 'border-box'});
   }
 
   /** Ask for the parts of frames that are shown. */
@@ -150,38 +134,7 @@ export class App {
     const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
     this.view.dirty = true;
     // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.records.records || this.tool.measures === true, contacts: forces || this.sound.on, forces: true, laser: robot ? name : ''});
-  }
-
-  /** Frame the world as it is now. */
-  frame() {
-    this.extent = this.world.extent();
-    this.framed = this.camera.fitted = true;
-    this.bounds = String(this.world.scene.bounds);
-    this.refit();
-  }
-
-  /** Fit what was framed into the room between the bars, unless somebody has moved the view since. */
-  refit() {
-    if (!this.camera.fitted) return;
-    const {view, camera} = this, wide = !camera.narrow;
-    const box = (/** @type {string} */ id) => elementOf(id, HTMLElement).getBoundingClientRect();
-    view.insets = this.viewOnly ? {left: 0, top: 0, right: 0, bottom: camera.height - box('bar').top} :
-      // A lesson stands beside the tools, or below the bars.
-      {left: wide ? Math.max(box('tools').right, box('lesson').right) : 0,
-        top: Math.max(box('top').bottom, wide ? 0 : box('lesson').bottom), right: 0,
-        bottom: camera.height - box(wide ? 'bar' : 'tools').top};
-    const {left, top, right, bottom} = view.insets, gap = camera.height < LOW ? LOW_GAP : GAP;
-    camera.fit(this.extent, {left: left + gap + LABEL, top: top + gap, right: right + gap, bottom: bottom + gap});
-    this.panel.uncover();
-    view.dirty = true;
-  }
-
-  /** Frame the world that comes next, in which nothing is selected. */
-  frameNext() {
-    this.framed = false;
-    this.cursor.hide();
-    this.selection.select([]);
+    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.records.records || this.tool.measures === true, contacts: forces || name !== '' || this.sound.on, forces: true, laser: robot ? name : ''});
   }
 
   #listBodies() {

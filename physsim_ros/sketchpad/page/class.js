@@ -1,14 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The page of a class with a world for each pupil (class.html): a pupil is sent there, a teacher sees who is where. */
+/**
+ * The page of a class with a world for each pupil (class.html): a pupil is sent there; a teacher sees a card of
+ * each, with a live picture, and does for all at once what a teacher may do in one world.
+ */
 
-import {createElement, elementOf} from './dom.js';
+import {Camera} from './camera.js';
+import {sayForm} from './classroom.js';
+import {Connection} from './connection.js';
+import {createElement, elementOf, inRow, textButton} from './dom.js';
+import {SceneView} from './scene_view.js';
 import {watchTheme} from './theme.js';
+import {WorldState} from './world_state.js';
+
+/** @import {Classmate} from './types.js' */
 
 const KEY = 'physsim-seat'; // of this browser
 const PERIOD = 3000; // ms between two looks at who is where
+const GAP = 4; // px around the world in its picture
+
+/** A card of a teacher's page: a seat, its pupil, and the world there, as it is now. */
+class Card {
+  /** @param {number} number of the seat */
+  constructor(number) {
+    this.framed = -1; // epoch of the scene that was framed
+    this.width = 0; // of the picture then [px]
+    this.name = createElement('a', {target: '_blank', rel: 'noopener'});
+    this.lesson = createElement('small');
+    this.answer = createElement('p');
+    this.hand = createElement('strong', {textContent: 'hand raised', hidden: true});
+    const canvas = createElement('canvas', {role: 'img'});
+    this.element = createElement('li', {}, inRow(this.name, this.hand), canvas, this.lesson, this.answer);
+    const connection = this.connection = new Connection(`/ws/${number}`), camera = new Camera();
+    this.world = new WorldState(connection);
+    this.view = new SceneView(canvas, this.world, camera);
+    this.canvas = canvas;
+    /** @type {Classmate | undefined} */
+    this.pupil = undefined;
+    connection.on('frame', () => {
+      const {scene} = this.world;
+      if (scene.epoch === this.framed && camera.width === this.width) return;
+      // A world without bounds keeps its frame until it changes.
+      [this.framed, this.width] = [scene.epoch, camera.width];
+      camera.fit(this.world.extent(), {left: GAP, top: GAP, right: GAP, bottom: GAP});
+      this.show();
+    });
+    connection.on('class', ({people}) => {
+      this.pupil = people.find((/** @type {Classmate} */ {role}) => role === 'draw');
+      this.show();
+    });
+    connection.connect();
+  }
+
+  /** @param {{name: string, address: string}} seat */
+  sit({name, address}) {
+    this.name.href = address;
+    this.name.textContent = name || 'free';
+    this.element.classList.toggle('free', !name);
+    this.canvas.ariaLabel = `World of ${name || 'nobody'}`;
+  }
+
+  show() {
+    const {pupil, world: {scene: {lesson}}} = this, answered = pupil?.answered;
+    this.lesson.textContent = lesson ? `${lesson.number}. ${lesson.title}` : 'no lesson';
+    this.hand.hidden = !pupil?.raised;
+    const known = answered && answered.lesson === lesson?.title;
+    this.answer.textContent = known ? `${answered.answer} ${lesson?.unit === '1' ? '' : lesson?.unit} ${answered.right ? '✓ right' : '✗ not yet'}` : '';
+    this.answer.className = known && answered.right ? 'right' : '';
+    this.element.classList.toggle('raised', Boolean(pupil?.raised));
+  }
+}
 
 const form = elementOf('join', HTMLFormElement), name = elementOf('name', HTMLInputElement);
 const teacher = elementOf('teacher', HTMLElement);
+/** @type {Card[]} */
+const cards = [];
 
 form.addEventListener('submit', async (event) => {
   event.preventDefault();
@@ -26,14 +91,39 @@ async function showSeats() {
   const {teacher: teaches, seats, pupils} = await fetch('/seats').then((response) => response.json(), () => ({}));
   if (!teaches) return;
   form.hidden = true;
-  if (teacher.hidden) teacher.querySelector('img')?.setAttribute('src', '/qr.svg');
+  if (teacher.hidden) begin(seats.length);
   teacher.hidden = false;
   // No link: it would make a pupil of the teacher's browser.
   elementOf('pupils', HTMLElement).textContent = pupils;
-  elementOf('seats', HTMLElement).replaceChildren(...seats.map((/** @type {{name: string, address: string}} */ seat) =>
-    createElement('li', {}, createElement('a', {href: seat.address, target: '_blank', rel: 'noopener', className: 'button',
-      textContent: seat.name || 'free'}))));
+  seats.forEach((/** @type {{name: string, address: string}} */ seat, /** @type {number} */ i) => cards[i].sit(seat));
   setTimeout(showSeats, PERIOD);
+}
+
+/**
+ * Begin to watch the worlds of a class.
+ * @param {number} count of seats
+ */
+function begin(count) {
+  document.querySelector('main')?.classList.add('wide');
+  teacher.querySelector('img')?.setAttribute('src', '/qr.svg');
+  for (let number = 0; number < count; number++) cards.push(new Card(number));
+  elementOf('seats', HTMLElement).append(...cards.map(({element}) => element));
+  const toAll = (/** @type {string} */ type, /** @type {Record<string, unknown>} */ fields) => {
+    for (const {connection} of cards) connection.send(type, fields);
+  };
+  const lessons = createElement('select', {'aria-label': 'Lesson'});
+  cards[0].connection.on('worlds', ({lessons: list}) => lessons.replaceChildren(...list.map(
+    (/** @type {{name: string, number: number, title: string}} */ each) =>
+      createElement('option', {value: each.name, textContent: `${each.number}. ${each.title}`}))));
+  // A lesson may have been written meanwhile.
+  lessons.onpointerdown = () => cards[0].connection.send('list');
+  elementOf('all', HTMLElement).append(inRow(lessons,
+    textButton('Open the lesson for all', () => cards.forEach(({connection}) => connection.openLesson(lessons.value))),
+    textButton('Pause all', () => toAll('service', {name: 'pause'})),
+    textButton('Freeze all', () => toAll('freeze', {frozen: true})),
+    textButton('Let them draw again', () => toAll('freeze', {frozen: false})),
+    textButton('Clear all worlds', () => confirm('Delete all bodies of all worlds?') && toAll('service', {name: 'clear'}), 'danger')),
+  sayForm((text) => toAll('say', {text})));
 }
 
 watchTheme();

@@ -18,8 +18,9 @@ export class Classroom {
     this.app = app;
     this.page = 0; // number of this one
     this.teacher = false;
-    /** @type {{frozen: boolean, locked: string[], people: Classmate[]}} */
-    this.state = {frozen: false, locked: [], people: []};
+    /** @type {{frozen: boolean, locked: string[], people: Classmate[], watched: boolean}} */
+    this.state = {frozen: false, locked: [], people: [], watched: false};
+    this.raised = false; // the hand of this page
     /** @type {Map<number, {at: Point, until: number}>} */
     this.cursors = new Map();
     this.sent = 0; // [ms] when the cursor was sent last
@@ -37,8 +38,12 @@ export class Classroom {
       }
       const name = localStorage.getItem(NAME);
       if (name && !app.viewOnly) connection.send('person', {name});
+      if (this.raised) this.#raise(true);
     });
     connection.on('class', (state) => this.#follow(state));
+    connection.on('said', ({name: who, text}) => {
+      const take = app.notes.pin(() => null, [`${who}: ${text}`, textButton('OK', () => take())], {kind: 'docked', shown: 0});
+    });
     connection.on('cursors', ({cursors}) => {
       for (const [page, x, y] of cursors) this.cursors.set(page, {at: [x, y], until: performance.now() + SHOWN});
       view.dirty = true;
@@ -47,7 +52,9 @@ export class Classroom {
     view.overlays.push((each) => this.#draw(each));
     this.button = iconButton(TITLE, 'people', () => this.#showPeople(), 'People in this world');
     this.button.hidden = true;
-    elementOf('looks', HTMLElement).append(this.button);
+    this.hand = iconButton('Raise your hand', 'raise', () => this.#raise(!this.raised), 'Raise your hand, or lower it: your teacher sees it');
+    this.hand.hidden = true;
+    elementOf('looks', HTMLElement).append(this.button, this.hand);
   }
 
   /** @returns {boolean} whether several people draw in this world */
@@ -69,6 +76,7 @@ export class Classroom {
     this.state = state;
     for (const page of this.cursors.keys()) if (!pages.has(page)) this.cursors.delete(page);
     this.button.hidden = !this.isShared && !this.teacher;
+    this.hand.hidden = this.teacher || app.viewOnly || !state.watched && state.people.every(({role}) => role !== 'teach');
     app.time.showTimeline();
     const frozen = state.frozen && !this.teacher && !app.viewOnly;
     document.body.classList.toggle('frozen', frozen);
@@ -77,6 +85,13 @@ export class Classroom {
     this.frozen = frozen;
     app.gallery.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
     app.view.dirty = true;
+  }
+
+  /** @param {boolean} raised */
+  #raise(raised) {
+    this.raised = raised;
+    this.hand.setAttribute('aria-pressed', String(raised));
+    this.app.connection.send('raise_hand', {raised});
   }
 
   #showPeople() {
@@ -89,8 +104,9 @@ export class Classroom {
       connection.send('person', {name: input.value.trim()});
       app.gallery.dialog.close();
     }}, input, createElement('button', {textContent: 'Use this name'}));
-    const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role}) =>
-      createElement('li', {}, dot(name), `${name}${page === this.page ? ' (you)' : ''}${role === 'teach' ? ', teacher' : ''}`,
+    const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role, answered, raised}) =>
+      createElement('li', {}, dot(name), `${name}${page === this.page ? ' (you)' : ''}${role === 'teach' && name !== 'Teacher' ? ', teacher' : ''}`,
+        ...raised ? [createElement('strong', {textContent: 'hand raised'})] : [], ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
         ...teacher ? [textButton(`Delete what ${name} drew`, () => connection.send('clear_of', {person: name}), 'danger')] : [])));
     app.gallery.show(TITLE, ...app.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
   }
@@ -101,7 +117,7 @@ export class Classroom {
     const freeze = textButton(frozen ? 'Let them draw again' : 'Freeze all pupils', () => connection.send('freeze', {frozen: !frozen}));
     const lock = chosen.length ? textButton(`Lock what is selected (${chosen.length})`, () => connection.send('lock', {names: [...new Set([...locked, ...chosen])]})) :
       textButton('Lock all bodies', () => connection.send('lock', {names: ['*']}));
-    return [createElement('h3', {textContent: 'Teacher'}), inRow(freeze, lock,
+    return [createElement('h3', {textContent: 'Teacher'}), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
       ...locked.length ? [textButton('Unlock all', () => connection.send('lock', {names: []}))] : []),
     ...locked.length ? [createElement('p', {textContent: `Locked: ${locked.join(', ')}`})] : [],
     createElement('h3', {textContent: 'Pupils come here'}),
@@ -136,6 +152,16 @@ export class Classroom {
       ctx.fillText(name, x + 16, y + 26);
     }
   }
+}
+
+/** @param {(text: string) => void} say to all */
+export function sayForm(say) {
+  const input = createElement('input', {required: true, maxLength: 200, autocomplete: 'off', placeholder: 'Message to all', 'aria-label': 'Message to all'});
+  return createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
+    event.preventDefault();
+    say(input.value.trim());
+    input.value = '';
+  }}, input, createElement('button', {textContent: 'Send'}));
 }
 
 /** @param {string} name of a person */

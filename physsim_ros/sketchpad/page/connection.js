@@ -7,10 +7,14 @@ import {decodeFrame} from './frame_codec.js';
 
 const PERSON = 'physsim-person'; // key with which this tab is the same person again
 const REPLACED = 4000; // code of closing: another tab came with that key
+/** Topics of requests after which another world is there: what belonged to the one before ends. */
+const ENDS = ['~/load_world', '~/clear'];
 const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
 
 export class Connection {
-  constructor() {
+  /** @param {string} path of the socket on the server */
+  constructor(path = '/ws') {
+    this.path = path;
     /** @type {Map<string, ((message: any) => void)[]>} */
     this.listeners = new Map();
     /** @type {Map<string, (answer: Answer) => void>} */
@@ -21,11 +25,12 @@ export class Connection {
     this.socket = null;
     /** That has come before its first frame. @type {?{epoch: number}} */
     this.scene = null;
-    this.on('welcome', ({person}) => sessionStorage.setItem(PERSON, person));
+    // Only of the world of this page.
+    if (path === '/ws') this.on('welcome', ({person}) => sessionStorage.setItem(PERSON, person));
   }
 
   /**
-   * @param {string} type of messages: one of the protocol, or frame, open, closed, sent, unsent
+   * @param {string} type of messages: one of the protocol, or frame, open, closed, sent, unsent, world
    * @param {(message: any) => void} listener
    */
   on(type, listener) {
@@ -35,7 +40,7 @@ export class Connection {
   connect() {
     const query = new URLSearchParams(location.search);
     query.set('person', sessionStorage.getItem(PERSON) ?? '');
-    this.socket = new WebSocket(`${location.protocol.replace('http', 'ws')}//${location.host}/ws?${query}`);
+    this.socket = new WebSocket(`${location.protocol.replace('http', 'ws')}//${location.host}${this.path}?${query}`);
     this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => this.#emit('open', null);
     this.socket.onmessage = ({data}) => this.#receive(data);
@@ -71,6 +76,27 @@ export class Connection {
     return new Promise((resolve) => id && this.waiting.set(id, resolve));
   }
 
+  /**
+   * Open a world, whose clock begins at 0.
+   * @param {string} name
+   * @returns {Promise<boolean>} whether it is open
+   */
+  async openWorld(name) {
+    if (!(await this.ask('open', {name})).ok) return false;
+    await this.ask('service', {name: 'reset'});
+    return true;
+  }
+
+  /**
+   * Open a lesson, paused.
+   * @param {string} name
+   * @returns {Promise<boolean>} whether it is open
+   */
+  openLesson(name) {
+    this.send('service', {name: 'pause'});
+    return this.openWorld(name);
+  }
+
   /** @param {string | ArrayBuffer} data */
   #receive(data) {
     if (typeof data !== 'string') {
@@ -95,6 +121,7 @@ export class Connection {
       this.waiting.delete(message.request);
     }
     this.#emit(message.type, message);
+    if (message.type === 'answer' && message.ok && ENDS.includes(message.topic)) this.#emit('world', message);
   }
 
   /**

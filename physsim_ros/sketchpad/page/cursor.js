@@ -19,7 +19,7 @@ export class Cursor {
   get touch() {
     const {camera} = this.app;
     return {at: camera.toWorld(this.x, this.y), page: [this.x, this.y],
-      time: performance.now() / 1000, slop: 6 / camera.scale, grid: 0};
+      time: performance.now() / 1000, slop: 6 / camera.scale, grid: 0, copies: false};
   }
 
   /** @param {Point} page where it is put [px] */

@@ -70,6 +70,27 @@ export function textOf(field) {
   return field.value.replaceAll('\t', ' ');
 }
 
+/**
+ * @param {string} label
+ * @param {number} min
+ * @param {number} max
+ * @param {number} step
+ * @param {number} value
+ * @param {(value: number) => void} change when it is let go
+ */
+export function range(label, min, max, step, value, change) {
+  const typed = createElement('input', {type: 'number', min, step: 'any', value: Number(value.toPrecision(5)), 'aria-label': `${label}, typed`,
+    oninput: () => {
+      input.max = String(Math.max(max, Number(typed.value)));
+      input.value = typed.value;
+    },
+    onchange: () => typed.value !== '' && change(Number(typed.value))});
+  const input = createElement('input', {type: 'range', min, max: Math.max(max, value), step, value, 'aria-label': label,
+    oninput: () => { typed.value = input.value; },
+    onchange: () => change(Number(input.value))});
+  return createElement('div', {className: 'field'}, createElement('span', {textContent: label}), typed, input);
+}
+
 /** @param {Node[]} children beside each other */
 export function inRow(...children) {
   return createElement('div', {className: 'row'}, ...children);

@@ -80,6 +80,23 @@ export function sumsOf(world, forces) {
 }
 
 /**
+ * @param {WorldState} world
+ * @param {Set<number>} rows of bodies
+ * @returns {Set<number>} rows of those that touch one of them, or that a joint connects with one
+ */
+export function neighboursOf({frame: {contacts}, scene: {joints}}, rows) {
+  /** @type {Set<number>} */
+  const found = new Set();
+  const note = (/** @type {number} */ a, /** @type {number} */ b) => {
+    if (rows.has(a)) found.add(b);
+    if (rows.has(b)) found.add(a);
+  };
+  for (let i = 0; contacts && i < contacts.a.length; i++) note(contacts.a[i], contacts.b[i]);
+  for (const {a, b} of joints) note(a, b);
+  return found;
+}
+
+/**
  * @param {Force[]} forces
  * @param {Point} gravity
  * @returns {Force[]} of a force and its reaction, the one that bears

@@ -64,13 +64,19 @@ export class Gallery {
     else show();
   }
 
+  /** Show the list, and again as the files are now: a lesson may have been written since. */
+  openWorlds() {
+    this.showWorlds();
+    this.app.connection.send('list');
+  }
+
   showWorlds() {
     const own = this.worlds.filter(({shipped}) => !shipped), shipped = this.worlds.filter((each) => each.shipped);
     const cards = (/** @type {typeof own} */ worlds) =>
       createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
-    this.show(WORLDS, inRow(textButton('Empty world', () => this.#upload(EMPTY)),
+    this.show(WORLDS, inRow(textButton('Empty room', () => this.#upload(EMPTY)),
       createElement('label', {className: 'file'}, 'Open a file', file),
       ...this.unsaved ? [textButton(`Unsaved world of ${this.unsaved}`, () => this.#openUnsaved())] : []),
     ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own)] : [],
@@ -215,9 +221,9 @@ export class Gallery {
   /** @param {string} name */
   async #open(name) {
     this.dialog.close();
-    if (!(await this.app.connection.ask('open', {name})).ok) return;
+    if (!(await this.app.connection.openWorld(name))) return;
     this.dismiss();
-    this.app.frameNext();
+    this.app.room.frameNext();
     this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
   }
 
@@ -236,9 +242,10 @@ export class Gallery {
         () => ({ok: false, message: 'Not done: the server is not reachable'}));
     this.app.notes.showMessage(this.app.words.tell({message}), {ok});
     if (ok) {
+      this.app.connection.send('service', {name: 'reset'});
       this.name = '';
       this.dismiss();
-      this.app.frameNext();
+      this.app.room.frameNext();
     }
     return ok;
   }

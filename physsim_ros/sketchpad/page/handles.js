@@ -13,6 +13,8 @@ const GRIP = 12, SIZE = 6; // px: within which a handle is grabbed; half of its 
 const FARTHEST = 0.35; // share of the page: handles of larger bodies lie nearer
 const STEP = Math.PI / 12, SHARE = 0.25; // rad and steps of the size, with the key of the grid
 const LEAST = 0.1, MOST = 10; // of its size
+const NEAR = 20; // px beyond the handles within which a pointer shows them
+const TOUCHED = 4000, READ = 2500; // ms for which they are shown after a finger, and beside arrows that are read
 
 export class Handles {
   /** @param {App} app */
@@ -24,7 +26,29 @@ export class Handles {
     this.from = [0, 0];
     /** @type {?Touch} */
     this.last = null;
+    this.until = 0; // [ms] until then the handles are shown
     app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** @returns {boolean} whether the handles are there: a pointer is near, or has been */
+  get shown() {
+    return this.dragged !== '' || performance.now() < this.until;
+  }
+
+  /**
+   * Show the handles while a pointer is near the selected body, and for a while after a finger was there.
+   * @param {?Touch} touch null where it has left
+   * @param {boolean} isFinger
+   */
+  point(touch, isFinger = false) {
+    const {app} = this, places = this.places(), before = this.shown, ring = app.arrow.place;
+    const near = (/** @type {Point} */ [x, y], /** @type {number} */ reach) =>
+      touch !== null && Math.hypot(touch.page[0] - x, touch.page[1] - y) <= reach;
+    const isNear = places && (near(places.center, places.reach + TURN_GAP + NEAR) || ring && near(ring, 2 * NEAR));
+    const lasting = app.arrows.forces || app.arrows.velocities ? READ : isFinger ? TOUCHED : Infinity;
+    this.until = isNear ? performance.now() + lasting : 0;
+    if (isNear && lasting < Infinity) setTimeout(() => { app.view.dirty = true; }, lasting);
+    if (this.shown !== before) app.view.dirty = true;
   }
 
   /**
@@ -32,7 +56,7 @@ export class Handles {
    * @returns {boolean} whether it is on a handle
    */
   isAt(touch) {
-    return this.#handleAt(touch) !== '';
+    return this.shown && this.#handleAt(touch) !== '';
   }
 
   /** @param {Touch} touch */
@@ -65,7 +89,7 @@ export class Handles {
     this.dragged = '';
   }
 
-  /** @returns {?{center: Point, turn: Point, scale: Point}} [px]; null where no single body is selected */
+  /** @returns {?{center: Point, reach: number, turn: Point, scale: Point}} [px]; null where no single body is selected */
   places() {
     const {world, camera, panel, view} = this.app, row = world.row(panel.name);
     if (row < 0 || this.app.viewOnly) return null;
@@ -75,7 +99,7 @@ export class Handles {
     const at = (/** @type {number} */ angle, /** @type {number} */ gap) => /** @type {Point} */ ([
       center[0] + (reach + gap) * Math.cos(angle), center[1] - (reach + gap) * Math.sin(angle)]);
     const yaw = world.frame.yaw[row];
-    return {center, turn: at(yaw + Math.PI / 2, TURN_GAP), scale: at(yaw - Math.PI / 4, SCALE_GAP)};
+    return {center, reach, turn: at(yaw + Math.PI / 2, TURN_GAP), scale: at(yaw - Math.PI / 4, SCALE_GAP)};
   }
 
   /** @returns {boolean} */
@@ -112,7 +136,7 @@ export class Handles {
 
   /** @param {SceneView} view */
   #draw(view) {
-    const places = this.places(), {palette, ctx} = view;
+    const places = this.shown ? this.places() : null, {palette, ctx} = view;
     if (!places) return;
     const row = this.app.world.row(this.app.panel.name);
     view.onRim(palette.accent, 2, (rim) => {

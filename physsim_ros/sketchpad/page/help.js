@@ -18,7 +18,7 @@ const GESTURES = [['Draw', 'The pen, with a finger; if you use a stylus, it draw
 const MOVING = [['Space', 'Play or pause; held, dragging moves the view'],
   ['Arrow keys', 'Move the cursor, with Shift in small steps; Enter presses and lifts the tool'],
   ['R, Shift+R', 'Turn the body in the hand, while paused'], ['N, Shift+N', 'Select the next or the previous body'],
-  ['W A S D', 'Drive the selected robot; Q and E move it sideways, if its drive can'], ['Shift, held', 'Drawing and dragging with the mouse snaps to the grid; handles turn by 15° and scale by quarters'], ['Delete', 'Delete the selection'], ['Esc', 'Cancel'], ['+ and −, F', 'Zoom; frame the world'],
+  ['W A S D', 'Drive the selected robot; Q and E move it sideways, if its drive can'], ['Shift, held', 'Drawing and dragging with the mouse snaps to the grid; rectangles become squares, lines and handles turn by 15°, handles scale by quarters'], ['Alt, held', 'Hand and lasso drag a copy'], ['Delete', 'Delete the selection'], ['Esc', 'Cancel'], ['+ and −, F', 'Zoom; frame the world'],
   ['Enter', 'Close a polygon'], ['?', 'This list']];
 
 /** @param {App} app */

@@ -42,6 +42,7 @@ export class Hints {
       if (courses.length && this.#isDone('rewind')) this.completeStep('change');
       if (this.shown !== 'tool' && this.#step()?.[0] !== this.shown) this.#showStep();
     });
+    connection.on('scene', () => this.shown === 'tool' || this.#showStep());
     this.#showStep();
   }
 
@@ -60,6 +61,8 @@ export class Hints {
 
   /** @returns {typeof STEPS[0] | undefined} the next one that is true now */
   #step() {
+    // A lesson has its own hints.
+    if (this.app.world.scene.lesson) return undefined;
     const step = STEPS[this.step], holds = !step?.[3] || step[3](this.app.world);
     // In a world that plays, the step `play` is left out.
     return holds ? step : step[0] === 'play' ? STEPS[this.step + 1] : undefined;

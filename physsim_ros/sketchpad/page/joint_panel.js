@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of a joint that was tapped: its constants, its force now, and deletion. */
 
-import {range} from './body_panel.js';
-import {createElement, inRow, textButton} from './dom.js';
+import {createElement, inRow, range, textButton} from './dom.js';
 import {threeDigits} from './rounding.js';
 import {capital, isDrawn} from './words.js';
 
 /** @import {App, Joint, SceneView} from './types.js' */
+/** @import {Content} from './panel.js' */
 
 /**
  * Property, label, greatest and step of its slider, and its value where none was set.
@@ -25,31 +25,29 @@ export class JointPanel {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.name = '';
-    this.shown = ''; // the joint, as it is shown
     this.force = createElement('p');
-    app.connection.on('scene', () => this.#follow());
     app.view.overlays.push((view) => this.#draw(view));
   }
 
   /** @returns {number} of the joint in the scene; -1 where it is gone */
   get #number() {
-    return this.app.world.scene.joints.findIndex(({name}) => name === this.name);
+    return this.app.world.scene.joints.findIndex(({name}) => name === this.app.panel.joint);
   }
 
-  /** @param {string} name of a joint; '' for none */
-  show(name) {
-    this.name = name;
+  /**
+   * @param {string} name of a joint
+   * @returns {?Content} null where it is gone
+   */
+  content(name) {
     const joint = this.app.world.scene.joints[this.#number];
-    if (!joint) return;
-    this.shown = JSON.stringify(joint);
+    if (!joint) return null;
     const change = (/** @type {Record<string, ?number>} */ properties) =>
       this.app.connection.send('change_joint', {name, properties});
     const unit = joint.kind === 'slider' ? 'm' : 'rad';
     /** @type {['lower' | 'upper' | 'break_force', string][]} */
     const limits = [['break_force', 'Breaks at [N]']];
     if (LIMITED.includes(joint.kind)) limits.unshift(['lower', `Least [${unit}]`], ['upper', `Greatest [${unit}]`]);
-    this.app.panel.show(capital(joint.kind), [
+    return {title: capital(joint.kind), name: isDrawn(name) ? '' : name, first: [this.force], rest: [
       ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
         const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
         return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
@@ -59,28 +57,19 @@ export class JointPanel {
           onchange: () => change({[key]: input.value === '' ? null : Number(input.value)})});
         return createElement('label', {}, label, input);
       }),
-      this.force,
       inRow(textButton('Delete joint', () => this.delete(), 'danger')),
-    ], isDrawn(name) ? '' : name, () => this.app.world.place(joint.a, joint.points[0]));
+    ], place: () => this.app.world.place(joint.a, joint.points[0])};
   }
 
   delete() {
-    this.app.connection.send('unjoin', {name: this.name});
+    this.app.connection.send('unjoin', {name: this.app.panel.joint});
     this.app.selection.select([]);
-  }
-
-  /** Follow a scene in which the joint was changed or deleted, by whomever. */
-  #follow() {
-    if (!this.name) return;
-    const joint = this.app.world.scene.joints[this.#number];
-    if (!joint) this.app.selection.select([]);
-    else if (JSON.stringify(joint) !== this.shown && !this.app.panel.element.contains(document.activeElement)) this.show(this.name);
   }
 
   /** @param {SceneView} view */
   #draw(view) {
     const {world} = this.app, number = this.#number, joint = world.scene.joints[number];
-    if (!this.name || !joint) return;
+    if (!joint) return;
     const force = [`Force now: ${threeDigits(world.frame.forces?.[number] ?? 0)} N`, ...this.#lengthNow(joint)].join(' · ');
     if (this.force.textContent !== force) this.force.textContent = force;
     view.ring(world.place(joint.a, joint.points[0]), 9, view.palette.accent);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Labels of bodies: upright at the centre of mass, on a rim of paper, as large as the body has room for. */
+/** Labels of bodies, upright at the centre of mass, as large as the body has room for; and numbers at arrows. */
 
-/** @import {SceneView} from './types.js' */
+/** @import {Point, SceneView} from './types.js' */
+
+/**
+ * @typedef {{text: string, color: string, tip: Point, along: Point, from?: Point, named?: boolean}} Numbered a number at
+ *   the tip of an arrow [px], in whose direction it is put first; named: it is shown even where others are
+ */
 
 /** @typedef {[number, number, number, number]} Box left, top, right, bottom [px] */
 
@@ -65,4 +70,53 @@ export function sizeOf(ctx, label) {
 /** @type {(a: Box, b: Box) => boolean} */
 function overlap(a, b) {
   return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
+
+const FONT = '13px system-ui, sans-serif';
+const HALF = 9, BETWEEN = 6, TIP = 7; // px: half of the height of a number, from a tip to it, half of what a tip takes
+const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; // rad and px of the places that are tried
+
+/**
+ * Write the numbers of arrows where they cover neither each other nor an arrow, as far as there is room: those of
+ * the selected bodies first.
+ * @param {SceneView} view
+ */
+export function drawNumbers(view) {
+  const {ctx, insets, camera, numbers} = view, sides = [insets.left + 4, insets.top + 4, camera.width - insets.right - 4, camera.height - insets.bottom - 4];
+  /** @type {Box[]} */
+  const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [];
+  ctx.font = FONT;
+  for (const {text, color, tip: [x, y], along: [ux, uy], from: [fx, fy] = [x, y], named = false} of [...numbers].sort((a, b) => Number(b.named ?? false) - Number(a.named ?? false))) {
+    // What lies beyond the page has no number at its edge.
+    if (fx < 0 || fy < 0 || fx > camera.width || fy > camera.height) continue;
+    const half = ctx.measureText(text).width / 2;
+    let best = /** @type {?Box} */ (null), least = Infinity;
+    for (const far of FAR) for (const turn of TURNS) {
+      const dx = ux * Math.cos(turn) - uy * Math.sin(turn), dy = uy * Math.cos(turn) + ux * Math.sin(turn);
+      const cx = clamp(x + dx * (BETWEEN + half + far), sides[0] + half, sides[2] - half);
+      const cy = clamp(y + dy * (BETWEEN + HALF + far), sides[1] + HALF, sides[3] - HALF);
+      const box = /** @type {Box} */ ([cx - half, cy - HALF, cx + half, cy + HALF]);
+      const covers = 4 * written.filter((other) => overlap(box, other)).length + taken.filter((other) => overlap(box, other)).length +
+        numbers.filter(({from: begin, tip: end}) => begin && crosses(box, begin, end)).length;
+      if (covers < least) [best, least] = [box, covers];
+      if (!least) break;
+    }
+    if (!best || least >= 4 && !named) continue;
+    written.push(best);
+    view.write(text, [(best[0] + best[2]) / 2, best[3] - 5], color, 'center');
+  }
+}
+
+/** @type {(value: number, least: number, most: number) => number} */
+function clamp(value, least, most) {
+  return Math.max(Math.min(value, most), least);
+}
+
+/** @type {(box: Box, begin: Point, end: Point) => boolean} whether a line crosses a box, looked at in steps */
+function crosses([left, top, right, bottom], [px, py], [qx, qy]) {
+  for (let share = 0; share <= 1; share += 0.05) {
+    const x = px + share * (qx - px), y = py + share * (qy - py);
+    if (x > left && x < right && y > top && y < bottom) return true;
+  }
+  return false;
 }

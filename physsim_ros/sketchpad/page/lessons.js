@@ -20,6 +20,10 @@ export class Lessons {
     this.list = [];
     this.card = elementOf('lesson', HTMLDetailsElement);
     this.shown = ''; // the lesson of the card, as JSON
+    /** @type {?{lesson: string, answer: string, right: boolean}} the last one of this page */
+    this.answered = null;
+    // The server knows this page as a new one.
+    app.connection.on('welcome', () => this.answered && app.connection.send('answered', this.answered));
     /** @type {Set<string>} */
     this.solved = new Set(JSON.parse(localStorage.getItem(SOLVED) ?? '[]'));
     app.connection.on('scene', ({lesson}) => this.#show(lesson));
@@ -31,7 +35,7 @@ export class Lessons {
       if (first) this.#offerLink();
     });
     addEventListener('hashchange', () => this.#offerLink());
-    this.card.addEventListener('toggle', () => app.refit());
+    this.card.addEventListener('toggle', () => app.room.fit());
   }
 
   /** @returns {Node[]} the list, with a heading; nothing where there are no lessons */
@@ -48,13 +52,9 @@ export class Lessons {
   async #open(name) {
     const {connection, gallery} = this.app;
     gallery.dialog.close();
-    connection.send('service', {name: 'pause'});
-    if (!(await connection.ask('open', {name})).ok) return;
-    // Its clock begins at 0.
-    const reset = connection.ask('service', {name: 'reset'});
+    if (!(await connection.openLesson(name))) return;
     gallery.dismiss();
-    this.app.frameNext();
-    await reset;
+    this.app.room.frameNext();
     this.app.notes.showMessage(`Opened ${this.list.find((each) => each.name === name)?.title ?? name}`);
   }
 
@@ -82,7 +82,7 @@ export class Lessons {
       card.replaceChildren(createElement('summary', {}, createElement('h2', {}, `${lesson.number}. ${lesson.title}`)),
         createElement('p', {textContent: lesson.question}), ...app.viewOnly ? [] : this.#work(lesson));
     }
-    app.refit();
+    app.room.fit();
   }
 
   /**
@@ -99,6 +99,8 @@ export class Lessons {
       const value = Number(input.value.trim().replace(',', '.')), right = Math.abs(value - figure) <= within;
       result.className = right ? 'right' : '';
       result.textContent = right ? 'Right!' : Number.isNaN(value) ? 'That is not a number.' : 'Not yet. Measure again, or look at the hint.';
+      this.answered = {lesson: title, answer: input.value.trim(), right};
+      if (input.value.trim()) this.app.connection.send('answered', this.answered);
       // Who has tried may look.
       solution.hidden = false;
       solution.open = right;

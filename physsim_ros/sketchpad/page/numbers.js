@@ -19,6 +19,7 @@ const AT_REST = 4; // number of those that an anchored body has
 /** @typedef {{name: string, motion: Motion, answered: boolean}} Typed */
 /** Words of the energies. */
 const ENERGIES = ['of motion', 'of height'];
+const MOST_PAIRS = 3; // bodies in touch with whose friction that of the pair is told
 
 export class Numbers {
   /** @param {App} app */
@@ -29,16 +30,19 @@ export class Numbers {
     /** Numbers that were typed and that no frame shows yet. @type {?Typed} */
     this.ahead = null;
     this.line = createElement('p');
+    this.momentum = createElement('p');
+    this.totals = createElement('p', {className: 'numbers'}); // of several bodies
+    this.pairs = createElement('p', {className: 'pairs'}); // friction with what the body touches
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': `Energy ${word}`}));
     this.labels = ENERGIES.map((word) => createElement('span', {textContent: `Energy ${word}`}));
     this.values = ENERGIES.map(() => createElement('span'));
     this.inputs = new Map(TYPED.map(([key]) => [key, createElement('input', {type: 'number', step: 'any',
       onchange: () => this.#type(key)})]));
-    const typed = createElement('details', {}, createElement('summary', {textContent: 'Enter numbers'}),
+    this.typed = createElement('details', {className: 'typed'}, createElement('summary', {textContent: 'Enter numbers'}),
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
-    this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line, typed,
+    this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line, this.momentum,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
-    app.view.overlays.push(() => this.#update());
+    app.view.overlays.push(() => this.update());
     app.connection.on('open', () => { this.ahead = null; });
     // A change is in each frame that comes after its answer.
     app.connection.on('frame', () => {
@@ -46,13 +50,48 @@ export class Numbers {
     });
   }
 
-  #update() {
+  /** Show the numbers of the subject of the panel as they are now. */
+  update() {
     const {world, panel} = this.app, row = world.row(panel.name);
+    if (panel.kind === 'several') tell(this.totals, this.#totalsOf(panel.names));
     if (row < 0) return;
-    const body = world.scene.bodies[row], text = `${threeDigits(body.mass)} kg · ${placed(world, row)}`;
-    if (this.line.textContent !== text) this.line.textContent = text;
+    const body = world.scene.bodies[row], {vx, vy} = motionOf(world, row), {mass} = body;
+    tell(this.line, `${threeDigits(mass)} kg · ${placed(world, row)}`);
+    tell(this.momentum, `Momentum ${momentumText([mass * vx, mass * vy])}`);
+    tell(this.pairs, this.#pairsOf(row));
     this.#showTyped(body, row);
     this.#showEnergies(body, row);
+  }
+
+  /**
+   * @param {string[]} names of bodies
+   * @returns {string} their mass, momentum and energies together; what is anchored has none
+   */
+  #totalsOf(names) {
+    const {world} = this.app, {bodies, gravity} = world.scene;
+    let mass = 0, px = 0, py = 0, energy = [0, 0];
+    for (const row of names.map((name) => world.row(name)).filter((each) => each >= 0 && !bodies[each].anchored)) {
+      const motion = motionOf(world, row), each = energiesOf(bodies[row], motion, gravity);
+      mass += bodies[row].mass;
+      px += bodies[row].mass * motion.vx;
+      py += bodies[row].mass * motion.vy;
+      energy = [energy[0] + each[0], energy[1] + each[1]];
+    }
+    return `Together ${threeDigits(mass)} kg · momentum ${momentumText([px, py])} · energy of motion ${number(energy[0])} J, of height ${number(energy[1])} J`;
+  }
+
+  /**
+   * @param {number} row of a body
+   * @returns {string} the friction with each body that it touches
+   */
+  #pairsOf(row) {
+    const {world: {frame: {contacts}, scene: {bodies}}, words} = this.app, others = new Set();
+    for (let i = 0; contacts && i < contacts.a.length; i++) {
+      const other = contacts.a[i] === row ? contacts.b[i] : contacts.b[i] === row ? contacts.a[i] : -1;
+      if (other >= 0) others.add(other);
+    }
+    return [...others].slice(0, MOST_PAIRS).map((other) =>
+      `Friction with ${words.of(bodies[other].name)}: ${threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction))}`).join(' · ');
   }
 
   /**
@@ -99,7 +138,9 @@ export class Numbers {
     const {world} = this.app, {frame: {velocities}, scene: {gravity}} = world, {name, anchored} = body;
     if (name !== this.name) this.most = 0;
     this.name = name;
-    this.element.classList.toggle('fixed', anchored || !velocities);
+    this.element.classList.toggle('fixed', anchored);
+    // The panel has its size before they come.
+    this.element.classList.toggle('waiting', !velocities);
     if (!velocities || anchored) return;
     // Seen from above, there is no height.
     for (const {1: part} of [this.labels, this.bars, this.values]) part.hidden = !gravity[0] && !gravity[1];
@@ -164,4 +205,17 @@ export function placed(world, row, by = [0, 0]) {
 /** @param {number} value */
 function number(value) {
   return Math.abs(value) < 0.005 ? '0' : value.toFixed(Math.abs(value) < 100 ? 2 : 0);
+}
+
+/** @param {Point} momentum [N s] */
+export function momentumText([px, py]) {
+  return `${number(Math.hypot(px, py))} N s (${number(px)}, ${number(py)})`;
+}
+
+/**
+ * @param {HTMLElement} element
+ * @param {string} text which it may have already
+ */
+function tell(element, text) {
+  if (element.textContent !== text) element.textContent = text;
 }

@@ -41,6 +41,7 @@ export class PlotWindow {
     };
     app.connection.on('frame', () => this.#drawSoon());
     app.connection.on('body', () => this.#drawSoon());
+    app.connection.on('world', () => this.element.hidden || this.close());
     new ResizeObserver(() => this.#draw()).observe(this.element);
   }
 
@@ -56,18 +57,25 @@ export class PlotWindow {
     };
     this.element.replaceChildren(createElement('header', {},
       inRow(select('y', 'Upwards'), createElement('span', {textContent: 'over'}), select('x', 'To the right'),
-        this.#adder(), textButton('Copy table', () => this.#copyTable())),
-      iconButton('Close the plot', 'close', () => this.close())), this.legend, this.canvas, this.reading);
+        this.#adder(), this.legend, textButton('Copy table', () => this.#copyTable())),
+      iconButton('Close the plot', 'close', () => this.close())), this.canvas, this.reading);
     this.element.hidden = false;
     this.#show(names);
-    // On a telephone there is no room for both.
-    if (this.app.camera.narrow) this.app.selection.select([]);
+    const {panel, room, selection, lessons} = this.app;
+    // The panel is folded beside it; on a small page there is no room for both.
+    panel.chosen = null;
+    if (!room.isRoomy) {
+      selection.select([]);
+      lessons.card.open = false;
+    }
+    room.fit();
   }
 
   close() {
     this.element.hidden = true;
     this.names = [];
     this.app.records.want(this, []);
+    this.app.room.fit();
   }
 
   #adder() {

@@ -18,7 +18,6 @@ export class Plots {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.name = '';
     this.canvases = SHOWN.map((key) => createElement('canvas', {role: 'img', 'aria-label': QUANTITIES[key].label}));
     this.element = createElement('section', {className: 'plots', 'aria-label': 'Plots'}, ...this.canvases,
       createElement('p', {textContent: 'Broad: free flight by its formula. Dashed: the earlier course.'}),
@@ -28,11 +27,9 @@ export class Plots {
     app.connection.on('body', () => this.#drawSoon());
   }
 
-  /** @param {string} name of a body; '' for none */
-  watch(name) {
-    if (name === this.name) return;
-    this.name = name;
-    this.app.records.want(this, name ? [name] : []);
+  /** @returns {string} name of the body; '' for none */
+  get name() {
+    return this.app.panel.name;
   }
 
   #drawSoon() {

@@ -26,7 +26,10 @@ export class Pointers {
     canvas.addEventListener('pointermove', (event) => this.#move(event));
     canvas.addEventListener('pointerup', (event) => this.#up(event));
     canvas.addEventListener('pointercancel', (event) => this.#cancel(event));
-    canvas.addEventListener('pointerleave', () => app.selection.hover(null));
+    canvas.addEventListener('pointerleave', ({pointerType}) => {
+      app.selection.hover(null);
+      if (pointerType !== 'touch') app.handles.point(null);
+    });
     canvas.addEventListener('wheel', (event) => this.#wheel(event), {passive: false});
     // The click after a tap would go to the panel that the tap has opened.
     canvas.addEventListener('touchend', (event) => event.cancelable && event.preventDefault());
@@ -40,7 +43,7 @@ export class Pointers {
   #touch(event) {
     const {camera} = this.app, {clientX, clientY, pointerType, timeStamp} = event;
     return {at: camera.toWorld(clientX, clientY), page: [clientX, clientY], time: timeStamp / 1000,
-      slop: (pointerType === 'touch' ? FINGER : MOUSE) / camera.scale, grid: event.shiftKey ? camera.fineStep : 0};
+      slop: (pointerType === 'touch' ? FINGER : MOUSE) / camera.scale, grid: event.shiftKey ? camera.fineStep : 0, copies: event.altKey};
   }
 
   /** @param {PointerEvent} event */
@@ -88,6 +91,7 @@ export class Pointers {
     else {
       app.tool.move(this.#touch(event));
       app.selection.hover(this.#touch(event));
+      app.handles.point(this.#touch(event));
     }
     if (before) this.down.set(event.pointerId, event);
     app.view.dirty = true;
@@ -123,6 +127,7 @@ export class Pointers {
     if (event.pointerId !== this.working) return;
     this.working = -1;
     this.worked.up(this.#touch(event));
+    this.app.handles.point(this.#touch(event), event.pointerType === 'touch');
     this.app.view.dirty = true;
   }
 

@@ -24,9 +24,10 @@ export class Records {
     app.connection.on('open', () => this.#ask());
     // In another world, a body of the same name is another body.
     app.connection.on('answer', ({ok, topic}) => {
-      // A lesson is opened, and then begins at time 0.
+      // A world is opened, and then begins at time 0.
       if (ok && topic === '~/reset') this.began = 0;
-      if (!ok || topic !== '~/load_world' && topic !== '~/clear') return;
+    });
+    app.connection.on('world', () => {
       this.began = app.world.frame.time;
       for (const name of this.bodies.keys()) this.bodies.set(name, {samples: [], left: []});
     });

@@ -8,7 +8,7 @@
 const OUTLINED = 2500; // ms for which a body has an outline
 const KEPT = 100; // requests whose places are known: a stroke is answered by its reading, then by its requests
 /** Messages whose refusals are not shown: no reader has asked for them. */
-const QUIET = ['show', 'watch', 'move', 'let_go', 'drop'];
+const QUIET = ['show', 'watch', 'move', 'let_go', 'drop', 'answered', 'list'];
 
 export class Refusals {
   /** @param {App} app */

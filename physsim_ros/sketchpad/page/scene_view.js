@@ -4,11 +4,12 @@
 import {BodyView} from './body_view.js';
 import {drawGrid} from './grid_view.js';
 import {JointView} from './joint_view.js';
-import {drawLabels} from './label_view.js';
+import {drawLabels, drawNumbers} from './label_view.js';
 import {drawScan} from './scan_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from './types.js' */
+/** @import {Numbered} from './label_view.js' */
 
 const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
 const DASHED = 9; // px: half of the size from which on the outline of a ghost is dashed
@@ -28,6 +29,8 @@ export class SceneView {
     this.bodies = new BodyView(this.ctx, camera);
     /** @type {((view: SceneView) => void)[]} */
     this.overlays = [];
+    /** @type {Numbered[]} of the arrows that were drawn */
+    this.numbers = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
     this.ratio = 1;
     this.dirty = true;
@@ -73,7 +76,14 @@ export class SceneView {
     if (world.count) new JointView(ctx, world, camera, palette, this.bodies).draw();
     drawLabels(this);
     this.#drawHands();
+    this.numbers = [];
     for (const overlay of this.overlays) overlay(this);
+    drawNumbers(this);
+  }
+
+  /** @param {Numbered} number that is written when all arrows are drawn */
+  number(number) {
+    this.numbers.push(number);
   }
 
   #toPixels() {

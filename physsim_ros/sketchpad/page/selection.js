@@ -13,7 +13,6 @@ export class Selection {
     this.app = app;
     /** @type {Set<string>} of bodies */
     this.names = new Set();
-    this.joint = ''; // name of the selected one
     this.hovered = ''; // name of a body
     /** @type {Point | undefined} [px] */
     this.hoveredAt = undefined;
@@ -27,12 +26,8 @@ export class Selection {
   /** @param {string[]} names of bodies */
   select(names) {
     const {app} = this;
-    this.joint = '';
-    app.joints.show('');
     this.names = new Set(names);
-    if (names.length === 1) app.panel.showBody(names[0]);
-    else if (names.length) app.panel.showMany(names);
-    else app.panel.close();
+    app.panel.show(names.length > 1 ? 'several' : names.length ? 'body' : '', names);
     app.askForParts();
     app.view.dirty = true;
   }
@@ -42,16 +37,14 @@ export class Selection {
     const {world, camera} = this.app, row = world.bodyAt(at, slop);
     const name = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
     // A second tap selects the body below the joint.
-    const joint = name === this.joint ? '' : name;
+    const joint = name === this.app.panel.joint ? '' : name;
     this.select(row < 0 || joint ? [] : [world.scene.bodies[row].name]);
-    if (!joint) return;
-    this.joint = joint;
-    this.app.joints.show(joint);
+    if (joint) this.app.panel.show('joint', [joint]);
   }
 
   /** Delete the selected bodies, or the joint. */
   deleteBodies() {
-    if (this.joint) {
+    if (this.app.panel.joint) {
       this.app.joints.delete();
       return;
     }

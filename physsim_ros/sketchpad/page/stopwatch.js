@@ -4,6 +4,7 @@
 import {createElement, inRow, textButton} from './dom.js';
 
 /** @import {App} from './types.js' */
+/** @import {Content} from './panel.js' */
 
 /** @typedef {{name: string, other: string, time: number}} Touched a body that was followed, by another one */
 
@@ -26,16 +27,17 @@ export class Stopwatch {
     app.connection.on('touches', ({touches}) => this.#add(touches));
     app.connection.on('frame', ({ghost, time}) => ghost || this.#goTo(time));
     app.connection.on('open', () => this.#follow());
-    app.connection.on('answer', ({ok, topic}) => {
-      if (ok && ['~/load_world', '~/clear'].includes(topic)) this.#clear();
+    app.connection.on('world', () => {
+      this.start = this.stop = this.counted = '';
+      this.#follow();
+      this.#clear();
     });
   }
 
-  /** Show the panel. */
-  show() {
-    const {app} = this;
-    app.selection.select([]);
-    app.panel.show('Measure', [
+  /** @returns {Content} of the panel */
+  content() {
+    queueMicrotask(() => this.#update());
+    return {title: 'Measure', rest: [
       createElement('p', {textContent: 'Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.'}),
       createElement('h3', {textContent: 'Stopwatch'}),
       this.#chooser('start', 'Starts when touched', 'at 0 s'),
@@ -43,8 +45,7 @@ export class Stopwatch {
       this.time, this.details,
       createElement('h3', {textContent: 'Collisions'}),
       this.#chooser('counted', 'Collisions of', 'no body'),
-      this.count, inRow(textButton('Count from here', () => this.#clear()))]);
-    this.#update();
+      this.count, inRow(textButton('Count from here', () => this.#clear()))]};
   }
 
   /**

@@ -18,7 +18,7 @@ export const TOOLS = [[
 ], [
   ['circle', 'Circle', 'c', 'from the centre to the rim'],
   ['circle_diameter', 'Circle by diameter', 'd', 'from edge to edge'],
-  ['rectangle', 'Rectangle', 'b', 'drag one side, then click the opposite one'],
+  ['rectangle', 'Rectangle', 'b', 'drag from corner to corner, or click three'],
   ['polygon', 'Polygon', 'g', 'click each corner; click the first one again to close it'],
   ['wall', 'Wall', 'w', 'a fixed line'],
 ], [
@@ -59,7 +59,10 @@ export class Toolbar {
       }
       bar.append(box);
     }
-    bar.lastElementChild?.append(iconButton('Measure', 'measure', () => app.stopwatch.show(), 'Stopwatch with gates, counter of collisions'));
+    bar.lastElementChild?.append(iconButton('Measure', 'measure', () => {
+      app.selection.select([]);
+      app.panel.show('measure');
+    }, 'Stopwatch with gates, counter of collisions'));
     this.#select('pen');
   }
 

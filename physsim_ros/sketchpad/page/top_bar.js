@@ -14,13 +14,16 @@ export class TopBar {
     this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
       textContent: 'Rerun', title: 'The recording'});
     elementOf('files', HTMLElement).append(
-      iconButton('Worlds', 'worlds', () => app.gallery.showWorlds(), 'Worlds to open'),
+      iconButton('Worlds', 'worlds', () => app.gallery.openWorlds(), 'Worlds to open'),
       iconButton('Save', 'save', () => app.gallery.showSave(), 'Save, link, picture'));
     elementOf('looks', HTMLElement).append(
       this.#toggle('velocities', 'Show velocities', 'velocities', 'Velocities as arrows, in m/s'),
       this.#toggle('forces', 'Show forces', 'forces', 'Forces as arrows, in newtons; on a body that you tap, all'),
-      iconButton('Material', 'material', () => app.panel.showMaterial(), 'Material of new bodies; gravity'),
-      iconButton('Frame the world', 'fit', () => app.frame(), 'Frame the world (F)'),
+      iconButton('Material', 'material', () => {
+        app.selection.select([]);
+        app.panel.show('world');
+      }, 'Material of new bodies; gravity'),
+      iconButton('Frame the world', 'fit', () => app.room.frame(), 'Frame the world (F)'),
       iconButton('Light or dark', 'theme', switchTheme),
       iconButton('Help', 'help', () => showHelp(app), 'Help: keys and gestures (?)'));
     elementOf('looks', HTMLElement).after(this.recording);
@@ -39,7 +42,7 @@ export class TopBar {
     const button = iconButton(name, id, () => {
       const shown = app.arrows[part] = !app.arrows[part];
       button.setAttribute('aria-pressed', String(shown));
-      if (shown) app.notes.showMessage(title.split(';')[0]);
+      app.arrows.showLegend();
       app.askForParts();
     }, title);
     button.setAttribute('aria-pressed', 'false');

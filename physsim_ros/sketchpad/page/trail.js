@@ -16,6 +16,10 @@ export class Trail {
     this.app = app;
     /** @type {Map<string, boolean>} names of bodies with a trail, and whether it has flashes */
     this.bodies = new Map();
+    app.connection.on('world', () => {
+      this.bodies.clear();
+      app.records.want(this, []);
+    });
     app.view.overlays.push((view) => {
       for (const [name, flashes] of this.bodies) this.#draw(view, name, flashes);
     });

@@ -184,6 +184,10 @@ export interface Classmate {
   page: number;
   name: string;
   role: string;
+  /** The last answer to a lesson. */
+  answered: {lesson: string, answer: string, right: boolean} | null;
+  /** Whether a hand is raised. */
+  raised: boolean;
 }
 
 /** What a stroke is read as. */
@@ -212,6 +216,7 @@ export interface Palette {
   friction: string;
   joint: string;
   air: string;
+  momentum: string;
 }
 
 /** A pointer on the canvas. */
@@ -224,6 +229,8 @@ export interface Touch {
   time: number;
   /** How far beside a body counts [m]. */
   slop: number;
+  /** Whether the key is held with which a copy is dragged. */
+  copies: boolean;
   /** Distance of the lines that it snaps to [m]; 0 where the key is not held. */
   grid: number;
 }

@@ -6,8 +6,9 @@ import {threeDigits} from './rounding.js';
 /** @import {App, Point, SceneView, Touch} from './types.js' */
 
 const GRIP = 14; // px around the tip
-const GAP = 22; // px between a body's centre and the tail of its arrow
+const GAP = 22; // px between the tip of the arrow and its ring
 const RING = 7; // px
+const LEAST = 5e-4; // m/s: a lower speed is that of a body at rest
 
 export class VelocityArrow {
   /** @param {App} app */
@@ -24,7 +25,7 @@ export class VelocityArrow {
    */
   isAt({page, slop}) {
     const ends = this.#ends(), reach = GRIP + slop * this.app.camera.scale;
-    return ends !== null && Math.hypot(page[0] - ends.tip[0], page[1] - ends.tip[1]) <= reach;
+    return this.app.handles.shown && ends !== null && Math.hypot(page[0] - ends.tip[0], page[1] - ends.tip[1]) <= reach;
   }
 
   /** @param {Touch} touch */
@@ -61,25 +62,35 @@ export class VelocityArrow {
     return [dx * share, -dy * share];
   }
 
-  /** @returns {?{center: Point, tip: Point}} [px]; null where no single body is selected that may move */
+  /** @returns {?{center: Point, tip: Point, along: Point}} [px]; null where no single body is selected that may move */
   #ends() {
     const {world, camera, panel} = this.app, row = world.row(panel.name);
     const velocities = world.frame.velocities;
     if (row < 0 || !velocities || world.scene.bodies[row].anchored) return null;
     const center = camera.toPage(...world.place(row, world.scene.bodies[row].centroid));
     const pixels = this.app.arrows.speeds.length(1), vx = velocities.x[row] * pixels, vy = -velocities.y[row] * pixels;
-    const length = Math.hypot(vx, vy), [ux, uy] = length > 1 ? [vx / length, vy / length] : [1, 0];
-    return {center, tip: [center[0] + vx + GAP * ux, center[1] + vy + GAP * uy]};
+    const length = Math.hypot(vx, vy), along = /** @type {Point} */ (length > 1 ? [vx / length, vy / length] : [1, 0]);
+    return {center, along, tip: [center[0] + vx + GAP * along[0], center[1] + vy + GAP * along[1]]};
+  }
+
+  /** @returns {?Point} of its ring [px] */
+  get place() {
+    return this.#ends()?.tip ?? null;
   }
 
   /** @param {SceneView} view */
   #draw(view) {
-    const ends = this.#ends();
+    const ends = this.#ends(), {arrows, handles} = this.app;
     if (!ends) return;
-    const {camera} = this.app, page = this.dragged ?? ends.tip, tip = camera.toWorld(...page);
-    view.arrow(ends.center, page, view.palette.accent);
-    view.ring(tip, RING, view.palette.accent);
-    const speed = Math.hypot(...this.#velocityAt(ends.center, page));
-    if (speed) view.write(`${threeDigits(speed)} m/s`, [page[0] + RING + 6, page[1] - RING], view.palette.accent);
+    const {center, tip} = ends, page = this.dragged ?? tip, length = Math.hypot(page[0] - center[0], page[1] - center[1]);
+    const along = /** @type {Point} */ (length ? [(page[0] - center[0]) / length, (page[1] - center[1]) / length] : [1, 0]);
+    const end = /** @type {Point} */ ([page[0] - GAP * along[0], page[1] - GAP * along[1]]);
+    const speed = Math.hypot(...this.#velocityAt(center, page)), {accent} = view.palette;
+    // While forces are read, velocities are shown only where somebody has switched them on.
+    if (this.dragged || handles.shown || arrows.velocities || !arrows.forces) {
+      if (length > GAP + 1) view.arrow(center, end, accent);
+      if (speed >= LEAST) view.number({text: `${threeDigits(speed)} m/s`, color: accent, from: center, tip: end, along, named: true});
+    }
+    if (this.dragged || handles.shown) view.ring(this.app.camera.toWorld(...page), RING, accent);
   }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
  * The tools of clicks (parameter `tool` of the node), by clicking or by dragging: centre to rim, edge to
- * edge, a side and then its distance. The unfinished shape follows the pointer.
+ * edge, corner to corner; a tilted rectangle by the ends of a side and then its distance. The unfinished shape
+ * follows the pointer.
  */
 
 import {threeDigits} from '../rounding.js';
@@ -14,6 +15,8 @@ const MARK = 4; // px: radius of a point that was clicked
 const CLOSE = 12; // px around the first corner of a polygon
 /** @type {Record<string, number>} */
 const CLICKS = {rectangle: 3, polygon: Infinity, anchor: 1, release: 1, pin: 1, axle: 1, delete: 1};
+/** Tools whose second point is at a multiple of an angle from the first, while the key of the grid is held. */
+const ANGLED = ['rectangle', 'wall', 'velocity', 'gravity'], STEP = Math.PI / 12; // rad
 const ARROWS = ['velocity', 'gravity'], JOINTS = ['spring', 'rod', 'rope', 'chain'];
 
 export class ClickTool {
@@ -42,6 +45,7 @@ export class ClickTool {
   down(raw) {
     const touch = this.#onGrid(raw);
     this.start = this.last = touch;
+    this.pressed = true;
     if (!this.points.length && this.clicks > 1) this.#click(touch);
     else this.waits = true;
   }
@@ -55,13 +59,16 @@ export class ClickTool {
   /** @param {Touch} raw */
   up(raw) {
     const touch = this.#onGrid(raw), [x, y] = this.start?.page ?? touch.page;
-    const dragged = Math.hypot(touch.page[0] - x, touch.page[1] - y) > DRAG;
+    const dragged = Math.hypot(touch.page[0] - x, touch.page[1] - y) > DRAG, upright = this.#isUpright(touch);
+    this.pressed = false;
+    if (upright) this.#click({...touch, at: [touch.at[0], this.points[0].at[1]]});
     if (this.waits || dragged) this.#click(touch);
     this.waits = false;
   }
 
   cancel() {
     if (this.points.length) this.app.connection.send('drop');
+    this.pressed = false;
     this.points = [];
     this.waits = false;
   }
@@ -82,8 +89,29 @@ export class ClickTool {
    */
   #onGrid(touch) {
     if (!touch.grid || this.aims) return touch;
-    const at = onGrid(touch.at, touch.grid);
+    const {grid} = touch, [first] = this.points;
+    let at = onGrid(touch.at, grid);
+    if (first && this.points.length === 1 && ANGLED.includes(this.id)) {
+      const dx = touch.at[0] - first.at[0], dy = touch.at[1] - first.at[1];
+      if (this.#isUpright(touch)) {
+        // A square.
+        const side = Math.round(Math.max(Math.abs(dx), Math.abs(dy)) / grid) * grid;
+        at = [first.at[0] + Math.sign(dx) * side, first.at[1] + Math.sign(dy) * side];
+      } else {
+        const length = Math.round(Math.hypot(dx, dy) / grid) * grid, angle = Math.round(Math.atan2(dy, dx) / STEP) * STEP;
+        at = [first.at[0] + length * Math.cos(angle), first.at[1] + length * Math.sin(angle)];
+      }
+    }
     return {...touch, at, page: this.app.camera.toPage(...at)};
+  }
+
+  /**
+   * @param {Touch} touch
+   * @returns {boolean} whether a rectangle is drawn from corner to corner
+   */
+  #isUpright({page: [px, py]}) {
+    const [x, y] = this.start?.page ?? [px, py];
+    return this.id === 'rectangle' && this.points.length === 1 && this.pressed === true && Math.min(Math.abs(px - x), Math.abs(py - y)) > DRAG;
   }
 
   /** @param {Touch} touch */
@@ -114,6 +142,7 @@ export class ClickTool {
   draw(view) {
     if (!this.points.length || !this.last) return;
     const color = view.palette.accent, points = [...this.points.map(({at}) => at), this.last.at];
+    if (this.#isUpright(this.last)) points.splice(1, 0, [points[1][0], points[0][1]]);
     const [p, q, r] = points;
     const length = Math.hypot(q[0] - p[0], q[1] - p[1]);
     if (this.id === 'circle') view.ring(p, length * view.camera.scale, color);

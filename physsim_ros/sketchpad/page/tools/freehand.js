@@ -84,7 +84,7 @@ export class Lasso {
     const {app, path} = this, [x, y] = path[0]?.page ?? touch.page;
     this.path = [];
     if (path.every(({page}) => Math.hypot(page[0] - x, page[1] - y) <= TAP)) app.selection.selectAt(touch);
-    else if (this.carrying) app.connection.send('move_bodies', {names: [...app.selection.names], by: offset(path)});
+    else if (this.carrying) app.connection.send(path[0].copies ? 'copy_machine' : 'move_bodies', {names: [...app.selection.names], by: offset(path)});
     else {
       const {world} = app, loop = path.map(({at}) => at);
       app.selection.select(world.scene.bodies.filter((body, row) => row < world.count &&

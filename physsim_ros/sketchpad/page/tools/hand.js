@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The hand pulls a body and throws it, places and turns it in a paused world, and moves the view beside bodies. */
+/** The hand pulls a body and throws it, places and turns it in a paused world, drags a copy, and moves the view. */
 
 import {placed} from '../numbers.js';
 import {onGrid} from '../snapping.js';
@@ -13,7 +13,7 @@ export class Hand {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'panning'} */
+    /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'copying' | 'panning'} */
     this.state = '';
     /** @type {?Touch} */
     this.start = null;
@@ -53,7 +53,7 @@ export class Hand {
       this.yaw = world.frame.yaw[row];
       this.offset = [touch.at[0] - world.frame.x[row], touch.at[1] - world.frame.y[row]];
       this.turned = false;
-      this.state = world.scene.bodies[row].anchored ? 'carrying' : 'pressed';
+      this.state = touch.copies ? 'copying' : world.scene.bodies[row].anchored ? 'carrying' : 'pressed';
       if (this.state === 'pressed') this.timer = setTimeout(() => this.#grab(), CATCH);
     }
     view.dirty = true;
@@ -90,6 +90,9 @@ export class Hand {
     else if (state === 'carrying' && start) {
       app.connection.send('move_bodies', {names: [this.name],
         by: this.#carried(start, touch)});
+    } else if (state === 'copying' && start) {
+      const row = app.world.row(this.name), [dx, dy] = this.#carried(start, touch), {x, y} = app.world.frame;
+      if (row >= 0) app.connection.send('copy', {name: this.name, to: [x[row] + dx, y[row] + dy]});
     }
     app.view.dirty = true;
   }
@@ -152,10 +155,10 @@ export class Hand {
   /** @param {SceneView} view */
   draw(view) {
     const {world} = this.app, row = world.row(this.name);
-    if (row < 0 || !this.start || !this.last || !['carrying', 'holding'].includes(this.state)) return;
+    if (row < 0 || !this.start || !this.last || !['carrying', 'copying', 'holding'].includes(this.state)) return;
     /** @type {Point} */
     let by = [0, 0];
-    if (this.state === 'carrying') {
+    if (this.state !== 'holding') {
       by = this.#carried(this.start, this.last);
       view.outline(row, view.palette.accent, by);
     }

@@ -20,6 +20,7 @@ export class Ruler {
     this.ends = [];
     /** @type {?Touch} */
     this.start = null;
+    app.connection.on('world', () => { this.ends = []; });
     app.view.overlays.push((view) => this.#draw(view));
   }
 
@@ -81,6 +82,10 @@ export class Protractor {
     this.open = false; // the second arm follows the pointer
     /** @type {?Touch} */
     this.start = null;
+    app.connection.on('world', () => {
+      this.points = [];
+      this.open = false;
+    });
     app.view.overlays.push((view) => this.#draw(view));
   }
 

@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The outputs of the node: the topics, the viewer and the sketchpad, each with frames and answers.
+The outputs of the node: a frame goes to each in a list, from one loop.
 
-Law: an answer that a frame carries is published with it, every other one by `report_answers`.
+Law: an answer that a frame carries is published with it, every other one by `report_answers`. An
+output that fails leaves out a frame, and the others have it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 import time
 from typing import Any
@@ -18,9 +20,9 @@ from typing import Any
 from physsim_ros.drawing import DrawingSession
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros.publishers.frame_statistics import FrameStatistics
-from physsim_ros.ros.publishers.publishers import Publishers
+from physsim_ros.ros.publishers.publishers import Output, Publishers
+from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import Sketchpad
 from physsim_ros.view import FrameContext, Viewer, ViewerMode
 from rclpy.node import Node
@@ -30,15 +32,17 @@ from rclpy.node import Node
 _WARNING_PERIOD = 1.0
 
 
-class FrameOutputs:
+class Outputs:
     """
     The outputs of the node.
 
     :param node: that owns the publishers
     :param values: of the parameters of the node, by name, always up to date
     :param session: the drawing session, whose preview is added to each frame
+    :param simulation: whose frames are shown
     :param boundary: of each output
 
+    :ivar all: the outputs, in the order in which they are shown a frame
     :ivar topics: the publishers of the world
     :ivar viewer: of the world
     :ivar sketchpad: of the world; None where it is not served
@@ -52,29 +56,21 @@ class FrameOutputs:
         node: Node,
         values: Mapping[str, Any],
         session: DrawingSession,
+        simulation: Simulation,
         boundary: ErrorBoundary,
     ) -> None:
-        self.topics = Publishers(
-            node,
-            boundary,
-            frame_id=values['frame_id'],
-            map_resolution=lambda: values['map_resolution'],
-            publish_tf=values['publish_tf'],
-        )
+        self.topics = Publishers(node, values, lambda: simulation.status)
         self.viewer = Viewer(boundary, context=self._context)
         self.sketchpad: Sketchpad | None = None
         self.statistics = FrameStatistics()
         self.frame: Frame | None = None
         self.records_contacts = False
-        self._node = node
+        self._log = _Log(node)
+        self._pictures = self.viewer, _Page(self)
+        self.all: list[Output] = [self._log, *self.topics.outputs, *self._pictures]
         self._values = values
         self._session = session
         self._boundary = boundary
-        # Whether the last frame is one of the past.
-        self._in_past = False
-        self.update_clock()
-        # Steady time from which on a refusal is logged again [s].
-        self._warning_due = 0.0
 
     @property
     def wants_contacts(self) -> bool:
@@ -86,31 +82,36 @@ class FrameOutputs:
             or (self.sketchpad is not None and self.sketchpad.wants_contacts)
         )
 
-    def publish_frame(self, frame: Frame, status: TimelineStatus) -> None:
+    def show(self, frame: Frame, outputs: Iterable[Output] | None = None) -> None:
         """
-        Publish a new frame.
+        Show a frame.
 
-        :param status: of the timeline at the frame
+        :param outputs: on which it is shown; None is all
         """
-        for answer in frame.answers:
-            self._log_answer(answer)
-        self._in_past = frame.past
-        self.update_clock()
-        self.topics.publish_frame(frame)
-        with self._boundary.output('~/timeline'):
-            self.topics.timeline.publish(status, moving=frame.moved)
-        self._show(frame)
+        if self._session.preview != frame.preview:
+            frame = replace(frame, preview=self._session.preview)
+        self.frame = frame
+        for output in self.all if outputs is None else outputs:
+            with self._boundary.output(output.name):
+                output.show(frame)
 
-    def republish(self) -> None:
-        """Publish the last frame to late subscribers; called at ticks without a new frame."""
-        if self.frame is not None and self.frame.preview != self._session.preview:
+    def show_late(self) -> None:
+        """Show the last frame to late subscribers; called at ticks without a new frame."""
+        self.flush_events()
+        if self.frame is None:
+            return
+        if self.frame.preview != self._session.preview:
             # Only the preview has changed: an unfinished gesture was dropped.
-            self._show(replace(self.frame, answers=(), moved=False))
-        self.topics.publish_to_late_subscribers()
+            self.show(replace(self.frame, answers=(), moved=False), self._pictures)
+        for stream in self.topics.streams:
+            with self._boundary.output(stream.name):
+                stream.show_late(self.frame)
 
     def publish_preview(self) -> None:
         """Publish the preview of the session if it has changed."""
-        self.topics.publish_preview(self._session.preview)
+        stamp = self.frame.snapshot.stamp if self.frame else 0
+        with self._boundary.output('~/preview'):
+            self.topics.publish_preview(self._session.preview, stamp)
 
     def report_answers(self, answers: tuple[Answer, ...]) -> None:
         """Publish and log answers that no frame carries."""
@@ -118,13 +119,14 @@ class FrameOutputs:
             with self._boundary.output('page'):
                 self.sketchpad.report(answers)
         for answer in answers:
-            self.topics.publish_answer(answer)
-            self._log_answer(answer)
+            with self._boundary.output('~/events'):
+                self.topics.events.publish(answer)
+            self._log.add(answer)
 
-    def update_clock(self) -> None:
-        """Publish simulation time on `clock` as `publish_clock` and `robots_in_past` say."""
-        frozen = self._in_past and self._values['robots_in_past'] == 'freeze'
-        self.topics.clock.open = self._values['publish_clock'] and not frozen
+    def flush_events(self) -> None:
+        """Publish the answers that have waited, as far as their readers take them."""
+        with self._boundary.output('~/events'):
+            self.topics.events.flush()
 
     def open_viewer(self) -> None:
         """Open the viewer of parameter `viewer`, in place of the one before."""
@@ -145,21 +147,31 @@ class FrameOutputs:
         """Return the facts about the program that the viewer shows."""
         return FrameContext(
             real_time_factor=self.statistics.real_time_factor,
-            title=Path(self._values['world_file']).stem or 'empty world',
+            title=_title_of(self._values['world_file']),
         )
 
-    def _show(self, frame: Frame) -> None:
-        """Send a frame, with the current preview, to viewer and sketchpad."""
-        if self._session.preview != frame.preview:
-            frame = replace(frame, preview=self._session.preview)
-        self.frame = frame
-        with self._boundary.output('viewer'):
-            self.viewer.show(frame)
-        if self.sketchpad is not None:
-            with self._boundary.output('page'):
-                self.sketchpad.show(frame)
 
-    def _log_answer(self, answer: Answer) -> None:
+class _Log:
+    """
+    The log of the node, which has refusals, and what a person at the terminal needs.
+
+    :param node: whose log it is
+    """
+
+    name = 'log'
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        # Steady time from which on a refusal is logged again [s].
+        self._warning_due = 0.0
+
+    def show(self, frame: Frame) -> None:
+        """Log the answers of a frame."""
+        for answer in frame.answers:
+            self.add(answer)
+
+    def add(self, answer: Answer) -> None:
+        """Log an answer."""
         if answer.code:
             now = time.monotonic()
             if now < self._warning_due:
@@ -171,3 +183,27 @@ class FrameOutputs:
         elif answer.topic == 'viewer':
             # The address of the viewer, for the person at the terminal.
             self._node.get_logger().info(answer.message)
+
+
+class _Page:
+    """
+    The page, while it is served.
+
+    :param outputs: with the sketchpad
+    """
+
+    name = 'page'
+
+    def __init__(self, outputs: Outputs) -> None:
+        self._outputs = outputs
+
+    def show(self, frame: Frame) -> None:
+        """Show a frame on the page."""
+        if self._outputs.sketchpad is not None:
+            self._outputs.sketchpad.show(frame)
+
+
+@lru_cache(maxsize=1)
+def _title_of(world_file: str) -> str:
+    """Return the title of a world for a viewer."""
+    return Path(world_file).stem or 'empty world'

@@ -1,0 +1,178 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The frame loop: requests are applied, time goes on, and each frame is shown.
+
+Law: requests have a share of each tick; what is left of them waits for the next one. Before the
+node has started nothing is applied by itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+import time
+
+from physsim_ros.model.snapshot import Answer, Frame, Snapshot
+from physsim_ros.ros.outputs import Outputs
+from physsim_ros.ros.robots import Fleet
+from physsim_ros.simulation.request_queue import Wait
+from physsim_ros.simulation.simulation import Simulation
+
+# Time after which a tick simulates no further publish period [ns]: requests, services and signals
+# wait at most so long, which a person hardly notices. At speed 64 a frame has 64 periods.
+MOST_TICK_NS = 100_000_000
+# Time after which no further request is applied in a tick [ns]; or as long as the rest of the last
+# tick took, since in a crowded world each tick with a request makes the scene anew.
+MOST_REQUESTS_NS = 10_000_000
+
+
+class _RequestTime:
+    """
+    The time for requests, from now on.
+
+    :param rest_ns: duration of the last tick without its requests [ns]
+
+    :ivar ended: steady time at which the last request was applied [ns]
+    """
+
+    def __init__(self, rest_ns: int) -> None:
+        self.ended = time.perf_counter_ns()
+        self._until = self.ended + max(MOST_REQUESTS_NS, rest_ns)
+
+    def is_spent(self) -> bool:
+        """Return whether there is no time for a further request; called after each."""
+        self.ended = time.perf_counter_ns()
+        return self.ended > self._until
+
+
+class FrameLoop:
+    """
+    Has a simulation make frames, and shows them.
+
+    :param simulation: the world and its time
+    :param outputs: to which frames are shown
+    :param fleet: the topics of robots
+
+    :ivar started: whether time goes on by itself
+    """
+
+    def __init__(self, simulation: Simulation, outputs: Outputs, fleet: Fleet) -> None:
+        self.started = False
+        self._simulation = simulation
+        self._outputs = outputs
+        self._fleet = fleet
+        # Duration of the last tick with a frame, without its requests [ns].
+        self._rest_ns = 0
+
+    def tick(self, now_ns: int) -> None:
+        """
+        Advance the world to a steady time, and show the frames.
+
+        :param now_ns: steady time, monotonic [ns]
+        """
+        began = time.perf_counter_ns()
+        self._take_commands()
+        frames: tuple[Frame, ...] = ()
+        request_time = _RequestTime(self._rest_ns)
+        # While time goes back, no command counts, and controllers may be silent.
+        if self._simulation.speed < 0.0 or not self._fleet.is_waiting:
+            frames = self._simulation.advance(
+                now_ns,
+                is_overdue=lambda: self._fleet.in_lockstep or _is_overdue(began),
+                is_spent=request_time.is_spent,
+            )
+        stepped = time.perf_counter_ns()
+        for frame in frames:
+            self._outputs.show(frame)
+        if not frames:
+            self._report_answers()
+            self._outputs.show_late()
+            return
+        self._rest_ns = time.perf_counter_ns() - request_time.ended
+        statistics, last = self._outputs.statistics, frames[-1]
+        if last.moved:
+            statistics.add(
+                now_ns=now_ns,
+                stamp=last.snapshot.stamp,
+                step_ns=stepped - began,
+                frame_ns=time.perf_counter_ns() - began,
+            )
+        else:
+            statistics.reset_pace()
+
+    def advance_frame(self) -> None:
+        """Advance the world by one publish period, at any time, and show the frame."""
+        self._take_commands()
+        self._outputs.show(self._simulation.advance_frame())
+
+    def apply_requests(self) -> tuple[Answer, ...]:
+        """Apply the waiting requests without advancing time; show and return the answers."""
+        self._note_contacts()
+        frame = self._simulation.apply_requests()
+        if frame is not None:
+            self._outputs.show(frame)
+            return frame.answers
+        answers = self._report_answers()
+        self._outputs.flush_events()
+        return answers
+
+    def apply_up_to_seek(self) -> bool:
+        """
+        Apply the requests before a seek that there is time for; return whether none waits.
+
+        Before the start nothing is applied, and True is returned.
+        """
+        if not self.started:
+            return True
+        return self._simulation.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
+
+    def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+        """
+        Make a call at its time among the requests, now if they leave the time for it.
+
+        :raises Busy: too many requests wait
+        """
+        self._simulation.requests.submit_call(call, wait)
+        if self.started:
+            self.apply_up_to_seek()
+        elif wait is not Wait.NONE:
+            self._simulation.apply_waiting()
+
+    def current_snapshot(self) -> Snapshot:
+        """Return the snapshot that is shown, with the waiting requests if they are applied."""
+        if self.apply_up_to_seek():
+            self.apply_requests()
+        shown = self._outputs.frame
+        return self._simulation.world.snapshot() if shown is None else shown.snapshot
+
+    def finish_short_seek(self) -> None:
+        """Have a seek be done at once if it is short; else the next ticks go on with it."""
+        began = time.perf_counter_ns()
+        self._simulation.finish_seek(lambda: _is_overdue(began))
+
+    def _take_commands(self) -> None:
+        """Take the messages of pages, and what robots were told; nothing while in the past."""
+        self._note_contacts()
+        if self._outputs.sketchpad is not None:
+            self._outputs.sketchpad.handle_messages()
+        shown = self._outputs.frame
+        self._fleet.submit_commands(
+            in_past=self._simulation.speed < 0.0 or (shown is not None and shown.past)
+        )
+
+    def _note_contacts(self) -> None:
+        """Record contacts while there is a subscriber, a viewer or a page that shows them."""
+        wanted = self._outputs.wants_contacts or self._fleet.wants_contacts()
+        self._simulation.reports_contacts = wanted
+
+    def _report_answers(self) -> tuple[Answer, ...]:
+        """Publish and log the answers that no frame carries, and return them."""
+        answers = self._simulation.take_answers()
+        self._outputs.report_answers(answers)
+        return answers
+
+
+def _is_overdue(began: int) -> bool:
+    """Return whether a tick that began at a steady time [ns] has taken too long."""
+    return time.perf_counter_ns() - began > MOST_TICK_NS

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The panel at the right, of one subject at a time: a body, several, a joint, the world, or what is measured.
+ *
+ * It is rendered again with each scene, unless somebody works in it. While time runs, and on a page without room
+ * for all of it, it is folded to its first lines.
+ */
+
+import {bodyContent, severalContent} from './body_panel.js';
+import {createElement, elementOf, iconButton} from './dom.js';
+import {worldContent} from './world_panel.js';
+
+/** @import {App, Point} from './types.js' */
+
+/** @typedef {'' | 'body' | 'several' | 'joint' | 'world' | 'measure'} Kind '' is a closed panel */
+/**
+ * @typedef {{title: string, name?: string, first?: Node[], rest: Node[], place?: () => ?Point}} Content
+ *   name: of the subject, where that is not the title; first: lines that are always shown; place: of the subject in
+ *   the world [m]
+ */
+
+const COVERED = 80; // px: nearer to the edge of the panel, or beneath it, a body is covered
+
+export class Panel {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.element = elementOf('panel', HTMLElement);
+    /** @type {Kind} */
+    this.kind = '';
+    /** @type {string[]} of the subject */
+    this.names = [];
+    /** @type {() => ?Point} */
+    this.place = () => null;
+    /** @type {?boolean} whether it is folded, where somebody has chosen that for this subject */
+    this.chosen = null;
+    this.isStale = false; // the scene has changed while somebody worked in it
+    this.more = iconButton('More', 'fold', () => {
+      this.chosen = !this.isFolded;
+      this.#fold();
+      app.room.fit();
+    }, 'All of this panel, or its first lines');
+    this.rest = createElement('div');
+    app.connection.on('scene', () => queueMicrotask(() => this.#follow()));
+    this.element.addEventListener('focusout', () => setTimeout(() => this.isStale && this.#follow()));
+    app.view.overlays.push(() => this.#fold());
+  }
+
+  /** @returns {string} the name of the body that is its subject; '' where that is none, or several */
+  get name() {
+    return this.kind === 'body' ? this.names[0] : '';
+  }
+
+  /** @returns {string} the name of the joint that is its subject */
+  get joint() {
+    return this.kind === 'joint' ? this.names[0] : '';
+  }
+
+  get isFolded() {
+    return this.element.classList.contains('folded');
+  }
+
+  /**
+   * @param {Kind} kind of the subject
+   * @param {string[]} names of its bodies, or of the joint
+   */
+  show(kind, names = []) {
+    const {app} = this;
+    if (kind !== this.kind || String(names) !== String(this.names)) {
+      this.chosen = null;
+      this.element.scrollTop = 0;
+    }
+    Object.assign(this, {kind, names});
+    app.records.want(this, kind === 'body' ? names : []);
+    this.render();
+    if (kind && !app.room.isRoomy) app.lessons.card.open = false;
+    app.card?.update();
+    app.room?.fit();
+  }
+
+  /** Show the subject as it is now; close the panel where it is gone. */
+  render() {
+    const {app, element, kind, names} = this;
+    this.isStale = false;
+    element.hidden = !kind;
+    if (!kind) return;
+    /** @type {?Content} */
+    const content = kind === 'body' ? bodyContent(app, names[0]) : kind === 'several' ? severalContent(app, names) :
+      kind === 'joint' ? app.joints.content(names[0]) : kind === 'world' ? worldContent(app) : app.stopwatch.content();
+    if (!content) {
+      app.selection.select([]);
+      return;
+    }
+    const {title, name = '', first = [], rest, place = () => null} = content;
+    this.place = place;
+    this.more.hidden = !first.length;
+    this.rest.replaceChildren(...rest);
+    element.replaceChildren(createElement('header', {},
+      createElement('h2', {}, `${title} `, createElement('small', {textContent: name})), this.more,
+      iconButton('Close', 'close', () => app.selection.select([]))), ...first, this.rest);
+    app.numbers.update();
+    this.#fold();
+  }
+
+  /** Follow a scene, but not while its field is typed in, or its button pressed. */
+  #follow() {
+    const {element} = this;
+    this.isStale = this.kind !== '' && (element.contains(document.activeElement) || element.matches(':active'));
+    if (!this.isStale) this.render();
+  }
+
+  #fold() {
+    const {app, element} = this, inUse = this.rest.contains(document.activeElement) && !this.more.matches(':focus');
+    const folded = !this.more.hidden && (this.chosen ?? (!app.room?.isRoomy || !inUse && (!app.world.paused || !app.plotWindow.element.hidden)));
+    if (folded === this.isFolded) return;
+    element.classList.toggle('folded', folded);
+    this.more.setAttribute('aria-expanded', String(!folded));
+  }
+
+  /** Move the view where the panel covers its subject. */
+  uncover() {
+    const {app: {camera}, element} = this, place = element.hidden ? null : this.place();
+    if (!place) return;
+    const {left, top, bottom} = element.getBoundingClientRect(), [x, y] = camera.toPage(...place);
+    if (camera.narrow) camera.pan(0, Math.min(top - COVERED - y, 0));
+    else if (y < bottom) camera.pan(Math.min(left - COVERED - x, 0), 0);
+  }
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What the panel shows of the world: the material of the next drawings, gravity, air, sound. */
+
+import {createElement, range} from './dom.js';
+import {gravityButtons, hexOf, materialButtons, materialFields} from './presets.js';
+
+/** @import {App} from './types.js' */
+/** @import {Content} from './panel.js' */
+
+const STEP_OF_DIAL = Math.PI / 12; // rad
+let turn = 0; // of gravity from down, counter-clockwise [rad]: as it was, while there is none
+
+/**
+ * @param {App} app
+ * @returns {Content}
+ */
+export function worldContent(app) {
+  const {scene} = app.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
+  // As it was set last: the panel is not renewed while somebody works in it.
+  let size = strength;
+  if (strength) turn = Math.atan2(gx, -gy);
+  const pull = () => {
+    // The sine of a half turn is not exactly 0: nine digits are.
+    app.connection.send('gravity', {gravity: [Math.sin(turn) * size, -Math.cos(turn) * size].map((each) => Number(each.toFixed(9)))});
+  };
+  const setSize = (/** @type {number} */ value) => {
+    size = value;
+    pull();
+  };
+  const change = (/** @type {any} */ properties) => {
+    Object.assign(app.material, properties);
+    app.connection.send('draw_with', properties);
+  };
+  const chosen = app.material.color ?? app.color, color = chosen || [0.3, 0.47, 0.66];
+  const any = createElement('input', {type: 'checkbox', checked: !chosen,
+    onchange: () => change({color: any.checked ? '' : hexOf(color)})});
+  return {title: 'Material of new bodies', rest: [
+    materialButtons((preset) => {
+      change(preset);
+      app.panel.render();
+    }),
+    ...materialFields({...scene, ...app.material, color}, (properties) => {
+      if (properties.color) any.checked = false;
+      change(properties);
+    }),
+    createElement('label', {}, 'Each body another colour', any),
+    createElement('h3', {textContent: 'Gravity'}),
+    range('Gravity [m/s²]', 0, 25, 0.01, strength, setSize),
+    gravityButtons(setSize),
+    createElement('label', {}, 'Direction', dial(turn, (angle) => {
+      turn = angle;
+      pull();
+    })),
+    range('Air drag [of the speed, each second]', 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping})),
+    createElement('label', {}, 'Sound of impacts', createElement('input', {type: 'checkbox', checked: app.sound.on, onchange: () => {
+      app.sound.toggle();
+      app.askForParts();
+    }}))]};
+}
+
+/**
+ * A compass that is dragged, or turned by arrow keys.
+ * @param {number} turn from down, counter-clockwise [rad]
+ * @param {(turn: number) => void} change
+ */
+function dial(turn, change) {
+  const canvas = createElement('canvas', {className: 'dial', width: 144, height: 144, tabIndex: 0, role: 'slider', 'aria-label': 'Direction of gravity',
+    'aria-valuemin': -180, 'aria-valuemax': 180});
+  const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+  const show = () => {
+    const degrees = Math.round(turn * 180 / Math.PI), x = Math.sin(turn), y = Math.cos(turn);
+    canvas.setAttribute('aria-valuenow', String(degrees));
+    canvas.setAttribute('aria-valuetext', degrees ? `${degrees}° from down` : 'down');
+    ctx.setTransform(1, 0, 0, 1, 72, 72);
+    ctx.clearRect(-72, -72, 144, 144);
+    ctx.lineWidth = 6;
+    ctx.lineCap = 'round';
+    ctx.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue('--weight');
+    ctx.beginPath();
+    for (const [along, across] of [[-50, 0], [50, 0], [28, 18], [50, 0], [28, -18]]) ctx.lineTo(x * along + y * across, y * along - x * across);
+    ctx.stroke();
+  };
+  const point = (/** @type {PointerEvent} */ {clientX, clientY, buttons}) => {
+    if (!buttons) return;
+    const {left, top, width} = canvas.getBoundingClientRect();
+    const angle = Math.atan2(clientX - left - width / 2, clientY - top - width / 2);
+    turn = Math.round(angle / STEP_OF_DIAL) * STEP_OF_DIAL;
+    show();
+  };
+  canvas.onpointerdown = (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    point(event);
+  };
+  canvas.onpointermove = point;
+  canvas.onpointerup = () => change(turn);
+  canvas.onkeydown = (event) => {
+    const by = {ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1}[event.key];
+    if (!by) return;
+    event.preventDefault();
+    event.stopPropagation();
+    turn += by * STEP_OF_DIAL;
+    show();
+    change(turn);
+  };
+  show();
+  return canvas;
+}

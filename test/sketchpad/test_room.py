@@ -1,0 +1,153 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The world on the page: in the room that panels leave, on pages of all sizes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from physsim_ros.files import shipped_lessons
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+
+# A desk, a telephone both ways, a tablet, and the desk at 200 % zoom [px].
+SIZES = [(1280, 800), (390, 844), (844, 390), (768, 1024), (640, 400)]
+# Of the lesson [m].
+BOUNDS = -5.0, 0.0, 5.0, 6.0
+# Boxes of what is shown beside the world [px].
+PANELS = """() => [...document.querySelectorAll(
+    '#tools, #top > .bar, #bar, #lesson, #panel, #plot, #legend, #card')]
+    .filter((each) => each.checkVisibility())
+    .map((each) => [each.id, each.getBoundingClientRect()])
+    .map(([id, {left, top, right, bottom}]) => [id, left, top, right, bottom])"""
+
+
+@pytest.fixture(scope='module')
+def program(outside: Outside) -> Any:
+    """Give the module a world with a lesson."""
+    text = (shipped_lessons() / 'slope.yaml').read_text()
+    return started_world(outside, world=text)
+
+
+@pytest.fixture(params=SIZES, ids=lambda size: f'{size[0]}x{size[1]}')
+def sheet(chromium: Any, program: Any, request: pytest.FixtureRequest) -> Iterator[Sheet]:
+    """Give a test a page of a size, and the lesson from its beginning, paused."""
+    width, height = request.param
+    sheet = Sheet(chromium, program[1], viewport={'width': width, 'height': height})
+    sheet.begin(2)
+    sheet.page.locator('#lesson').wait_for()
+    yield sheet
+    sheet.close()
+
+
+def covered(sheet: Sheet) -> list[str]:
+    """Return the ids of panels that lie on the world, or beyond the page."""
+    left, bottom = sheet.place(*BOUNDS[:2])
+    right, top = sheet.place(*BOUNDS[2:])
+    size = sheet.page.viewport_size
+    found = [
+        str(name)
+        for name, x, y, end_x, end_y in sheet.page.evaluate(PANELS)
+        if x < right and left < end_x and y < bottom and top < end_y
+    ]
+    if left < 0 or top < 0 or right > size['width'] or bottom > size['height']:
+        found.append('the edge of the page')
+    return found
+
+
+def check(sheet: Sheet) -> None:
+    """Wait until nothing covers the world."""
+    sheet.until(lambda: not covered(sheet), 'a world that nothing covers')
+    # It has not become too small to be seen.
+    assert sheet.place(BOUNDS[2], 0.0)[0] - sheet.place(BOUNDS[0], 0.0)[0] > 150
+
+
+def select(sheet: Sheet) -> None:
+    """Select the block of ice."""
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(*sheet.pose('ice/0')[:2]))
+    sheet.page.get_by_role('heading', name='ice/0').wait_for()
+
+
+def test_no_panel_lies_on_the_world(sheet: Sheet) -> None:
+    check(sheet)
+    select(sheet)
+    check(sheet)
+    sheet.press('Show forces')
+    sheet.press('Show velocities')
+    check(sheet)
+    sheet.press('More')
+    check(sheet)
+    sheet.press('Play')
+    sheet.wait('physsim.time > 0.2')
+    sheet.press('Pause')
+    check(sheet)
+    sheet.press('Close')
+    check(sheet)
+
+
+def test_the_answer_to_a_lesson_is_in_sight(sheet: Sheet) -> None:
+    field = sheet.page.get_by_role('textbox', name='Your answer')
+    box, card = field.bounding_box(), sheet.page.locator('#lesson').bounding_box()
+    assert card['y'] < box['y']
+    assert box['y'] + box['height'] < card['y'] + card['height']
+
+
+def test_the_plot_stands_beside_the_world(sheet: Sheet) -> None:
+    select(sheet)
+    if sheet.page.locator('#panel.folded').count():
+        sheet.press('More')
+    sheet.press('Large plot')
+    canvas = sheet.page.get_by_role('img', name='Large plot')
+    box = canvas.bounding_box()
+    assert box['width'] > 150
+    assert box['height'] > 80
+    check(sheet)
+    sheet.press('Close the plot')
+    check(sheet)
+
+
+def test_a_moved_view_stays_where_a_panel_opens_and_closes(sheet: Sheet) -> None:
+    sheet.page.keyboard.press('+')
+    before = sheet.place(0.0, 0.0)
+    sheet.press('Show forces')
+    sheet.press('Show forces')
+    assert sheet.place(0.0, 0.0) == before
+    # F frames the world again.
+    sheet.page.keyboard.press('f')
+    check(sheet)
+
+
+def test_nothing_lies_on_a_world_that_is_only_watched(sheet: Sheet) -> None:
+    sheet.page.goto(sheet.page.url + '?view')
+    sheet.wait('Object.keys(physsim.bodies).length === 2')
+    sheet.page.locator('#lesson').wait_for()
+    check(sheet)
+
+
+@pytest.mark.parametrize('size', SIZES[:1])
+def test_the_panel_of_a_body_is_folded_while_time_runs(
+    chromium: Any, program: Any, size: tuple[int, int]
+) -> None:
+    sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
+    sheet.begin(2)
+    select(sheet)
+    friction = sheet.page.get_by_role('slider', name='Friction', exact=True)
+    friction.wait_for()
+    before = sheet.place(0.0, 0.0)
+    sheet.press('Play')
+    friction.wait_for(state='hidden')
+    sheet.page.get_by_text('2 kg · ').wait_for()
+    # The view stays.
+    assert sheet.place(0.0, 0.0) == before
+    # Whoever wants all of it has it.
+    sheet.press('More')
+    friction.wait_for()
+    sheet.press('Pause')
+    sheet.press('More')
+    friction.wait_for(state='hidden')
+    sheet.close()
