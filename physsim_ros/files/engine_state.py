@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What the node alone writes of a body and of a world: states of robots, impulses of contacts.
+What the node alone writes of a body and of a world: states of robots and actors, impulses.
 
-A robot has its state under the key `driven` of its body, a world its impulses under `memory`.
+A robot has its state under the key `driven` of its body, an actor under `acting`, a world the
+impulses of its contacts under `memory`.
 
 Law: impulses are loaded as they were saved, to the bit, from arrays as compressed base64 text.
 They are not loaded where shapes have been added or removed since, and refused where a text is not
@@ -23,8 +24,9 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.files.world_schema import count_from
+from physsim_ros.model.actor_states import ActorState, WAITING
 from physsim_ros.model.checkpoint import ImpulseCache, WorldState
-from physsim_ros.model.checks import check_finite, LONGEST, number, pair, shown, Within
+from physsim_ros.model.checks import check_finite, LONGEST, number, pair, shown, Whole, Within
 from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robot_states import Covariance, NEVER, RobotState, SPAWNED
@@ -35,6 +37,7 @@ from physsim_ros.model.transform import Pose
 _POSES = ('aim', 'wheels', 'travel', 'odometry')
 # Greatest number in them, as of a motion [m, rad, m/s, rad/s].
 _GREATEST = 1e12
+_MOST_REACHED = 2**53
 _LENGTH = Within(0.0, _GREATEST)
 # Squares and products of them.
 _VARIANCE = Within(-(_GREATEST**2), _GREATEST**2)
@@ -69,6 +72,31 @@ def driven_from(entry: object, body: Body, physics_rate: float) -> RobotState:
     else:
         covariance = _covariance_of_path(values.get('path', [0.0, 0.0]), body.robot)
     return RobotState(aim, until, wheels, travel, odometry, covariance)
+
+
+def acting_entry(acting: ActorState, physics_rate: float) -> dict[str, object]:
+    """Return the entry of the state of an actor: for how long it has moved [s], points reached."""
+    seconds = None if acting.begun == NEVER else -acting.begun / physics_rate
+    return {'seconds': seconds, 'reached': acting.reached}
+
+
+def acting_from(entry: object, body: Body, physics_rate: float) -> ActorState:
+    """
+    Return the state of an actor from its entry.
+
+    :param body: of the actor
+    :param physics_rate: of the world [Hz]
+    :raises Refusal: the body is no actor, or the entry is not what `acting_entry` has returned
+    """
+    values = known_mapping(entry, 'acting', ['seconds', 'reached'])
+    if body.actor is None:
+        raise BadProperty(f'{body.name} is not an actor', field='acting')
+    reached = Whole(0, _MOST_REACHED)(values.get('reached', 0), 'reached')
+    seconds = values.get('seconds')
+    if seconds is None:
+        return WAITING._replace(reached=reached)
+    moved = Within(-LONGEST, LONGEST, 's')(seconds, 'seconds')
+    return ActorState(-round(moved * physics_rate), reached)
 
 
 def _covariance(value: object) -> Covariance:

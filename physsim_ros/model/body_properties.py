@@ -10,6 +10,7 @@ Each is declared once; markers, world files and the page read them.
 from dataclasses import dataclass
 from typing import Annotated
 
+from physsim_ros.model.actors import Actor, actor_from
 from physsim_ros.model.checks import (
     FASTEST,
     flag,
@@ -90,6 +91,9 @@ class Properties(Checked):
     ] = None
     robot: Annotated[
         Robot | None, Robot.from_value, 'makes it a robot: the name of a shipped one, or a mapping'
+    ] = None
+    actor: Annotated[
+        Actor | None, actor_from, 'moves it on its own: a mapping of a path or a model of people'
     ] = None
     label: Annotated[
         str | None,

@@ -6,7 +6,7 @@
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST, shown, Vector, Whole, Within
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST, pair, shown, Vector, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST
@@ -42,6 +42,13 @@ def _bounds(value: object, name: str) -> Bounds:
             f'{name} must be [xmin, ymin, xmax, ymax], each min below its max', field=name
         )
     return left, bottom, right, top
+
+
+def _datum(value: object, name: str) -> Point:
+    latitude, longitude = pair(value, name)
+    return Within(-90.0, 90.0, 'deg')(latitude, name), Within(-180.0, 180.0, 'deg')(
+        longitude, name
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,6 +91,12 @@ class WorldSettings(Checked):
     seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of all noise of robots'] = field(
         default=0, repr=False
     )
+    datum: Annotated[
+        Point | None,
+        _datum,
+        'latitude and longitude of the origin, -90 .. 90 and -180 .. 180 [deg], for receivers of '
+        'satellite navigation: x is east there, y north; without it they have no fix',
+    ] = field(default=None, repr=False)
     command_timeout: Annotated[
         float,
         Within(0.0, 1e9, 's'),

@@ -11,6 +11,7 @@ after a rewind. No state, no clock, no engine; messages of readings are in `ros`
 
 from physsim_ros.sensing.bumper import is_bumped, read_bumper
 from physsim_ros.sensing.floor_eye import FloorMarks, read_floor
+from physsim_ros.sensing.gps import Fix, fix_of, read_gps
 from physsim_ros.sensing.imu import InertialReading, read_imu
 from physsim_ros.sensing.laser import read_laser, scan_points
 from physsim_ros.sensing.odometry import OdometryReading, read_odometry, true_motion
@@ -21,16 +22,19 @@ from physsim_ros.sensing.view import read_sensor, View
 from physsim_ros.sensing.wheel_encoders import read_wheels, WheelReading
 
 __all__ = [
+    'Fix',
     'FloorMarks',
     'InertialReading',
     'OdometryReading',
     'Surroundings',
     'View',
     'WheelReading',
+    'fix_of',
     'is_bumped',
     'is_due',
     'read_bumper',
     'read_floor',
+    'read_gps',
     'read_imu',
     'read_laser',
     'read_odometry',

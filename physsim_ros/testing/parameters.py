@@ -72,6 +72,7 @@ class Parameters(TypedDict, total=False):
     elasticity: float
     floor_friction: float
     seed: int
+    datum: Sequence[float]
     command_timeout: float
     drag_force: float
     max_bodies: int

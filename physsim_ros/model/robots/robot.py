@@ -20,7 +20,7 @@ from physsim_ros.model.robots.odometry import Odometry
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
 # Names of topics that every robot has.
-OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth', 'tf', 'tf_static')
+OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
 # Names of its frames; that of a sensor is its name.
 _OWN_FRAMES = ('base_footprint', 'base_link')
 # Greatest number of sensors of a robot.

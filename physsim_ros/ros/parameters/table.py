@@ -26,7 +26,7 @@ Type = Parameter.Type
 # Value of draw_color with which each body has another colour.
 AUTO = 'auto'
 # Values of parameters for settings that are None, which ROS does not have.
-_FOR_NONE = {'bounds': [], 'draw_color': AUTO}
+_FOR_NONE = {'bounds': [], 'datum': [], 'draw_color': AUTO}
 # A note of a parameter that is fixed after the start.
 READ_ONLY = 'read-only'
 

@@ -80,7 +80,7 @@ def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> 
 
 def _check_role(body: Body) -> None:
     """
-    Refuse a robot or a conveyor that cannot be.
+    Refuse a robot, an actor or a conveyor that cannot be.
 
     :raises BadProperty: the body has another role, or the robot no namespace that ROS allows
     """
@@ -89,6 +89,8 @@ def _check_role(body: Body) -> None:
             f'{body.name} is not a sensor; only a sensor can be a conveyor',
             field='surface_velocity',
         )
+    if body.actor is not None and body.anchored:
+        raise BadProperty(f'{body.name} is an actor; it cannot be anchored', field='anchored')
     if body.robot is None:
         return
     for role in ('anchored', 'kinematic', 'sensor'):

@@ -47,6 +47,7 @@ from physsim_ros.simulation.world.body_description import (
 from physsim_ros.simulation.world.live_space import LiveSpace
 from physsim_ros.simulation.world.lookup import (
     body_of_name,
+    check_start,
     points_in_world,
     pose_in_world,
 )
@@ -64,6 +65,7 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
         return Answer(subject=name, message=f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
     check_robot(space, body)
+    check_start(body, space.bodies.by_name)
     live.capacity.check_robot(body)
     live.capacity.check_body(body, pose)
     space.add(body, pose, twist)
@@ -132,12 +134,13 @@ def anchor(live: LiveSpace, request: Anchor) -> Answer:
     Anchor the topmost body at a point.
 
     :raises NothingThere: there is none
-    :raises BadProperty: it is a robot
+    :raises BadProperty: it is a robot or an actor
     """
     space = live.space
     rigid, _ = _topmost(space, request)
-    if rigid.body.robot is not None:
-        raise BadProperty(f'{rigid.body.name} is a robot; it cannot be anchored', field='point')
+    for role, noun in ((rigid.body.robot, 'a robot'), (rigid.body.actor, 'an actor')):
+        if role is not None:
+            raise BadProperty(f'{rigid.body.name} is {noun}; it cannot be anchored', field='point')
     if not rigid.body.anchored:
         space.change(rigid, replace(rigid.body, anchored=True), rigid.pose, REST)
     return Answer(subject=rigid.body.name, message=f'anchored {rigid.body.name}')
@@ -227,6 +230,8 @@ def _change(
     """Change fields and properties of a body, and its pose."""
     body = changed_body(old.body, changes, properties)
     check_robot(live.space, body)
+    if body.actor != old.body.actor:
+        check_start(body, live.space.bodies.by_name)
     live.capacity.check_robot(body)
     twist = REST if old.body.anchored else live.space.twist_of(old)
     twist = changed_twist(body, twist, properties)

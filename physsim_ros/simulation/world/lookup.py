@@ -5,12 +5,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import no_body, UnknownFrame
+from physsim_ros.model.scene import Body
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import local_to_world, Point, Pose
 
@@ -28,6 +29,19 @@ def body_of_name(
     if name not in space.bodies.by_name:
         raise no_body(name, (*others, *space.bodies.by_name), field)
     return space.bodies.by_name[name]
+
+
+def check_start(body: Body, names: Collection[str]) -> None:
+    """
+    Refuse an actor that waits for a body that there is not.
+
+    :param names: of the bodies of the world
+    :raises UnknownBody: the field is the key of `start`
+    """
+    waits_for = {} if body.actor is None else body.actor.start.bodies
+    for field, name in waits_for.items():
+        if name not in names:
+            raise no_body(name, names, field)
 
 
 def pose_in_world(space: Space, pose: Pose, frame: str) -> Pose:

@@ -80,6 +80,11 @@ class Drive(Checked, ABC):
         """Return the mean distance of its wheels from their middle [m]."""
 
     @property
+    def holonomic(self) -> bool:
+        """Whether it moves sideways, too."""
+        return False
+
+    @property
     def most_curved(self) -> float:
         """Return the greatest curvature of its way [1/m]."""
         return math.inf

@@ -35,6 +35,11 @@ class Omni(Drive):
         }
 
     @property
+    def holonomic(self) -> bool:
+        """Whether it moves sideways, too."""
+        return True
+
+    @property
     def lever(self) -> float:
         """Return the mean distance of its wheels from their middle [m]."""
         return self.track / 2

@@ -13,6 +13,7 @@ from __future__ import annotations
 from physsim_ros.model.declarations import OfKind
 from physsim_ros.model.robots.sensors.bumper import Bumper
 from physsim_ros.model.robots.sensors.floor_eye import FloorEye
+from physsim_ros.model.robots.sensors.gps import Gps
 from physsim_ros.model.robots.sensors.imu import Imu
 from physsim_ros.model.robots.sensors.laser import Laser
 from physsim_ros.model.robots.sensors.range_finder import RangeFinder
@@ -21,7 +22,7 @@ from physsim_ros.model.robots.sensors.wheel_encoders import WheelEncoders
 
 # By the word for it.
 SENSORS: dict[str, type[Sensor]] = {
-    each.KIND: each for each in (Laser, RangeFinder, Bumper, Imu, WheelEncoders, FloorEye)
+    each.KIND: each for each in (Laser, RangeFinder, Bumper, Imu, WheelEncoders, FloorEye, Gps)
 }
 
 
@@ -32,6 +33,7 @@ __all__ = [
     'SENSORS',
     'Bumper',
     'FloorEye',
+    'Gps',
     'Imu',
     'Laser',
     'RangeFinder',

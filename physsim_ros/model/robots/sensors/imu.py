@@ -3,7 +3,7 @@
 
 """An inertial measurement unit: acceleration and turn rate as felt (`sensor_msgs/Imu`)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Annotated, ClassVar
 
 from physsim_ros.model.checks import FASTEST, pair, Within
@@ -29,3 +29,9 @@ class Imu(Sensor):
     noise: Annotated[
         Point, _deviations, 'standard deviations of acceleration [m/s²] and turn rate [rad/s]'
     ] = (0.0, 0.0)
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    gravity: Annotated[
+        float,
+        Within(0.0, 100.0, 'm/s²'),
+        'z of its acceleration: 9.81 where the world is seen from above and a node expects it',
+    ] = field(default=0.0, repr=False)

@@ -1,0 +1,348 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Actors: bodies that move on their own, along a path or as people walk (SDF: actor).
+
+An actor has points of the world and a kind: a path has the times of its points, pedestrians walk
+from point to point by a model of how they avoid each other. The core moves them
+(`engine/core/actors.c`).
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+import itertools
+import math
+from typing import Annotated, Any, ClassVar
+
+from physsim_ros.model.checks import (
+    check_point,
+    check_yaw,
+    FASTEST,
+    LONGEST,
+    number,
+    shown,
+    Within,
+)
+from physsim_ros.model.declarations import Checked, OfKind
+from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.texts import nearest_name
+
+# Greatest number of points of an actor.
+MOST_POINTS = 1000
+# In the order of `ONCE`, `LOOP`, `TO_AND_FRO` of `engine/core/core.h`.
+REPEATS = ('once', 'loop', 'to_and_fro')
+# Greatest length of a model of pedestrians [m], time [s] and strength [m²/s²].
+_FAR, _LONG, _STRONG = 100.0, 100.0, 1e4
+_PACE = Within(1e-3, FASTEST, 'm/s')
+_LENGTH, _TIME = Within(1e-3, _FAR, 'm'), Within(1e-2, _LONG, 's')
+_STRENGTH = Within(0.0, _STRONG, 'm²/s²')
+
+# x, y [m] of a point, and where a path turns its body, yaw [rad].
+Waypoint = tuple[float, ...]
+
+
+def _name(value: object, name: str) -> str:
+    if not isinstance(value, str) or not value:
+        raise BadProperty(f'{name} must be the name of a body, not {shown(value)}', field=name)
+    return value
+
+
+def _points(value: object, name: str) -> tuple[Waypoint, ...]:
+    if not isinstance(value, Sequence) or isinstance(value, str) or not value:
+        raise BadProperty(f'{name} must be a list of points, not {shown(value)}', field=name)
+    if len(value) > MOST_POINTS:
+        raise BadProperty(f'{name} has more than {MOST_POINTS} points', field=name)
+    points = tuple(_point(each, name) for each in value)
+    if len({len(each) for each in points}) != 1:
+        raise Malformed(f'all {name} are [x, y], or all are [x, y, yaw]', field=name)
+    return points
+
+
+def _point(value: object, name: str) -> Waypoint:
+    if not isinstance(value, list | tuple) or len(value) not in (2, 3):
+        raise Malformed(f'{name} must be [x, y] or [x, y, yaw], not {shown(value)}', field=name)
+    place = check_point([number(each, name) for each in value[:2]], name)
+    return place if len(value) == 2 else (*place, check_yaw(number(value[2], name), name))
+
+
+def _repeat(value: object, name: str) -> str:
+    if not isinstance(value, str) or value not in REPEATS:
+        near, words = nearest_name(str(value), REPEATS), ', '.join(REPEATS)
+        raise BadProperty(f'{name} {shown(value)} is none of {words}{near}', field=name)
+    return value
+
+
+def _times(value: object, name: str) -> tuple[float, ...]:
+    if not isinstance(value, list | tuple):
+        raise BadProperty(f'{name} must be a list of numbers, not {shown(value)}', field=name)
+    times = tuple(Within(0.0, LONGEST, 's')(each, name) for each in value)
+    if any(after <= before for before, after in itertools.pairwise(times)):
+        raise BadProperty(f'{name} must increase', field=name)
+    return times
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Start(Checked):
+    """
+    What an actor waits for: a gate, or a distance, or neither; and then a time.
+
+    :raises BadProperty: a value is of the wrong kind or out of range, or does not go with another
+    """
+
+    gate: Annotated[
+        str | None,
+        _name,
+        'name of a body; waits until the centre of mass of another body lies in it',
+    ] = None
+    by: Annotated[
+        str | None,
+        _name,
+        'name of that other body; None is any that is neither anchored nor a sensor',
+    ] = None
+    near: Annotated[
+        str | None,
+        _name,
+        'name of a body; waits until their centres of mass are within `distance`',
+    ] = None
+    distance: Annotated[float | None, Within(0.0, 1e7, 'm'), 'of their centres of mass'] = None
+    time: Annotated[
+        float | None, Within(0.0, LONGEST, 's'), 'after that, or after the actor was spawned'
+    ] = None
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if self.gate is not None and self.near is not None:
+            raise BadProperty('an actor waits for a gate or a distance, not both', field='gate')
+        if self.by is not None and self.gate is None:
+            raise BadProperty('by says who opens a gate, and there is no gate', field='by')
+        if (self.near is None) != (self.distance is None):
+            lacking = 'near' if self.near is None else 'distance'
+            raise BadProperty('near and distance go together', field=lacking)
+
+    @property
+    def bodies(self) -> dict[str, str]:
+        """Return the names of bodies that it waits for, by field."""
+        named = {'gate': self.gate, 'by': self.by, 'near': self.near}
+        return {key: name for key, name in named.items() if name is not None}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Actor(Checked, ABC):
+    """
+    What makes a body an actor.
+
+    :raises Malformed: a number is not finite, or a list has the wrong length
+    :raises BadProperty: a value is of the wrong kind or out of range
+    """
+
+    KIND: ClassVar[str]
+
+    points: Annotated[
+        tuple[Waypoint, ...], _points, 'x, y [m] in the world, of a path also yaw [rad]'
+    ]
+    repeat: Annotated[
+        str,
+        _repeat,
+        'what follows the last point: `once` nothing, `loop` the first point, `to_and_fro` the '
+        'way back',
+    ] = 'once'
+    start: Annotated[Start, Start.from_value, 'what it waits for'] = field(default_factory=Start)
+    traction: Annotated[
+        float,
+        Within(0.0, 10.0),
+        'coefficient of friction with the floor, which moves it; a kinematic body moves whatever '
+        'it touches, and a robot by its drive',
+    ] = 0.8
+
+    def entry(self) -> dict[str, object]:
+        """Return the mapping that it is made from."""
+        values: dict[str, Any] = {'kind': self.KIND, **self.explicit(), **self._lists()}
+        values['start'] = self.start.explicit()
+        return {key: value for key, value in values.items() if value != {}}
+
+    def _lists(self) -> dict[str, object]:
+        return {'points': [list(point) for point in self.points]}
+
+    @property
+    @abstractmethod
+    def track(self) -> list[tuple[float, float, float, float]]:
+        """Return its points: time of a path [s], x, y [m], yaw [rad]."""
+
+    @property
+    @abstractmethod
+    def parameters(self) -> tuple[float, ...]:
+        """Return the numbers of its struct in `engine/core/core.h`, in their order."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Path(Actor):
+    """
+    A path: straight from point to point at given times, or at one speed.
+
+    The body is brought to where the path is at each moment; points with a yaw turn it too.
+    """
+
+    KIND: ClassVar = 'path'
+
+    times: Annotated[
+        tuple[float, ...] | None,
+        _times,
+        'of the points, since it started [s]; of a `loop` one more, of its first point',
+    ] = None
+    speed: Annotated[float | None, _PACE, 'excludes times'] = None
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if (self.times is None) == (self.speed is None):
+            raise BadProperty('a path has times or a speed', field='times')
+        count = len(self.points) + (self.repeat == 'loop')
+        if self.times is not None and len(self.times) != count:
+            again = ', and one at the first point again' if self.repeat == 'loop' else ''
+            raise Malformed(
+                f'times are {len(self.times)}, and must be {count}: one a point{again}',
+                field='times',
+            )
+        if self.times is None and any(length == 0.0 for length in self._lengths()):
+            raise BadProperty('two points at one place need times', field='points')
+
+    def _lists(self) -> dict[str, object]:
+        lists = super(Path, self)._lists()
+        return lists if self.times is None else {**lists, 'times': list(self.times)}
+
+    def _stations(self) -> tuple[Waypoint, ...]:
+        """Return its points, of a loop the first one again, turned to where the last one looks."""
+        first, *_, last = *self.points, self.points[-1]
+        if self.repeat != 'loop':
+            return self.points
+        yaw = (math.remainder(first[2] - last[2], math.tau) + last[2],) if len(first) == 3 else ()
+        return (*self.points, (*first[:2], *yaw))
+
+    def _lengths(self) -> list[float]:
+        return [math.dist(a[:2], b[:2]) for a, b in itertools.pairwise(self._stations())]
+
+    @property
+    def track(self) -> list[tuple[float, float, float, float]]:
+        """Return its points: time [s], x, y [m], yaw [rad]."""
+        times: Sequence[float] = self.times or ()
+        if self.speed is not None:
+            speed = self.speed
+            steps = (length / speed for length in self._lengths())
+            times = [*itertools.accumulate(steps, initial=0.0)]
+        stations = zip(times, self._stations(), strict=True)
+        return [(time, x, y, *(yaw or [0.0])) for time, (x, y, *yaw) in stations]  # type: ignore[misc]
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Return its greatest speed [m/s] and turn rate [rad/s], and 1 where it turns its body."""
+        most = [0.0, 0.0]
+        for (before, *a), (after, *b) in itertools.pairwise(self.track):
+            lapse = after - before
+            most[0] = max(most[0], math.dist(a[:2], b[:2]) / lapse)
+            most[1] = max(most[1], abs(b[2] - a[2]) / lapse)
+        return *most, float(len(self.points[0]) == 3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pedestrian(Actor):
+    """Somebody who walks from point to point; `points` have no yaw."""
+
+    speed: Annotated[float, _PACE, 'desired'] = 1.34
+    max_speed: Annotated[float | None, _PACE, 'greatest; None is 1.3 times the desired one'] = None
+    goal_radius: Annotated[float, _LENGTH, 'distance at which a point counts as reached'] = 0.3
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if len(self.points[0]) != 2:
+            raise Malformed('points of pedestrians are [x, y]', field='points')
+
+    @property
+    def track(self) -> list[tuple[float, float, float, float]]:
+        """Return its points; their times and yaws are 0."""
+        return [(0.0, x, y, 0.0) for x, y in self.points]
+
+    @property
+    def pace(self) -> tuple[float, float, float]:
+        """Return the desired and the greatest speed [m/s], and the goal radius [m]."""
+        most = 1.3 * self.speed if self.max_speed is None else self.max_speed
+        return self.speed, most, self.goal_radius
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SocialForce(Pedestrian):
+    """
+    A pedestrian of the social force model.
+
+    D. Helbing and P. Molnár, "Social force model for pedestrian dynamics", Physical Review E 51,
+    1995. Defaults are theirs, but that of `step_time`: 0.5 s are those of A. Johansson, D. Helbing
+    and P. Shukla, "Specification of the social force pedestrian model by evolutionary optimization
+    to video tracking data", 2007. With the 2 s of 1995, 40 pedestrians who walk against each other
+    on 40 m by 5 m form no lanes in 90 s; with 1 s they do in 30 s, with 0.5 s in 20 s.
+    """
+
+    KIND: ClassVar = 'social_force'
+
+    relaxation_time: Annotated[float, _TIME, 'in which it approaches its desired velocity: τ'] = (
+        0.5
+    )
+    repulsion: Annotated[float, _STRENGTH, 'potential of other pedestrians: V⁰'] = 2.1
+    repulsion_range: Annotated[float, _LENGTH, 'distance over which that decays: σ'] = 0.3
+    step_time: Annotated[float, _TIME, 'for which others are expected to walk on: Δt'] = 0.5
+    wall_repulsion: Annotated[
+        float, _STRENGTH, 'potential of walls and of bodies that do not walk: U⁰'
+    ] = 10.0
+    wall_range: Annotated[float, _LENGTH, 'distance over which that decays: R'] = 0.2
+    sight: Annotated[float, Within(0.0, math.pi, 'rad'), 'half the angle of view: φ'] = (
+        math.radians(100.0)
+    )
+    behind: Annotated[
+        float, Within(0.0, 1.0), 'share of the repulsion by what is out of sight: c'
+    ] = 0.5
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Return the numbers of `SocialForce` in `engine/core/core.h`."""
+        return (
+            self.relaxation_time,
+            self.repulsion,
+            self.repulsion_range,
+            self.step_time,
+            self.wall_repulsion,
+            self.wall_range,
+            math.cos(self.sight),
+            self.behind,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Orca(Pedestrian):
+    """
+    A pedestrian that avoids collisions by optimal reciprocal collision avoidance.
+
+    Van den Berg, Guy, Lin and Manocha, "Reciprocal n-body collision avoidance", 2011.
+    """
+
+    KIND: ClassVar = 'orca'
+
+    horizon: Annotated[
+        float,
+        _TIME,
+        'time for which its velocity is free of collisions with bodies that move: τ',
+    ] = 2.0
+    wall_horizon: Annotated[
+        float, _TIME, 'the same for those that are anchored, and for walls'
+    ] = 0.5
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Return the numbers of `Orca` in `engine/core/core.h`."""
+        return self.horizon, self.wall_horizon
+
+
+# By the word for it, in the order of `ACTOR_PATH`, `ACTOR_SOCIAL_FORCE`, `ACTOR_ORCA` of
+# `engine/core/core.h`.
+ACTORS: dict[str, type[Actor]] = {each.KIND: each for each in (Path, SocialForce, Orca)}
+
+# The check of an actor.
+actor_from = OfKind('actor', ACTORS)
