@@ -43,7 +43,7 @@ STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core 
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run class test test-all lint sanitize bench ablate evaluate gallery docs release soak clean
+.PHONY: help run class test test-all lint tables sanitize bench ablate evaluate gallery docs release soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
@@ -100,6 +100,9 @@ lint-core:
 lint-page:
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
+
+tables: $(BUILT)  ## write the tables of docs and configuration that follow from declarations
+	$(BIN)/python -m tools.tables
 
 # With AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES=200 unless it is given; ARGS chooses other tests.
 sanitize: $(TOOLS)  ## run laws and histories with a core that checks its memory

@@ -76,7 +76,7 @@ def symbol_sizes(scene: Scene, *, least: float = _SMALL) -> list[float]:
 
 def joint_strips(joint: Joint, size: float) -> list[Strip]:
     """
-    Return the line strips of a joint.
+    Return the line strips of a joint; a kind without lines of its own is a line with two ends.
 
     :param size: half the size of its symbol [m]
     """
@@ -102,6 +102,8 @@ def joint_strips(joint: Joint, size: float) -> list[Strip]:
         case JointKind.GEAR:
             wheels = [_wheel(2 * size), _wheel(2 * size, at=1.0)]
             return [*wheels, [Corner(0.0), Corner(1.0)]]
+        case _:
+            return [[Corner(0.0), Corner(1.0)], _circle(size / 2), _circle(size / 2, at=1.0)]
 
 
 def _circle(radius: float, at: float = 0.0) -> Strip:

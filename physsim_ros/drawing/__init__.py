@@ -12,11 +12,10 @@ folders import the names below.
 from physsim_ros.drawing.clicks.tools import Tool
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.session import DrawingSession, submit_reading
-from physsim_ros.drawing.settings import DRAWING_RANGES, DrawingSettings
+from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.interpretation import Reading
 
 __all__ = [
-    'DRAWING_RANGES',
     'DrawingSession',
     'DrawingSettings',
     'Reading',

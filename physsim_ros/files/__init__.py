@@ -8,11 +8,20 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 (`drawing`). Start with `world_file`, then `world_reader` and `world_writer`.
 """
 
-from physsim_ros.files.drawing_file import BadDrawing, drawings, load_drawing
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
-from physsim_ros.files.resources import shipped, shipped_pictures, title_of, user_directory
-from physsim_ros.files.robots import shipped_robot, shipped_robots, with_shipped_robot
+from physsim_ros.files.resources import (
+    BadDrawing,
+    drawings,
+    load_drawing,
+    shipped,
+    shipped_pictures,
+    shipped_robot,
+    shipped_robots,
+    title_of,
+    user_directory,
+    with_shipped_robot,
+)
 from physsim_ros.files.world_file import (
     find_world,
     hides_shipped,

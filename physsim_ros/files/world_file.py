@@ -15,13 +15,13 @@ from collections.abc import Callable
 from pathlib import Path
 import re
 
-from physsim_ros.files.entry_lines import load_entries
 from physsim_ros.files.map_file import with_map_walls
 from physsim_ros.files.regular_file import make_directory, read_file, write_file
 from physsim_ros.files.resources import files_by_name, is_plain, shipped, user_directory
 from physsim_ros.files.world_reader import state_from
 from physsim_ros.files.world_schema import FORMAT
 from physsim_ros.files.world_writer import text_of
+from physsim_ros.files.yaml12 import load_entries
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import (
     BadWorldFile,

@@ -20,10 +20,9 @@ import numpy as np
 from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.engine.core import sub_step_of
-from physsim_ros.files.driven import acting_from, driven_from
-from physsim_ros.files.impulse_cache import cache_from
+from physsim_ros.files.engine_state import acting_from, cache_from, driven_from
 from physsim_ros.files.joint_reader import joints_from
-from physsim_ros.files.robots import with_shipped_robot
+from physsim_ros.files.resources import with_shipped_robot
 from physsim_ros.files.world_schema import (
     BODY_KEYS,
     count_from,
@@ -38,8 +37,9 @@ from physsim_ros.files.world_schema import (
 )
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
-from physsim_ros.model.checks import check_key, known_mapping, LONGEST, number, pair, Within
+from physsim_ros.model.checks import LONGEST, number, pair, Within
 from physsim_ros.model.colors import Color, color_from
+from physsim_ros.model.declarations import check_key, known_mapping
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.requests import Command, Spawn

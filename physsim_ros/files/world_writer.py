@@ -15,8 +15,7 @@ import json
 import math
 import re
 
-from physsim_ros.files.driven import acting_entry, driven_entry
-from physsim_ros.files.impulse_cache import cache_entry
+from physsim_ros.files.engine_state import acting_entry, cache_entry, driven_entry
 from physsim_ros.files.world_schema import FORMAT, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.colors import Color, color_from

@@ -4,29 +4,27 @@
 """
 Properties of a body apart from its shape: material, initial motion, role.
 
-One table holds every property with its check; markers, world files and parameters read it.
+Each is declared once; markers, world files and the page read them.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated
 
 from physsim_ros.model.actors import Actor, actor_from
 from physsim_ros.model.checks import (
-    Checked,
-    Checks,
     FASTEST,
     flag,
     HEAVIEST,
     LIGHTEST,
     shown,
-    velocity,
+    VELOCITY,
     Within,
 )
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.texts import is_printable
+from physsim_ros.model.transform import Point
 
 # Greatest length of a label [characters]: some lines beside a body.
 LONGEST_LABEL = 200
@@ -56,56 +54,52 @@ class Properties(Checked):
     """
     The properties that a request sets; None leaves a property as it is, or at its default.
 
-    :param mass: [kg], excludes density
-    :param density: [kg/m²], excludes mass
-    :param friction: coefficient, 0 .. 10
-    :param elasticity: coefficient of restitution, 0 .. 1
-    :param velocity: of the centre of mass, world axes [m/s]
-    :param spin: [rad/s], counter-clockwise
-    :param anchored: fixed to the background
-    :param kinematic: moves at its commanded velocity, unaffected by contacts and joints
-    :param group: bodies of the same non-zero group do not collide with each other
-    :param sensor: its contacts are reported and have no effect
-    :param surface_velocity: of the surface of a conveyor, which is a sensor, in the body's axes
-        [m/s]
-    :param robot: what makes it a robot, or a mapping of that
-    :param actor: what moves it on its own, or a mapping of that
-    :param label: text that is shown at its centre of mass, in lines; '' is none
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    CHECKS: ClassVar[Checks] = {
-        'mass': Within(LIGHTEST, HEAVIEST, 'kg'),
-        'density': Within(LIGHTEST, HEAVIEST, 'kg/m²'),
-        'friction': Within(0.0, 10.0),
-        'elasticity': Within(0.0, 1.0),
-        'velocity': velocity,
-        'spin': Within(-FASTEST, FASTEST, 'rad/s'),
-        'anchored': flag,
-        'kinematic': flag,
-        'group': _group,
-        'sensor': flag,
-        'surface_velocity': velocity,
-        'robot': Robot.from_value,
-        'actor': actor_from,
-        'label': _label,
-    }
-
-    mass: float | None = None
-    density: float | None = None
-    friction: float | None = None
-    elasticity: float | None = None
-    velocity: tuple[float, float] | None = None
-    spin: float | None = None
-    anchored: bool | None = None
-    kinematic: bool | None = None
-    group: int | None = None
-    sensor: bool | None = None
-    surface_velocity: tuple[float, float] | None = None
-    robot: Robot | None = None
-    actor: Actor | None = None
-    label: str | None = None
+    mass: Annotated[float | None, Within(LIGHTEST, HEAVIEST, 'kg'), 'excludes `density`'] = None
+    density: Annotated[
+        float | None,
+        Within(LIGHTEST, HEAVIEST, 'kg/m²'),
+        'excludes `mass`; by default parameter `density`',
+    ] = None
+    friction: Annotated[
+        float | None, Within(0.0, 10.0), 'coefficient of friction; by default parameter `friction`'
+    ] = None
+    elasticity: Annotated[
+        float | None,
+        Within(0.0, 1.0),
+        'coefficient of restitution; by default parameter `elasticity`',
+    ] = None
+    velocity: Annotated[Point | None, VELOCITY, 'of the centre of mass, world axes'] = None
+    spin: Annotated[float | None, Within(-FASTEST, FASTEST, 'rad/s'), 'counter-clockwise'] = None
+    anchored: Annotated[
+        bool | None, flag, 'fixed to the background, even if it is `kinematic` as well'
+    ] = None
+    kinematic: Annotated[
+        bool | None, flag, 'moves as commanded, whatever it touches, and pushes other bodies'
+    ] = None
+    group: Annotated[
+        int | None, _group, 'bodies of the same non-zero group pass through each other'
+    ] = None
+    sensor: Annotated[bool | None, flag, 'reports contacts, pushes nothing'] = None
+    surface_velocity: Annotated[
+        Point | None,
+        VELOCITY,
+        'makes a sensor a conveyor: velocity of its surface in the axes of the body',
+    ] = None
+    robot: Annotated[
+        Robot | None, Robot.from_value, 'makes it a robot: the name of a shipped one, or a mapping'
+    ] = None
+    actor: Annotated[
+        Actor | None, actor_from, 'moves it on its own: a mapping of a path or a model of people'
+    ] = None
+    label: Annotated[
+        str | None,
+        _label,
+        'text at its centre of mass, on the page and in Rerun; `"\\n"` breaks a line',
+    ] = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)

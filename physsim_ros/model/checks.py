@@ -2,23 +2,23 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Checks of values as people write them: numbers, ranges, flags, points, keys.
+Checks of values as people write them: numbers, ranges, flags, words, points.
 
 Law: a check returns the value to keep, or refuses it and names the field.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 import math
 from numbers import Real
+import re
 import reprlib
 from types import UnionType
-from typing import Any, ClassVar, Generic, get_args, Self, TypeVar
+from typing import Any, get_args
 
-from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
-from physsim_ros.model.everyday_words import property_meant
+from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import Point, Pose
 
@@ -34,12 +34,12 @@ LONGEST = 1e10
 # dust grain to a mountain. Impulses between any two of these are finite.
 LIGHTEST, HEAVIEST = 1e-9, 1e12
 
-# Functions of value and field name by field name; each returns the value to keep, or raises.
-Checks = Mapping[str, Callable[[object, str], Any]]
+# A function of a value and the name of its field, which returns the value to keep, or raises.
+Check = Callable[[object, str], Any]
 
 # Length of a value in a message [characters]. A few YAML aliases make a value whose full text
 # exceeds the memory.
-_LONGEST_SHOWN = 60
+LONGEST_SHOWN = 60
 
 
 class _Short(reprlib.Repr):
@@ -52,12 +52,17 @@ class _Short(reprlib.Repr):
 
 _SHORT = _Short()
 _SHORT.maxlevel = 2
-_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = _LONGEST_SHOWN
+_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = LONGEST_SHOWN
 
 
 def shown(value: object) -> str:
     """Return the text of a value for a message, abbreviated."""
     return _SHORT.repr(value)
+
+
+def brief(number: float) -> str:
+    """Return a number as people write it: 0.5, 100000, 1e12."""
+    return re.sub(r'e([-+])0*', lambda sign: 'e-' if sign[1] == '-' else 'e', f'{number:g}')
 
 
 def number(value: object, name: str) -> float:
@@ -94,6 +99,11 @@ class Within:
     high: float
     unit: str = ''
 
+    @property
+    def span(self) -> str:
+        """Return the range with its unit, as `0 .. 1e12 kg`."""
+        return f'{brief(self.low)} .. {brief(self.high)} {self.unit}'.rstrip()
+
     def __call__(self, value: object, name: str) -> float:
         """
         Return the number.
@@ -119,6 +129,11 @@ class Whole:
 
     low: int
     high: int
+
+    @property
+    def span(self) -> str:
+        """Return the range, as `0 .. 1000`."""
+        return f'{self.low} .. {self.high}'
 
     def __call__(self, value: object, name: str) -> int:
         """
@@ -160,18 +175,42 @@ def point_list(value: object, name: str) -> tuple[Point, ...]:
     return tuple(pair(point, name) for point in value)
 
 
-def velocity(value: object, name: str) -> Point:
+@dataclass(frozen=True, slots=True)
+class Vector:
     """
-    Return a velocity [m/s].
+    A check that a value is a vector of at most a length.
 
-    :param name: of the field, for the refusal
-    :raises Malformed: it is no pair of finite numbers
-    :raises BadProperty: it is faster than FASTEST
+    :param longest: greatest length
+    :param unit: of the length
+    :param beyond: of a longer one, as `faster`
     """
-    result = pair(value, name)
-    if math.hypot(*result) > FASTEST:
-        raise BadProperty(f'{name} is faster than {FASTEST:g} m/s', field=name)
-    return result
+
+    longest: float
+    unit: str
+    beyond: str
+
+    @property
+    def span(self) -> str:
+        """Return the range with its unit, as `up to 100000 m/s`."""
+        return f'up to {brief(self.longest)} {self.unit}'
+
+    def __call__(self, value: object, name: str) -> Point:
+        """
+        Return the vector.
+
+        :raises Malformed: it is no pair of finite numbers
+        :raises BadProperty: it is no list of numbers, or too long
+        """
+        vector = pair(value, name)
+        if math.hypot(*vector) > self.longest:
+            raise BadProperty(
+                f'{name} is {self.beyond} than {self.longest:g} {self.unit}', field=name
+            )
+        return vector
+
+
+# The check of a velocity [m/s].
+VELOCITY = Vector(FASTEST, 'm/s', 'faster')
 
 
 def flag(value: object, name: str) -> bool:
@@ -186,21 +225,6 @@ def flag(value: object, name: str) -> bool:
     return value
 
 
-def known_mapping(value: object, name: str, known: list[str]) -> dict[Any, Any]:
-    """
-    Return a mapping with no other keys than the known ones.
-
-    :param name: of the field, for the refusal
-    :raises BadProperty: it is no mapping
-    :raises UnknownProperty: a key is not known; the nearest known one is named
-    """
-    if not isinstance(value, dict):
-        raise BadProperty(f'{name} must be a mapping', field=name)
-    for key in value:
-        check_key(key, known)
-    return value
-
-
 def text(value: object, name: str) -> str:
     """
     Return a text.
@@ -211,6 +235,33 @@ def text(value: object, name: str) -> str:
     if not isinstance(value, str):
         raise Malformed(f'{name} must be text, not {shown(value)}', field=name)
     return value
+
+
+@dataclass(frozen=True, slots=True)
+class OneOf:
+    """
+    A check that a value is one of several words.
+
+    :param words: all of them; members of an enumeration count as their values
+    """
+
+    words: tuple[str, ...]
+
+    @property
+    def span(self) -> str:
+        """Return the words, as `none, serve`."""
+        return ', '.join(self.words)
+
+    def __call__(self, value: object, name: str) -> str:
+        """
+        Return the word.
+
+        :raises BadProperty: it is none of them
+        """
+        if value not in self.words:
+            near = nearest_name(str(value), self.words)
+            raise BadProperty(f'{name} must be one of {self.span}{near}', field=name)
+        return str(value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -300,125 +351,3 @@ def _check_near(x: float, y: float, name: str) -> None:
 def _check_turn(yaw: float, name: str) -> None:
     if abs(yaw) > FARTHEST:
         raise BadProperty(f'the yaw of {name} is too large', field=name)
-
-
-def check_key(key: object, known: list[str]) -> None:
-    """
-    Refuse an unknown key, and name the known one that is meant or similar, else all of them.
-
-    :raises UnknownProperty: the key is not one of the known
-    """
-    if key in known:
-        return
-    word = str(key)
-    meant = property_meant(word, known)
-    hint = f'; use {meant!r}' if meant else nearest_name(word.lower(), known)
-    if known and not hint:
-        hint = f'; there are {", ".join(known)}'
-    raise UnknownProperty(f'there is no property {shown(word)}{hint}', field=word[:_LONGEST_SHOWN])
-
-
-@dataclass(frozen=True, slots=True)
-class Checked:
-    """
-    The base of values whose fields are checked.
-
-    :cvar CHECKS: check of each field, in their order; None is not checked where it is the default
-    :raises Refusal: a check raised it
-    """
-
-    CHECKS: ClassVar[Checks] = {}
-
-    def __post_init__(self) -> None:
-        for name, check in self.CHECKS.items():
-            value = getattr(self, name)
-            if value is None and self.__dataclass_fields__[name].default is None:
-                continue
-            kept = check(value, name)
-            if kept is not value:
-                # Frozen for everyone but its own constructor.
-                object.__setattr__(self, name, kept)
-
-    def explicit(self) -> dict[str, Any]:
-        """Return the fields that are set, by name, in the order of the checks."""
-        pairs = ((name, getattr(self, name)) for name in self.CHECKS)
-        return {name: value for name, value in pairs if value is not None}
-
-    @classmethod
-    def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
-        """
-        Return the value of a YAML mapping.
-
-        :raises UnknownProperty: a key is no field; the nearest one is named
-        :raises Malformed: a number is not finite or an array has the wrong length
-        :raises BadProperty: a value is null, of the wrong kind, or out of range
-        """
-        cls.check_keys(mapping)
-        return cls(**mapping)
-
-    @classmethod
-    def from_value(cls, value: object, name: str) -> Self:
-        """
-        Return a value of this class as it is, and that of a mapping as `from_mapping`.
-
-        :param name: of the field, for the refusal
-        :raises BadProperty: it is neither; and as `from_mapping`
-        """
-        if isinstance(value, cls):
-            return value
-        if not isinstance(value, dict):
-            raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
-        return cls.from_mapping(value)
-
-    @classmethod
-    def check_keys(cls, mapping: Mapping[Any, Any]) -> None:
-        """
-        Refuse keys that are no fields, and keys without a value.
-
-        :raises UnknownProperty: a key is no field; the nearest one is named
-        :raises BadProperty: a value is null
-        """
-        known = list(cls.CHECKS)
-        for key, value in mapping.items():
-            check_key(key, known)
-            if value is None:
-                raise BadProperty(f'{key} has no value', field=str(key))
-
-
-_Value = TypeVar('_Value', bound=Checked)
-
-
-@dataclass(frozen=True, slots=True)
-class OfKind(Generic[_Value]):
-    """
-    A check of values of several kinds, whose mapping says by the key `kind` which one it is.
-
-    :param noun: for such a value, for messages
-    :param kinds: classes by the words for them
-    """
-
-    noun: str
-    kinds: Mapping[str, type[_Value]]
-
-    def __call__(self, value: object, name: str) -> _Value:
-        """
-        Return a value of one of the kinds as it is, and that of a mapping as `from_mapping`.
-
-        :raises BadProperty: it is neither, or there is no such kind; and as `from_mapping`
-        """
-        for each in self.kinds.values():
-            if isinstance(value, each):
-                return value
-        if not isinstance(value, dict):
-            raise BadProperty(f'a {self.noun} must be a mapping, not {shown(value)}', field=name)
-        kind, words = value.get('kind'), ', '.join(self.kinds)
-        if kind is None:
-            raise BadProperty(f'a {self.noun} needs a kind: {words}', field='kind')
-        if not isinstance(kind, str) or kind not in self.kinds:
-            near = nearest_name(str(kind), self.kinds)
-            raise BadProperty(
-                f'there is no kind of {self.noun} {shown(kind)}{near}; there are {words}',
-                field='kind',
-            )
-        rest = {key: each for key, each in value.items() if key != 'kind'}
-        return self.kinds[kind].from_mapping(rest)

@@ -7,24 +7,40 @@ Kinds of joints and their properties: one table of properties, one table of kind
 Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its glyph (`view`).
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import ClassVar
+from typing import Annotated, Self
 
-from physsim_ros.model.checks import Checked, Checks, FASTEST, flag, HEAVIEST, shown, Within
+from physsim_ros.model.checks import brief, FASTEST, flag, HEAVIEST, shown, Within
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, UnknownProperty
-from physsim_ros.model.everyday_words import kind_meant
 from physsim_ros.model.shapes import LARGEST, SMALLEST
-from physsim_ros.model.texts import nearest_name
+from physsim_ros.model.texts import name_meant, nearest_name
 
 # Greatest ratio of a gear, and the inverse of the least: between the fastest and the slowest wheel
 # of a clock it is 1e6.
 _MOST_RATIO = 1e6
 # Greatest phase of a gear [rad]: exact to a nanometre at an arm of a metre.
 _MOST_PHASE = 1e6
+
+
+# The properties of every kind.
+_COMMON = ('max_force', 'break_force', 'collide')
+
+
+@dataclass(frozen=True, slots=True)
+class Else:
+    """
+    A note of a property: its value where nobody sets it.
+
+    :param value: that it then has
+    """
+
+    value: float
+
+
+# A note of a property: the bodies' poses when the joint is made supply its value.
+AS_DRAWN = 'as drawn'
 
 
 def _ratio(value: object, name: str) -> float:
@@ -35,58 +51,108 @@ def _ratio(value: object, name: str) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Property:
+class Schema:
     """
-    A property of joints.
+    The points and properties of a kind of joint.
 
-    :param check: returns the value to keep, or refuses it; a `Within` holds range and unit
-    :param default: None is no limit, or the value as drawn
-    :param as_drawn: whether the bodies' poses when the joint is made supply the default
+    :param points: number of points that a joint is drawn with, 1 or 2
+    :param sentence: what it does, in Markdown
+    :param own: names of the properties that not every kind has
+    :param words: everyday words for it; those of Box2D, Pymunk and URDF among them
+    :param least_distance: between its two points [m]; 0 is no such rule
+    :param has_axis: whether the direction from its first to its second point is an axis of body b
     """
 
-    check: Callable[[object, str], float | bool]
-    default: float | bool | None = None
-    as_drawn: bool = False
+    points: int
+    sentence: str
+    own: tuple[str, ...] = ()
+    words: tuple[str, ...] = ()
+    least_distance: float = 0.0
+    has_axis: bool = False
 
-
-# In the order of world files and of refusals. Kinds that share a name share the property.
-PROPERTIES: Mapping[str, Property] = {
-    'lower': Property(Within(-LARGEST, LARGEST, 'rad or m')),
-    'upper': Property(Within(-LARGEST, LARGEST, 'rad or m')),
-    'rate': Property(Within(-FASTEST, FASTEST, 'rad/s'), default=1.0),
-    'max_torque': Property(Within(0.0, HEAVIEST, 'N m'), default=1000.0),
-    'stiffness': Property(Within(0.0, HEAVIEST, 'N/m'), default=100.0),
-    'damping': Property(Within(0.0, HEAVIEST, 'N s/m'), default=0.0),
-    'rest_length': Property(Within(0.0, LARGEST, 'm'), as_drawn=True),
-    'length': Property(Within(0.0, LARGEST, 'm'), as_drawn=True),
-    'ratio': Property(_ratio, default=1.0),
-    'phase': Property(Within(-_MOST_PHASE, _MOST_PHASE, 'rad'), as_drawn=True),
-    'max_force': Property(Within(0.0, HEAVIEST, 'N')),
-    'break_force': Property(Within(0.0, HEAVIEST, 'N')),
-    'collide': Property(flag, default=False),
-}
-# The properties of every kind.
-_COMMON = ('max_force', 'break_force', 'collide')
-# Keys of a joint in the text of a marker.
-JOINT_KEYS = ['kind', 'a', 'b', *PROPERTIES]
+    @property
+    def properties(self) -> tuple[str, ...]:
+        """Return the names of the properties of the kind, its own first."""
+        return *self.own, *_COMMON
 
 
 class JointKind(StrEnum):
     """Kinds of joints; the value is the word in markers and world files."""
 
-    PIN = 'pin'
-    AXLE = 'axle'
-    MOTOR = 'motor'
-    SPRING = 'spring'
-    ROD = 'rod'
-    ROPE = 'rope'
-    SLIDER = 'slider'
-    GEAR = 'gear'
+    schema: Schema
 
-    @property
-    def schema(self) -> JointSchema:
-        """Return the points and properties of this kind."""
-        return _SCHEMAS[self]
+    def __new__(cls, word: str, schema: Schema) -> Self:
+        """Make a kind of its word and its schema."""
+        kind = str.__new__(cls, word)
+        kind._value_, kind.schema = word, schema
+        return kind
+
+    PIN = 'pin', Schema(1, 'holds them together', words=('weld', 'fixed', 'glue', 'nail'))
+    AXLE = (
+        'axle',
+        Schema(
+            1,
+            'lets them turn about the point; limits are angles',
+            own=('lower', 'upper'),
+            words=('hinge', 'revolute', 'continuous', 'pivot', 'bolt'),
+        ),
+    )
+    MOTOR = (
+        'motor',
+        Schema(
+            1,
+            'an axle that drives `a` against `b`',
+            own=('rate', 'max_torque'),
+            words=('engine', 'actuator'),
+        ),
+    )
+    SPRING = (
+        'spring',
+        Schema(
+            2,
+            'pulls and pushes in proportion to its strain',
+            own=('stiffness', 'damping', 'rest_length'),
+            words=('elastic', 'damped_spring', 'shock'),
+        ),
+    )
+    ROD = (
+        'rod',
+        Schema(
+            2,
+            'keeps the drawn distance',
+            words=('distance', 'bar', 'link', 'stick'),
+            least_distance=SMALLEST,
+        ),
+    )
+    ROPE = (
+        'rope',
+        Schema(
+            2,
+            'pulls where its ends would part further than its length',
+            own=('length',),
+            words=('string', 'cord', 'cable', 'chain', 'slide'),
+        ),
+    )
+    SLIDER = (
+        'slider',
+        Schema(
+            2,
+            'has `a` move along a line relative to `b`, without turning',
+            own=('lower', 'upper'),
+            words=('prismatic', 'groove', 'rail', 'piston'),
+            least_distance=SMALLEST,
+            has_axis=True,
+        ),
+    )
+    GEAR = (
+        'gear',
+        Schema(
+            1,
+            'has `a` turn with `b`',
+            own=('ratio', 'phase'),
+            words=('cog', 'gears'),
+        ),
+    )
 
     @property
     def points(self) -> int:
@@ -99,53 +165,20 @@ class JointKind(StrEnum):
         return f'an {self}' if self[0] in 'aeiou' else f'a {self}'
 
 
-@dataclass(frozen=True, slots=True)
-class JointSchema:
-    """
-    The points and properties of a kind.
-
-    :param points: number of points that a joint is drawn with, 1 or 2
-    :param own: names of the properties that not every kind has
-    :param least_distance: between its two points [m]; 0 is no such rule
-    :param has_axis: whether the direction from its first to its second point is an axis of body b
-    """
-
-    points: int
-    own: tuple[str, ...] = ()
-    least_distance: float = 0.0
-    has_axis: bool = False
-
-    @property
-    def properties(self) -> dict[str, Property]:
-        """Return the properties of the kind by name, its own first."""
-        return {name: PROPERTIES[name] for name in (*self.own, *_COMMON)}
-
-
-_SCHEMAS: Mapping[JointKind, JointSchema] = {
-    JointKind.PIN: JointSchema(1),
-    JointKind.AXLE: JointSchema(1, ('lower', 'upper')),
-    JointKind.MOTOR: JointSchema(1, ('rate', 'max_torque')),
-    JointKind.SPRING: JointSchema(2, ('stiffness', 'damping', 'rest_length')),
-    JointKind.ROD: JointSchema(2, least_distance=SMALLEST),
-    JointKind.ROPE: JointSchema(2, ('length',)),
-    JointKind.SLIDER: JointSchema(2, ('lower', 'upper'), least_distance=SMALLEST, has_axis=True),
-    JointKind.GEAR: JointSchema(1, ('ratio', 'phase')),
-}
-
-
 def kind_from(value: object) -> JointKind:
     """
     Return the kind of joint that a word names.
 
     :raises BadProperty: there is no such kind
     """
-    if isinstance(value, str) and value in tuple(JointKind):
-        return JointKind(value)
+    for kind in JointKind:
+        if kind == value:
+            return kind
     kinds = ', '.join(JointKind)
     if value is None:
         raise BadProperty(f'a joint needs a kind: {kinds}', field='kind')
-    meant = kind_meant(str(value))
-    hint = f'; use {meant!r}' if meant else nearest_name(str(value).lower(), JointKind)
+    meant = name_meant(str(value), {kind: kind.schema.words for kind in JointKind})
+    hint = f"; use '{meant}'" if meant else nearest_name(str(value).lower(), JointKind)
     raise BadProperty(
         f'there is no kind of joint {shown(value)}{hint}; there are {kinds}', field='kind'
     )
@@ -156,39 +189,66 @@ class JointProperties(Checked):
     """
     The properties that a request sets; None leaves a property as it is, or at its default.
 
-    :param lower: least angle of a relative to b [rad], or displacement of a along the axis [m],
-        from the pose in which they were joined
-    :param upper: greatest angle or displacement
-    :param rate: angular velocity of a relative to b, counter-clockwise [rad/s]
-    :param max_torque: greatest torque of a motor [N m]
-    :param stiffness: [N/m]
-    :param damping: [N s/m]
-    :param rest_length: length of a spring without force [m]
-    :param length: greatest distance of a rope's points [m]
-    :param ratio: angle of a over angle of b; negative for opposite directions
-    :param phase: angle of b times ratio minus angle of a [rad]
-    :param max_force: greatest force of the joint [N]; of a torque, at an arm of 1 m
-    :param break_force: force above which the joint is removed [N]; of a torque, at an arm of 1 m
-    :param collide: whether the joined bodies collide with each other
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    CHECKS: ClassVar[Checks] = {name: each.check for name, each in PROPERTIES.items()}
-
-    lower: float | None = None
-    upper: float | None = None
-    rate: float | None = None
-    max_torque: float | None = None
-    stiffness: float | None = None
-    damping: float | None = None
-    rest_length: float | None = None
-    length: float | None = None
-    ratio: float | None = None
-    phase: float | None = None
-    max_force: float | None = None
-    break_force: float | None = None
-    collide: bool | None = None
+    lower: Annotated[
+        float | None,
+        Within(-LARGEST, LARGEST, 'rad or m'),
+        'least angle of `a` relative to `b`, or displacement of `a` along the axis, from where '
+        'they were joined',
+    ] = None
+    upper: Annotated[
+        float | None, Within(-LARGEST, LARGEST, 'rad or m'), 'greatest angle or displacement'
+    ] = None
+    rate: Annotated[
+        float | None,
+        Within(-FASTEST, FASTEST, 'rad/s'),
+        'angular velocity of `a` relative to `b`, counter-clockwise',
+        Else(1.0),
+    ] = None
+    max_torque: Annotated[
+        float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', Else(1000.0)
+    ] = None
+    stiffness: Annotated[
+        float | None, Within(0.0, HEAVIEST, 'N/m'), 'force for a strain', Else(100.0)
+    ] = None
+    damping: Annotated[
+        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against a rate', Else(0.0)
+    ] = None
+    rest_length: Annotated[
+        float | None, Within(0.0, LARGEST, 'm'), 'length of a spring without force', AS_DRAWN
+    ] = None
+    length: Annotated[
+        float | None, Within(0.0, LARGEST, 'm'), "greatest distance of a rope's points", AS_DRAWN
+    ] = None
+    ratio: Annotated[
+        float | None,
+        _ratio,
+        'turns of `a` for one of `b`; negative for opposite directions; '
+        f'{brief(1 / _MOST_RATIO)} .. {brief(_MOST_RATIO)}, either sign',
+        Else(1.0),
+    ] = None
+    phase: Annotated[
+        float | None,
+        Within(-_MOST_PHASE, _MOST_PHASE, 'rad'),
+        'angle of `b` times `ratio` minus angle of `a`',
+        AS_DRAWN,
+    ] = None
+    max_force: Annotated[
+        float | None,
+        Within(0.0, HEAVIEST, 'N'),
+        'greatest force of the joint; of a torque, at an arm of 1 m',
+    ] = None
+    break_force: Annotated[
+        float | None,
+        Within(0.0, HEAVIEST, 'N'),
+        'force above which the joint is removed; of a torque, at an arm of 1 m',
+    ] = None
+    collide: Annotated[
+        bool | None, flag, 'whether the joined bodies collide with each other', Else(False)
+    ] = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -211,3 +271,15 @@ class JointProperties(Checked):
                 raise UnknownProperty(
                     f'{kind.phrase} has no {name}; it has {", ".join(known)}', field=name
                 )
+
+
+# Keys of a joint in the text of a marker.
+JOINT_KEYS = ['kind', 'a', 'b', *JointProperties.FIELDS]
+# Values of the properties that nobody sets, by name; those that are not here have no limit, or are
+# as drawn.
+DEFAULTS = {
+    name: note.value
+    for name, each in JointProperties.FIELDS.items()
+    for note in each.notes
+    if isinstance(note, Else)
+}

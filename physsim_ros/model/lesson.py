@@ -7,21 +7,11 @@ A lesson: a task of mechanics that belongs to a world.
 Its question is answered by one figure, which is measured in the world.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, Self
 
-from physsim_ros.model.checks import (
-    Checked,
-    Checks,
-    HEAVIEST,
-    known_mapping,
-    number,
-    shown,
-    Whole,
-    Within,
-)
+from physsim_ros.model.checks import HEAVIEST, number, shown, Whole, Within
+from physsim_ros.model.declarations import Checked, known_mapping
 from physsim_ros.model.errors import BadProperty, Malformed
 
 # Greatest length of a text [characters]: a page of a book.
@@ -50,40 +40,25 @@ class Lesson(Checked):
     """
     A task that belongs to a world.
 
-    :param number: place among all lessons, from 1
-    :param title: of the lesson
-    :param question: that is asked
-    :param hint: for those who do not know how to begin
-    :param measure: the quantity that answers the question, and how it is measured
-    :param unit: of that quantity; '1' is none
-    :param figure: its true value, in that unit
-    :param within: greatest error of a measured value, in that unit
-    :param answer: the law behind the figure
     :raises BadProperty: a value is of the wrong type or out of range
     :raises Malformed: a number is not finite
     """
 
-    CHECKS: ClassVar[Checks] = {
-        'number': Whole(1, 10_000),
-        'title': _text(LONGEST_TITLE),
-        'question': _text(LONGEST_TEXT),
-        'hint': _text(LONGEST_TEXT),
-        'measure': _text(LONGEST_TEXT),
-        'unit': _text(LONGEST_UNIT),
-        'figure': number,
-        'within': Within(0.0, HEAVIEST),
-        'answer': _text(LONGEST_TEXT),
-    }
-
-    number: int
-    title: str
-    question: str
-    hint: str
-    measure: str
-    unit: str
-    figure: float
-    within: float
-    answer: str
+    number: Annotated[int, Whole(1, 10_000), 'place among all lessons']
+    title: Annotated[str, _text(LONGEST_TITLE), 'of the lesson']
+    question: Annotated[str, _text(LONGEST_TEXT), 'that is asked']
+    hint: Annotated[str, _text(LONGEST_TEXT), 'for those who do not know how to begin']
+    measure: Annotated[
+        str,
+        _text(LONGEST_TEXT),
+        'the quantity that answers the question, and how it is measured',
+    ]
+    unit: Annotated[str, _text(LONGEST_UNIT), "of that quantity; '1' is none"]
+    figure: Annotated[float, number, 'its true value, in that unit']
+    within: Annotated[
+        float, Within(0.0, HEAVIEST), 'greatest error of a measured value, in that unit'
+    ]
+    answer: Annotated[str, _text(LONGEST_TEXT), 'the law behind the figure']
 
     @classmethod
     def from_entry(cls, value: object) -> Self:
@@ -92,8 +67,8 @@ class Lesson(Checked):
 
         :raises Refusal: a key is unknown or missing, or a value is out of range
         """
-        entry = known_mapping(value, 'lesson', [*cls.CHECKS])
-        for name in cls.CHECKS:
+        entry = known_mapping(value, 'lesson', cls.FIELDS)
+        for name in cls.FIELDS:
             if name not in entry:
                 raise Malformed(f'a lesson needs {name}', field='lesson')
         return cls(**entry)

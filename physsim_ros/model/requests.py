@@ -11,13 +11,11 @@ first, then robots, joints, hands and the world. A new request is a class here, 
 `Request`, and a line in the table of handlers in `simulation.world.world`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 import math
 import sys
-from typing import Any, ClassVar
+from typing import Annotated, Any
 
 import numpy as np
 from physsim_ros.model.arrays import Floats, greatest
@@ -25,12 +23,9 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import (
     check_finite,
-    check_key,
     check_point,
     check_pose,
     check_yaw,
-    Checked,
-    Checks,
     FARTHEST,
     FASTEST,
     HEAVIEST,
@@ -40,13 +35,13 @@ from physsim_ros.model.checks import (
     text,
 )
 from physsim_ros.model.colors import check_color, Color
+from physsim_ros.model.declarations import check_key, Checked
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
 from physsim_ros.model.joints import (
     JOINT_KEYS,
     JointKind,
     JointProperties,
     kind_from,
-    PROPERTIES,
 )
 from physsim_ros.model.names import check_body_name, check_hand_name, check_name, WORLD
 from physsim_ros.model.settings import check_setting
@@ -122,35 +117,25 @@ class Spawn(Checked):
     A change replaces the shape, the pose, the colour unless it is None, the lifetime unless it is
     0, and the properties that are set. Everything else is kept, velocity included.
 
-    :param name: of the body
-    :param shape: geometry in the body's frame
-    :param pose: of the body's origin
-    :param frame: '' for the world, or a body's name
-    :param color: red, green, blue, alpha, each 0 .. 1; None is the default of the
-        name
-    :param lifetime: simulation time after which the body is removed [s]; 0 is for ever
-    :param properties: material, velocity and role
     :raises Malformed: a number is not finite, or the name is empty or too long
     :raises BadProperty: a pose, colour or lifetime is out of range
     """
 
-    CHECKS: ClassVar[Checks] = {
-        'name': check_body_name,
-        'shape': OfClass(Shape),
-        'pose': check_pose,
-        'frame': text,
-        'color': check_color,
-        'lifetime': _lifetime,
-        'properties': OfClass(Properties),
-    }
-
-    name: str
-    shape: Shape
-    pose: Pose = ORIGIN
-    frame: str = ''
-    color: Color | None = None
-    lifetime: float = 0.0
-    properties: Properties = field(default_factory=Properties)
+    name: Annotated[str, check_body_name, 'of the body']
+    shape: Annotated[Shape, OfClass(Shape), "geometry in the body's frame"]
+    pose: Annotated[Pose, check_pose, "of the body's origin"] = ORIGIN
+    frame: Annotated[str, text, "'' for the world, or a body's name"] = ''
+    color: Annotated[
+        Color | None,
+        check_color,
+        'red, green, blue, alpha, each 0 .. 1; None is the default of the name',
+    ] = None
+    lifetime: Annotated[
+        float, _lifetime, 'simulation time after which the body is removed [s]; 0 is for ever'
+    ] = 0.0
+    properties: Annotated[Properties, OfClass(Properties), 'material, velocity and role'] = field(
+        default_factory=Properties
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -158,28 +143,19 @@ class ChangeBody(Checked):
     """
     Change the properties of a body that are named here; everything else is kept.
 
-    :param name: of the body
-    :param properties: that are set
-    :param color: red, green, blue, alpha, each 0 .. 1; None keeps it
-    :param pose: of the body's origin; None keeps it
-    :param frame: of the pose: '' for the world, or a body's name
     :raises Malformed: a number is not finite, or an array has the wrong length
     :raises BadProperty: a pose or colour is out of range
     """
 
-    CHECKS: ClassVar[Checks] = {
-        'name': text,
-        'properties': OfClass(Properties),
-        'color': check_color,
-        'pose': check_pose,
-        'frame': text,
-    }
-
-    name: str
-    properties: Properties = field(default_factory=Properties)
-    color: Color | None = None
-    pose: Pose | None = None
-    frame: str = ''
+    name: Annotated[str, text, 'of the body']
+    properties: Annotated[Properties, OfClass(Properties), 'that are set'] = field(
+        default_factory=Properties
+    )
+    color: Annotated[
+        Color | None, check_color, 'red, green, blue, alpha, each 0 .. 1; None keeps it'
+    ] = None
+    pose: Annotated[Pose | None, check_pose, "of the body's origin; None keeps it"] = None
+    frame: Annotated[str, text, "of the pose: '' for the world, or a body's name"] = ''
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -187,26 +163,20 @@ class MoveBodies(Checked):
     """
     Move bodies by one vector; velocities are kept. If one is refused, none is moved.
 
-    :param names: the bodies, each once
-    :param by: vector of the world [m]
     :raises Malformed: no body is named, one is named twice, or a number is not finite
     :raises BadProperty: the vector is too long
     """
 
-    CHECKS: ClassVar[Checks] = {'names': _names, 'by': check_point}
-
-    names: tuple[str, ...]
-    by: Point
+    names: Annotated[tuple[str, ...], _names, 'the bodies, each once']
+    by: Annotated[Point, check_point, 'vector of the world [m]']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AtPoint(Checked):
     """A request for the topmost bodies, or joints, at a point [m]."""
 
-    CHECKS: ClassVar[Checks] = {'point': check_point, 'frame': text}
-
-    point: Point
-    frame: str = ''
+    point: Annotated[Point, check_point, 'where they are [m]']
+    frame: Annotated[str, text, "of the point: '' for the world, or a body's name"] = ''
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -223,9 +193,7 @@ class Release(AtPoint):
 class Delete(Checked):
     """Remove the body of that name, and its joints."""
 
-    CHECKS: ClassVar[Checks] = {'name': text}
-
-    name: str
+    name: Annotated[str, text, 'of the body']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -233,26 +201,21 @@ class DeleteBodies(Checked):
     """
     Remove several bodies, and their joints. If one does not exist, none is removed.
 
-    :param names: the bodies, each once
     :raises Malformed: no body is named, or one is named twice
     """
 
-    CHECKS: ClassVar[Checks] = {'names': _names}
-
-    names: tuple[str, ...]
+    names: Annotated[tuple[str, ...], _names, 'the bodies, each once']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeleteAll(Checked):
-    """
-    Remove all bodies, or all of a namespace, and their joints.
+    """Remove all bodies, or all of a namespace, and their joints."""
 
-    :param namespace: of their names, the part before the last slash; None is every body
-    """
-
-    CHECKS: ClassVar[Checks] = {'namespace': text}
-
-    namespace: str | None = None
+    namespace: Annotated[
+        str | None,
+        text,
+        'of their names, the part before the last slash; None is every body',
+    ] = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -262,23 +225,23 @@ class Command(Checked):
 
     Each array is copied and is read-only afterwards; n is the number of names.
 
-    :param names: the bodies, each once
-    :param poses: (n, 3) float64: x, y [m], yaw [rad] of each, or empty
-    :param twists: (n, 3) float64: vx, vy [m/s], spin [rad/s], world axes, or empty
-    :param wrenches: (n, 3) float64: fx, fy [N], torque [N m], world axes, or empty; they act at
-        the centre of mass until the next one, at most for the world's `command_timeout`
-    :param frame: of the poses: '' for the world, or a body's name
     :raises Malformed: lengths do not fit, a name comes twice, a number is not finite
     :raises BadProperty: a value is out of range
     """
 
-    CHECKS: ClassVar[Checks] = {'names': _as_field('joint_names', _names), 'frame': text}
-
-    names: tuple[str, ...]
-    poses: Floats = field(default_factory=_no_rows)
-    twists: Floats = field(default_factory=_no_rows)
-    wrenches: Floats = field(default_factory=_no_rows)
-    frame: str = ''
+    names: Annotated[tuple[str, ...], _as_field('joint_names', _names), 'the bodies, each once']
+    poses: Annotated[Floats, '(n, 3) float64: x, y [m], yaw [rad] of each, or empty'] = field(
+        default_factory=_no_rows
+    )
+    twists: Annotated[
+        Floats, '(n, 3) float64: vx, vy [m/s], spin [rad/s], world axes, or empty'
+    ] = field(default_factory=_no_rows)
+    wrenches: Annotated[
+        Floats,
+        '(n, 3) float64: fx, fy [N], torque [N m], world axes, or empty; they act at the centre '
+        "of mass until the next one, at most for the world's `command_timeout`",
+    ] = field(default_factory=_no_rows)
+    frame: Annotated[str, text, "of the poses: '' for the world, or a body's name"] = ''
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -351,16 +314,16 @@ class DriveRobot(Checked):
 
     The drive does what it can of it: a velocity beyond its limits is cut off.
 
-    :param name: of the body of the robot
-    :param velocity: vx forward, vy to the left [m/s], turn counter-clockwise [rad/s]
     :raises Malformed: a number is not finite, or there are not three
     :raises BadProperty: it is faster than anything may be
     """
 
-    CHECKS: ClassVar[Checks] = {'name': text, 'velocity': _driven}
-
-    name: str
-    velocity: Twist
+    name: Annotated[str, text, 'of the body of the robot']
+    velocity: Annotated[
+        Twist,
+        _driven,
+        'vx forward, vy to the left [m/s], turn counter-clockwise [rad/s]',
+    ]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -371,15 +334,6 @@ class Join(Checked):
     A change replaces the bodies, the points and the properties that are set or unset. The other
     properties are kept if the kind is the same.
 
-    :param name: of the joint
-    :param kind: of joint
-    :param points: anchor points, one or two as the kind requires [m]
-    :param frame: of the points: '' for the world, or a body's name
-    :param a: name of a body; '' is the topmost one at the first point
-    :param b: name of a body, or 'world' for the background; '' is the next body at the point, or
-        the topmost one at the second point, or the background if there is none
-    :param properties: of the kind
-    :param unset: names of the properties that get their defaults again
     :raises Malformed: a number is not finite, the name has no id, or the number of points is wrong
     :raises BadProperty: there is no such kind, a body would be joined to itself, or a point is too
         far away
@@ -387,25 +341,25 @@ class Join(Checked):
     :raises UnknownProperty: the kind of joint does not have a property
     """
 
-    CHECKS: ClassVar[Checks] = {
-        'name': check_name,
-        'kind': lambda value, name: kind_from(text(value, name)),
-        'points': _points,
-        'frame': text,
-        'a': text,
-        'b': text,
-        'properties': OfClass(JointProperties),
-        'unset': _texts,
-    }
-
-    name: str
-    kind: JointKind
-    points: tuple[Point, ...]
-    frame: str = ''
-    a: str = ''
-    b: str = ''
-    properties: JointProperties = field(default_factory=JointProperties)
-    unset: tuple[str, ...] = ()
+    name: Annotated[str, check_name, 'of the joint']
+    kind: Annotated[JointKind, lambda value, name: kind_from(text(value, name)), 'of joint']
+    points: Annotated[
+        tuple[Point, ...], _points, 'anchor points, one or two as the kind requires [m]'
+    ]
+    frame: Annotated[str, text, "of the points: '' for the world, or a body's name"] = ''
+    a: Annotated[str, text, "name of a body; '' is the topmost one at the first point"] = ''
+    b: Annotated[
+        str,
+        text,
+        "name of a body, or 'world' for the background; '' is the next body at the point, or the "
+        'topmost one at the second point, or the background if there is none',
+    ] = ''
+    properties: Annotated[JointProperties, OfClass(JointProperties), 'of the kind'] = field(
+        default_factory=JointProperties
+    )
+    unset: Annotated[
+        tuple[str, ...], _texts, 'names of the properties that get their defaults again'
+    ] = ()
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -439,22 +393,18 @@ class Axle(AtPoint):
 class Unjoin(Checked):
     """Remove the joint of that name."""
 
-    CHECKS: ClassVar[Checks] = {'name': text}
-
-    name: str
+    name: Annotated[str, text, 'of the joint']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnjoinAll(Checked):
-    """
-    Remove all joints, or all of a namespace.
+    """Remove all joints, or all of a namespace."""
 
-    :param namespace: of their names, the part before the last slash; None is every joint
-    """
-
-    CHECKS: ClassVar[Checks] = {'namespace': text}
-
-    namespace: str | None = None
+    namespace: Annotated[
+        str | None,
+        text,
+        'of their names, the part before the last slash; None is every joint',
+    ] = None
 
 
 def join_from(
@@ -489,7 +439,7 @@ def join_from(
 
 def unset_in(mapping: Mapping[Any, Any]) -> tuple[str, ...]:
     """Return the properties that are null in a YAML mapping."""
-    return tuple(name for name in PROPERTIES if mapping.get(name, name) is None)
+    return tuple(name for name in JointProperties.FIELDS if mapping.get(name, name) is None)
 
 
 def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
@@ -518,32 +468,20 @@ class OfHand(Checked):
     """
     A request of a hand.
 
-    :param hand: name of the hand, unique in its world
     :raises Malformed: the name is empty, too long or unprintable
     """
 
-    CHECKS: ClassVar[Checks] = {'hand': _as_field('client_id', check_hand_name)}
-
-    hand: str
+    hand: Annotated[
+        str, _as_field('client_id', check_hand_name), 'name of the hand, unique in its world'
+    ]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Grab(OfHand):
-    """
-    Have a hand grab the topmost dynamic body under a point; it lets go of any other body.
+    """Have a hand grab the topmost dynamic body under a point; it lets go of any other body."""
 
-    :param point: position of the hand [m]
-    :param frame: of the point: '' for the world, or a body's name
-    """
-
-    CHECKS: ClassVar[Checks] = {
-        **OfHand.CHECKS,
-        'point': _as_field('mouse_point', check_point),
-        'frame': text,
-    }
-
-    point: Point
-    frame: str = ''
+    point: Annotated[Point, _as_field('mouse_point', check_point), 'position of the hand [m]']
+    frame: Annotated[str, text, "of the point: '' for the world, or a body's name"] = ''
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -553,24 +491,15 @@ class GrabToPlace(Grab):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MoveHand(OfHand):
-    """
-    Move a hand, and draw the body to it that it has grabbed.
+    """Move a hand, and draw the body to it that it has grabbed."""
 
-    :param point: new position of the hand [m]
-    :param yaw: of the body [rad], where it is placed; None keeps it
-    :param frame: of the point and yaw: '' for the world, or a body's name
-    """
-
-    CHECKS: ClassVar[Checks] = {
-        **OfHand.CHECKS,
-        'point': _as_field('mouse_point', check_point),
-        'yaw': _as_field('mouse_point', check_yaw),
-        'frame': text,
-    }
-
-    point: Point
-    yaw: float | None = None
-    frame: str = ''
+    point: Annotated[Point, _as_field('mouse_point', check_point), 'new position of the hand [m]']
+    yaw: Annotated[
+        float | None,
+        _as_field('mouse_point', check_yaw),
+        'of the body [rad], where it is placed; None keeps it',
+    ] = None
+    frame: Annotated[str, text, "of the point and yaw: '' for the world, or a body's name"] = ''
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -590,24 +519,16 @@ class LetGo(OfHand):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Configure(Checked):
-    """
-    Change settings of the world.
+    """Change settings of the world."""
 
-    :param changes: new values by the field of WorldSettings
-    """
-
-    CHECKS: ClassVar[Checks] = {'changes': _changes}
-
-    changes: Mapping[str, Any]
+    changes: Annotated[Mapping[str, Any], _changes, 'new values by the field of WorldSettings']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Restore(Checked):
     """Replace all bodies, joints and settings by those of a saved state."""
 
-    CHECKS: ClassVar[Checks] = {'state': OfClass(WorldState)}
-
-    state: WorldState
+    state: Annotated[WorldState, OfClass(WorldState), 'that is restored']
 
 
 HandRequest = Grab | GrabToPlace | MoveHand | PlaceHand | KeepHand | LetGo

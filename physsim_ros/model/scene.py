@@ -17,7 +17,7 @@ import numpy as np
 from physsim_ros.model.actors import Actor
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.colors import Color
-from physsim_ros.model.joints import JointKind, JointProperties, PROPERTIES
+from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots import Robot
@@ -138,9 +138,7 @@ class Joint:
     def number(self, name: str) -> float:
         """Return a property that has a number as its default."""
         value: float | None = getattr(self.properties, name)
-        default = PROPERTIES[name].default
-        assert default is not None  # noqa: S101 - by the contract above
-        return default if value is None else value
+        return DEFAULTS[name] if value is None else value
 
     def drawn_values(self) -> dict[str, float]:
         """Return the properties whose default is the value as drawn, by name."""
@@ -149,8 +147,8 @@ class Joint:
             'length': self.rest_length,
             'phase': self.seat.phase,
         }
-        schema = self.kind.schema.properties
-        return {name: values[name] for name, each in schema.items() if each.as_drawn}
+        fields, own = JointProperties.FIELDS, self.kind.schema.own
+        return {name: values[name] for name in own if AS_DRAWN in fields[name].notes}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -3,22 +3,11 @@
 
 """Settings of a world: gravity, damping, solver, walls, and the default material of bodies."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-import math
-from typing import ClassVar
+from typing import Annotated
 
-from physsim_ros.model.checks import (
-    Checked,
-    Checks,
-    HEAVIEST,
-    LIGHTEST,
-    pair,
-    shown,
-    Whole,
-    Within,
-)
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST, pair, shown, Vector, Whole, Within
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import Point
@@ -42,13 +31,6 @@ MOST_ROBOT_TOPICS = 4000
 MOST_SAMPLES = 10_000
 
 
-def _gravity(value: object, name: str) -> Point:
-    gravity = pair(value, name)
-    if math.hypot(*gravity) > STRONGEST:
-        raise BadProperty(f'{name} is stronger than {STRONGEST:g} m/s²', field=name)
-    return gravity
-
-
 def _bounds(value: object, name: str) -> Bounds:
     if not isinstance(value, list | tuple):
         raise BadProperty(f'{name} must be a list of four numbers, not {shown(value)}', field=name)
@@ -69,70 +51,79 @@ def _datum(value: object, name: str) -> Point:
     )
 
 
-# Checks of the settings that are a single number.
-RANGES: dict[str, Within | Whole] = {
-    'damping': Within(0.0, 1.0),
-    'iterations': Whole(1, 1000),
-    'density': Within(LIGHTEST, HEAVIEST, 'kg/m²'),
-    'friction': Within(0.0, 10.0),
-    'elasticity': Within(0.0, 1.0),
-    'floor_friction': Within(0.0, 10.0),
-    'seed': Whole(0, 2**31 - 1),
-    'command_timeout': Within(0.0, 1e9, 's'),
-    'drag_force': Within(0.0, 1000.0),
-    'max_bodies': Whole(0, 1_000_000),
-    'max_shapes': Whole(0, 1_000_000),
-    # 10,000,000 contacts take a minute a step.
-    'max_overlaps': Whole(0, 10_000_000),
-    'max_joints': Whole(0, 1_000_000),
-}
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldSettings(Checked):
     """
-    The settings of a world.
+    The settings of a world; each is the ROS parameter of the same name.
 
-    :param gravity: [m/s²]
-    :param damping: share of velocity lost each second, 0 .. 1
-    :param iterations: of the engine's solver in a step, shared out among its sub-steps
-    :param bounds: xmin, ymin, xmax, ymax of the walls around the world [m]; None is no walls
-    :param density: of bodies by default [kg/m²]
-    :param friction: coefficient of bodies by default
-    :param elasticity: coefficient of restitution of bodies by default
-    :param floor_friction: coefficient of friction between bodies and the floor of a world that is
-        seen from above; 0 is a world that is seen from the side
-    :param seed: of all noise
-    :param datum: latitude and longitude of the origin [deg], where x is east; None is nowhere
-    :param command_timeout: simulation time for which a wrench acts [s]; 0 is no limit
-    :param drag_force: greatest force of a hand, in weights of the body
-    :param max_bodies: greatest number of bodies
-    :param max_shapes: greatest number of their convex pieces
-    :param max_overlaps: greatest number of pairs of pieces that overlap at once by a request
-    :param max_joints: greatest number of joints, of which `MOST_JOINTS_ON_BODY` on one body
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is out of range
     """
 
-    CHECKS: ClassVar[Checks] = {'gravity': _gravity, 'bounds': _bounds, 'datum': _datum, **RANGES}
-
-    gravity: tuple[float, float] = (0.0, -9.81)
-    damping: float = 0.0
-    iterations: int = 16
-    bounds: Bounds | None = None
-    density: float = 1.0
-    friction: float = 0.5
-    elasticity: float = 0.5
+    gravity: Annotated[Point, Vector(STRONGEST, 'm/s²', 'stronger'), 'acceleration'] = (0.0, -9.81)
+    damping: Annotated[
+        float, Within(0.0, 1.0), 'share of velocity lost to the air each second'
+    ] = 0.0
+    iterations: Annotated[
+        int,
+        Whole(1, 1000),
+        'solver iterations of a step, shared out among its four sub-steps; more make tall stacks '
+        'stiffer',
+    ] = 16
+    bounds: Annotated[
+        Bounds | None,
+        _bounds,
+        'walls around the world: xmin, ymin, xmax, ymax, each '
+        f'{-LARGEST:g} .. {LARGEST:g} [m]; without it there are none',
+    ] = None
+    density: Annotated[float, Within(LIGHTEST, HEAVIEST, 'kg/m²'), 'default of new bodies'] = 1.0
+    friction: Annotated[float, Within(0.0, 10.0), 'default coefficient of new bodies'] = 0.5
+    elasticity: Annotated[
+        float, Within(0.0, 1.0), 'default coefficient of restitution of new bodies'
+    ] = 0.5
     # Not part of the text, so that digests of worlds without a floor are those of ever.
-    floor_friction: float = field(default=0.0, repr=False)
-    seed: int = field(default=0, repr=False)
-    datum: Point | None = field(default=None, repr=False)
-    command_timeout: float = 0.5
-    drag_force: float = 10.0
-    max_bodies: int = 20000
-    max_shapes: int = 50000
-    max_overlaps: int = 20000
-    max_joints: int = 20000
+    floor_friction: Annotated[
+        float,
+        Within(0.0, 10.0),
+        'coefficient of friction between bodies and the floor of a world that is seen from above; '
+        '0 is a world that is seen from the side',
+    ] = field(default=0.0, repr=False)
+    seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of all noise of robots'] = field(
+        default=0, repr=False
+    )
+    datum: Annotated[
+        Point | None,
+        _datum,
+        'latitude and longitude of the origin, -90 .. 90 and -180 .. 180 [deg], for receivers of '
+        'satellite navigation: x is east there, y north; without it they have no fix',
+    ] = field(default=None, repr=False)
+    command_timeout: Annotated[
+        float,
+        Within(0.0, 1e9, 's'),
+        'simulation time for which a commanded wrench acts; 0 is no limit',
+    ] = 0.5
+    drag_force: Annotated[
+        float, Within(0.0, 1000.0), 'greatest force of a hand, in weights of the body'
+    ] = 10.0
+    max_bodies: Annotated[
+        int, Whole(0, 1_000_000), 'most bodies; a request beyond it is refused'
+    ] = 20000
+    max_shapes: Annotated[
+        int,
+        Whole(0, 1_000_000),
+        'most convex pieces of all bodies; a request beyond it is refused',
+    ] = 50000
+    # 10,000,000 contacts take a minute a step.
+    max_overlaps: Annotated[
+        int,
+        Whole(0, 10_000_000),
+        'most pairs of pieces that overlap at once; a request beyond it is refused',
+    ] = 20000
+    max_joints: Annotated[
+        int,
+        Whole(0, 1_000_000),
+        f'most joints, of which {MOST_JOINTS_ON_BODY} on one body; a joint beyond it is refused',
+    ] = 20000
 
 
 def check_setting(name: str) -> None:
@@ -141,5 +132,5 @@ def check_setting(name: str) -> None:
 
     :raises BadProperty: it is not
     """
-    if name not in WorldSettings.CHECKS:
+    if name not in WorldSettings.FIELDS:
         raise BadProperty(f'the world has no setting {name!r}', field=name)

@@ -1,11 +1,11 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Texts of users: abbreviated and escaped before messages repeat them."""
+"""Texts of users: abbreviated and escaped before messages repeat them; words that they mean."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable, Mapping
 import difflib
 from itertools import islice
 import unicodedata
@@ -27,6 +27,42 @@ _LEAST_PART = 3
 # Least similarity of a misspelt name, 0 .. 1, of `difflib`: with one wrong letter a name of three
 # has 0.67; `position` and `friction`, which are two words, have 0.63.
 _SIMILAR = 0.65
+
+# The words for each property. Bodies and joints share words, as speed: of a body it is its
+# velocity, of a motor its rate.
+EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
+    'mass': ('weight', 'heavy', 'kg'),
+    'density': ('specific_weight', 'rho'),
+    'friction': ('rough', 'roughness', 'grip', 'slippery', 'slip', 'mu'),
+    'elasticity': ('bouncy', 'bounce', 'bounciness', 'restitution', 'rebound'),
+    'velocity': ('speed', 'v', 'vel', 'linear_velocity', 'twist'),
+    'spin': ('angular_velocity', 'omega', 'rotation', 'turn'),
+    'anchored': ('fixed', 'static', 'immovable', 'frozen', 'locked', 'pinned'),
+    'kinematic': ('scripted', 'animated', 'platform'),
+    'group': ('layer', 'category', 'filter', 'mask'),
+    'sensor': ('trigger', 'ghost', 'detector', 'is_trigger'),
+    'surface_velocity': ('conveyor', 'belt', 'belt_speed'),
+    'robot': ('vehicle', 'drive'),
+    'actor': ('path', 'trajectory', 'waypoints', 'tween', 'walk', 'pedestrian', 'behavior'),
+    'at': ('position', 'pose', 'x', 'y', 'yaw', 'angle', 'orientation'),
+    'color': ('colour', 'rgb', 'rgba'),
+    'circle': ('disc', 'disk', 'sphere', 'radius', 'diameter'),
+    'box': ('rectangle', 'cube', 'size', 'width', 'height'),
+    'label': ('text', 'caption', 'note', 'title'),
+    'lower': ('min', 'minimum', 'from'),
+    'upper': ('max', 'maximum', 'to'),
+    'rate': ('speed', 'angular_velocity', 'omega', 'rpm', 'motor_speed', 'target'),
+    'max_torque': ('torque', 'strength', 'power'),
+    'stiffness': ('k', 'spring_constant', 'hardness', 'stiff'),
+    'damping': ('damper', 'viscosity', 'c'),
+    'rest_length': ('natural_length', 'free_length', 'rest'),
+    'length': ('distance', 'long'),
+    'ratio': ('transmission', 'teeth'),
+    'phase': ('angle', 'offset'),
+    'max_force': ('force',),
+    'break_force': ('breaks', 'breakable', 'breaking_force', 'fragile'),
+    'collide': ('collision', 'collisions', 'collide_connected'),
+}
 
 
 def is_printable(text: str) -> bool:
@@ -80,3 +116,24 @@ def nearest_name(name: str, known: Iterable[str]) -> str:
     near = (begun[:_MOST_NAMED] if len(name) >= _LEAST_PART else []) or similar
     verb = 'are' if len(near) > 1 else 'is'
     return f'; nearest {verb} {", ".join(map(repr, near))}' if near else ''
+
+
+def property_meant(word: str, known: Collection[str]) -> str:
+    """
+    Return the property that people mean by a word, or ''.
+
+    :param known: the properties that there are
+    """
+    return name_meant(
+        word, {name: EVERYDAY_WORDS[name] for name in EVERYDAY_WORDS if name in known}
+    )
+
+
+def name_meant(word: str, everyday: Mapping[str, Collection[str]]) -> str:
+    """
+    Return the first name that people mean by a word, or ''.
+
+    :param everyday: words by the names that they mean
+    """
+    word = word.lower().replace(' ', '_').replace('-', '_')
+    return next((name for name, words in everyday.items() if word in words), '')

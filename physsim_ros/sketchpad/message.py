@@ -17,7 +17,8 @@ from collections.abc import Callable, Mapping
 import json
 from typing import Any, NamedTuple, TypeVar
 
-from physsim_ros.model.checks import check_key, shown
+from physsim_ros.model.checks import shown
+from physsim_ros.model.declarations import check_key
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer

@@ -4,8 +4,7 @@
 """
 The parameters of a world by name and type, so that an editor completes them and mypy checks them.
 
-A test compares this class with the table of the node (`ros.parameters.table`), which has meaning,
-default and range of each.
+They are those of the declarations (`ros.parameters.table`), which have meaning, default and range.
 """
 
 from __future__ import annotations
@@ -13,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal, TypedDict
 
+# tools: made by `make tables`
 Tool = Literal[
     'none',
     'circle',
@@ -32,11 +32,13 @@ Tool = Literal[
     'velocity',
     'gravity',
 ]
+# end: made by `make tables`
 
 
 class Parameters(TypedDict, total=False):
     """Parameters of `PhysSim`; those that are left out have their defaults."""
 
+    # parameters: made by `make tables`
     frame_id: str
     world_file: str
     world_dir: str
@@ -53,7 +55,7 @@ class Parameters(TypedDict, total=False):
     robot_tf: Literal['prefixed', 'namespaced', 'none']
     robots_in_past: Literal['follow', 'freeze']
     lockstep: float
-    viewer: Literal['auto', 'connect', 'none', 'spawn', 'web']
+    viewer: Literal['none', 'spawn', 'web', 'connect', 'auto']
     viewer_url: str
     record_file: str
     sketchpad: Literal['none', 'serve']
@@ -61,26 +63,29 @@ class Parameters(TypedDict, total=False):
     sketchpad_port: int
     sketchpad_frozen: bool
     sketchpad_locked: str
-    iterations: int
     gravity: Sequence[float]
     damping: float
+    iterations: int
     bounds: Sequence[float]
     density: float
     friction: float
     elasticity: float
-    draw_velocity: Sequence[float]
-    draw_color: str
+    floor_friction: float
+    seed: int
+    datum: Sequence[float]
+    command_timeout: float
+    drag_force: float
+    max_bodies: int
+    max_shapes: int
+    max_overlaps: int
+    max_joints: int
     snap: float
     sketch_confidence: float
     regroup: float
     beautify: float
     wall_thickness: float
-    drag_force: float
-    floor_friction: float
-    seed: int
-    datum: Sequence[float]
-    command_timeout: float
-    max_bodies: int
-    max_shapes: int
-    max_overlaps: int
-    max_joints: int
+    draw_velocity: Sequence[float]
+    draw_color: str
+
+
+# end: made by `make tables`

@@ -18,13 +18,20 @@ from physsim_ros.simulation.world import World
 from ..building import BOX, spawn
 
 KINDS = list(JointKind)
+# Values of properties, other than those that a joint has by default or as drawn.
+VALUES: dict[str, float] = {
+    'lower': -0.2,
+    'upper': 0.4,
+    'rate': -3.0,
+    'max_torque': 5.0,
+    'stiffness': 20.0,
+    'damping': 0.5,
+    'rest_length': 0.7,
+    'length': 2.5,
+    'ratio': -2.0,
+}
 PROPERTIES: dict[JointKind, dict[str, Any]] = {
-    JointKind.AXLE: {'lower': -1.0, 'upper': 2.0},
-    JointKind.MOTOR: {'rate': -3.0, 'max_torque': 5.0},
-    JointKind.SPRING: {'stiffness': 20.0, 'damping': 0.5, 'rest_length': 0.7},
-    JointKind.ROPE: {'length': 2.5},
-    JointKind.SLIDER: {'lower': -0.2, 'upper': 0.4},
-    JointKind.GEAR: {'ratio': -2.0},
+    kind: {name: VALUES[name] for name in kind.schema.own if name in VALUES} for kind in KINDS
 }
 
 

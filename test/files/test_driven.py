@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from physsim_ros.files.driven import driven_entry, driven_from
+from physsim_ros.files.engine_state import driven_entry, driven_from
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.robot_states import SPAWNED
 from physsim_ros.model.scene import Body

@@ -17,7 +17,7 @@ from physsim_ros.files import (
     SETTINGS,
     world_reader,
 )
-from physsim_ros.files.entry_lines import load_entries
+from physsim_ros.files.yaml12 import load_entries
 from physsim_ros.model.errors import BadWorldFile, Malformed, WorldFull
 from physsim_ros.model.requests import Spawn
 from physsim_ros.ros.parameters import SPECS

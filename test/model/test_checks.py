@@ -5,14 +5,8 @@
 
 import math
 
-from physsim_ros.model.checks import (
-    check_finite,
-    check_key,
-    known_mapping,
-    number,
-    pair,
-    point_list,
-)
+from physsim_ros.model.checks import check_finite, number, pair, point_list
+from physsim_ros.model.declarations import check_key, known_mapping
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 import pytest
 

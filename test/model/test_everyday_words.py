@@ -6,12 +6,11 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any
 
-from physsim_ros.model import everyday_words
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.joints import JointKind, JointProperties, kind_from
+from physsim_ros.model.texts import EVERYDAY_WORDS
 import pytest
 
 KEYS = {each.name for kind in (Properties, JointProperties) for each in fields(kind)} | {
@@ -56,8 +55,11 @@ def test_a_word_for_a_kind_of_joint_is_told_its_name(word: str, hint: str) -> No
 
 
 def test_every_property_has_everyday_words_and_none_of_them_is_a_property() -> None:
-    table: dict[str, Any] = everyday_words._WORDS  # noqa: SLF001 - a table that is complete
+    assert set(EVERYDAY_WORDS) == KEYS
+    assert not {word for words in EVERYDAY_WORDS.values() for word in words} & KEYS
 
-    assert set(table) == KEYS
-    assert not KEYS.intersection(*[set().union(*table.values())])
-    assert [*everyday_words._KINDS] == [*JointKind]  # noqa: SLF001 - a table that is complete
+
+def test_every_kind_of_joint_has_everyday_words_and_none_of_them_is_a_kind() -> None:
+    for kind in JointKind:
+        assert kind.schema.words
+        assert not {*JointKind}.intersection(kind.schema.words)

@@ -36,75 +36,15 @@ from sensor_msgs.msg import MultiDOFJointState
 
 from ..client import Client, Event
 
-# The contract's table, as far as it is built: default, and whether it is fixed once running.
+# Default, and whether it is fixed once running; the ends of ranges.
 CONTRACT: dict[str, tuple[Any, str]] = {
-    'frame_id': ('world', 'read-only'),
-    'world_file': ('', 'live'),
-    'world_dir': ('', 'read-only'),
-    'physics_rate': (240.0, 'read-only'),
-    'publish_rate': (60.0, 'read-only'),
-    'iterations': (16, 'live'),
-    'speed': (1.0, 'live'),
-    'fast_speed': (4.0, 'live'),
-    'gravity': ([0.0, -9.81], 'live'),
-    'damping': (0.0, 'live'),
-    'bounds': ([], 'live'),
-    'datum': ([], 'live'),
-    'density': (1.0, 'live'),
-    'friction': (0.5, 'live'),
-    'elasticity': (0.5, 'live'),
-    'draw_velocity': ([0.0, 0.0], 'live'),
-    'map_resolution': (0.05, 'live'),
-    'robot_tf': ('prefixed', 'read-only'),
-    'robots_in_past': ('follow', 'live'),
-    'lockstep': (0.0, 'live'),
-    'draw_color': ('auto', 'live'),
-    'tool': ('none', 'live'),
-    'snap': (0.15, 'live'),
-    'sketch_confidence': (0.6, 'live'),
-    'regroup': (0.8, 'live'),
-    'beautify': (0.12, 'live'),
-    'wall_thickness': (0.1, 'live'),
-    'floor_friction': (0.0, 'live'),
-    'seed': (0, 'live'),
-    'command_timeout': (0.5, 'live'),
-    'drag_force': (10.0, 'live'),
-    'history': (600.0, 'live'),
-    'history_memory': (256.0, 'live'),
-    'publish_clock': (True, 'live'),
-    'publish_tf': (False, 'read-only'),
-    'viewer': ('auto', 'live'),
-    'viewer_url': ('', 'read-only'),
-    'record_file': ('', 'read-only'),
-    'sketchpad': ('none', 'live'),
-    'sketchpad_address': ('127.0.0.1', 'read-only'),
-    'sketchpad_port': (8765, 'read-only'),
-    'sketchpad_frozen': (False, 'live'),
-    'sketchpad_locked': ('', 'live'),
-    'max_bodies': (20000, 'live'),
-    'max_shapes': (50000, 'live'),
-    'max_overlaps': (20000, 'live'),
-    'max_joints': (20000, 'live'),
+    name: (spec.default, 'read-only' if spec.read_only else 'live')
+    for name, spec in parameters.SPECS.items()
 }
-# The contract's ranges: the ends are good, what lies just beyond is not.
 RANGES: dict[str, tuple[Any, Any]] = {
-    'speed': (-64.0, 64.0),
-    'fast_speed': (0.0, 64.0),
-    'history': (0.0, None),
-    'damping': (0.0, 1.0),
-    'friction': (0.0, 10.0),
-    'elasticity': (0.0, 1.0),
-    'iterations': (1, None),
-    'sketch_confidence': (0.0, 1.0),
-    'snap': (0.0, None),
-    'floor_friction': (0.0, 10.0),
-    'seed': (0, None),
-    'command_timeout': (0.0, None),
-    'drag_force': (0.0, None),
-    'max_bodies': (0, None),
-    'max_shapes': (0, None),
-    'max_overlaps': (0, None),
-    'max_joints': (0, None),
+    name: (spec.span.low, spec.span.high)
+    for name, spec in parameters.SPECS.items()
+    if spec.span is not None and not spec.read_only
 }
 LIVE = [name for name, (_, kind) in CONTRACT.items() if kind == 'live']
 FIXED = [name for name, (_, kind) in CONTRACT.items() if kind == 'read-only']
@@ -215,17 +155,17 @@ def test_the_ends_of_a_range_are_taken_and_what_lies_beyond_is_refused(physsim: 
     for name in RANGES:
         spec, default = parameters.SPECS[name], CONTRACT[name][0]
         kind = type(default)
-        assert spec.low is not None
-        assert spec.high is not None
-        for end in (kind(spec.low), kind(spec.high)):
+        span = spec.span
+        assert span is not None
+        for end in (kind(span.low), kind(span.high)):
             take(physsim, name, end)
             assert value_of(physsim, name) == end, name
             assert type(value_of(physsim, name)) is kind, name
         if kind is int:
-            beyond = [int(spec.low) - 1, int(spec.high) + 1, -(2**63), 2**63 - 1]
+            beyond = [int(span.low) - 1, int(span.high) + 1, -(2**63), 2**63 - 1]
         else:
-            least = math.nextafter(spec.low, -math.inf)
-            beyond = [least, math.nextafter(spec.high, math.inf), -1e300, 1e300]
+            least = math.nextafter(span.low, -math.inf)
+            beyond = [least, math.nextafter(span.high, math.inf), -1e300, 1e300]
         for value in beyond:
             assert name in refuse(physsim, name, value)
         take(physsim, name, default)

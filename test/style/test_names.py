@@ -199,7 +199,7 @@ def _spans(text):
 
 
 # Files that the reader makes, one of another project, fields of messages, names of Nav2.
-OF_DOCUMENTS = {'damper.py', 'fall.py', 'parser.py', 'test_crash.py'}
+OF_DOCUMENTS = {'damper.py', 'fall.py', 'test_fall.py', 'parser.py', 'test_crash.py'}
 OF_DOCUMENTS |= {'wall_follower.py', 'test_wall_follower.py'}
 OF_DOCUMENTS |= {'conftest.py', 'stopper.py', 'test_stopper.py', 'tracker.py', 'test_tracker.py'}
 OF_DOCUMENTS |= {'follower.py', 'wall_task.py'}

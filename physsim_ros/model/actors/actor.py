@@ -9,26 +9,23 @@ from point to point by a model of how they avoid each other. The core moves them
 (`engine/core/actors.c`).
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 import itertools
 import math
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
 from physsim_ros.model.checks import (
     check_point,
     check_yaw,
-    Checked,
-    Checks,
     FASTEST,
     LONGEST,
     number,
     shown,
     Within,
 )
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.texts import nearest_name
 
@@ -87,27 +84,28 @@ class Start(Checked):
     """
     What an actor waits for: a gate, or a distance, or neither; and then a time.
 
-    :param gate: name of a body; waits until the centre of mass of another body lies in it
-    :param by: name of that other body; None is any that is neither anchored nor a sensor
-    :param near: name of a body; waits until their centres of mass are within `distance`
-    :param distance: [m]
-    :param time: after that, or after the actor was spawned [s]
     :raises BadProperty: a value is of the wrong kind or out of range, or does not go with another
     """
 
-    CHECKS: ClassVar[Checks] = {
-        'gate': _name,
-        'by': _name,
-        'near': _name,
-        'distance': Within(0.0, 1e7, 'm'),
-        'time': Within(0.0, LONGEST, 's'),
-    }
-
-    gate: str | None = None
-    by: str | None = None
-    near: str | None = None
-    distance: float | None = None
-    time: float | None = None
+    gate: Annotated[
+        str | None,
+        _name,
+        'name of a body; waits until the centre of mass of another body lies in it',
+    ] = None
+    by: Annotated[
+        str | None,
+        _name,
+        'name of that other body; None is any that is neither anchored nor a sensor',
+    ] = None
+    near: Annotated[
+        str | None,
+        _name,
+        'name of a body; waits until their centres of mass are within `distance`',
+    ] = None
+    distance: Annotated[float | None, Within(0.0, 1e7, 'm'), 'of their centres of mass'] = None
+    time: Annotated[
+        float | None, Within(0.0, LONGEST, 's'), 'after that, or after the actor was spawned'
+    ] = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -131,28 +129,28 @@ class Actor(Checked, ABC):
     """
     What makes a body an actor.
 
-    :param points: x, y [m] in the world, of a path also yaw [rad]
-    :param repeat: what follows the last point: `once` nothing, `loop` the first point,
-        `to_and_fro` the way back
-    :param start: what it waits for
-    :param traction: coefficient of friction with the floor, which moves it; a kinematic body moves
-        whatever it touches, and a robot by its drive
     :raises Malformed: a number is not finite, or a list has the wrong length
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
     KIND: ClassVar[str]
-    CHECKS: ClassVar[Checks] = {
-        'points': _points,
-        'repeat': _repeat,
-        'start': Start.from_value,
-        'traction': Within(0.0, 10.0),
-    }
 
-    points: tuple[Waypoint, ...]
-    repeat: str = 'once'
-    start: Start = field(default_factory=Start)
-    traction: float = 0.8
+    points: Annotated[
+        tuple[Waypoint, ...], _points, 'x, y [m] in the world, of a path also yaw [rad]'
+    ]
+    repeat: Annotated[
+        str,
+        _repeat,
+        'what follows the last point: `once` nothing, `loop` the first point, `to_and_fro` the '
+        'way back',
+    ] = 'once'
+    start: Annotated[Start, Start.from_value, 'what it waits for'] = field(default_factory=Start)
+    traction: Annotated[
+        float,
+        Within(0.0, 10.0),
+        'coefficient of friction with the floor, which moves it; a kinematic body moves whatever '
+        'it touches, and a robot by its drive',
+    ] = 0.8
 
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
@@ -180,16 +178,16 @@ class Path(Actor):
     A path: straight from point to point at given times, or at one speed.
 
     The body is brought to where the path is at each moment; points with a yaw turn it too.
-
-    :param times: of the points, since it started [s]; of a `loop` one more, of its first point
-    :param speed: excludes times [m/s]
     """
 
     KIND: ClassVar = 'path'
-    CHECKS: ClassVar[Checks] = {**Actor.CHECKS, 'times': _times, 'speed': PACE}
 
-    times: tuple[float, ...] | None = None
-    speed: float | None = None
+    times: Annotated[
+        tuple[float, ...] | None,
+        _times,
+        'of the points, since it started [s]; of a `loop` one more, of its first point',
+    ] = None
+    speed: Annotated[float | None, PACE, 'excludes times'] = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)

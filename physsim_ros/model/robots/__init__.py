@@ -5,8 +5,8 @@
 Robots: bodies that drive, by a mapping below the key `robot` of a body.
 
 A robot is a drive, odometry, sensors and the namespace of its topics; values only, checked as they
-are made. Shipped robots are files (`files.robots`), the floor that drives act on is in the engine
-(a stage). Start with `robot`; a new drive is a class in `drives`, a new sensor one in `sensors`.
+are made. Shipped robots are files (`files.resources`), the floor that drives act on is a stage of
+the engine. Start with `robot`; a new drive is a class in `drives`, a new sensor one in `sensors`.
 """
 
 from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni

@@ -11,14 +11,13 @@ Velocities of a drive are those of the floor under its wheels, as seen from the 
 vy to the left [m/s], turn counter-clockwise [rad/s], at the origin of the body (REP 103).
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 import math
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checked, Checks, FASTEST, OfKind, Within
+from physsim_ros.model.checks import FASTEST, Within
+from physsim_ros.model.declarations import Checked, OfKind
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Pose, Twist
 
@@ -35,35 +34,35 @@ class Drive(Checked, ABC):
     """
     A drive of a robot.
 
-    :param max_speed: greatest speed [m/s]
-    :param max_turn: greatest turn rate [rad/s]
-    :param acceleration: greatest acceleration of the rim of a wheel [m/s²]
-    :param traction: coefficient of friction between wheels and floor
-    :param timeout: simulation time after which it stops without another command [s]; 0 is no limit
-    :param track: distance of its wheels from left to right [m]
-    :param wheel_radius: [m]
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
     KIND: ClassVar[str]
-    CHECKS: ClassVar[Checks] = {
-        'max_speed': Within(0.0, FASTEST, 'm/s'),
-        'max_turn': Within(0.0, FASTEST, 'rad/s'),
-        'acceleration': Within(0.0, _STRONGEST, 'm/s²'),
-        'traction': Within(0.0, 10.0),
-        'timeout': Within(0.0, _LONGEST, 's'),
-        'track': LENGTH,
-        'wheel_radius': LENGTH,
-    }
-
-    max_speed: float = 0.5
-    max_turn: float = 2.0
-    acceleration: float = 2.0
-    traction: float = 0.8
-    timeout: float = 0.5
-    track: float = 0.2
-    wheel_radius: float = 0.03
+    max_speed: Annotated[float, Within(0.0, FASTEST, 'm/s'), 'a command beyond it is cut off'] = (
+        0.5
+    )
+    max_turn: Annotated[float, Within(0.0, FASTEST, 'rad/s'), 'a command beyond it is cut off'] = (
+        2.0
+    )
+    acceleration: Annotated[
+        float, Within(0.0, _STRONGEST, 'm/s²'), 'greatest one of the rim of a wheel'
+    ] = 2.0
+    traction: Annotated[
+        float, Within(0.0, 10.0), 'coefficient of friction between wheels and floor'
+    ] = 0.8
+    timeout: Annotated[
+        float,
+        Within(0.0, _LONGEST, 's'),
+        'simulation time after which it stops without another command; 0 is no limit',
+    ] = 0.5
+    track: Annotated[
+        float,
+        LENGTH,
+        'from left to right wheel; of `omni` the diameter of the circle that its three wheels are '
+        'on',
+    ] = 0.2
+    wheel_radius: Annotated[float, LENGTH, 'of its wheels'] = 0.03
 
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
@@ -177,22 +176,14 @@ _STEEPEST = 1.55
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Car(Drive):
-    """
-    A car with Ackermann steering; it turns only as it moves, and no closer than it can steer.
-
-    :param wheelbase: distance of front and rear axle [m]
-    :param steering: greatest angle of the front wheels [rad]
-    """
+    """A car with Ackermann steering; it turns only as it moves, and no closer than it steers."""
 
     KIND: ClassVar = 'car'
-    CHECKS: ClassVar[Checks] = {
-        **Drive.CHECKS,
-        'wheelbase': LENGTH,
-        'steering': Within(0.0, _STEEPEST, 'rad'),
-    }
 
-    wheelbase: float = 0.2
-    steering: float = 0.6
+    wheelbase: Annotated[float, LENGTH, 'distance of front and rear axle'] = 0.2
+    steering: Annotated[
+        float, Within(0.0, _STEEPEST, 'rad'), 'greatest angle of the front wheels'
+    ] = 0.6
 
     @property
     def wheels(self) -> dict[str, Pose]:

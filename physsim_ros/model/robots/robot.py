@@ -12,9 +12,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 import re
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, Self
 
-from physsim_ros.model.checks import Checked, Checks, pair, shown, Within
+from physsim_ros.model.checks import pair, shown, Within
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
@@ -35,17 +36,17 @@ class Odometry(Checked):
 
     Errors are random walks: their variance grows with the way.
 
-    :param rate: messages a second [Hz]
-    :param slip: standard deviations of the drift: of the way after 1 m [m], and of the heading
-        after 1 m, or after a turn of 1 rad [rad]; 0 is exact as long as no wheel slips
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    CHECKS: ClassVar[Checks] = {'rate': Within(0.01, 1000.0, 'Hz'), 'slip': _slip}
-
-    rate: float = 30.0
-    slip: Point = (0.0, 0.0)
+    rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'messages a second'] = 30.0
+    slip: Annotated[
+        Point,
+        _slip,
+        'standard deviations of its drift, 0 .. 1: of the way after 1 m [m], of the heading after '
+        '1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
+    ] = (0.0, 0.0)
 
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
@@ -96,26 +97,26 @@ class Robot(Checked):
     """
     That what makes a body a robot.
 
-    :param drive: of which kind it is, and how fast it may be
-    :param odometry: how often, and how exact
-    :param sensors: on the body, each on a topic of its own
-    :param namespace: of its topics, without a slash at its beginning; None is by the name of the
-        body
     :raises Malformed: a number is not finite
     :raises BadProperty: a value is of the wrong kind or out of range, or two topics have one name
     """
 
-    CHECKS: ClassVar[Checks] = {
-        'namespace': check_namespace,
-        'drive': drive_from,
-        'odometry': Odometry.from_value,
-        'sensors': _sensors,
-    }
-
-    drive: Drive
-    odometry: Odometry = field(default_factory=Odometry)
-    sensors: tuple[Sensor, ...] = ()
-    namespace: str | None = None
+    drive: Annotated[Drive, drive_from, 'how it moves: a mapping, see below']
+    odometry: Annotated[
+        Odometry, Odometry.from_value, 'how often and how exact: a mapping, see below'
+    ] = field(default_factory=Odometry)
+    sensors: Annotated[
+        tuple[Sensor, ...],
+        _sensors,
+        f'a list of mappings, at most {MOST_SENSORS}; each on a topic of its own',
+    ] = ()
+    namespace: Annotated[
+        str | None,
+        check_namespace,
+        'of its topics; may be empty; no two robots of a world have the same one, or another '
+        'topic or frame in common (a sensor `x/odom` in `tb`, a robot in `tb/x`); by default the '
+        'name of the body, with `_` for `/`',
+    ] = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -129,7 +130,7 @@ class Robot(Checked):
     @classmethod
     def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
         """
-        Return the robot of a mapping; a shipped name is looked up before (`files.robots`).
+        Return the robot of a mapping; a shipped name is looked up before (`files.resources`).
 
         :raises BadProperty: there is no drive; and as those of other values
         """

@@ -4,30 +4,32 @@
 """
 The ROS parameters: their table, their declaration and check, the settings that they make.
 
-Not here: what follows when one is set (`ros.node`). A new parameter is a row of `table`; one that
-is a setting of the world or of drawing has its default and range from there (`model.settings`,
-`drawing.settings`), and only its meaning here. Start with `table`.
+Not here: what follows when one is set (`ros.node`). A new parameter is a field of `NodeSettings`
+in `table`, or of the settings of the world or of drawing (`model.settings`, `drawing.settings`).
+Start with `table`.
 """
 
-from physsim_ros.ros.parameters.declaration import check, check_names, declare, set_value
-from physsim_ros.ros.parameters.settings import (
+from physsim_ros.ros.parameters.table import NodeSettings, Spec, SPECS
+from physsim_ros.ros.parameters.values import (
+    check,
+    check_names,
+    declare,
     drawing_settings,
-    is_world_setting,
     listed_names,
+    set_value,
     world_changes,
     world_parameters,
     world_settings,
 )
-from physsim_ros.ros.parameters.table import Spec, SPECS
 
 __all__ = [
     'SPECS',
+    'NodeSettings',
     'Spec',
     'check',
     'check_names',
     'declare',
     'drawing_settings',
-    'is_world_setting',
     'listed_names',
     'set_value',
     'world_changes',

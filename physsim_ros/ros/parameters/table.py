@@ -2,22 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The table of the parameters: default, meaning, unit and range of each.
+The table of the parameters: default, meaning and range of each, as their declarations have them.
 
-A setting of the world or of drawing has only its meaning here; its default and range are those of
-`model.settings` and `drawing.settings`.
+A setting of the world or of drawing is declared in `model.settings` or `drawing.settings`; all
+other parameters are declared here.
 """
 
-from __future__ import annotations
+from dataclasses import dataclass
+from typing import Annotated, Any
 
-from dataclasses import asdict, dataclass
-from typing import Any
-
-from physsim_ros.drawing import DRAWING_RANGES, DrawingSettings, Tool
-from physsim_ros.model.checks import FASTEST
-from physsim_ros.model.settings import RANGES as WORLD_RANGES
-from physsim_ros.model.settings import STRONGEST, WorldSettings
-from physsim_ros.model.shapes import LARGEST
+from physsim_ros.drawing import DrawingSettings, Tool
+from physsim_ros.model.checks import flag, OneOf, text, Vector, Whole, Within
+from physsim_ros.model.declarations import Checked, Declaration
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.simulation.past import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
@@ -28,27 +25,207 @@ Type = Parameter.Type
 
 # Value of draw_color with which each body has another colour.
 AUTO = 'auto'
+# Values of parameters for settings that are None, which ROS does not have.
+_FOR_NONE = {'bounds': [], 'datum': [], 'draw_color': AUTO}
+# A note of a parameter that is fixed after the start.
+READ_ONLY = 'read-only'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class NodeSettings(Checked):
+    """The parameters that are no settings of the world or of drawing."""
+
+    frame_id: Annotated[
+        str,
+        text,
+        'name of the world frame',
+        READ_ONLY,
+    ] = 'world'
+    world_file: Annotated[
+        str,
+        text,
+        'world that is loaded at the start and by `~/load_world`, and written by '
+        '`~/save_world`: a path, or the name of a world or lesson in `world_dir`, else of a '
+        'shipped one. Paths are relative to `world_dir`; at the start, to the working directory '
+        'first',
+    ] = ''
+    world_dir: Annotated[
+        str,
+        text,
+        'once the node runs, worlds are read and written only below this directory; empty means '
+        '`$XDG_DATA_HOME/physsim_ros/worlds`, usually `~/.local/share/physsim_ros/worlds`, '
+        'created when first needed',
+        READ_ONLY,
+    ] = ''
+    physics_rate: Annotated[
+        float,
+        Within(60.0, 10000.0, 'Hz'),
+        'fixed step of the physics',
+        READ_ONLY,
+    ] = 240.0
+    publish_rate: Annotated[
+        float,
+        Within(1.0, 10000.0, 'Hz'),
+        'frames published a second; must divide `physics_rate`',
+        READ_ONLY,
+    ] = 60.0
+    speed: Annotated[
+        float,
+        Within(-64.0, 64.0),
+        'simulated seconds a second; 0 is paused, negative goes back',
+    ] = 1.0
+    fast_speed: Annotated[
+        float,
+        Within(0.0, 64.0),
+        'speed of `~/fast_forward` and, backward, of `~/fast_rewind`',
+    ] = 4.0
+    tool: Annotated[
+        str,
+        OneOf(tuple(Tool)),
+        'what a click on `clicked_point` does; changing it drops an unfinished gesture',
+    ] = 'none'
+    history: Annotated[
+        float,
+        Within(0.0, 86400.0, 's'),
+        'how far back the world can be rewound; older steps are dropped',
+    ] = 600.0
+    history_memory: Annotated[
+        float,
+        Within(LEAST_MEMORY, MOST_MEMORY, 'MB'),
+        'memory of the past: requests, checkpoints, frames, other courses, undone requests; '
+        'when it is full, the oldest is dropped, and an event (`history`) says so',
+    ] = DEFAULT_MEMORY
+    publish_clock: Annotated[
+        bool,
+        flag,
+        'whether the clock is published',
+    ] = True
+    publish_tf: Annotated[
+        bool,
+        flag,
+        'whether the pose of every body is published on `/tf` as well; needs tf2_msgs',
+        READ_ONLY,
+    ] = False
+    map_resolution: Annotated[
+        float,
+        Within(0.001, 10.0, 'm'),
+        'side of a cell of `~/map`',
+    ] = 0.05
+    robot_tf: Annotated[
+        str,
+        OneOf(tuple(mode.value for mode in RobotTf)),
+        'transforms of robots: `prefixed` (on `/tf`, frames named below the namespace), '
+        '`namespaced` (plain names on `<namespace>/tf`) or `none`; without tf2_msgs there are '
+        'none',
+        READ_ONLY,
+    ] = 'prefixed'
+    robots_in_past: Annotated[
+        str,
+        OneOf(('follow', 'freeze')),
+        'topics of robots and `clock` while the past is shown: `follow` (they show it) or '
+        '`freeze` (they are silent)',
+    ] = 'follow'
+    lockstep: Annotated[
+        float,
+        Within(0.0, 3600.0, 's'),
+        'longest wait, by the wall, for the `TwistStamped` that answers a scan, its stamp or a '
+        'later one on it; 0 is no wait',
+    ] = 0.0
+    viewer: Annotated[
+        str,
+        OneOf(tuple(mode.value for mode in ViewerMode)),
+        '`none`, `spawn` (native Rerun), `web` (served on localhost), `connect` (to '
+        '`viewer_url`) or `auto` (`spawn` if there is a display, else `web`); setting it again '
+        'opens a viewer that was closed, and restarts a failed recording in a new file beside the '
+        'old one',
+    ] = 'auto'
+    viewer_url: Annotated[
+        str,
+        text,
+        'Rerun server to connect to; empty is `rerun+http://127.0.0.1:9876/proxy`',
+        READ_ONLY,
+    ] = ''
+    record_file: Annotated[
+        str,
+        text,
+        '`.rrd` file, written in addition to any viewer and indexed when the node ends; an older '
+        'recording of that name is replaced, any other file is not',
+        READ_ONLY,
+    ] = ''
+    sketchpad: Annotated[
+        str,
+        OneOf(('none', 'serve')),
+        '`serve` serves the page in the browser, to draw on',
+    ] = 'none'
+    sketchpad_address: Annotated[
+        str,
+        text,
+        'address that the page is served on; any other than loopback exposes it to the network',
+        READ_ONLY,
+    ] = '127.0.0.1'
+    sketchpad_port: Annotated[
+        int,
+        Whole(0, 65535),
+        'port of the page; if it is taken, one of the next 20; 0 is any free port',
+        READ_ONLY,
+    ] = 8765
+    sketchpad_frozen: Annotated[
+        bool,
+        flag,
+        "pupils' pages cannot change anything; a teacher's can",
+    ] = False
+    sketchpad_locked: Annotated[
+        str,
+        text,
+        "names of bodies, separated by commas, that pupils' pages cannot change; with `*`, `?` "
+        'and `[]` as in a shell, in at most 50 names',
+    ] = ''
+
+
+@dataclass(frozen=True, slots=True)
 class Spec:
     """
-    The specification of a parameter.
+    The specification of a parameter, of the declaration of its setting.
 
-    :param default: its value and type
-    :param meaning: description in one line, with the unit
-    :param low: least value
-    :param high: greatest value
-    :param choices: allowed values, empty for any
-    :param read_only: whether it is fixed after start
+    :param declaration: of the setting
     """
 
-    default: Any
-    meaning: str
-    low: float | None = None
-    high: float | None = None
-    choices: tuple[str, ...] = ()
-    read_only: bool = False
+    declaration: Declaration
+
+    @property
+    def default(self) -> Any:
+        """Return its value and, by that, its type."""
+        name, value = self.declaration.name, self.declaration.default
+        if value is None:
+            return _FOR_NONE[name]
+        return list(value) if isinstance(value, tuple) else value
+
+    @property
+    def meaning(self) -> str:
+        """Return what it is, as plain text, with the unit."""
+        sentence, check = self.declaration.sentence.replace('`', ''), self.declaration.check
+        if isinstance(check, Vector):
+            return f'{sentence}, {check.span}'
+        return (
+            f'{sentence} [{check.unit}]' if isinstance(check, Within) and check.unit else sentence
+        )
+
+    @property
+    def span(self) -> Within | Whole | None:
+        """Return the check of a number's range; None for other parameters."""
+        check = self.declaration.check
+        return check if isinstance(check, Within | Whole) else None
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """Return the allowed words, empty for any."""
+        check = self.declaration.check
+        return check.words if isinstance(check, OneOf) else ()
+
+    @property
+    def read_only(self) -> bool:
+        """Return whether it is fixed after the start."""
+        return READ_ONLY in self.declaration.notes
 
     @property
     def kind(self) -> Type:
@@ -68,183 +245,17 @@ class Spec:
         )
         if self.choices:
             descriptor.additional_constraints = 'one of ' + ', '.join(self.choices)
-        elif self.low is not None and self.high is not None:
-            if self.kind == Type.INTEGER:
-                span = IntegerRange(from_value=int(self.low), to_value=int(self.high))
-                descriptor.integer_range = [span]
-            else:
-                spans = FloatingPointRange(from_value=float(self.low), to_value=float(self.high))
-                descriptor.floating_point_range = [spans]
+        elif isinstance(self.span, Whole):
+            whole = IntegerRange(from_value=self.span.low, to_value=self.span.high)
+            descriptor.integer_range = [whole]
+        elif self.span is not None:
+            span = FloatingPointRange(from_value=self.span.low, to_value=self.span.high)
+            descriptor.floating_point_range = [span]
         return descriptor
 
 
-_OF_NODE = {
-    'frame_id': Spec(default='world', meaning='name of the world frame', read_only=True),
-    'world_file': Spec(
-        default='',
-        meaning='world loaded at start and by ~/load_world, written by ~/save_world: a path, or '
-        'the name of a world in world_dir, else of a shipped one',
-    ),
-    'world_dir': Spec(
-        default='',
-        meaning='after start, worlds are read and written only below this directory; empty is '
-        'physsim_ros/worlds in $XDG_DATA_HOME (~/.local/share), created when first needed',
-        read_only=True,
-    ),
-    'physics_rate': Spec(
-        default=240.0,
-        meaning='fixed step of the physics [Hz]',
-        low=60.0,
-        high=10000.0,
-        read_only=True,
-    ),
-    'publish_rate': Spec(
-        default=60.0,
-        meaning='frames out [Hz]; divides physics_rate',
-        low=1.0,
-        high=10000.0,
-        read_only=True,
-    ),
-    'speed': Spec(
-        default=1.0,
-        meaning='simulation seconds a second; 0 is paused, negative goes back',
-        low=-64.0,
-        high=64.0,
-    ),
-    'fast_speed': Spec(
-        default=4.0, meaning='speed of ~/fast_forward and ~/fast_rewind', low=0.0, high=64.0
-    ),
-    'tool': Spec(
-        default='none',
-        meaning='what a click on clicked_point does; setting it drops an unfinished gesture',
-        choices=tuple(Tool),
-    ),
-    'history': Spec(
-        default=600.0,
-        meaning='how far back time can go [s]; older steps are dropped',
-        low=0.0,
-        high=86400.0,
-    ),
-    'history_memory': Spec(
-        default=DEFAULT_MEMORY,
-        meaning='memory of the past [MB]: requests, checkpoints, frames, courses that were left, '
-        'undone requests; when it is full the oldest is dropped, with an event (history)',
-        low=LEAST_MEMORY,
-        high=MOST_MEMORY,
-    ),
-    'publish_clock': Spec(default=True, meaning='whether the clock is published'),
-    'publish_tf': Spec(
-        default=False,
-        meaning='whether the pose of every body is also published on /tf; needs tf2_msgs',
-        read_only=True,
-    ),
-    'map_resolution': Spec(
-        default=0.05, meaning='side of a cell of ~/map [m]', low=0.001, high=10.0
-    ),
-    'robot_tf': Spec(
-        default='prefixed',
-        meaning='transforms of robots: prefixed (on /tf, frames named below the namespace), '
-        'namespaced (plain names on <namespace>/tf), none; without tf2_msgs there are none',
-        choices=tuple(mode.value for mode in RobotTf),
-        read_only=True,
-    ),
-    'robots_in_past': Spec(
-        default='follow',
-        meaning='topics of robots and the clock while the past is shown: follow (they show it), '
-        'freeze (nothing is sent)',
-        choices=('follow', 'freeze'),
-    ),
-    'lockstep': Spec(
-        default=0.0,
-        meaning='longest wait, by the wall, for the TwistStamped that answers a scan, its stamp '
-        'or a later one on it [s]; 0 is no wait',
-        low=0.0,
-        high=3600.0,
-    ),
-    'viewer': Spec(
-        default='auto',
-        meaning='none, spawn (native Rerun), web (served on localhost), connect (to viewer_url), '
-        'auto (spawn if there is a display, else web); setting it again restarts a recording '
-        'that has failed, in a new file beside the old one',
-        choices=tuple(mode.value for mode in ViewerMode),
-    ),
-    'viewer_url': Spec(default='', meaning='Rerun server to connect to', read_only=True),
-    'record_file': Spec(default='', meaning='.rrd file written beside any viewer', read_only=True),
-    'sketchpad': Spec(
-        default='none',
-        meaning='serve: the page in the browser is served, to draw on; none: it is not',
-        choices=('none', 'serve'),
-    ),
-    'sketchpad_address': Spec(
-        default='127.0.0.1',
-        meaning='address that the page is served on; any other than loopback exposes it to the '
-        'network',
-        read_only=True,
-    ),
-    'sketchpad_port': Spec(
-        default=8765,
-        meaning='port of the page; if it is taken, one of the next 20; 0 is any free port',
-        low=0,
-        high=65535,
-        read_only=True,
-    ),
-    'sketchpad_frozen': Spec(
-        default=False,
-        meaning='pages of pupils change nothing; those of a teacher do',
-    ),
-    'sketchpad_locked': Spec(
-        default='',
-        meaning='names of bodies, separated by commas, that pages of pupils do not change; with '
-        '*, ? and [] as in a shell, in at most 50 names',
-    ),
+SPECS: dict[str, Spec] = {
+    name: Spec(declaration)
+    for each in (NodeSettings, WorldSettings, DrawingSettings)
+    for name, declaration in each.FIELDS.items()
 }
-# Parameters of the world and of drawing, whose defaults and ranges are those of the settings.
-_MEANINGS = {
-    'iterations': 'solver iterations of a step, shared out among its four sub-steps',
-    'gravity': f'acceleration, of a length up to {STRONGEST:g} [m/s²]',
-    'damping': 'share of velocity lost to the air each second',
-    'bounds': '[xmin, ymin, xmax, ymax] of walls around the world, each '
-    f'{-LARGEST:g} .. {LARGEST:g} [m]; [] is none',
-    'density': 'default of new bodies [kg/m²]',
-    'friction': 'default coefficient of new bodies',
-    'elasticity': 'default coefficient of restitution of new bodies',
-    'draw_velocity': f'of new drawn bodies, of a length up to {FASTEST:g} [m/s]',
-    'draw_color': f"of new drawn bodies: '#rrggbb', '#rrggbbaa', or {AUTO}, another one for each",
-    'snap': 'drawn ends move onto bodies within this distance [m]',
-    'sketch_confidence': 'least confidence at which a stroke is recognised',
-    'regroup': 'strokes within this time of one another are read together [s]; 0: each alone',
-    'beautify': 'tolerance of regularisation: angles [rad], lengths as a share; 0 keeps a stroke '
-    'as it was drawn',
-    'wall_thickness': 'of drawn walls [m]',
-    'drag_force': 'greatest force of a hand, in weights of the body',
-    'floor_friction': 'coefficient of friction between bodies and the floor of a world that is '
-    'seen from above; 0 is a world that is seen from the side',
-    'seed': 'seed of all noise of robots',
-    'datum': '[latitude, longitude] of the origin [deg], for receivers of satellite navigation: x '
-    'is east there, y north; [] is nowhere',
-    'command_timeout': 'duration of a commanded wrench [s of simulation time]; 0 means no limit',
-    'max_bodies': 'most bodies; a request beyond it is refused',
-    'max_shapes': 'most convex pieces of all bodies; a request beyond it is refused',
-    'max_overlaps': 'most pairs of pieces that overlap at once; a request beyond it is refused',
-    'max_joints': 'most joints; a joint beyond it is refused',
-}
-
-
-def _of_settings() -> dict[str, Spec]:
-    defaults = asdict(WorldSettings()) | asdict(DrawingSettings())
-    # ROS parameters have no None.
-    defaults |= {'bounds': [], 'datum': [], 'draw_color': AUTO}
-    ranges = WORLD_RANGES | DRAWING_RANGES
-    specs = {}
-    for name, meaning in _MEANINGS.items():
-        default, span = defaults[name], ranges.get(name)
-        specs[name] = Spec(
-            default=list(default) if isinstance(default, tuple) else default,
-            meaning=meaning,
-            low=None if span is None else span.low,
-            high=None if span is None else span.high,
-        )
-    return specs
-
-
-SPECS: dict[str, Spec] = _OF_NODE | _of_settings()

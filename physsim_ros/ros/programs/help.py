@@ -58,8 +58,8 @@ def _meaning(spec: Spec) -> str:
     notes = []
     if spec.choices:
         notes.append('one of ' + ', '.join(spec.choices))
-    if spec.low is not None and spec.high is not None:
-        notes.append(f'{spec.low:g} .. {spec.high:g}')
+    if spec.span is not None:
+        notes.append(spec.span.span)
     default = spec.default
     if isinstance(default, bool):
         default = str(default).lower()

@@ -31,7 +31,6 @@ from physsim_ros.model.errors import (
     UnknownFrame,
     UnknownProperty,
 )
-from physsim_ros.model.everyday_words import property_meant
 from physsim_ros.model.names import JOINT_PREFIX
 from physsim_ros.model.requests import (
     AtPoint,
@@ -49,6 +48,7 @@ from physsim_ros.model.requests import (
     UnjoinAll,
 )
 from physsim_ros.model.settings import MOST_SAMPLES
+from physsim_ros.model.texts import property_meant
 from physsim_ros.model.transform import Pose
 from physsim_ros.ros.marker_shapes import points_from, shape_from
 from physsim_ros.ros.requests.decoding import CommandMessage

@@ -16,9 +16,10 @@ from typing import Any
 
 from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownProperty
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import abbreviated, message_text, nearest_name
-from physsim_ros.ros.parameters import is_world_setting, SPECS
+from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.parameters.table import Type
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.simulation.request_queue import Wait
@@ -104,7 +105,7 @@ class ParameterServices(ParameterService):
             refusal = Malformed(f'a call sets at most {MOST_PARAMETERS} parameters')
             return self._calls.add(_TOPIC, response, lambda _: fill(refusal), Wait.BEHIND_REQUESTS)
         _replace_unknown_types(messages)
-        changes_world = any(is_world_setting(each.name) for each in messages)
+        changes_world = any(each.name in WorldSettings.FIELDS for each in messages)
         wait = Wait.FOR_SEEK if changes_world else Wait.BEHIND_REQUESTS
         return self._calls.add(_TOPIC, response, fill, wait)
 

@@ -83,6 +83,9 @@ export class JointView {
         this.#wheel(joint.a);
         this.#wheel(joint.b);
         break;
+      default:
+        this.#line([p, q]);
+        this.#ends(p, q, ground);
     }
   }
 

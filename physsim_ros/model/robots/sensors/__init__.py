@@ -10,7 +10,7 @@ A sensor is a value. What it reads in a frame is for the simulation, its message
 
 from __future__ import annotations
 
-from physsim_ros.model.checks import OfKind
+from physsim_ros.model.declarations import OfKind
 from physsim_ros.model.robots.sensors.distance import Laser, RangeFinder
 from physsim_ros.model.robots.sensors.motion import Gps, Imu, WheelEncoders
 from physsim_ros.model.robots.sensors.sensor import Sensor

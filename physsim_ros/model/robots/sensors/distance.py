@@ -7,14 +7,12 @@ Sensors of distances, at equal angles or the nearest one in a cone.
 Their messages are `sensor_msgs/LaserScan` and `sensor_msgs/Range`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from enum import StrEnum
 import math
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checks, shown, Whole, Within
+from physsim_ros.model.checks import shown, Whole, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors.sensor import (
     angles,
@@ -35,30 +33,25 @@ _FULL = 1e-3
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Laser(Sensor):
     """
-    A laser scanner.
+    A laser scanner: distances along beams at equal angles.
 
-    :param beams: their number
-    :param angle: of the first and the last beam [rad]; of a full turn the last beam, which would
-        be the first again, is one increment before it
-    :param range: least and greatest distance that it measures [m]
-    :param noise: standard deviation of a distance [m]
     :raises BadProperty: beams are closer than LEAST_INCREMENT
     """
 
     KIND: ClassVar = 'laser'
-    CHECKS: ClassVar[Checks] = {
-        **Sensor.CHECKS,
-        'beams': Whole(1, MOST_BEAMS),
-        'angle': angles,
-        'range': distances,
-        'noise': LENGTH,
-    }
 
     name: str = 'scan'
-    beams: int = 360
-    angle: Point = (0.0, math.tau)
-    range: Point = (0.1, 10.0)  # noqa: A003 - a word of the interface
-    noise: float = 0.0
+    beams: Annotated[int, Whole(1, MOST_BEAMS), 'their number'] = 360
+    angle: Annotated[
+        Point,
+        angles,
+        'of the first and the last beam, counter-clockwise, at most a full turn apart [rad]; of a '
+        'full turn the last one is an increment before the first',
+    ] = (0.0, math.tau)
+    range: Annotated[  # noqa: A003 - a word of the interface
+        Point, distances, 'least and greatest distance: nearer is -inf, further +inf (REP 117) [m]'
+    ] = (0.1, 10.0)
+    noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
 
     def __post_init__(self) -> None:
         # `super()` without arguments has no class there: a dataclass with slots is made anew.
@@ -102,32 +95,27 @@ def _radiation(value: object, name: str) -> Radiation:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RangeFinder(Sensor):
     """
-    An infrared or ultrasonic range finder.
+    A range finder, infrared or ultrasonic: the nearest distance in a cone.
 
-    :param radiation: infrared or sonar
-    :param cone: opening of the cone about its axis [rad]; 0 is a single ray
-    :param rays: number of rays at equal angles in the cone, of which the nearest one counts
-    :param range: least and greatest distance that it measures [m]
-    :param noise: standard deviation of a distance [m]
     :raises BadProperty: rays are closer than LEAST_INCREMENT
     """
 
     KIND: ClassVar = 'range'
-    CHECKS: ClassVar[Checks] = {
-        **Sensor.CHECKS,
-        'radiation': _radiation,
-        'cone': Within(0.0, _WIDEST, 'rad'),
-        'rays': Whole(1, _MOST_RAYS),
-        'range': distances,
-        'noise': LENGTH,
-    }
 
     name: str = 'range'
-    radiation: Radiation = Radiation.INFRARED
-    cone: float = 0.2
-    rays: int = 15
-    range: Point = (0.02, 1.0)  # noqa: A003 - a word of the interface
-    noise: float = 0.0
+    radiation: Annotated[Radiation, _radiation, '`infrared` or `sonar`'] = Radiation.INFRARED
+    cone: Annotated[
+        float, Within(0.0, _WIDEST, 'rad'), 'opening about its axis; 0 is a single ray'
+    ] = 0.2
+    rays: Annotated[
+        int,
+        Whole(1, _MOST_RAYS),
+        'at equal angles in the cone, of which the nearest one counts',
+    ] = 15
+    range: Annotated[  # noqa: A003 - a word of the interface
+        Point, distances, 'as of a laser [m]'
+    ] = (0.02, 1.0)
+    noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
 
     def __post_init__(self) -> None:
         # `super()` without arguments has no class there: a dataclass with slots is made anew.

@@ -3,12 +3,10 @@
 
 """Sensors of how a robot moves and where: inertial, of the wheels, by satellites."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checks, FASTEST, pair, Within
+from physsim_ros.model.checks import FASTEST, pair, Within
 from physsim_ros.model.robots.sensors.sensor import LENGTH, Sensor
 from physsim_ros.model.transform import Point
 
@@ -22,31 +20,26 @@ def _deviations(value: object, name: str) -> Point:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Imu(Sensor):
-    """
-    An inertial measurement unit.
-
-    :param noise: standard deviations of acceleration [m/s²] and turn rate [rad/s]
-    :param gravity: upwards, out of the plane [m/s²]: 9.81 of one that feels the earth's in a world
-        that is seen from above
-    """
+    """An inertial measurement unit: turn rate, and acceleration as felt at `at`."""
 
     KIND: ClassVar = 'imu'
-    CHECKS: ClassVar[Checks] = {
-        **Sensor.CHECKS,
-        'noise': _deviations,
-        'gravity': Within(0.0, 100.0, 'm/s²'),
-    }
 
     name: str = 'imu'
     rate: float = 100.0
-    noise: Point = (0.0, 0.0)
+    noise: Annotated[
+        Point, _deviations, 'standard deviations of acceleration [m/s²] and turn rate [rad/s]'
+    ] = (0.0, 0.0)
     # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
-    gravity: float = field(default=0.0, repr=False)
+    gravity: Annotated[
+        float,
+        Within(0.0, 100.0, 'm/s²'),
+        'z of its acceleration: 9.81 where the world is seen from above and a node expects it',
+    ] = field(default=0.0, repr=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WheelEncoders(Sensor):
-    """The encoders of all wheels of the drive; `at` has no effect."""
+    """Encoders: turns of all wheels of the drive; `at` has no effect."""
 
     KIND: ClassVar = 'joint_states'
 
@@ -56,15 +49,10 @@ class WheelEncoders(Sensor):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gps(Sensor):
-    """
-    A receiver of satellite navigation; without a `datum` of the world it has no fix.
-
-    :param noise: standard deviation to the east, and to the north [m]
-    """
+    """A receiver of satellite navigation, on WGS 84; without a `datum` it has no fix."""
 
     KIND: ClassVar = 'gps'
-    CHECKS: ClassVar[Checks] = {**Sensor.CHECKS, 'noise': LENGTH}
 
     name: str = 'fix'
     rate: float = 5.0
-    noise: float = 0.0
+    noise: Annotated[float, LENGTH, 'standard deviation to the east, and to the north'] = 0.0

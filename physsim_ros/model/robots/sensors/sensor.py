@@ -3,15 +3,14 @@
 
 """The base of all sensors: a topic, a place on the body, a rate."""
 
-from __future__ import annotations
-
 from abc import ABC
 from dataclasses import dataclass
 import math
 import re
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checked, Checks, pair, shown, Within
+from physsim_ros.model.checks import pair, shown, Within
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import ORIGIN, Point, Pose
@@ -90,23 +89,16 @@ class Sensor(Checked, ABC):
     """
     A sensor of a robot.
 
-    :param name: of its topic, below the namespace of the robot
-    :param at: x, y [m], yaw [rad] in the frame of the body
-    :param rate: readings a second of simulation time [Hz]
     :raises Malformed: a number is not finite, or a list has the wrong length
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
     KIND: ClassVar[str]
-    CHECKS: ClassVar[Checks] = {
-        'name': _topic,
-        'at': _mounting,
-        'rate': Within(0.01, 1000.0, 'Hz'),
-    }
-
-    name: str
-    at: Pose = ORIGIN
-    rate: float = 10.0
+    name: Annotated[str, _topic, 'of its topic, below the namespace of the robot']
+    at: Annotated[Pose, _mounting, 'x, y [m], yaw [rad] in the frame of the body'] = ORIGIN
+    rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'readings a second of simulation time'] = (
+        10.0
+    )
 
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""

@@ -7,30 +7,25 @@ Sensors of what touches a robot, and of the floor below it.
 Their messages are `std_msgs/Bool` and `sensor_msgs/Image`.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 import math
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import Checks, Whole, Within
+from physsim_ros.model.checks import Whole, Within
 from physsim_ros.model.robots.sensors.sensor import FULL_TURN, LENGTH, Sensor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Bumper(Sensor):
-    """
-    A bumper: a sector of the body, as seen from `at`.
-
-    :param sector: its angle about the sensor's axis [rad]; a full turn is the whole body
-    """
+    """A bumper: whether another body or a wall touches a sector of its body, seen from `at`."""
 
     KIND: ClassVar = 'bumper'
-    CHECKS: ClassVar[Checks] = {**Sensor.CHECKS, 'sector': FULL_TURN}
 
     name: str = 'bumper'
     rate: float = 30.0
-    sector: float = math.pi
+    sector: Annotated[
+        float, FULL_TURN, "angle about the sensor's axis; a full turn is the whole body"
+    ] = math.pi
 
 
 # Greatest number of photodiodes in a row.
@@ -40,23 +35,15 @@ _MOST_PIXELS = 1000
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FloorEye(Sensor):
     """
-    A row of photodiodes, across the sensor's axis.
+    A row of photodiodes, across the axis of the sensor: colours of sensor bodies below it.
 
-    :param pixels: their number
-    :param width: from the first, on the left, to the last [m]
-    :param noise: standard deviation of a channel, of 0 .. 1
+    The bare floor is white; of several bodies, the one spawned last is on top.
     """
 
     KIND: ClassVar = 'floor'
-    CHECKS: ClassVar[Checks] = {
-        **Sensor.CHECKS,
-        'pixels': Whole(1, _MOST_PIXELS),
-        'width': LENGTH,
-        'noise': Within(0.0, 1.0),
-    }
 
     name: str = 'floor'
     rate: float = 30.0
-    pixels: int = 8
-    width: float = 0.1
-    noise: float = 0.0
+    pixels: Annotated[int, Whole(1, _MOST_PIXELS), 'number of photodiodes'] = 8
+    width: Annotated[float, LENGTH, 'from the first, on the left, to the last'] = 0.1
+    noise: Annotated[float, Within(0.0, 1.0), 'standard deviation of a channel, of 0 .. 1'] = 0.0

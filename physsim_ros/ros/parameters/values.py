@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The declaration of the parameters on a node, and the check of their values.
+Values of parameters: declared on a node, checked, and made into settings.
 
 Law: a value outside its range is refused with a reason and changes nothing.
 """
@@ -11,17 +11,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from functools import lru_cache
 from itertools import pairwise
 import math
 from pathlib import Path
 from typing import Any
 
+from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import load_mapping
 from physsim_ros.model.checks import shown
+from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError, UnknownProperty
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.ros.parameters.settings import drawing_settings, world_settings
-from physsim_ros.ros.parameters.table import SPECS, Type
+from physsim_ros.ros.parameters.table import AUTO, SPECS, Type
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -113,15 +116,13 @@ def check(parameter: Parameter) -> None:
     numbers = value if isinstance(value, list) else [value]
     if any(isinstance(each, float) and not math.isfinite(each) for each in numbers):
         raise Malformed(f'{name} is not finite', field=name)
-    if spec.low is not None and spec.high is not None and not spec.low <= value <= spec.high:
+    span = spec.span
+    if span is not None and not span.low <= value <= span.high:
         raise BadProperty(
-            f'{name} is {value:g}; it must lie between {spec.low:g} and {spec.high:g}', field=name
+            f'{name} is {value:g}; it must lie between {span.low:g} and {span.high:g}', field=name
         )
-    if spec.choices and value not in spec.choices:
-        choices = ', '.join(spec.choices)
-        raise BadProperty(
-            f'{name} must be one of {choices}{nearest_name(value, spec.choices)}', field=name
-        )
+    if spec.choices and spec.declaration.check is not None:
+        spec.declaration.check(value, name)
 
 
 def set_value(node: Node, name: str, value: str | float) -> None:
@@ -153,3 +154,63 @@ def _converted(parameter: Parameter) -> Parameter:
         # A message holds an array.array; the value is always a list.
         return Parameter(parameter.name, Type.DOUBLE_ARRAY, [float(each) for each in value])
     return parameter
+
+
+def world_changes(parameters: Iterable[Parameter]) -> dict[str, Any]:
+    """Return the settings of the world that parameters change, by name."""
+    return {
+        parameter.name: _setting(parameter.name, parameter.value)
+        for parameter in parameters
+        if parameter.name in WorldSettings.FIELDS
+    }
+
+
+def world_settings(values: Mapping[str, Any]) -> WorldSettings:
+    """
+    Return the settings of the world among parameter values.
+
+    :raises PhysSimError: they are refused
+    """
+    return WorldSettings(**{name: _setting(name, values[name]) for name in WorldSettings.FIELDS})
+
+
+def drawing_settings(values: Mapping[str, Any]) -> DrawingSettings:
+    """
+    Return the settings of drawing among parameter values.
+
+    :raises PhysSimError: they are refused
+    """
+    settings = {name: values[name] for name in DrawingSettings.FIELDS}
+    settings['draw_velocity'] = tuple(values['draw_velocity'])
+    settings['draw_color'] = _draw_color(values['draw_color'])
+    return DrawingSettings(**settings)
+
+
+def world_parameters(settings: WorldSettings) -> list[Parameter]:
+    """Return the parameters that have the settings of the world as their values."""
+    parameters = []
+    for name in sorted(WorldSettings.FIELDS):
+        value = getattr(settings, name)
+        if isinstance(value, tuple):
+            value = list(value)
+        parameters.append(Parameter(name, SPECS[name].kind, [] if value is None else value))
+    return parameters
+
+
+@lru_cache(maxsize=2)
+def listed_names(value: str) -> tuple[str, ...]:
+    """Return the names of bodies in the value of parameter `sketchpad_locked`."""
+    return tuple(name for each in value.split(',') if (name := each.strip()))
+
+
+def _draw_color(text: str) -> Color | None:
+    try:
+        return None if text == AUTO else color_from(text)
+    except BadProperty as refusal:
+        raise BadProperty(f'draw_color: {refusal}, or {AUTO}', field='draw_color') from refusal
+
+
+def _setting(name: str, value: Any) -> Any:
+    if name in {'bounds', 'datum'} and len(value) == 0:
+        return None
+    return tuple(value) if isinstance(SPECS[name].default, list) else value

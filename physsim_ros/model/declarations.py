@@ -1,0 +1,234 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Values whose fields are declared: name, type, check, sentence and default in one statement each.
+
+    friction: Annotated[float | None, Within(0.0, 10.0), 'coefficient of friction'] = None
+
+The check of a value that is made, its docstring, the keys of markers and world files, ROS
+parameters, and the tables of `docs/interface.md` and `config/physsim.yaml` (`tools/tables`) follow
+from the declaration.
+
+Law: a value that exists has passed its checks, in the order of its fields.
+
+Modules that declare fields do without `from __future__ import annotations`: its texts would be
+compiled at each start (5 ms). A check is not named as a field.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, Field, MISSING
+from inspect import get_annotations
+from typing import Any, ClassVar, Generic, Self, TypeVar
+
+from physsim_ros.model.checks import Check, LONGEST_SHOWN, shown
+from physsim_ros.model.errors import BadProperty, UnknownProperty
+from physsim_ros.model.texts import nearest_name, property_meant
+
+
+@dataclass(frozen=True, slots=True)
+class Declaration:
+    """
+    The declaration of a field, of its annotation `Annotated[type, check, 'sentence', *notes]`.
+
+    :param name: of the field
+    :param sentence: what it is, in Markdown
+    :param check: None where the class itself checks it
+    :param default: MISSING for a field that must be set
+    :param notes: what else its users need, as its default among ROS parameters
+    """
+
+    name: str
+    sentence: str
+    check: Check | None
+    default: Any
+    notes: tuple[Any, ...]
+
+    @property
+    def span(self) -> str:
+        """Return the range of a number with its unit, or the words that it can be, or ''."""
+        return str(getattr(self.check, 'span', ''))
+
+    @property
+    def text(self) -> str:
+        """Return the sentence, and the range or the words unless the sentence has them."""
+        is_told = all(word in self.sentence for word in self.span.split(', '))
+        return self.sentence if is_told else f'{self.sentence}; {self.span}'
+
+
+class Checked:
+    """
+    The base of values with declared fields, which are frozen dataclasses.
+
+    None is not checked where it is the default.
+
+    :cvar FIELDS: declarations of the fields, by name
+    :raises Refusal: a check raised it
+    """
+
+    __slots__ = ()
+    FIELDS: ClassVar[Mapping[str, Declaration]] = {}
+    # Name, check, and whether None is not checked, of each field that has a check.
+    _CHECKS: ClassVar[tuple[tuple[str, Check, bool], ...]] = ()
+
+    def __init_subclass__(cls) -> None:
+        # A dataclass with slots is made twice, the second time with what the first one has.
+        if 'FIELDS' in cls.__dict__:
+            return
+        cls.FIELDS = {**cls.FIELDS, **{each.name: each for each in _declarations(cls)}}
+        cls._CHECKS = tuple(
+            (each.name, each.check, each.default is None)
+            for each in cls.FIELDS.values()
+            if each.check is not None
+        )
+        body, raises, end = (cls.__doc__ or '').partition('\n    :raises ')
+        lines = ''.join(f'\n    :param {each.name}: {each.text}' for each in cls.FIELDS.values())
+        cls.__doc__ = f'{body.rstrip()}\n{lines}{raises or chr(10)}{end}' if lines else body
+
+    def __post_init__(self) -> None:
+        for name, check, is_optional in self._CHECKS:
+            value = getattr(self, name)
+            if value is None and is_optional:
+                continue
+            kept = check(value, name)
+            if kept is not value:
+                # Frozen for everyone but its own constructor.
+                object.__setattr__(self, name, kept)
+
+    def explicit(self) -> dict[str, Any]:
+        """Return the fields that are set, by name, in their order."""
+        pairs = ((name, getattr(self, name)) for name in self.FIELDS)
+        return {name: value for name, value in pairs if value is not None}
+
+    @classmethod
+    def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
+        """
+        Return the value of a YAML mapping.
+
+        :raises UnknownProperty: a key is no field; the nearest one is named
+        :raises Malformed: a number is not finite or an array has the wrong length
+        :raises BadProperty: a value is null, of the wrong kind, or out of range
+        """
+        cls.check_keys(mapping)
+        return cls(**mapping)
+
+    @classmethod
+    def from_value(cls, value: object, name: str) -> Self:
+        """
+        Return a value of this class as it is, and that of a mapping as `from_mapping`.
+
+        :param name: of the field, for the refusal
+        :raises BadProperty: it is neither; and as `from_mapping`
+        """
+        if isinstance(value, cls):
+            return value
+        if not isinstance(value, dict):
+            raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
+        return cls.from_mapping(value)
+
+    @classmethod
+    def check_keys(cls, mapping: Mapping[Any, Any]) -> None:
+        """
+        Refuse keys that are no fields, and keys without a value.
+
+        :raises UnknownProperty: a key is no field; the nearest one is named
+        :raises BadProperty: a value is null
+        """
+        for key, value in mapping.items():
+            check_key(key, cls.FIELDS)
+            if value is None:
+                raise BadProperty(f'{key} has no value', field=str(key))
+
+
+def _declarations(cls: type[Checked]) -> Iterator[Declaration]:
+    """Yield the declarations of a class, and those of its bases that have another default here."""
+    for name, hint in get_annotations(cls).items():
+        default = cls.__dict__.get(name, MISSING)
+        if isinstance(default, Field):
+            factory = default.default_factory
+            default = default.default if factory is MISSING else factory()
+        if str(hint).startswith('Annotated['):
+            raise TypeError(f'{cls.__module__} declares fields as texts')
+        metadata = getattr(hint, '__metadata__', None)
+        if metadata is None:
+            if name in cls.FIELDS:
+                base = cls.FIELDS[name]
+                yield Declaration(name, base.sentence, base.check, default, base.notes)
+            continue
+        check, sentence, *notes = metadata if callable(metadata[0]) else (None, *metadata)
+        if not isinstance(sentence, str):
+            # As where a check has the name of a field above it, whose default is meant then.
+            raise TypeError(f'{cls.__name__}.{name} needs a check or none, and a sentence')
+        yield Declaration(name, sentence, check, default, tuple(notes))
+
+
+def check_key(key: object, known: Collection[str]) -> None:
+    """
+    Refuse an unknown key, and name the known one that is meant or similar, else all of them.
+
+    :raises UnknownProperty: the key is not one of the known
+    """
+    if key in known:
+        return
+    word = str(key)
+    meant = property_meant(word, known)
+    hint = f'; use {meant!r}' if meant else nearest_name(word.lower(), known)
+    if known and not hint:
+        hint = f'; there are {", ".join(known)}'
+    raise UnknownProperty(f'there is no property {shown(word)}{hint}', field=word[:LONGEST_SHOWN])
+
+
+def known_mapping(value: object, name: str, known: Collection[str]) -> dict[Any, Any]:
+    """
+    Return a mapping with no other keys than the known ones.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is no mapping
+    :raises UnknownProperty: a key is not known; the nearest known one is named
+    """
+    if not isinstance(value, dict):
+        raise BadProperty(f'{name} must be a mapping', field=name)
+    for key in value:
+        check_key(key, known)
+    return value
+
+
+_Value = TypeVar('_Value', bound=Checked)
+
+
+@dataclass(frozen=True, slots=True)
+class OfKind(Generic[_Value]):
+    """
+    A check of values of several kinds, whose mapping says by the key `kind` which one it is.
+
+    :param noun: for such a value, for messages
+    :param kinds: classes by the words for them
+    """
+
+    noun: str
+    kinds: Mapping[str, type[_Value]]
+
+    def __call__(self, value: object, name: str) -> _Value:
+        """
+        Return a value of one of the kinds as it is, and that of a mapping as `from_mapping`.
+
+        :raises BadProperty: it is neither, or there is no such kind; and as `from_mapping`
+        """
+        for each in self.kinds.values():
+            if isinstance(value, each):
+                return value
+        if not isinstance(value, dict):
+            raise BadProperty(f'a {self.noun} must be a mapping, not {shown(value)}', field=name)
+        kind, words = value.get('kind'), ', '.join(self.kinds)
+        if kind is None:
+            raise BadProperty(f'a {self.noun} needs a kind: {words}', field='kind')
+        if not isinstance(kind, str) or kind not in self.kinds:
+            near = nearest_name(str(kind), self.kinds)
+            raise BadProperty(
+                f'there is no kind of {self.noun} {shown(kind)}{near}; there are {words}',
+                field='kind',
+            )
+        rest = {key: each for key, each in value.items() if key != 'kind'}
+        return self.kinds[kind].from_mapping(rest)

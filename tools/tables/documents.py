@@ -1,0 +1,220 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The files that repeat declarations: tables of the interface, the file of parameters, their types.
+
+In the interface and in the types, such a part lies between two comments, which name it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING
+from pathlib import Path
+import textwrap
+from typing import Any
+
+from physsim_ros.drawing import DrawingSettings
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.declarations import Checked, Declaration
+from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
+from physsim_ros.model.robots import DRIVES, Odometry, Robot
+from physsim_ros.model.robots.sensors import SENSORS
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.ros.parameters import NodeSettings, Spec, SPECS
+
+ROOT = Path(__file__).parents[2]
+# Columns of a comment in YAML.
+_WIDTH = 100
+_YAML_HEAD = """\
+# Every parameter with its default; `make tables` writes this file.
+#
+#   physsim --ros-args --params-file config/physsim.yaml -p speed:=0.5
+#
+# All but those marked read-only take effect at once when they are set on the running node.
+/**:
+  ros__parameters:
+"""
+# The parts of the file of parameters.
+_GROUPS: Mapping[str, type[Checked]] = {
+    'The node': NodeSettings,
+    'The world': WorldSettings,
+    'Drawing': DrawingSettings,
+}
+
+
+def files() -> dict[Path, str]:
+    """Return the text that each file must have, by its path."""
+    tables = {
+        'properties of a body': _table(Properties.FIELDS.values()),
+        'kinds of joints': _joint_kinds(),
+        'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
+        'keys of a robot': _robot_keys(),
+        'keys of a sensor': _sensor_keys(),
+        'parameters': _parameters(),
+    }
+    interface = ROOT / 'docs' / 'interface.md'
+    types = ROOT / 'physsim_ros' / 'testing' / 'parameters.py'
+    return {
+        interface: _with_parts(interface, tables, '<!-- {}: made by `make tables` -->'),
+        types: _with_parts(types, _types(), '# {}: made by `make tables`'),
+        ROOT / 'config' / 'physsim.yaml': _YAML_HEAD + '\n'.join(_yaml()),
+    }
+
+
+def _with_parts(path: Path, parts: Mapping[str, str], comment: str) -> str:
+    """
+    Return the text of a file with its parts made anew.
+
+    :param comment: before each part, with braces for its name; the one after it says `end`
+    :raises ValueError: a part is not there
+    """
+    text = path.read_text(encoding='utf-8')
+    for name, part in parts.items():
+        begin, end = comment.format(name), comment.format('end')
+        before, found, rest = text.partition(begin)
+        if not found:
+            raise ValueError(f'{path} has no part {begin!r}')
+        text = f'{before}{begin}\n{part}{end}{rest.partition(end)[2]}'
+    return text
+
+
+def _rows(*rows: tuple[str, ...]) -> str:
+    head, *others = rows
+    lines = (head, *others)
+    text = [''.join(f'| {cell} ' if cell else '| ' for cell in line) + '|\n' for line in lines]
+    text.insert(1, '|---' * len(head) + '|\n')
+    return '\n' + ''.join(text) + '\n'
+
+
+def _table(declarations: Any, default: Any = None) -> str:
+    """Return a table of fields; with `default`, a function of a field, a column of that."""
+    columns = ('key', *(('default',) if default else ()), 'range', 'meaning')
+    rows = [
+        (f'`{each.name}`', *((default(each),) if default else ()), each.span, each.sentence)
+        for each in declarations
+    ]
+    return _rows(columns, *rows)
+
+
+def _joint_kinds() -> str:
+    return _rows(
+        ('kind', 'points', 'properties', 'meaning'),
+        *(
+            (
+                f'`{kind}`',
+                str(kind.points),
+                ', '.join(f'`{name}`' for name in kind.schema.own),
+                kind.schema.sentence,
+            )
+            for kind in JointKind
+        ),
+    )
+
+
+def _joint_default(each: Declaration) -> str:
+    if AS_DRAWN in each.notes:
+        return 'as drawn'
+    return _value(DEFAULTS[each.name]) if each.name in DEFAULTS else 'no limit'
+
+
+def _robot_keys() -> str:
+    rows = [('robot', *_row(each)) for each in Robot.FIELDS.values()]
+    kinds = ', '.join(f'`{kind}`' for kind in DRIVES)
+    rows.append(('drive', '`kind`', 'needed', '', f'one of {kinds}'))
+    # Which kinds have a field: all, unless it is named.
+    drives = {name: each for kind in DRIVES.values() for name, each in kind.FIELDS.items()}
+    for name, each in drives.items():
+        with_it = [kind for kind, drive in DRIVES.items() if name in drive.FIELDS]
+        key, default, span, meaning = _row(each)
+        if len(with_it) < len(DRIVES):
+            meaning = f'of {", ".join(f"`{kind}`" for kind in with_it)}: {meaning}'
+        rows.append(('drive', key, default, span, meaning))
+    rows += [('odometry', *_row(each)) for each in Odometry.FIELDS.values()]
+    return _rows(('of', 'key', 'default', 'range', 'meaning'), *rows)
+
+
+def _sensor_keys() -> str:
+    rows = []
+    for kind, sensor in SENSORS.items():
+        for name, each in sensor.FIELDS.items():
+            key, default, span, meaning = _row(each)
+            if name == 'name':
+                meaning = (sensor.__doc__ or '').strip().partition('\n')[0].rstrip('.')
+            if name == 'rate':
+                span = meaning = ''
+            if name != 'at':
+                rows.append((f'`{kind}`', key, default, span, meaning))
+    return _rows(('kind', 'key', 'default', 'range', 'meaning'), *rows)
+
+
+def _row(each: Declaration) -> tuple[str, str, str, str]:
+    return f'`{each.name}`', _value(each.default), each.span, each.sentence
+
+
+def _value(value: object) -> str:
+    """Return a default as people write it in YAML; '' for none, or for a mapping."""
+    if value is MISSING:
+        return 'needed'
+    if isinstance(value, Checked) or value in (None, (), ''):
+        return ''
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, tuple):
+        return f'[{", ".join(map(_value, value))}]'
+    return f'{value:.5g}' if isinstance(value, float) else str(value)
+
+
+def _parameters() -> str:
+    rows = []
+    for name, spec in SPECS.items():
+        words = ', '.join(f'`{each}`' for each in spec.choices)
+        notes = (words or spec.declaration.span, 'read-only' * spec.read_only)
+        default = '' if spec.default == '' else f'`{_yaml_value(spec.default)}`'
+        rows.append(
+            (f'`{name}`', default, '; '.join(filter(None, notes)), spec.declaration.sentence)
+        )
+    return _rows(('name', 'default', 'range', 'meaning'), *rows)
+
+
+def _yaml() -> Iterator[str]:
+    """Yield the lines of the file of parameters below its head."""
+    for title, group in _GROUPS.items():
+        yield f'    # --- {title} ---'
+        for name in group.FIELDS:
+            spec = SPECS[name]
+            said = spec.declaration.text + '; read-only' * spec.read_only
+            # A word of the interface stays as it is.
+            begin = '' if said.startswith('`') else said[0].upper()
+            yield from textwrap.wrap(
+                f'{begin}{said[len(begin) :]}.'.replace('`', ''),
+                _WIDTH,
+                initial_indent='    # ',
+                subsequent_indent='    # ',
+                break_long_words=False,
+                break_on_hyphens=False,
+            )
+            yield f'    {name}: {_yaml_value(spec.default)}'
+        yield ''
+
+
+def _yaml_value(value: object) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return "''" if value == '' else str(value)
+
+
+def _types() -> dict[str, str]:
+    tools = ''.join(f'    {str(each)!r},\n' for each in SPECS['tool'].choices)
+    lines = [f'    {name}: {_type(name, spec)}\n' for name, spec in SPECS.items()]
+    return {'tools': f'Tool = Literal[\n{tools}]\n', 'parameters': ''.join(lines) + '\n\n'}
+
+
+def _type(name: str, spec: Spec) -> str:
+    """Return the annotation of a parameter."""
+    if name == 'tool':
+        return 'Tool'
+    if spec.choices:
+        return f'Literal[{", ".join(repr(str(each)) for each in spec.choices)}]'
+    return 'Sequence[float]' if isinstance(spec.default, list) else type(spec.default).__name__
