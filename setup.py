@@ -110,6 +110,7 @@ setup(
     cmdclass={'build_ext': BuildCore},
     package_data={
         PACKAGE: ['py.typed'],
+        f'{PACKAGE}.drawing.strokes': ['evidence.csv'],
         # Their declarations are those of Python, too.
         f'{PACKAGE}.engine.core': ['chipmunk.h', 'core.h'],
         f'{PACKAGE}.ros.programs': ['*.xml'],
