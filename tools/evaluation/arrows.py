@@ -22,6 +22,8 @@ from .outlines import Floats, Random
 _BARB, _SHORTEST, _LONGEST, _SPREAD = 0.4, 0.15, 0.9, 0.3
 # The median length of barbs of a head that is a stroke of its own.
 _BARB_APART = 0.5
+# The median length of the barbs of a round arrow, in shares of the radius.
+_BARB_ROUND = 0.5
 
 
 def arrow(rng: Random) -> Figure:
@@ -49,11 +51,31 @@ def arrow(rng: Random) -> Figure:
         (neck, one, tip, other, neck + rng.normal(0.0, 0.02, 2)),
     )
     head = heads[rng.integers(len(heads))]
-    if rng.random() < 0.15:
+    head_first = rng.random() < 0.15
+    if head_first:
         way = np.vstack((one, tip, other, again, shaft[::-1]))
     else:
         way = np.vstack((shaft, head))
-    return Figure(kind='arrow', way=turned(way, rng.uniform(0, 7)))
+    way = turned(way, rng.uniform(0, 7))
+    return Figure(kind='arrow', way=way, tail=-1 if head_first else 0)
+
+
+def round_arrow(rng: Random) -> Figure:
+    """Return an arc about an axle in its middle, and a head."""
+    sweep = rng.uniform(1.9, 5.6)
+    angle = np.linspace(-sweep / 2, sweep / 2, 40)
+    flat = rng.uniform(0.85, 1.0)
+    arc = 0.5 * np.column_stack((np.cos(angle), flat * np.sin(angle)))
+    tip, along = arc[-1], arc[-1] - arc[-4]
+    # The head turned a little inwards, as the arc is.
+    heading = math.atan2(along[1], along[0]) + 0.15 + rng.normal(0.0, 0.1)
+    barbs = 0.5 * turned_about_origin(_barbs(rng, _BARB_ROUND), heading)
+    one, other = tip + (barbs if rng.random() < 0.5 else barbs[::-1])
+    heads = (one, tip + rng.normal(0.0, 0.02, 2), other), (one, other), (one, other, tip)
+    way = np.vstack((arc, heads[rng.integers(len(heads))]))
+    way = way * (1.0, rng.choice([-1.0, 1.0]))
+    # About the axle, and not about the middle of its extent.
+    return Figure(kind='round arrow', way=turned_about_origin(way, rng.uniform(0, 7)))
 
 
 def shaft_and_head(rng: Random) -> list[Floats]:

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from .outlines import Floats, POLYGONS, Random
+from .outlines import Floats, nudged, POLYGONS, Random
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,6 +30,7 @@ class Figure:
         none to count
     :param thin: its width by its length, as far as that makes a hand careful
     :param smooth: whether its points only stand for a curve
+    :param tail: the index of the tail of an arrow: 0 or -1
     """
 
     kind: str
@@ -38,6 +39,7 @@ class Figure:
     corners: int = -1
     thin: float = 1.0
     smooth: bool = False
+    tail: int = 0
 
 
 def disc(rng: Random) -> Figure:
@@ -245,6 +247,9 @@ def brace(rng: Random) -> Figure:
     wide, nose = rng.uniform(0.1, 0.3), rng.uniform(0.1, 0.3)
     y = np.array([0.5, 0.47, 0.4, 0.3, 0.15, 0.06, 0.0])
     x = np.array([wide, 0.4 * wide, 0.05 * wide, 0.0, 0.0, -0.4 * nose, -nose])
+    if rng.random() < 0.3:
+        # The tip is drawn to and fro, along two lines or a narrow loop.
+        x[-2:], y[-2] = (-0.6 * nose, -2.0 * nose), rng.uniform(-0.03, 0.02)
     upper = np.column_stack((x, y))
     way = np.vstack((upper, upper[:-1][::-1] * (1.0, -1.0)))
     way = _rounded(way, 0.05) if rng.random() < 0.5 else way
@@ -263,6 +268,40 @@ def question_mark(rng: Random) -> Figure:
     return Figure(kind='line', way=turned(way, rng.normal(0.0, 0.2)), smooth=True)
 
 
+def five_swings(rng: Random) -> Figure:
+    """Return five lines to and fro, one too few for a scribble."""
+    x = rng.uniform(0.4, 1.0) * np.linspace(-0.5, 0.5, 6) + rng.normal(0.0, 0.02, 6)
+    y = 0.5 * np.where(np.arange(6) % 2, 1.0, -1.0) * rng.uniform(0.8, 1.0, 6)
+    way = np.column_stack((x, rng.uniform(0.8, 1.3) * y))
+    return Figure(kind='', way=turned(way, rng.uniform(0, 7)))
+
+
+def trembling_line(rng: Random) -> Figure:
+    """Return a line, straight or bowed, by a hand that trembles."""
+    x = np.linspace(-0.5, 0.5, 200)
+    bow = rng.choice([0.0, rng.uniform(0.1, 0.5)])
+    y = 2.0 * bow * (0.25 - x * x)
+    waves, phase = rng.uniform(3.0, 12.0), rng.uniform(0, 7)
+    y += rng.uniform(0.005, 0.024) * np.sin(2 * math.pi * waves * x + phase)
+    return Figure(kind='line', way=turned(np.column_stack((x, y)), rng.uniform(0, 7)), smooth=True)
+
+
+def letter(rng: Random) -> Figure:
+    """Return a letter or digit of straight lines, drawn without lifting the pen."""
+    letters = (
+        [(0, 0), (0, 1), (0.7, 0), (0.7, 1)],
+        [(0, 1), (0.7, 1), (0, 0), (0.7, 0)],
+        [(0, 0), (0.15, 1), (0.5, 0.3), (0.85, 1), (1, 0)],
+        [(0, 1), (0.25, 0), (0.5, 0.7), (0.75, 0), (1, 1)],
+        [(0.6, 1), (0, 0.35), (0.7, 0.35)],
+        [(0, 1), (0.7, 1), (0.2, 0)],
+        [(0, 0.8), (0.3, 1), (0.3, 0)],
+    )
+    way = nudged(rng, list(letters[rng.integers(len(letters))]))
+    way = (way + rng.normal(0.0, 0.03, way.shape)) * (rng.uniform(0.6, 1.4), 1.0)
+    return Figure(kind='line', way=turned(way, rng.normal(0.0, 0.15)), corners=len(way))
+
+
 def pigtail(rng: Random) -> Figure:
     """Return a pigtail: a line with one loop in its middle."""
     share = np.linspace(0.0, 1.0, 100)
@@ -276,18 +315,21 @@ def pigtail(rng: Random) -> Figure:
 
 def scribble(rng: Random) -> Figure:
     """Return a scribble: to and fro, or round and round."""
-    # People make five swings and more.
-    swings = int(rng.integers(6, 17))
+    # People make six swings and more.
+    swings = int(rng.integers(7, 17))
     if rng.random() < 0.25:
         angle = np.linspace(0.0, 2.0 * math.pi * rng.uniform(3.1, 6.5), 300)
         radius = 0.3 + 0.15 * np.sin(angle * rng.uniform(0.2, 0.7) + rng.uniform(0, 7))
         drift = np.outer(angle / angle[-1] - 0.5, rng.uniform(-0.4, 0.4, 2))
         way = np.column_stack((radius * np.cos(angle), radius * np.sin(angle))) + drift
         return Figure(kind='scribble', way=turned(way, rng.uniform(0, 7)), smooth=True)
-    x = np.linspace(-0.5, 0.5, swings) * rng.uniform(0.4, 1.0)
-    x += rng.normal(0.0, 0.04, swings)
+    # Of many swings it may go far, if each lies close to the one before it.
+    x = np.linspace(-0.5, 0.5, swings) * rng.uniform(0.4, max(1.0, 0.13 * swings))
+    uneven = rng.uniform(0.0, 1.3)
+    x += rng.normal(0.0, 0.04 * uneven, swings)
     sign = np.where(np.arange(swings) % 2, 1.0, -1.0)
-    y = sign * rng.uniform(0.3, 0.5, swings) + rng.normal(0.0, 0.05, swings)
+    y = sign * rng.uniform(0.5 - 0.25 * uneven, 0.5, swings)
+    y += rng.normal(0.0, 0.05 * uneven, swings)
     way = np.column_stack((x + y * rng.uniform(-0.3, 0.3), y))
     if rng.random() < 0.5:
         way = _rounded(way, rng.uniform(0.01, 0.05))

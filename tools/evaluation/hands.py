@@ -232,7 +232,7 @@ def _way(figure: Figure, somebody: Hand, rng: Random) -> Floats:
     """Return the way that the pen is to take: where it begins, which way round, where it ends."""
     way = figure.way / np.hypot(*np.ptp(figure.way, axis=0))
     if rng.random() < 0.5:
-        way = way[::-1] if figure.kind != 'arrow' else way
+        way = way[::-1] if 'arrow' not in figure.kind else way
     if not figure.closed:
         return way
     way = np.roll(way, rng.integers(len(way)), axis=0)

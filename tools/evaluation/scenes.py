@@ -15,7 +15,9 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
-from physsim_ros.model.requests import Spawn
+from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.simulation.world import World
 
@@ -84,6 +86,16 @@ def _scene(kind: Kind, fault: Fault, name: str, half: str, rng: Random) -> Scene
     world = World()
     for index, (shape, x, y) in enumerate(kind.around(figure, somebody, rng)):
         world.apply(Spawn(name=f'body/{index}', shape=shape, pose=(x, y, 0.0)))
+    if kind.axle:
+        axle = Join(
+            name='axle/0',
+            kind=JointKind.AXLE,
+            points=(somebody.place,),
+            a='body/0',
+            b=WORLD,
+            properties=JointProperties(),
+        )
+        world.apply(axle)
     return Scene(
         name=kind.name,
         fault=name,
@@ -115,8 +127,14 @@ def _at_ends(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
 
 
 def _at_start(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
-    """Put a body about where the pen is set down."""
-    return _at_ends(figure, somebody, rng)[:1]
+    """Put a body about the tail of an arrow, or where the pen is set down."""
+    return [_at_ends(figure, somebody, rng)[figure.tail]]
+
+
+def _within(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+    """Put a wheel into a round arrow."""
+    del figure
+    return [(Disc(radius=somebody.size * rng.uniform(0.1, 0.3)), *somebody.place)]
 
 
 def _under(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
@@ -175,6 +193,8 @@ class Kind:
     draw: Callable[[Random], Figure]
     meaning: str | None
     around: _Around
+    # Whether the first body turns about an axle in the middle of what is drawn.
+    axle: bool = False
 
 
 KINDS: tuple[Kind, ...] = (
@@ -209,6 +229,10 @@ KINDS: tuple[Kind, ...] = (
     Kind('zigzag, 1 body', figures.short_zigzag, 'spring', _at_start),
     Kind('short zigzag, 2 bodies', figures.short_zigzag, 'spring', _at_ends),
     Kind('short x, on a body', figures.short_cross, 'anchor', _under),
+    Kind('letter', figures.letter, 'wall', _nothing),
+    Kind('trembling line', figures.trembling_line, 'wall', _nothing),
+    Kind('five swings, on a body', figures.five_swings, None, _scribbled),
+    Kind('round arrow', arrows.round_arrow, 'motor', _within, axle=True),
 )
 # All meanings of strokes, in the order of their kinds.
 MEANINGS = tuple(dict.fromkeys(kind.meaning for kind in KINDS if kind.meaning is not None))

@@ -45,11 +45,15 @@ class Thing:
     :param ways: of the pen, (n, 2) float64 each [m]
     :param under: the bodies that it is drawn over
     :param right: tells whether the world is as it should be
+    :param kind: of all ways together, as that of a figure; '' where they are no sign
+    :param tail: of an arrow, (2,) float64 [m]
     """
 
     ways: Sequence[Floats]
     under: Sequence[Spawn] = ()
     right: Callable[[Snapshot], bool]
+    kind: str = ''
+    tail: Floats | None = None
 
 
 class Sheet:
@@ -94,16 +98,30 @@ def show_several(count: int, half: str) -> None:
     print(f'{"drawings of ten strokes":<34}{right:7.1%} of {count}   {dict(wrong)}')
 
 
+def joined_things(count: int, half: str) -> Iterator[tuple[Thing, list[Floats]]]:
+    """Yield so many things of each name with their samples, (n, 3) float64: x, y [m], time [s]."""
+    for number, draw in enumerate(THINGS.values()):
+        rng = np.random.default_rng((SEEDS[half], 4000 + number))
+        for _ in range(count):
+            thing = draw(rng)
+            yield thing, list(_samples_of(thing, half, rng))
+
+
 def _is_right(thing: Thing, half: str, rng: Random) -> bool:
     sheet = Sheet(thing.under)
+    for samples in _samples_of(thing, half, rng):
+        sheet.draw(samples, rng.uniform(*_WITHIN))
+    return thing.right(sheet.frame.snapshot)
+
+
+def _samples_of(thing: Thing, half: str, rng: Random) -> Iterator[Floats]:
+    """Yield the samples of each stroke of a thing, (n, 3) float64: x, y [m], time [s]."""
     somebody = hand(rng, figure_of(thing.ways[0])[0], half)
     whole = _extent(np.vstack(thing.ways))
     for way in thing.ways:
         # The first step of a finger is as long for a barb as for a shaft.
         first_step = min(somebody.first_step * whole / _extent(way), _LONGEST_STEP)
-        samples = _by_hand(way, replace(somebody, first_step=first_step), rng)
-        sheet.draw(samples, rng.uniform(*_WITHIN))
-    return thing.right(sheet.frame.snapshot)
+        yield _by_hand(way, replace(somebody, first_step=first_step), rng)
 
 
 def _by_hand(way: Floats, somebody: Hand, rng: Random) -> Floats:
@@ -207,7 +225,7 @@ def _anchoring(turn: float) -> Callable[[Random], Thing]:
             same = math.isclose(found.total_mass, mass, rel_tol=1e-6)
             return found.anchored and same and not others and not snapshot.scene.joints
 
-        return Thing(ways=ways, under=(body,), right=right)
+        return Thing(ways=ways, under=(body,), right=right, kind='x')
 
     return thing
 
@@ -221,12 +239,11 @@ def _gravity_arrow(rng: Random) -> Thing:
         along = (x * shaft[0] + y * shaft[1]) / float(np.hypot(*shaft)) / math.hypot(x, y)
         return along > math.cos(0.4) and not snapshot.scene.bodies
 
-    # Not downwards, where gravity is already.
-    return (
-        _gravity_arrow(rng)
-        if shaft[1] < -0.7 * float(np.hypot(*shaft))
-        else Thing(ways=ways if rng.random() < 0.7 else ways[::-1], right=right)
-    )
+    if shaft[1] < -0.7 * float(np.hypot(*shaft)):
+        # Gravity is downwards already.
+        return _gravity_arrow(rng)
+    ordered = ways if rng.random() < 0.7 else ways[::-1]
+    return Thing(ways=ordered, right=right, kind='arrow', tail=ways[0][0])
 
 
 def _velocity_arrow(rng: Random) -> Thing:
@@ -241,7 +258,7 @@ def _velocity_arrow(rng: Random) -> Thing:
         alone = len(snapshot.scene.bodies) == 1 and not snapshot.scene.joints
         return alone and off < 0.3 * float(np.hypot(*(tip - tail)))
 
-    return Thing(ways=ways, under=(body,), right=right)
+    return Thing(ways=ways, under=(body,), right=right, kind='arrow', tail=tail)
 
 
 def _four_lines(rng: Random) -> Thing:
@@ -259,6 +276,7 @@ def _crossing_walls(rng: Random) -> Thing:
     return Thing(
         ways=_placed_at_random(rng, *_x(rng)),
         right=lambda snapshot: _shapes(snapshot) == {Chain: 2},
+        kind='x',
     )
 
 

@@ -14,9 +14,9 @@ from __future__ import annotations
 import math
 
 # Weight of the possibility that a stroke means nothing.
-DOUBT = 0.12
+DOUBT = 0.02
 # Log odds of a group being right at equal weights, and their growth with the log odds of weights.
-GROUP_BIAS, GROUP_SLOPE = 0.2, 2.4
+GROUP_BIAS, GROUP_SLOPE = -0.4, 1.9
 # The same for a meaning within its group.
 SHARE_BIAS, SHARE_SLOPE = 0.36, 0.86
 # The least share of either side, so that log odds are finite.

@@ -46,7 +46,7 @@ _CIRCULAR, _OVAL_SIDES = 0.63, 48
 # Evidence for an ellipse, in log odds: a constant, and the factors of the logarithms of the
 # residuals of straight sides and of the ellipse, of the bulge of the sides, and of the log of
 # the aspect below that of `_PLANK`: what is thinner is more often a plank than an oval.
-_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -4.8, 1.0, 2.6, 3.4, 4.5, 0.35
+_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -6.0, 1.55, 3.9, 3.75, 8.6, 0.35
 # The least residual that is told from 0, in shares of the size.
 _EXACT = 0.001
 # The least aspect of the corners of a polygon that may be a small circle.
@@ -88,7 +88,7 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     off /= size
     sides = min(residual, off)
     edgeless = _edgelessness(sides=sides, error=error, aspect=aspect, bulge=_bulge(wide, at))
-    circle = edgeless * _winds_once(outline - ellipse.center) * falls(error, 0.085, 0.01)
+    circle = edgeless * _winds_once(outline - ellipse.center) * falls(error, 0.1, 0.01)
     sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
     circular = rises(aspect, _CIRCULAR, 0.02)
     rim = ellipse.center + np.array((ellipse.radius, 0.0))

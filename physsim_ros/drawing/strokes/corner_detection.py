@@ -32,8 +32,9 @@ SHARPEST = 2.6
 # The greatest number of candidates: the cost of the search grows with its square.
 CANDIDATES = 28
 # Cost of a corner: the decrease of the logarithm of the residual (mean square distance) that is
-# worth one. The wobble of a careful hand, in shares of the size, which is worth no corner.
-CORNER_COST, WOBBLE = 0.4, 0.008
+# worth one. The wobble of a careful hand, in shares of the size, which is worth no corner: of open
+# lines and of outlines, whose many corners are flatter.
+CORNER_COST, WOBBLE, WOBBLE_CLOSED = 0.5, 0.012, 0.008
 # The greatest number of sides of an outline with corners.
 MOST_SIDES = 20
 # The least distance between the ends of a side, in shares of the length along the stroke.
@@ -58,14 +59,14 @@ def corners(points: Floats, *, closed: bool, gap: float = 0.0) -> list[int]:
     places = _peaks(turn, closed=closed)
     if not closed:
         inner = places[(places > 2) & (places < count - 3)]
-        return _corners_among(smooth, np.array([0, *inner, count - 1]))
+        return _corners_among(smooth, np.array([0, *inner, count - 1]), WOBBLE)
     if len(places) < 2:
         return list(map(int, places))
     # Opened at the sharpest candidate, which is a corner.
     start = places[turn[places].argmax()]
     path = np.roll(smooth, -start, axis=0)
     opened = np.array([*np.sort((places - start) % count), count])
-    chosen = _corners_among(np.vstack((path, path[:1])), opened)
+    chosen = _corners_among(np.vstack((path, path[:1])), opened, WOBBLE_CLOSED)
     at = sorted((each + int(start)) % count for each in chosen[:-1])
     return _without_seam(smooth, at, gap)
 
@@ -135,14 +136,14 @@ def _peaks(turn: NDArray[np.float64], *, closed: bool) -> NDArray[np.intp]:
     return places
 
 
-def _corners_among(path: Floats, places: NDArray[np.intp]) -> list[int]:
+def _corners_among(path: Floats, places: NDArray[np.intp], wobble: float) -> list[int]:
     """
     Return the indices of the corners among candidates, the ends included.
 
     Corners minimise residual and cost; those that turn by less than `CORNER_TURN` are dropped.
     """
     if len(places) > 2:
-        places = places[_least_cost(_errors(path, places), path)]
+        places = places[_least_cost(_errors(path, places), path, wobble)]
     kept: list[int] = places.tolist()
     points: list[tuple[float, float]] = list(map(tuple, path[kept].tolist()))
     turning = [_turn(*around) for around in zip(points, points[1:], points[2:], strict=False)]
@@ -156,12 +157,12 @@ def _corners_among(path: Floats, places: NDArray[np.intp]) -> list[int]:
     return kept
 
 
-def _least_cost(errors: NDArray[np.float64], path: Floats) -> list[int]:
+def _least_cost(errors: NDArray[np.float64], path: Floats, wobble: float) -> list[int]:
     """
     Return the candidates of least description length, the ends included.
 
     With k sides, of the least residual among all choices of k + 1 candidates (dynamic programming,
-    Bellman, 1961), it is log(residual + WOBBLE²) + k · CORNER_COST.
+    Bellman, 1961), it is log(residual + wobble²) + k · CORNER_COST.
     """
     # Mean square distances, in shares of the size squared.
     shares = errors / (float((np.ptp(path, axis=0) ** 2).sum()) * len(path))
@@ -173,7 +174,7 @@ def _least_cost(errors: NDArray[np.float64], path: Floats) -> list[int]:
             sums = total[:, None] + shares
             before.append(sums.argmin(axis=0))
             total = sums.min(axis=0)
-        length = math.log(float(total[-1]) + WOBBLE**2) + count * CORNER_COST
+        length = math.log(float(total[-1]) + wobble**2) + count * CORNER_COST
         if length < best:
             best, sides = length, count
     chosen = [len(shares) - 1]

@@ -10,13 +10,15 @@ backwards it is the same sign.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 import itertools
 import math
 
 import numpy as np
+from physsim_ros.drawing.strokes.corner_detection import ARM
 from physsim_ros.drawing.strokes.hypothesis import falls
-from physsim_ros.drawing.strokes.polyline import COUNT, path_length
+from physsim_ros.drawing.strokes.polyline import COUNT, path_length, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, norms
@@ -88,11 +90,13 @@ class Features:
     :param stroke: the stroke
     :param swings: its oscillation
     :param crossings: the places at which it crosses itself
+    :param measures: of the whole stroke, by name: evidence for and against every sign
     """
 
     stroke: Stroke
     swings: Swings
     crossings: list[Crossing]
+    measures: Mapping[str, float]
 
     @property
     def closure(self) -> float:
@@ -102,11 +106,22 @@ class Features:
     @classmethod
     def of(cls, stroke: Stroke) -> Features:
         """Return the features of a stroke."""
-        return cls(
-            stroke=stroke,
-            swings=swings_of(stroke.points),
-            crossings=crossings_of(stroke.points),
-        )
+        points = stroke.points
+        swings, crossings = swings_of(points), crossings_of(points)
+        turn = np.abs(turns(smoothed(points, 1.0, closed=False), ARM, closed=False))
+        measures = {
+            'gap': stroke.gap,
+            'chord': float(norms(points[-1] - points[0])) / stroke.size,
+            'length': stroke.length / stroke.size,
+            'swings': float(swings.count),
+            'spread': swings.spread,
+            'height': swings.height / stroke.size,
+            'steady': swings.steady,
+            'crossings': float(len(crossings)),
+            'sharpest': float(turn.max()),
+            'turning': float(turn.mean()),
+        }
+        return cls(stroke=stroke, swings=swings, crossings=crossings, measures=measures)
 
 
 def swings_of(points: Floats) -> Swings:

@@ -4,9 +4,9 @@
 """
 Hypotheses: the forms that a stroke can have, each with a weight.
 
-A weight is a product of soft conditions (logistic functions), each 0.5 at its limit. The limits
-lie between the figures of the hand-drawn forms that they separate; `make evaluate` measures how
-often a form is recognised.
+The weight of a sign is its probability (`evidence`). The rest is shared among lines and outlines
+by soft conditions (logistic functions), each 0.5 at its limit. The limits lie between the figures
+of the hand-drawn forms that they separate; `make evaluate` measures how often a form is read.
 """
 
 from __future__ import annotations

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Signs: one file for each, with its hypothesis, its meanings and the outcomes of those.
+Signs: one file for each, with its measures, its meanings and the outcomes of those.
 
-A new sign is a file with the three names of `Sign` and a line in `SIGNS`. The axle is a meaning of
-a small closed shape, so `closed_shapes` asks it for its share. Features that several signs need
-are in `features`, outcomes that several forms have in `request_builder`.
+A new sign is a file with the three names of `Sign`, a line in `SIGNS` and rows in the table of
+`evidence`, which `python -m tools.evaluation.fit` makes. The axle is a meaning of a small closed
+shape, so `closed_shapes` asks it for its share. Features that several signs need are in
+`features`, outcomes that several forms have in `request_builder`.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Protocol
 
+from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.hypothesis import Hypothesis
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation
@@ -27,8 +29,8 @@ class Sign(Protocol):
     def PRIMITIVE(self) -> str:  # noqa: N802  a constant of the module
         """Return the name of the form."""
 
-    def hypothesis(self, features: Features) -> Hypothesis:
-        """Return the hypothesis that a stroke has this form."""
+    def candidates(self, features: Features) -> Iterator[Candidate]:
+        """Yield the ways in which a stroke may have this form, with their measures."""
 
     def interpretations(
         self, hypothesis: Hypothesis, context: Context

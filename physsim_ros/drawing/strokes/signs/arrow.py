@@ -6,16 +6,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import regularisation
-from physsim_ros.drawing.strokes.corner_detection import ARM
+from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import segment_distances
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
+from physsim_ros.drawing.strokes.hypothesis import Hypothesis
 from physsim_ros.drawing.strokes.meanings import (
     Context,
     GRAVITY,
@@ -23,8 +22,7 @@ from physsim_ros.drawing.strokes.meanings import (
     MISPLACED,
     Outcome,
 )
-from physsim_ros.drawing.strokes.polyline import point_of, smoothed, turns
-from physsim_ros.drawing.strokes.signs.cross import absence as no_x
+from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
@@ -42,27 +40,17 @@ _NECK = 0.2
 _ALONG = np.linspace(0.15, 1.0, 8)[:, None]
 
 
-def hypothesis(features: Features) -> Hypothesis:
-    """Return the hypothesis of a shaft and a head, in either order; points: tail and tip."""
+def candidates(features: Features) -> Iterator[Candidate]:
+    """Yield a shaft and a head, in either order; points: tail and tip."""
     stroke = features.stroke
-    # Shaft and barbs are four swings at most.
-    absence = falls(features.swings.count, 4.5, 0.25) * _sharpness(stroke.points)
-    if absence < LEAST or stroke.gap < _LEAST_GAP:
-        return Hypothesis(primitive=PRIMITIVE, weight=0.0, points=stroke.points[[0, -1]])
-    orders = stroke.points, stroke.points[::-1]
-    best = max((_arrow_from_tail(points) for points in orders), key=lambda each: each.weight)
-    return replace(best, weight=best.weight * absence * no_x(features))
+    if stroke.gap >= _LEAST_GAP:
+        for points in (stroke.points, stroke.points[::-1]):
+            yield _from_tail(points, features)
 
 
-def _sharpness(points: Floats) -> float:
-    """Return the weight of a sharp turn, 0 .. 1: that of the tip or of a barb."""
-    turn = np.abs(turns(smoothed(points, 1.0, closed=False), ARM, closed=False))
-    return rises(float(turn.max()), 1.3, 0.08)
-
-
-def _arrow_from_tail(points: Floats) -> Hypothesis:
+def _from_tail(points: Floats, features: Features) -> Candidate:
     """
-    Return the hypothesis of an arrow whose tail is the first point.
+    Return the arrow whose tail is the first point.
 
     The order in which shaft, barbs and the side between these are drawn does not matter: the pen
     goes along all of both barbs, and nowhere but along a triangle and its axis.
@@ -84,25 +72,26 @@ def _arrow_from_tail(points: Floats) -> Hypothesis:
     steps = np.diff(head, axis=0)
     shaft = frame[frame[:, 0] < 1.0 + neck[0], 1]
     size = max(longer, 1e-12)
-    factors = (
-        falls(bow, 0.22, 0.012),
-        falls(math.sqrt(float((shaft**2).sum()) / max(len(shaft), 1)), 0.06, 0.005),
-        # The pen does not go beyond the tail.
-        rises(float(frame[:, 0].min()), -0.12, 0.01),
-        rises(less, 0.12, 0.02),
-        rises(less / max(more, 1e-12), 0.2, 0.03),
-        falls(more, 1.3, 0.05),
-        rises(shorter / size, 0.25, 0.035),
-        rises(longer, 0.1, 0.006),
-        falls(longer, 0.85, 0.02),
-        falls(math.sqrt(float((off**2).mean())) / size, 0.125, 0.008),
-        falls(float(max(missed)) / size, 0.36, 0.02),
-        # It goes back, and farther than along one barb.
-        rises(float(np.maximum(-steps[:, 0], 0.0).sum()) / size, 0.35, 0.04),
-        rises(float(norms(steps).sum()) / size, 1.6, 0.08),
+    return Candidate(
+        measures={
+            **features.measures,
+            'bow': bow,
+            'shaft': math.sqrt(float((shaft**2).sum()) / max(len(shaft), 1)),
+            # The pen does not go beyond the tail.
+            'behind': float(frame[:, 0].min()),
+            'less': less,
+            'more': more,
+            'symmetry': less / max(more, 1e-12),
+            'balance': shorter / size,
+            'longer': longer,
+            'off': math.sqrt(float((off**2).mean())) / size,
+            'missed': float(max(missed)) / size,
+            # It goes back, and farther than along one barb.
+            'back': float(np.maximum(-steps[:, 0], 0.0).sum()) / size,
+            'head': float(norms(steps).sum()) / size,
+        },
+        points=np.array((tail, tip)),
     )
-    weight = math.prod(factors)
-    return Hypothesis(primitive=PRIMITIVE, weight=weight, points=np.array((tail, tip)))
 
 
 def _unbowed(frame: Floats) -> tuple[Floats, float]:

@@ -9,9 +9,10 @@ from collections.abc import Iterator
 from functools import partial
 import math
 
+from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.hypothesis import Hypothesis
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
@@ -20,48 +21,39 @@ from physsim_ros.model.requests import Anchor
 from physsim_ros.model.transform import cross
 
 PRIMITIVE = 'x'
-# The greatest area of the loop between the two lines, by its length squared: of a triangle it is
-# 0.048 at most and, its corners rounded, 0.058; the loop of a pigtail is a circle, 0.080.
-_ROUND = 0.062
+# The least number of points by which a line is followed beyond the crossing, of `COUNT`, and the
+# least number of those of either line.
+_BEYOND, _FEWEST = 8, 5
 
 
-def hypothesis(features: Features) -> Hypothesis:
-    """Return the hypothesis of two straight lines that cross; the point is their crossing."""
+def candidates(features: Features) -> Iterator[Candidate]:
+    """Yield two lines that cross, for the crossing with the longest ends; the point is there."""
     stroke, crossings = features.stroke, features.crossings
-    best = Hypothesis(primitive=PRIMITIVE, weight=0.0, points=stroke.points[:1])
     count = len(stroke.points) - 1
-    for crossing in crossings:
-        at, first, last = crossing
-        before, loop, after = first / count, (last - first) / count, 1.0 - last / count
-        # Each line reaches half as far beyond the crossing as its end lies before it.
-        until, since = int(1.5 * first) + 1, int(1.5 * last - 0.5 * count)
-        one, other = stroke.points[:until], stroke.points[since:]
-        if min(len(one), len(other)) < 5:
-            continue
-        (_, along, bent), (_, beside, curved) = line(one), line(other)
-        weight = (
-            rises(min(before, after) / max(before, after), 0.4, 0.05)
-            * rises(min(before, after), 0.08, 0.015)
-            * rises(loop, 0.4, 0.04)
-            * falls(loop, 0.82, 0.02)
-            * falls(max(bent, curved) / stroke.size, 0.06, 0.008)
-            * rises(abs(float(cross(along, beside))), 0.5, 0.06)
-            * falls(len(crossings), 2.5, 0.3)
-            * falls(loop_roundness(stroke.points, crossing), _ROUND, 0.002)
-        )
-        if weight > best.weight:
-            best = Hypothesis(primitive=PRIMITIVE, weight=weight, points=at[None])
-    return best
-
-
-def absence(features: Features) -> float:
-    """
-    Return the weight of the stroke being no x, 0 .. 1.
-
-    The second line of an x looks like the head of an arrow, but the barbs of an arrow do not go on
-    beyond its shaft.
-    """
-    return falls(hypothesis(features).weight, 0.5, 0.1)
+    if not crossings:
+        return
+    crossing = max(crossings, key=lambda each: min(each[1], count - each[2]))
+    at, first, last = crossing
+    # Each line reaches half as far beyond the crossing as its end lies before it.
+    until = int(first + max(0.5 * first, _BEYOND)) + 1
+    since = int(last - max(0.5 * (count - last), _BEYOND))
+    one, other = stroke.points[:until], stroke.points[since:]
+    if min(len(one), len(other)) < _FEWEST:
+        return
+    (_, along, bent), (_, beside, curved) = line(one), line(other)
+    before, after = first / count, 1.0 - last / count
+    yield Candidate(
+        measures={
+            **features.measures,
+            'shorter end': min(before, after),
+            'balance': min(before, after) / max(before, after),
+            'loop': (last - first) / count,
+            'roundness': loop_roundness(stroke.points, crossing),
+            'bent': max(bent, curved) / stroke.size,
+            'sine': abs(float(cross(along, beside))),
+        },
+        points=at[None],
+    )
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:

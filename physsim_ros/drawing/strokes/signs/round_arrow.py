@@ -6,18 +6,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 import math
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.hypothesis import Hypothesis
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
 from physsim_ros.drawing.strokes.plane import angles, least_squares
 from physsim_ros.drawing.strokes.polyline import point_of, smoothed
-from physsim_ros.drawing.strokes.signs.cross import absence as no_x
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -32,49 +31,42 @@ PRIMITIVE = 'round arrow'
 _STRIDE = 3
 # The least turn of the pen at the tip [rad]: barbs point back.
 _TURN = 1.5
-# The greatest turn of the pen over a twelfth of the arc [rad]: two sides of a triangle turn by 2,
-# a trembling arc of most of a round by 0.7.
-_CORNER = 0.95
 
 
-def hypothesis(features: Features) -> Hypothesis:
-    """Return the hypothesis of an arc and a head; points: the arc's centre, then the arc."""
-    best = Hypothesis(primitive=PRIMITIVE, weight=0.0, points=features.stroke.points[:1])
+def candidates(features: Features) -> Iterator[Candidate]:
+    """Yield an arc and a head, from either end; points: the arc's centre, then the arc."""
     path = smoothed(features.stroke.points, 1.0, closed=False)
     for points in (path, path[::-1]):
-        each = _round_arrow_from_tail(points)
-        if each is not None and each.weight > best.weight:
-            best = each
-    return replace(best, weight=best.weight * no_x(features))
+        yield from _from_tail(points, features)
 
 
-def _round_arrow_from_tail(points: Floats) -> Hypothesis | None:
-    """Return the hypothesis of a round arrow whose tail is the first point, if it has a tip."""
+def _from_tail(points: Floats, features: Features) -> Iterator[Candidate]:
+    """Yield the round arrow whose tail is the first point, if it has a tip."""
     sides = points[_STRIDE:] - points[:-_STRIDE]
     bends = np.abs(angles(sides[:-_STRIDE], sides[_STRIDE:]))
     # Sharp bends before are of the hand, or corners: those are counted below.
     earliest = len(points) // 3
     sharp = earliest + np.flatnonzero(bends[earliest:] > _TURN)
     if len(sharp) == 0:
-        return None
+        return
     # The sharpest point of the first bend is the tip.
     tip = int(sharp[0] + bends[slice(sharp[0], sharp[0] + 2 * _STRIDE)].argmax()) + _STRIDE
     arc, head = points[: tip + 1], points[tip:]
     center, radius, error = _circle(arc)
-    sweep = abs(_sweep(arc, center))
     # The head, outwards of the arc by the radius.
     out = norms(head - center) / radius - 1.0
     inner, outer = float(-out.min()), float(out.max())
-    weight = (
-        falls(error / radius, 0.07, 0.008)
-        * falls(_sharpest_bend(arc), _CORNER, 0.08)
-        * rises(sweep, 1.7, 0.12)
-        * falls(sweep, 7.0, 0.2)
-        * rises(min(inner, outer) / max(inner, outer, 1e-12), 0.2, 0.03)
-        * rises(inner + outer, 0.2, 0.03)
-        * falls(inner + outer, 1.6, 0.1)
+    yield Candidate(
+        measures={
+            **features.measures,
+            'error': error / radius,
+            'sweep': abs(_sweep(arc, center)),
+            'bend': _sharpest_bend(arc),
+            'sides': min(inner, outer) / max(inner, outer, 1e-12),
+            'head': inner + outer,
+        },
+        points=np.vstack((center, arc)),
     )
-    return Hypothesis(primitive=PRIMITIVE, weight=weight, points=np.vstack((center, arc)))
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:

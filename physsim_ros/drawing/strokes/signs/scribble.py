@@ -9,8 +9,9 @@ from collections.abc import Iterator
 from functools import partial
 
 from physsim_ros.drawing.strokes import overlap, request_builder, snapping
+from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis
 from physsim_ros.drawing.strokes.meanings import (
     Context,
     DELETION,
@@ -24,20 +25,19 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Delete
 
 PRIMITIVE = 'scribble'
+# The least number of swings: people make six and more.
+_FEWEST = 6
+# The greatest spread of swings: those of zigzags lie farther apart.
+_FARTHEST = 1.15
 # The greatest share of the middle half of a spring that lies on the bodies at its ends: a scribble
 # over two bodies side by side has 0.3 and more.
 _MIDDLE_ON_ENDS = 0.15
 
 
-def hypothesis(features: Features) -> Hypothesis:
-    """Return the hypothesis of swings, or loops, that hardly advance; the points are all of it."""
-    stroke, swings = features.stroke, features.swings
-    weight = (
-        rises(swings.count, 5.5, 0.1)
-        * falls(swings.spread, 1.0, 0.05)
-        * rises(stroke.length / stroke.size, 2.5, 0.1)
-    )
-    return Hypothesis(primitive=PRIMITIVE, weight=weight, points=stroke.points)
+def candidates(features: Features) -> Iterator[Candidate]:
+    """Yield swings, or loops, that hardly advance; the points are all of it."""
+    if features.swings.count >= _FEWEST and features.swings.spread < _FARTHEST:
+        yield Candidate(measures=features.measures, points=features.stroke.points)
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:

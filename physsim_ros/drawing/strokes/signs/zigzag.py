@@ -10,28 +10,29 @@ from functools import partial
 
 from physsim_ros.drawing.strokes import overlap, request_builder, snapping
 from physsim_ros.drawing.strokes.corner_detection import bends_of
-from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, rises
+from physsim_ros.drawing.strokes.evidence import Candidate
+from physsim_ros.drawing.strokes.features import Features, FEWEST
+from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis
 from physsim_ros.drawing.strokes.meanings import Context, Interpretation
 from physsim_ros.drawing.strokes.signs import hatching
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 
 PRIMITIVE = 'zigzag'
+# The height of the swings of a trembling hand, in shares of the size.
+_TREMOR = 0.05
+# The least spread of swings: those of scribbles lie closer.
+_CLOSEST = 0.9
 # The share of the stroke that lies on the bodies at its ends from which on it is no spring.
 _ON_ENDS = 0.6
 
 
-def hypothesis(features: Features) -> Hypothesis:
-    """Return the hypothesis of teeth in a row, sharp or round; the points are its two ends."""
-    stroke, swings = features.stroke, features.swings
-    weight = (
-        rises(swings.count, 4.4, 0.2)
-        * rises(swings.spread, 1.0, 0.05)
-        * rises(swings.height / stroke.size, 0.06, 0.006)
-        * rises(swings.steady, 0.75, 0.05)
-    )
-    return Hypothesis(primitive=PRIMITIVE, weight=weight, points=stroke.points[[0, -1]])
+def candidates(features: Features) -> Iterator[Candidate]:
+    """Yield teeth in a row, sharp or round; the points are the two ends."""
+    swings, stroke = features.swings, features.stroke
+    high = swings.height > _TREMOR * stroke.size
+    if swings.count >= FEWEST and high and swings.spread > _CLOSEST:
+        yield Candidate(measures=features.measures, points=stroke.points[[0, -1]])
 
 
 def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
