@@ -43,7 +43,7 @@ STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core 
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run class test test-all lint sanitize bench ablate evaluate gallery docs soak clean
+.PHONY: help run class test test-all lint sanitize bench ablate evaluate gallery docs release soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
@@ -124,6 +124,18 @@ docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going -j auto docs docs/_build/html $(ARGS)
 	@echo 'Open docs/_build/html/index.html'
 
+# With BUMP=patch, minor or major, of a new version: of package.xml, setup.py and the changelog, committed and tagged, not
+# pushed. Without it nothing but dist/ changes, and the workflow tries that.
+release: $(TOOLS) $(VENV)/.with-docs  ## build sdist, wheel and site into dist/; BUMP=minor first raises the version
+	@[ -z '$(BUMP)' ] || $(BIN)/catkin_prepare_release --bump $(BUMP) --no-push --non-interactive
+	@$(MAKE) --no-print-directory docs
+	@rm -rf dist
+	$(BIN)/python setup.py --quiet sdist
+	$(BIN)/python -m twine check --strict dist/*.tar.gz
+	$(BIN)/python tools/build/released_wheel.py
+	$(BIN)/python -m twine check --strict dist/*.whl
+	tar --create --gzip --file dist/site.tar.gz --directory docs/_build html
+
 # MINUTES=30 and SEED=0 unless they are given.
 soak: $(TOOLS)  ## disturb a world at random for MINUTES=30, with SEED=0
 	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary $(ARGS)
@@ -145,7 +157,7 @@ $(STAMP): setup.py
 	@[ -n '$(PYTHON)' ] || { echo 'No Python of 3.11 or later with venv; name one: make PYTHON=/path/to/python' >&2; exit 1; }
 	@[ -e $@ ] || echo '1 of 2: an environment in $(VENV), beside this file.'
 	@[ -e $@ ] || $(PYTHON) -m venv --clear $(VENV_OPTIONS) $(VENV)
-	@echo '2 of 2: packages into it, some 130, of which Rerun is the largest (170 MB); a minute the first time.'
+	@echo '2 of 2: packages into it, some 130, of which Rerun is the largest (170 MB); a minute or two the first time.'
 	@$(PIP) 'setuptools>=70.1,<80' 'cffi>=1.17' $(if $(COMPILER),,ziglang) | $(PROGRESS)
 	@$(PIP) --no-build-isolation --editable '.[$(EXTRAS)]' | $(PROGRESS)
 	@touch $@ $(BUILT)

@@ -7,6 +7,7 @@ from glob import glob
 from importlib.util import find_spec
 import os
 from pathlib import Path
+import re
 import runpy
 import shlex
 import sys
@@ -20,6 +21,11 @@ SHARE = f'share/{PACKAGE}'
 
 # colcon --symlink-install runs a link to this file from its build tree, where no README is.
 SOURCE = Path(__file__).resolve().parent
+
+# The repository: package.xml tells it.
+(HOME,) = re.findall(
+    r'<url type="repository">(.*)</url>', (SOURCE / 'package.xml').read_text('utf-8')
+)
 
 # The core of the engine: a plain shared library, without any Python in it.
 CORE = f'{PACKAGE}/engine/core'
@@ -93,7 +99,7 @@ def write_declarations(path: Path) -> None:
     lines = ''.join(texts).splitlines(keepends=True)
     ffi = FFI()
     ffi.cdef(''.join(line for line in lines if not line.startswith('#')))
-    ffi.set_source(f'{PACKAGE}.engine.core.{path.stem}', None)
+    ffi.set_source(f'{PACKAGE}.engine.core.{path.stem}', None, compiler_verbose=0)
     ffi.emit_python_code(str(path))
 
 
@@ -101,25 +107,44 @@ def _environment(name: str) -> list[str]:
     return shlex.split(os.environ.get(name, ''))
 
 
+def read_me() -> str:
+    """Return README with links that lead to the repository from anywhere, as an index shows it."""
+    text = (SOURCE / 'README.md').read_text(encoding='utf-8')
+    text = re.sub(r'(!\[[^]]*\]\()(?!https?:)', rf'\g<1>{HOME}/raw/main/', text)
+    return re.sub(r'(\]\()(?!https?:)', rf'\g<1>{HOME}/blob/main/', text)
+
+
 setup(
     name=PACKAGE,
     version='0.1.0',
     description='A two-dimensional physics world on the ROS 2 graph, with exact rewind',
-    long_description=(SOURCE / 'README.md').read_text(encoding='utf-8'),
+    long_description=read_me(),
     long_description_content_type='text/markdown',
     author='physsim_ros maintainers',
     author_email='maintainers@physsim.example',
     maintainer='physsim_ros maintainers',
     maintainer_email='maintainers@physsim.example',
     license='Apache-2.0',
-    keywords=['ROS', 'physics', 'simulation', 'Pymunk', 'Rerun'],
+    url=HOME,
+    project_urls={
+        'Source': HOME,
+        'Documentation': f'{HOME}/tree/main/docs',
+        'Changes': f'{HOME}/blob/main/CHANGELOG.rst',
+        'Issues': f'{HOME}/issues',
+    },
+    keywords=['ROS 2', 'robotics', 'physics', 'simulation', 'pytest', 'Pymunk', 'Rerun'],
     classifiers=[
         'Framework :: Pytest',
         'Intended Audience :: Developers',
         'Intended Audience :: Education',
         'Intended Audience :: Science/Research',
         'Operating System :: POSIX :: Linux',
+        'Programming Language :: C',
         'Programming Language :: Python :: 3',
+        'Programming Language :: Python :: 3.11',
+        'Programming Language :: Python :: 3.12',
+        'Programming Language :: Python :: 3.13',
+        'Topic :: Education',
         'Topic :: Scientific/Engineering :: Physics',
     ],
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
@@ -180,8 +205,8 @@ setup(
             'ros-jazzy-common-interfaces',
             'ros-jazzy-rclpy[fastrtps]',
         ],
-        # The site: `make docs`. 8.2 brings the pages of modules.
-        'docs': ['furo', 'gymnasium>=1.0,<2', 'myst-parser>=4', 'sphinx>=8.2,<9'],
+        # `make docs release`. 8.2 of sphinx brings the pages of modules.
+        'docs': ['furo', 'gymnasium>=1.0,<2', 'myst-parser>=4', 'sphinx>=8.2,<9', 'twine'],
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
         # Environments for learning (`physsim_ros.gym`).

@@ -17,7 +17,8 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 # Left out of a copy: what was built, and what a clone does not have.
-_ANYWHERE = shutil.ignore_patterns('.*', '*.so', '_declarations.py', '__pycache__', '*.egg-info', '_build')
+_BUILT = ('*.so', '_declarations.py', '__pycache__', '*.egg-info', '_build')
+_ANYWHERE = shutil.ignore_patterns('.*', *_BUILT)
 _AT_THE_TOP = {'build', 'install', 'log', 'dist'}
 # Many times what a compiler takes, on a machine that is busy with other tests [s].
 _COMPILING = 300

@@ -18,6 +18,7 @@ import math
 import operator
 
 from physsim_ros.engine.layout import address_of
+from physsim_ros.model.actors import ActorState, WAITING
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.robot_states import RobotState, SPAWNED
 from physsim_ros.model.scene import Body
@@ -63,6 +64,7 @@ class RigidBody:
     :param thrown: its velocity was set since the last step
     :param push: changes of velocity [m/s] and spin [rad/s] by contacts and joints, on a floor
     :param driven: of a robot, the state of drive and odometry
+    :param acting: of an actor, its state
 
     :ivar address: of the struct of Chipmunk
     """
@@ -79,6 +81,7 @@ class RigidBody:
     thrown: bool = False
     push: Twist = REST
     driven: RobotState = SPAWNED
+    acting: ActorState = WAITING
     address: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -231,4 +234,10 @@ def _set_neighbors(segments: list[pymunk.Segment]) -> None:
 
 def same_in_engine(a: Body, b: Body) -> bool:
     """Return whether two bodies have the same objects in the engine."""
-    return a == replace(b, color=a.color, expires=a.expires, robot=a.robot, label=a.label)
+    ours = {name: getattr(a, name) for name in ('color', 'expires', 'robot', 'label', 'actor')}
+    return a == replace(b, **ours)
+
+
+def acting_after(old: RigidBody, body: Body) -> ActorState:
+    """Return the state of an actor after a change of its body; a new actor waits for its start."""
+    return old.acting if body.actor == old.body.actor else WAITING

@@ -11,6 +11,7 @@ import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.scene_columns import columns_of
+from physsim_ros.model.actors import ActorStates
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.noise import normals
 from physsim_ros.model.robot_states import RobotStates
@@ -36,6 +37,7 @@ class BodyTable:
     :ivar columns: what follows from the scene alone
     :ivar records: (n + 1,) `Body`; the last one is the background
     :ivar robots: (r,) `Robot`, in the order of their bodies
+    :ivar actors: (a,) `Actor`, the same
     """
 
     def __init__(
@@ -46,6 +48,7 @@ class BodyTable:
         self.columns = columns_of(scene, dt)
         self.records = self.columns.bodies.copy()
         self.robots = self.columns.robots.copy()
+        self.actors = self.columns.actors.copy()
         # Blocks of noise by robot and number, until they are used up.
         self._blocks: dict[tuple[int, int], Floats] = {}
         own = self.records[:-1]
@@ -59,6 +62,8 @@ class BodyTable:
                 own['push'][row] = rigid.push
         states = RobotStates.of([self.bodies[row].driven for row in self.robots['body'].tolist()])
         self._write_robots(states)
+        for record, row in zip(self.actors, self.actors['body'].tolist(), strict=True):
+            record['begun'], record['reached'] = bodies[row].acting
 
     def set_wrench(self, row: int, gravity: tuple[float, float], dt: float) -> None:
         """Set the wrench of a body, and the lead of its velocity in free flight."""
@@ -79,6 +84,10 @@ class BodyTable:
             self.bodies[row].push = x, y, turn
         for row, state in zip(self.robots['body'].tolist(), self.robot_states.rows(), strict=True):
             self.bodies[row].driven = state
+        for row, acting in zip(
+            self.actors['body'].tolist(), self.actor_states.rows(), strict=True
+        ):
+            self.bodies[row].acting = acting
 
     def lost(self) -> list[str]:
         """Return the names of the bodies whose state is not finite, or too large."""
@@ -127,6 +136,13 @@ class BodyTable:
             odometry=self.robots['odometry'].copy(),
             covariance=self.robots['covariance'].copy(),
         )
+
+    @property
+    def actor_states(self) -> ActorStates:
+        """Return the states of the actors."""
+        if not len(self.actors):
+            return ActorStates.of(())
+        return ActorStates(self.actors['begun'].copy(), self.actors['reached'].copy())
 
     def _write_robots(self, states: RobotStates) -> None:
         if len(self.robots):

@@ -21,6 +21,7 @@ from physsim_ros.engine.body import engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
+from physsim_ros.model.actors import ActorStates, WAITING
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.robot_states import RobotStates, SPAWNED
@@ -62,6 +63,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         grips=space.grips(),
         unstepped=space.joints.unstepped(),
         robots=table.robot_states,
+        actors=table.actor_states,
     )
 
 
@@ -77,6 +79,8 @@ def saved_state(space: Space, step: int) -> WorldState:
     memory = take_checkpoint(restore_checkpoint(checkpoint, space.dt), step).memory
     states = (each.shifted(-step) for each in checkpoint.robots.rows())
     driven = dict(zip(checkpoint.scene.robot_rows.tolist(), states, strict=True))
+    states_of_actors = (each.shifted(-step) for each in checkpoint.actors.rows())
+    acting = dict(zip(checkpoint.scene.actor_rows.tolist(), states_of_actors, strict=True))
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
     _, twists = space.observe()
     rigids = enumerate(space.bodies.by_name.values())
@@ -93,6 +97,7 @@ def saved_state(space: Space, step: int) -> WorldState:
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
                 driven=driven.get(row),
+                acting=acting.get(row),
             )
         )
     return WorldState(
@@ -141,6 +146,13 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
                 if saved.body.robot is not None
             ]
         ),
+        actors=ActorStates.of(
+            [
+                (saved.acting or WAITING).shifted(step)
+                for saved in state.bodies
+                if saved.body.actor is not None
+            ]
+        ),
     )
 
 
@@ -181,6 +193,8 @@ def restore_checkpoint(
     driven = checkpoint.robots.rows()
     for row, state in zip(scene.robot_rows.tolist(), driven, strict=True):
         rigids[row].driven = state
+    for row, acting in zip(scene.actor_rows.tolist(), checkpoint.actors.rows(), strict=True):
+        rigids[row].acting = acting
     space.bodies.add_without_shapes(rigids)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)

@@ -25,13 +25,26 @@ _FUNCTIONS = {
     'reindex_body': 'cpSpaceReindexShapesForBody',
     'shape_query': 'cpSpaceShapeQuery',
     'each_arbiter': 'cpSpaceEachCachedArbiter',
+    'point_query': 'cpShapePointQuery',
 }
 _CONTACT, _BEGUN = dtype_of('Contact'), dtype_of('Begun')
 # Arrays of each type that crosses the border; cffi takes five times as long by their names.
 _ARRAYS = {
     kind: ffi.typeof(f'{kind}[]')
     for kind in (
-        *('Body', 'Joint', 'Part', 'Row', 'Grip', 'Robot', 'Motion', 'Pose', 'Twist', 'cpVect'),
+        *(
+            'Body',
+            'Joint',
+            'Part',
+            'Row',
+            'Grip',
+            'Robot',
+            'Actor',
+            'Motion',
+            'Pose',
+            'Twist',
+            'cpVect',
+        ),
         *('double', 'uint8_t', 'int32_t'),
     )
 }
@@ -80,6 +93,7 @@ class CoreWorld:
         self.drop_joints()
         self.use_grips(np.zeros(0, dtype_of('Grip')))
         self.use_robots(np.zeros(0, dtype_of('Robot')))
+        self.use_actors(np.zeros(0, dtype_of('Actor')))
         places = np.array(former, np.int32)
         lib.core_use_bodies(
             self._world, *_pointer_and_count(bodies, 'Body'), _pointer(places, 'int32_t')
@@ -107,6 +121,11 @@ class CoreWorld:
         """Have the core drive robots, `Robot`, in the order of their bodies."""
         self._world.robots, self._world.robot_count = _pointer_and_count(robots, 'Robot')
         self._tables['robots'] = (robots,)
+
+    def use_actors(self, actors: Table) -> None:
+        """Have the core move actors, `Actor`, in the order of their bodies."""
+        self._world.actors, self._world.actor_count = _pointer_and_count(actors, 'Actor')
+        self._tables['actors'] = (actors,)
 
     def note_moved_static(self) -> None:
         """Note that an anchored body or a wall has been moved."""

@@ -11,9 +11,11 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from physsim_ros.engine.core import dtype_of
+from physsim_ros.engine.core import dtype_of, lib
 from physsim_ros.engine.core_world import Table
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
+from physsim_ros.model.actors import ACTORS, Pedestrian, REPEATS
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
@@ -25,12 +27,12 @@ SAFE_SHARE = 0.25
 # Corners of a polygon whose time of impact costs as much as that of a round shape, most of which
 # does not depend on the corners.
 ROUND_COST = 4
-_BODY, _ROBOT = dtype_of('Body'), dtype_of('Robot')
+_BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
 
 
 class SceneColumns(NamedTuple):
     """
-    The columns of a scene, for n bodies and r robots.
+    The columns of a scene, for n bodies, r robots and a actors.
 
     :ivar rows: name -> row
     :ivar moving: whether there is a body that is not anchored; else a step changes nothing
@@ -38,6 +40,8 @@ class SceneColumns(NamedTuple):
     :ivar bodies: (n + 1,) `Body`: the fields that follow from the scene; the last one is the
         background
     :ivar robots: (r,) `Robot`: the same
+    :ivar actors: (a,) `Actor`: the same
+    :ivar tracks: their points, which the records refer to
     """
 
     rows: dict[str, int]
@@ -45,6 +49,8 @@ class SceneColumns(NamedTuple):
     expiries: dict[int, list[str]]
     bodies: Table
     robots: Table
+    actors: Table
+    tracks: tuple[Floats, ...]
 
 
 # A world is often built anew from the scene that it has, and then another one follows it.
@@ -60,12 +66,17 @@ def columns_of(scene: Scene, dt: float) -> SceneColumns:
     for body in scene.bodies:
         if body.expires is not None:
             expiries.setdefault(body.expires, []).append(body.name)
+    tracks = tuple(
+        np.array(body.actor.track, np.float64) for body in scene.bodies if body.actor is not None
+    )
     return SceneColumns(
         rows=rows,
         moving=not all(body.anchored for body in scene.bodies),
         expiries=expiries,
         bodies=_body_records(scene, rows, dt),
         robots=_robot_records(scene),
+        actors=_actor_records(scene, rows, tracks, dt),
+        tracks=tracks,
     )
 
 
@@ -177,4 +188,32 @@ def _robot_records(scene: Scene) -> Table:
         record['curvature'] = robot.drive.most_curved
         record['center'] = body.shape.form.centroid
         record['slip'] = robot.odometry.slip
+    return records
+
+
+def _actor_records(
+    scene: Scene, rows: dict[str, int], tracks: tuple[Floats, ...], dt: float
+) -> Table:
+    records = np.zeros(len(tracks), _ACTOR)
+    robots = {row: number for number, row in enumerate(scene.robot_rows.tolist())}
+    kinds = list(ACTORS)
+    for record, row, track in zip(records, scene.actor_rows.tolist(), tracks, strict=True):
+        body = scene.bodies[row]
+        actor, start = body.actor, body.actor.start
+        record['body'], record['robot'] = row, robots.get(row, -1)
+        record['kind'], record['repeat'] = kinds.index(actor.KIND), REPEATS.index(actor.repeat)
+        for name in ('gate', 'by', 'near'):
+            record[name] = rows.get(getattr(start, name), -1)
+        record['waits'] = start.gate is not None or start.near is not None
+        record['distance'] = start.distance or 0.0
+        record['delay'] = round((start.time or 0.0) / (dt * lib.SUB_STEPS))
+        record['points'], record['point_count'] = track.ctypes.data, len(track)
+        record[actor.KIND] = actor.parameters
+        if isinstance(actor, Pedestrian):
+            record['pace'] = actor.pace
+        if body.robot is not None:
+            drive = body.robot.drive
+            record['holonomic'] = drive.holonomic
+            record['ahead'] = 0.0 if drive.holonomic else body.shape.form.outer
+            record['most'] = drive.max_speed, 0.0, drive.max_turn
     return records

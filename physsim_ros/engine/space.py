@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import RigidBody, same_in_engine
+from physsim_ros.engine.body import acting_after, RigidBody, same_in_engine
 from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
@@ -25,6 +25,7 @@ from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
+from physsim_ros.model.actors import ActorStates
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.robot_states import RobotStates
@@ -110,6 +111,7 @@ class Space:
         self._table = table = BodyTable(scene, rigids, background, self.dt)
         self.core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
         self.core.use_robots(table.robots)
+        self.core.use_actors(table.actors)
         self._background = len(rigids)
         for row, rigid in enumerate(rigids):
             rigid.row = row
@@ -191,6 +193,7 @@ class Space:
         if same_in_engine(old.body, body):
             self._drop_table()
             self.changes += body != old.body
+            old.acting = acting_after(old, body)
             old.body = body
             if pose != old.pose:
                 self.set_pose(old, pose)
@@ -206,7 +209,7 @@ class Space:
         self.joints.attach(body.name)
         if not body.dynamic:
             self._drop_grips_on(body.name)
-        rigid.driven = old.driven
+        rigid.driven, rigid.acting = old.driven, acting_after(old, body)
         self._release(touching)
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
@@ -291,6 +294,13 @@ class Space:
         robots = self.table.robots
         record: np.void = robots[int(robots['body'].searchsorted(rigid.row))]
         return record
+
+    # Actors
+
+    @property
+    def actor_states(self) -> ActorStates:
+        """Return the states of the actors, in the order of the scene."""
+        return self.table.actor_states
 
     # Grips
 

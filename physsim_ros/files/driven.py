@@ -1,10 +1,15 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The state of a robot in world files, under the key `driven` of its body."""
+"""
+The states of robots and actors in world files, under the keys `driven` and `acting` of a body.
+
+Only the node writes them.
+"""
 
 from __future__ import annotations
 
+from physsim_ros.model.actors import ActorState, WAITING
 from physsim_ros.model.checks import (
     check_finite,
     known_mapping,
@@ -12,6 +17,7 @@ from physsim_ros.model.checks import (
     number,
     pair,
     shown,
+    Whole,
     Within,
 )
 from physsim_ros.model.errors import BadProperty
@@ -23,6 +29,7 @@ from physsim_ros.model.transform import Pose
 _POSES = ('aim', 'wheels', 'travel', 'odometry')
 # Greatest number in them, as of a motion [m, rad, m/s, rad/s].
 _GREATEST = 1e12
+_MOST_REACHED = 2**53
 _LENGTH = Within(0.0, _GREATEST)
 # Squares and products of them.
 _VARIANCE = Within(-(_GREATEST**2), _GREATEST**2)
@@ -57,6 +64,31 @@ def driven_from(entry: object, body: Body, physics_rate: float) -> RobotState:
     else:
         covariance = _covariance_of_path(values.get('path', [0.0, 0.0]), body.robot)
     return RobotState(aim, until, wheels, travel, odometry, covariance)
+
+
+def acting_entry(acting: ActorState, physics_rate: float) -> dict[str, object]:
+    """Return the entry of the state of an actor: for how long it has moved [s], points reached."""
+    seconds = None if acting.begun == NEVER else -acting.begun / physics_rate
+    return {'seconds': seconds, 'reached': acting.reached}
+
+
+def acting_from(entry: object, body: Body, physics_rate: float) -> ActorState:
+    """
+    Return the state of an actor from its entry.
+
+    :param body: of the actor
+    :param physics_rate: of the world [Hz]
+    :raises Refusal: the body is no actor, or the entry is not what `acting_entry` has returned
+    """
+    values = known_mapping(entry, 'acting', ['seconds', 'reached'])
+    if body.actor is None:
+        raise BadProperty(f'{body.name} is not an actor', field='acting')
+    reached = Whole(0, _MOST_REACHED)(values.get('reached', 0), 'reached')
+    seconds = values.get('seconds')
+    if seconds is None:
+        return WAITING._replace(reached=reached)
+    moved = Within(-LONGEST, LONGEST, 's')(seconds, 'seconds')
+    return ActorState(-round(moved * physics_rate), reached)
 
 
 def _covariance(value: object) -> Covariance:

@@ -52,7 +52,8 @@ def with_shipped_robot(entry: Mapping[Any, Any], known: Iterable[str]) -> Mappin
     Return the entry of a body with the mapping of its shipped robot in place of the name.
 
     `robot` is a name, or a mapping with the name as `from` and what is different: mappings in it
-    are merged, all else replaces what the shipped robot says.
+    are merged, and sensors, if they are a mapping by their names; all else replaces what the
+    shipped robot says.
 
     :param entry: of a body; returned as it is where it names no shipped robot
     :param known: keys that the entry may have; others of the shipped robot are left out
@@ -77,9 +78,36 @@ def _merged(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> dict[Any, Any]:
     result = dict(old)
     for key, value in new.items():
         former = old.get(key)
-        if isinstance(value, dict) and isinstance(former, dict):
+        if key == 'sensors' and isinstance(value, dict):
+            result[key] = _with_changed_sensors(former or [], value)
+        elif isinstance(value, dict) and isinstance(former, dict):
             same_kind = value.get('kind', former.get('kind')) == former.get('kind')
             result[key] = _merged(former, value) if same_kind else value
         else:
             result[key] = value
     return result
+
+
+def _with_changed_sensors(
+    sensors: list[Mapping[Any, Any]], changes: Mapping[Any, Any]
+) -> list[Mapping[Any, Any]]:
+    """
+    Return the sensors of a shipped robot with changes by their names.
+
+    :raises BadProperty: there is no such sensor, or its changes are no mapping
+    """
+    names = [sensor['name'] for sensor in sensors]
+    for name, change in changes.items():
+        if name not in names:
+            there = ', '.join(names) or 'none'
+            raise BadProperty(
+                f'there is no sensor {shown(name)}{nearest_name(str(name), names)}; there are '
+                f'{there}',
+                field='sensors',
+            )
+        if not isinstance(change, dict):
+            raise BadProperty(
+                f'the changes of sensor {name} must be a mapping, not {shown(change)}',
+                field='sensors',
+            )
+    return [{**sensor, **changes.get(sensor['name'], {})} for sensor in sensors]

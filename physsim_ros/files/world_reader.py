@@ -20,7 +20,7 @@ import numpy as np
 from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.engine.core import sub_step_of
-from physsim_ros.files.driven import driven_from
+from physsim_ros.files.driven import acting_from, driven_from
 from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import joints_from
 from physsim_ros.files.robots import with_shipped_robot
@@ -48,9 +48,9 @@ from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import local_to_world, NO_WRENCH, Pose, REST, Twist
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
-from physsim_ros.simulation.world.body_requests import check_command
+from physsim_ros.simulation.world.body_requests import check_command, check_namespaces
 from physsim_ros.simulation.world.capacity import check_limit
-from physsim_ros.simulation.world.robot_requests import check_namespaces
+from physsim_ros.simulation.world.live_space import check_start
 
 # Keys of a body whose values follow from `motion`.
 _MOTION_KEYS = ('at', 'velocity', 'spin')
@@ -84,8 +84,7 @@ def state_from(
     if content.get('format') != FORMAT or isinstance(content['format'], bool):
         raise BadProperty(f'format must be {FORMAT}', field='format')
     changes = {key: content[key] for key in SETTINGS if key in content}
-    if changes.get('bounds') == []:
-        changes['bounds'] = None
+    changes |= {key: None for key in ('bounds', 'datum') if changes.get(key) == []}
     settings = replace(settings, **changes)
     lesson = Lesson.from_entry(content['lesson']) if 'lesson' in content else None
     entries = entries_of(content.get('bodies'), 'bodies')
@@ -125,6 +124,11 @@ def _body_states(
         check_limit('max_shapes', pieces, settings)
         if progress is not None:
             progress(count, len(entries))
+    for count, (entry, state) in enumerate(zip(entries, bodies.values(), strict=True), 1):
+        # Of a saved world, the body that an actor waits for may have been deleted.
+        if state.acting is None:
+            with naming(entry, 'body', count):
+                check_start(state.body, bodies)
     return tuple(bodies.values()), unmoved
 
 
@@ -155,6 +159,8 @@ def _body_state(
     )
     if 'driven' in entry:
         state = replace(state, driven=driven_from(entry['driven'], body, physics_rate))
+    if 'acting' in entry:
+        state = replace(state, acting=acting_from(entry['acting'], body, physics_rate))
     if not saved:
         return state, False
     lead = lead_of(body, wrench, settings.gravity, sub_step_of(physics_rate))

@@ -29,7 +29,18 @@ LIMITS = ('max_bodies', 'max_shapes', 'max_overlaps', 'max_joints')
 SETTINGS = [each.name for each in fields(WorldSettings) if each.name not in LIMITS]
 PROPERTIES = [each.name for each in fields(Properties)]
 WORLD_KEYS = ['format', 'lesson', 'map', 'bodies', 'joints', 'memory', *SETTINGS]
-BODY_KEYS = ['name', *SHAPES, 'at', 'color', 'lifetime', *PROPERTIES, 'motion', 'wrench', 'driven']
+BODY_KEYS = [
+    'name',
+    *SHAPES,
+    'at',
+    'color',
+    'lifetime',
+    *PROPERTIES,
+    'motion',
+    'wrench',
+    'driven',
+    'acting',
+]
 # Keys of a joint that the text of a marker does not have.
 OWN_JOINT_KEYS = ['name', 'points', 'seat']
 # Parameters of the node that are no settings of a world.

@@ -15,7 +15,7 @@ import json
 import math
 import re
 
-from physsim_ros.files.driven import driven_entry
+from physsim_ros.files.driven import acting_entry, driven_entry
 from physsim_ros.files.impulse_cache import cache_entry
 from physsim_ros.files.world_schema import FORMAT, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, WorldState
@@ -97,6 +97,8 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         entry['surface_velocity'] = list(body.surface_velocity)
     if body.robot is not None:
         entry['robot'] = body.robot.entry()
+    if body.actor is not None:
+        entry['actor'] = body.actor.entry()
     if body.group:
         entry['group'] = body.group
     if body.label:
@@ -118,6 +120,8 @@ def _motion_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         }
     if state.driven is not None:
         entry['driven'] = driven_entry(state.driven, physics_rate)
+    if state.acting is not None:
+        entry['acting'] = acting_entry(state.acting, physics_rate)
     if state.motion is not None:
         entry['motion'] = [*state.motion[:6], state.motion.free]
     return entry

@@ -63,7 +63,11 @@ class RobotEnv(Env[Observation, Action]):
         self.task = task
         self.render_mode = render_mode
         simulation = Simulation(
-            physics_rate=task.physics_rate, publish_rate=1.0 / task.period, history=0.0
+            physics_rate=task.physics_rate,
+            publish_rate=1.0 / task.period,
+            history=0.0,
+            # None within an episode: nobody goes back, but to a saved moment.
+            checkpoints=task.longest,
         )
         simulation.begin(task.world)
         self.robot = Robot(simulation, task.robot)

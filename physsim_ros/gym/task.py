@@ -18,6 +18,7 @@ from gymnasium.spaces import Box, Space
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checks import LONGEST, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors import Laser
 from physsim_ros.simulation.robot import Robot
@@ -25,6 +26,9 @@ from physsim_ros.simulation.robot import Robot
 # What an agent does and sees: values of its spaces.
 Action: TypeAlias = Any
 Observation: TypeAlias = Any
+
+# Ranges of the times of a task.
+_TIMES = {'period': Within(1e-4, 1e3, 's'), 'longest': Within(1e-4, LONGEST, 's')}
 
 
 def drive(robot: Robot, action: NDArray[np.float32]) -> None:
@@ -80,6 +84,7 @@ class Task:
     :param period: simulation time of a step [s]
     :param longest: simulation time after which an episode is cut off [s] (Gymnasium: truncated)
     :param physics_rate: steps a second of the world [Hz], a multiple of 1 / period
+    :raises BadProperty: a time is out of range
     """
 
     world: WorldState
@@ -94,6 +99,10 @@ class Task:
     period: float = 0.1
     longest: float = 60.0
     physics_rate: float = 240.0
+
+    def __post_init__(self) -> None:
+        for name, check in _TIMES.items():
+            object.__setattr__(self, name, check(getattr(self, name), name))
 
     def observed(self, robot: Robot) -> Space[Any]:
         """

@@ -5,12 +5,11 @@
 Maps: occupancy grids of worlds, and walls of occupancy grids.
 
 A grid becomes as few anchored boxes as there can be (`walls`, `rectangle_partition`); the anchored
-bodies of a world become a grid (`rasterisation`). Files of maps are read in `files`, messages in
+bodies of a world become a grid (`occupancy_grid`). Files of maps are read in `files`, messages in
 `ros`. Start with `occupancy_grid`.
 """
 
-from physsim_ros.maps.occupancy_grid import MOST_CELLS, OccupancyGrid
-from physsim_ros.maps.rasterisation import anchored_grid
+from physsim_ros.maps.occupancy_grid import anchored_grid, MOST_CELLS, OccupancyGrid
 from physsim_ros.maps.rectangle_partition import rectangles_of
 from physsim_ros.maps.walls import walls_of
 

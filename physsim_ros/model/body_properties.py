@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from physsim_ros.model.actors import Actor, actor_from
 from physsim_ros.model.checks import (
     Checked,
     Checks,
@@ -68,6 +69,7 @@ class Properties(Checked):
     :param surface_velocity: of the surface of a conveyor, which is a sensor, in the body's axes
         [m/s]
     :param robot: what makes it a robot, or a mapping of that
+    :param actor: what moves it on its own, or a mapping of that
     :param label: text that is shown at its centre of mass, in lines; '' is none
     :raises Malformed: a number is not finite or an array has the wrong length
     :raises BadProperty: a value is of the wrong kind or out of range
@@ -86,6 +88,7 @@ class Properties(Checked):
         'sensor': flag,
         'surface_velocity': velocity,
         'robot': Robot.from_value,
+        'actor': actor_from,
         'label': _label,
     }
 
@@ -101,6 +104,7 @@ class Properties(Checked):
     sensor: bool | None = None
     surface_velocity: tuple[float, float] | None = None
     robot: Robot | None = None
+    actor: Actor | None = None
     label: str | None = None
 
     def __post_init__(self) -> None:

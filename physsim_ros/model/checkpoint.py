@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from physsim_ros.model.actors import ActorState, ActorStates, NO_ACTORS
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.robot_states import NO_ROBOTS, RobotState, RobotStates
@@ -52,6 +53,7 @@ class BodyState:
     :param wrench: force [N] and torque [N m] that act on it
     :param wrench_steps: number of further steps in which the wrench acts; None is for ever
     :param driven: of a robot, the state of its drive and odometry, whose `until` counts from now
+    :param acting: of an actor, its state, whose `begun` counts from now
     """
 
     body: Body
@@ -61,6 +63,7 @@ class BodyState:
     wrench: Wrench = NO_WRENCH
     wrench_steps: int | None = None
     driven: RobotState | None = None
+    acting: ActorState | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,6 +139,7 @@ class Checkpoint:
     :param grips: of hands on bodies
     :param unstepped: names of the joints whose first step is to come
     :param robots: drives and odometry of the robots, in the order of the scene
+    :param actors: states of the actors, in the order of the scene
     """
 
     step: int
@@ -147,8 +151,10 @@ class Checkpoint:
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
     robots: RobotStates = NO_ROBOTS
+    actors: ActorStates = NO_ACTORS
 
     @property
     def nbytes(self) -> int:
         """Memory of its arrays [bytes]."""
-        return self.state.nbytes + self.free.nbytes + self.memory.nbytes + self.robots.nbytes
+        states = self.state.nbytes + self.free.nbytes + self.robots.nbytes + self.actors.nbytes
+        return states + self.memory.nbytes

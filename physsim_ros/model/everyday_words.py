@@ -22,6 +22,7 @@ _WORDS: dict[str, tuple[str, ...]] = {
     'sensor': ('trigger', 'ghost', 'detector', 'is_trigger'),
     'surface_velocity': ('conveyor', 'belt', 'belt_speed'),
     'robot': ('vehicle', 'drive'),
+    'actor': ('path', 'trajectory', 'waypoints', 'tween', 'walk', 'pedestrian', 'behavior'),
     'at': ('position', 'pose', 'x', 'y', 'yaw', 'angle', 'orientation'),
     'color': ('colour', 'rgb', 'rgba'),
     'circle': ('disc', 'disk', 'sphere', 'radius', 'diameter'),

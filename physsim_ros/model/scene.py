@@ -14,6 +14,7 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+from physsim_ros.model.actors import Actor
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.colors import Color
 from physsim_ros.model.joints import JointKind, JointProperties, PROPERTIES
@@ -44,6 +45,7 @@ class Body:
     :param surface_velocity: of the surface of a conveyor, which is a sensor, in the body's axes
         [m/s]
     :param robot: what makes it a robot; None is no robot
+    :param actor: what moves it on its own; None is nothing
     :param label: text that is shown at its centre of mass, in lines; '' is none
     """
 
@@ -63,6 +65,7 @@ class Body:
     surface_velocity: tuple[float, float] = field(default=(0.0, 0.0), repr=False)
     robot: Robot | None = field(default=None, repr=False)
     label: str = field(default='', repr=False)
+    actor: Actor | None = field(default=None, repr=False)
 
     @property
     def total_mass(self) -> float:
@@ -180,7 +183,8 @@ class Scene:
         ]
         floor = (self.settings.floor_friction, self.settings.seed, robots)
         labels = [(body.name, body.label) for body in self.bodies if body.label]
-        parts += ''.join(repr(each) for each in (floor, labels) if any(each))
+        actors = [(body.name, body.actor) for body in self.bodies if body.actor is not None]
+        parts += ''.join(repr(each) for each in (floor, labels, actors) if any(each))
         return parts.encode()
 
     @cached_property
@@ -194,15 +198,22 @@ class Scene:
         rows = [row for row, body in enumerate(self.bodies) if body.robot is not None]
         return np.array(rows, np.int64)
 
+    @cached_property
+    def actor_rows(self) -> Ints:
+        """Rows of the actors, in spawn order: (a,) int64."""
+        rows = [row for row, body in enumerate(self.bodies) if body.actor is not None]
+        return np.array(rows, np.int64)
+
     @property
     def floor_friction(self) -> Floats:
         """Return (n,) float64: coefficient of friction with the floor; 0 where none acts."""
-        passive = self.settings.floor_friction
-        rows = [
-            (passive if body.robot is None else body.robot.drive.traction) * body.dynamic
-            for body in self.bodies
-        ]
+        rows = [self._friction_below(body) * body.dynamic for body in self.bodies]
         return np.array(rows, np.float64)
+
+    def _friction_below(self, body: Body) -> float:
+        if body.robot is not None:
+            return body.robot.drive.traction
+        return self.settings.floor_friction if body.actor is None else body.actor.traction
 
     @cached_property
     def robots(self) -> tuple[Robot, ...]:

@@ -62,6 +62,13 @@ def _bounds(value: object, name: str) -> Bounds:
     return left, bottom, right, top
 
 
+def _datum(value: object, name: str) -> Point:
+    latitude, longitude = pair(value, name)
+    return Within(-90.0, 90.0, 'deg')(latitude, name), Within(-180.0, 180.0, 'deg')(
+        longitude, name
+    )
+
+
 # Checks of the settings that are a single number.
 RANGES: dict[str, Within | Whole] = {
     'damping': Within(0.0, 1.0),
@@ -96,6 +103,7 @@ class WorldSettings(Checked):
     :param floor_friction: coefficient of friction between bodies and the floor of a world that is
         seen from above; 0 is a world that is seen from the side
     :param seed: of all noise
+    :param datum: latitude and longitude of the origin [deg], where x is east; None is nowhere
     :param command_timeout: simulation time for which a wrench acts [s]; 0 is no limit
     :param drag_force: greatest force of a hand, in weights of the body
     :param max_bodies: greatest number of bodies
@@ -106,7 +114,7 @@ class WorldSettings(Checked):
     :raises BadProperty: a value is out of range
     """
 
-    CHECKS: ClassVar[Checks] = {'gravity': _gravity, 'bounds': _bounds, **RANGES}
+    CHECKS: ClassVar[Checks] = {'gravity': _gravity, 'bounds': _bounds, 'datum': _datum, **RANGES}
 
     gravity: tuple[float, float] = (0.0, -9.81)
     damping: float = 0.0
@@ -118,6 +126,7 @@ class WorldSettings(Checked):
     # Not part of the text, so that digests of worlds without a floor are those of ever.
     floor_friction: float = field(default=0.0, repr=False)
     seed: int = field(default=0, repr=False)
+    datum: Point | None = field(default=None, repr=False)
     command_timeout: float = 0.5
     drag_force: float = 10.0
     max_bodies: int = 20000

@@ -26,12 +26,12 @@ from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.texts import counted
 from physsim_ros.ros import parameters
 from physsim_ros.ros.diagnostics_publisher import DiagnosticsPublisher
+from physsim_ros.ros.drawing_topics import DrawingTopics
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.pages import Pages
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
-from physsim_ros.ros.requests.drawing_topics import DrawingTopics
 from physsim_ros.ros.requests.parameter_services import ParameterServices
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls
@@ -56,6 +56,8 @@ class PhysSimNode(NodeWithoutQosEvents):
     :param context: of ROS; None is the default one
     :param namespace: of the node; '' is that of the command line
     :param parameter_overrides: values that override those of the command line
+    :param expected_commands: type of the commands of robots that is subscribed to while nobody
+        publishes them; None is none, where the process has other nodes
     :raises PhysSimError: a parameter or the world file is refused
 
     :ivar boundary: where unexpected errors of messages and outputs end
@@ -75,7 +77,9 @@ class PhysSimNode(NodeWithoutQosEvents):
         context: Context | None = None,
         namespace: str = '',
         parameter_overrides: list[Parameter] | None = None,
+        expected_commands: type | None = None,
     ) -> None:
+        self._expected_commands = expected_commands
         try:
             super().__init__(
                 'physsim',
@@ -154,7 +158,8 @@ class PhysSimNode(NodeWithoutQosEvents):
         values, boundary = self._values, self.boundary
         self.outputs = Outputs(self, values, self._session, self.simulation, boundary)
         self._closing.callback(self.outputs.close)
-        self.fleet = Fleet(self, values, self.simulation.requests, boundary)
+        expected = self._expected_commands
+        self.fleet = Fleet(self, values, self.simulation.requests, boundary, expected=expected)
         self.outputs.all.append(self.fleet)
         self.outputs.topics.timeline.publish(may_wait=False)
         self.loop = FrameLoop(self.simulation, self.outputs, self.fleet)

@@ -12,6 +12,7 @@ from typing import Any
 from physsim_ros.model.robots.sensors import (
     Bumper,
     FloorEye,
+    Gps,
     Imu,
     Laser,
     RangeFinder,
@@ -19,13 +20,11 @@ from physsim_ros.model.robots.sensors import (
     WheelEncoders,
 )
 from physsim_ros.model.snapshot import Frame, NO_CONTACTS, Snapshot
-from physsim_ros.sensing.bumper import read_bumper
-from physsim_ros.sensing.floor_eye import FloorMarks, read_floor
-from physsim_ros.sensing.imu import read_imu
-from physsim_ros.sensing.laser import read_laser
-from physsim_ros.sensing.range_finder import read_range
+from physsim_ros.sensing.distance import read_laser, read_range
+from physsim_ros.sensing.gps import read_gps
+from physsim_ros.sensing.motion import read_imu, read_wheels
 from physsim_ros.sensing.surroundings import Surroundings
-from physsim_ros.sensing.wheel_encoders import read_wheels
+from physsim_ros.sensing.touch import FloorMarks, read_bumper, read_floor
 
 
 class View:
@@ -62,6 +61,7 @@ _READERS: Mapping[type[Sensor], Callable[[View, int, Any], Any]] = {
     Imu: lambda view, row, imu: read_imu(view.snapshot, view.before, row, imu, view.seed),
     WheelEncoders: lambda view, row, _: read_wheels(view.snapshot, row),
     FloorEye: lambda view, row, eye: read_floor(view.floor_marks, row, eye, view.seed),
+    Gps: lambda view, row, gps: read_gps(view.snapshot, row, gps, view.seed),
 }
 
 

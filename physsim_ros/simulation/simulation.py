@@ -31,7 +31,7 @@ from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import forces_now, World
-from physsim_ros.simulation.world.robot_requests import is_driving
+from physsim_ros.simulation.world.body_requests import is_driving
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0

@@ -18,12 +18,19 @@ from typing import Any
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checks import LONGEST, Within
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
 
 # Past that a run keeps beyond the moment to which a failed one returns [s].
 _MARGIN = 0.5
+# Ranges of the times of an experiment; the past of a run is kept whole up to an hour.
+_TIMES = {
+    'seconds': Within(1e-4, LONGEST, 's'),
+    'period': Within(1e-4, 1e3, 's'),
+    'before': Within(0.0, 3600.0, 's'),
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,6 +101,7 @@ class Experiment:
     :param physics_rate: steps a second of the world [Hz], a multiple of 1 / period
     :param before: simulation time from the world that is kept of a failed run to its failure [s];
         while it is shorter than the timeout of the drive, the robot runs on into it by itself
+    :raises BadProperty: a time is out of range
     """
 
     world: WorldState
@@ -106,6 +114,10 @@ class Experiment:
     period: float = 0.1
     physics_rate: float = 240.0
     before: float = 0.4
+
+    def __post_init__(self) -> None:
+        for name, check in _TIMES.items():
+            object.__setattr__(self, name, check(getattr(self, name), name))
 
     def run(self, case: Case) -> Run:
         """

@@ -48,6 +48,7 @@ class BodyProperties(TypedDict, total=False):
     sensor: bool
     surface_velocity: Numbers
     robot: str | Mapping[str, Any]
+    actor: Mapping[str, Any]
     label: str
 
 

@@ -78,6 +78,7 @@ class Parameters(TypedDict, total=False):
     drag_force: float
     floor_friction: float
     seed: int
+    datum: Sequence[float]
     command_timeout: float
     max_bodies: int
     max_shapes: int

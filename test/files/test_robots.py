@@ -40,6 +40,18 @@ def test_a_body_keeps_what_it_says_itself():
     assert spawn.properties.robot.sensors == ()
 
 
+def test_a_sensor_is_changed_by_its_name():
+    changes = {'scan': {'beams': 90, 'noise': 0}, 'imu': {'name': 'imu/data'}}
+    entry = {'robot': {'from': 'turtlebot3_burger', 'sensors': changes}}
+    shipped = Robot.from_mapping(with_shipped_robot({'robot': 'turtlebot3_burger'}, [])['robot'])
+
+    laser, imu, wheels = Robot.from_mapping(with_shipped_robot(entry, [])['robot']).sensors
+
+    assert (laser.beams, laser.noise, laser.range) == (90, 0.0, shipped.sensors[0].range)
+    assert (imu.name, imu.rate) == ('imu/data', shipped.sensors[1].rate)
+    assert wheels == shipped.sensors[2]
+
+
 def test_a_drive_of_another_kind_keeps_nothing_of_the_shipped_one():
     entry = {'robot': {'from': 'car', 'drive': {'kind': 'omni'}}}
 
@@ -60,6 +72,10 @@ def test_a_body_without_a_shape_of_its_own_has_that_of_the_robot():
         ({'from': 3}, BadProperty, 'from'),
         ({'from': 'car', 'drv': {}}, UnknownProperty, 'drv'),
         ({'from': 'car', 'drive': {'speed': 1}}, UnknownProperty, 'speed'),
+        ({'from': 'turtlebot4', 'sensors': {'scn': {'beams': 9}}}, BadProperty, 'sensors'),
+        ({'from': 'turtlebot4', 'sensors': {'scan': 9}}, BadProperty, 'sensors'),
+        ({'from': 'turtlebot4', 'sensors': {'scan': {'beam': 9}}}, UnknownProperty, 'beam'),
+        ({'drive': {'kind': 'omni'}, 'sensors': {'scan': {}}}, BadProperty, 'sensors'),
         (['car'], BadProperty, 'robot'),
     ],
 )

@@ -17,7 +17,7 @@ from gymnasium.utils.env_checker import check_env
 import numpy as np
 from physsim_ros import Robot, robot_spawn, Simulation
 from physsim_ros.gym import RobotEnv, Task
-from physsim_ros.model.errors import BadProperty, UnknownBody
+from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
 import pytest
 
 from .tasks import reward, task
@@ -171,6 +171,9 @@ def test_a_picture_shows_the_robot_where_it_is() -> None:
 def test_what_does_not_fit_is_refused() -> None:
     with pytest.raises(BadProperty, match='does not divide'):
         RobotEnv(task(period=0.033))
+    for times in ({'period': 0.0}, {'longest': float('inf')}, {'longest': -1.0}):
+        with pytest.raises(Refusal, match=next(iter(times))):
+            task(**times)
     with pytest.raises(UnknownBody, match="nearest is 'robot/0'"):
         RobotEnv(task(robot='robot/1'))
     with pytest.raises(BadProperty, match='not a robot'):

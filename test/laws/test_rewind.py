@@ -13,8 +13,10 @@ import sys
 
 import numpy as np
 from physsim_ros.files import load_world, save_world
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import (
     Anchor,
+    ChangeBody,
     Command,
     Configure,
     Delete,
@@ -196,6 +198,39 @@ def _robots():
     return sim, later
 
 
+def _actors():
+    """Laws 51 to 53: people, carts and a robot on their paths, started at a gate and by a time."""
+    sim = _simulation(gravity=NOWHERE, floor_friction=0.3, seed=26)
+    spawn(sim, 'wall/0', Box(width=8.0, height=0.2), (0.0, -1.0, 0.0), anchored=True)
+    spawn(sim, 'gate/0', Box(width=0.4, height=2.0), (0.5, 0.0, 0.0), anchored=True, sensor=True)
+    kinds = ('orca', 'social_force')
+    for number in range(8):
+        x, y = math.cos(number), math.sin(number)
+        walks = {'kind': kinds[number % 2], 'points': [[-x, -y], [x, y]], 'repeat': 'to_and_fro'}
+        made = {'kinematic': number % 3 == 0, 'mass': 70.0, 'actor': walks}
+        spawn(sim, f'person/{number}', Disc(radius=0.12), (2 * x, 2 * y, 0.0), **made)
+    points = [[0.0, 2.0, 0.0], [1.0, 2.0, 1.0], [1.0, 3.0, -2.0]]
+    path = {'kind': 'path', 'points': points, 'speed': 0.8, 'repeat': 'loop'}
+    starts = ({}, {'time': 0.7}, {'gate': 'gate/0'}, {'near': 'person/0', 'distance': 1.0})
+    for number, start in enumerate(starts):
+        pose = (0.3 * number, 2.0 + 0.4 * number, 0.0)
+        made = {'kinematic': number % 2 == 0, 'actor': {**path, 'start': start}}
+        spawn(
+            sim, f'cart/{number}', ELL if number == 3 else Box(width=0.2, height=0.3), pose, **made
+        )
+    robot = {
+        'drive': {'kind': 'differential', 'max_speed': 1.0},
+        'odometry': {'slip': [0.02, 0.03]},
+    }
+    spawn(sim, 'robot/0', Disc(radius=0.1), (0.0, -0.5, 0.0), robot=robot, actor=path)
+    later = {
+        200: [DriveRobot(name='robot/0', velocity=(0.3, 0.0, 1.0))],
+        300: [ChangeBody(name='cart/0', properties=Properties(actor={**path, 'repeat': 'once'}))],
+        350: [Delete(name='gate/0'), Delete(name='person/0')],
+    }
+    return sim, later
+
+
 def _eventful():
     """Everything at once: bodies come and go, and the world itself is set otherwise."""
     sim = _simulation()
@@ -237,6 +272,7 @@ SCENES = {
     '100 discs': _gas,
     'anchored body': _anchored,
     'robots on a floor': _robots,
+    'actors': _actors,
     'all kinds of requests': _eventful,
 }
 

@@ -21,9 +21,9 @@ from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.snapshot import Answer, Preview
 from physsim_ros.ros import parameters, world_files
-from physsim_ros.ros.encoders.poses import PosesEncoder
-from physsim_ros.ros.publishers import event_publisher, interactive_markers, publishers
-from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
+from physsim_ros.ros.encoders.streams import PosesEncoder
+from physsim_ros.ros.publishers import interactive_markers, publishers, status_publishers
+from physsim_ros.ros.publishers.status_publishers import TimelinePublisher
 from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.robot_topics import RobotTopics
 from physsim_ros.simulation.past.past import Past
@@ -263,7 +263,7 @@ def test_a_command_of_a_robot(
 
 OUTPUTS: dict[str, tuple[object, str]] = {
     '~/preview': (publishers, 'preview_message'),
-    '~/events': (event_publisher, 'encode_event'),
+    '~/events': (status_publishers, 'encode_event'),
     '/physsim/poses': (PosesEncoder, 'encode'),
     '~/timeline': (TimelinePublisher, 'publish'),
     '~/drag/update': (interactive_markers.InteractiveMarkers, 'show'),

@@ -26,13 +26,15 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
-from physsim_ros.ros.encoders.clock import ClockEncoder
-from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.marker_symbols import body_symbols
 from physsim_ros.ros.encoders.markers import DELETE_REPEATS, MarkersEncoder
-from physsim_ros.ros.encoders.poses import PosesEncoder
-from physsim_ros.ros.encoders.states import StatesEncoder
-from physsim_ros.ros.publishers.event_publisher import encode_event
+from physsim_ros.ros.encoders.streams import (
+    ClockEncoder,
+    ContactsEncoder,
+    PosesEncoder,
+    StatesEncoder,
+)
+from physsim_ros.ros.publishers.status_publishers import encode_event
 from physsim_ros.ros.requests.conversions import body_request
 import pytest
 from rclpy.serialization import deserialize_message, serialize_message

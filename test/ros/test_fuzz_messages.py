@@ -26,11 +26,9 @@ import numpy as np
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Anchor, Axle, Pin, Release
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.markers import MarkersEncoder
-from physsim_ros.ros.encoders.poses import PosesEncoder
-from physsim_ros.ros.encoders.states import StatesEncoder
-from physsim_ros.ros.publishers.event_publisher import encode_event
+from physsim_ros.ros.encoders.streams import ContactsEncoder, PosesEncoder, StatesEncoder
+from physsim_ros.ros.publishers.status_publishers import encode_event
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.requests.decoding import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation

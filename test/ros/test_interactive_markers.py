@@ -133,6 +133,6 @@ def test_nothing_is_sent_to_nobody_and_little_to_somebody(
         each for each in physsim.node.publishers if each.topic_name.endswith('/drag/update')
     ]
     client.spin_until(lambda: not publisher.get_subscription_count())
-    encode = 'physsim_ros.ros.encoders.interactive_poses.InteractivePosesEncoder.encode'
+    encode = 'physsim_ros.ros.publishers.interactive_markers.InteractivePosesEncoder.encode'
     monkeypatch.setattr(encode, lambda *_: pytest.fail('it was encoded for nobody'))
     physsim.step(2 * FRAMES)

@@ -49,6 +49,7 @@ CONTRACT: dict[str, tuple[Any, str]] = {
     'gravity': ([0.0, -9.81], 'live'),
     'damping': (0.0, 'live'),
     'bounds': ([], 'live'),
+    'datum': ([], 'live'),
     'density': (1.0, 'live'),
     'friction': (0.5, 'live'),
     'elasticity': (0.5, 'live'),
@@ -183,7 +184,7 @@ def test_every_parameter_is_described_with_its_unit_and_range(physsim: PhysSim) 
         if isinstance(value, bool | str):
             continue
         limited = descriptor.floating_point_range or descriptor.integer_range
-        assert limited or name in ('gravity', 'bounds', 'draw_velocity'), name
+        assert limited or name in ('gravity', 'bounds', 'datum', 'draw_velocity'), name
         if name in RANGES:
             low, high = RANGES[name]
             assert limited[0].from_value == low, name
@@ -266,6 +267,9 @@ def test_a_bad_value_is_refused_with_its_code(physsim: PhysSim) -> None:
         ('gravity', [0.0, -math.inf]),
         ('gravity', [1e9, 0.0]),
         ('bounds', [1.0]),
+        ('datum', [1.0]),
+        ('datum', [91.0, 0.0]),
+        ('datum', [0.0, 181.0]),
         ('bounds', [0.0, 0.0, 1.0]),
         ('bounds', [0.0, 0.0, 1.0, 1.0, 1.0]),
         ('bounds', [1.0, 0.0, 0.0, 1.0]),

@@ -15,12 +15,14 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.ros.encoders.clock import ClockEncoder
-from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.markers import MarkersEncoder
-from physsim_ros.ros.encoders.poses import PosesEncoder
-from physsim_ros.ros.encoders.states import StatesEncoder
-from physsim_ros.ros.publishers import event_publisher
+from physsim_ros.ros.encoders.streams import (
+    ClockEncoder,
+    ContactsEncoder,
+    PosesEncoder,
+    StatesEncoder,
+)
+from physsim_ros.ros.publishers import status_publishers
 from physsim_ros.ros.publishers.publishers import LATCH_PERIOD, Publishers
 from physsim_ros.testing import own_context
 import pytest
@@ -164,7 +166,7 @@ def encoded(monkeypatch):
     spy(ContactsEncoder, 'encode', 'contacts')
     spy(MarkersEncoder, 'encode', 'markers')
     spy(ClockEncoder, 'encode', 'clock')
-    spy(event_publisher, 'encode_event', 'event')
+    spy(status_publishers, 'encode_event', 'event')
     return calls
 
 

@@ -18,6 +18,7 @@ import random
 from typing import Any
 
 from physsim_ros.files import load_world, shipped_worlds, worlds_in
+from physsim_ros.model.actors import actor_from
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -70,6 +71,18 @@ ROBOTS = tuple(
         {'drive': {'kind': 'differential', 'track': 0.2}, 'odometry': {'slip': [0.1, 0.2]}},
         {'drive': {'kind': 'omni', 'max_speed': 2.0}},
         {'drive': {'kind': 'car', 'wheelbase': 0.3}, 'odometry': {'slip': [0.01, 0.02]}},
+    )
+)
+
+# Each kind of actor, and of start.
+ACTORS = tuple(
+    actor_from(each, 'actor')
+    for each in (
+        {'kind': 'path', 'points': [[0, 1], [2, 1]], 'speed': 1.0, 'repeat': 'to_and_fro'},
+        {'kind': 'path', 'points': [[0, 1, 0], [1, 2, 9]], 'times': [0, 1], 'start': {'time': 1}},
+        {'kind': 'orca', 'points': [[-3, 3], [3, 3]], 'start': {'gate': 'a/0'}},
+        {'kind': 'social_force', 'points': [[-3, 3], [3, 3]], 'repeat': 'loop'},
+        {'kind': 'orca', 'points': [[1, 1]], 'start': {'near': 'a/1', 'distance': 3}},
     )
 )
 
@@ -172,7 +185,7 @@ def spawn_of(rng: Choices) -> Spawn:
     if not anchored and rng.random() < 0.5:
         said |= {'velocity': (number_of(rng, speed), number_of(rng, speed))}
         said |= {'spin': number_of(rng, speed)}
-    match rng.randint(0, 8):
+    match rng.randint(0, 9):
         case 0:
             said['mass'] = rng.choice((0.1, 1.0, 1e3 if wild else 3.0))
         case 1:
@@ -187,6 +200,8 @@ def spawn_of(rng: Choices) -> Spawn:
             said |= {'robot': rng.choice(ROBOTS)}
         case 6:
             said |= {'sensor': True, 'surface_velocity': (number_of(rng), number_of(rng))}
+        case 7 if not anchored:
+            said |= {'actor': rng.choice(ACTORS), 'kinematic': rng.random() < 0.5}
     return Spawn(
         name=rng.choice(rng.names),
         shape=rng.choice(SHAPES),
@@ -289,6 +304,7 @@ def request_of(rng: Choices) -> Request:
             {'anchored': False},
             {'kinematic': True},
             {'robot': rng.choice(ROBOTS)},
+            {'actor': rng.choice(ACTORS)},
             {'group': rng.randint(0, 1)},
             {'sensor': rng.random() < 0.5},
             {'sensor': True, 'surface_velocity': (1.0, 0.0)},

@@ -9,6 +9,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 CHECKED = ('physsim_ros', 'test', 'tools', 'setup.py')
+# cffi writes it when the core is built.
+GENERATED = ROOT / 'physsim_ros/engine/core/_declarations.py'
 # Prefixes of the names of the checkers; another version of one looks at all files again.
 CHECKERS = ('ament', 'flake8', 'pep8', 'pycodestyle', 'pydocstyle', 'pyflakes', 'ros-jazzy-ament')
 
@@ -27,7 +29,8 @@ def digests():
     versions = '\n'.join(found).encode()
     tops = [ROOT / top for top in CHECKED]
     paths = [path for top in tops for path in ([top] if top.is_file() else top.rglob('*.py'))]
-    return {str(path.relative_to(ROOT)): _digest(path, versions) for path in sorted(paths)}
+    own = sorted(path for path in paths if path != GENERATED)
+    return {str(path.relative_to(ROOT)): _digest(path, versions) for path in own}
 
 
 def changed(cache, checker):

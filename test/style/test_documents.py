@@ -13,8 +13,7 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JOINT_KEYS, JointKind, JointProperties
 from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.robots.drives import DRIVES
-from physsim_ros.model.robots.odometry import Odometry
-from physsim_ros.model.robots.robot import Robot
+from physsim_ros.model.robots.robot import Odometry, Robot
 from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.shapes import LARGEST, MOST_POINTS
 import pytest

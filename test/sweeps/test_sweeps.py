@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros import load_world, Robot, Simulation
-from physsim_ros.model.errors import UnknownBody
+from physsim_ros.model.errors import Refusal, UnknownBody
 from physsim_ros.sweeps import (
     Case,
     cases_of,
@@ -150,6 +150,9 @@ def test_cases_are_all_combinations_of_parameters_each_with_all_seeds() -> None:
 def test_an_experiment_that_cannot_be_is_refused() -> None:
     with pytest.raises(UnknownBody):
         experiment(robot='robot/7').run(Case(parameters={'gain': 1.0}))
+    for times in ({'period': 0.0}, {'seconds': float('nan')}, {'before': -1.0}):
+        with pytest.raises(Refusal, match=next(iter(times))):
+            experiment(**times)
     without = experiment()
     with pytest.raises(TypeError, match='world'):
         Experiment(controller=without.controller)  # type: ignore[call-arg]

@@ -27,7 +27,7 @@ robots = [
         'shape': {'name': 'circle', 'radius': 0.105},
         'state': [x, y, 0.0],
         'vel_max': [0.22, 2.84],
-        'sensors': [laser | {'number': 360, 'noise': False}],
+        'sensors': [laser | {'number': asked['beams'], 'noise': False}],
     }
     for x, y in asked['robots']
 ]

@@ -150,13 +150,19 @@ def in_node(count: int) -> tuple[float, float]:
             remote.close()
 
 
-def in_peer(count: int, step: float) -> float:
+def in_peer(count: int, step: float, beams: int = 360) -> float:
     """
     Return how many times faster than real time robots are in ir-sim, by CPU time.
 
     :param step: of the time [s], in each of which it reads all lasers
+    :param beams: of each
     """
-    world = {'robots': [*places(count)], 'walls': [*placed_walls(count)], 'step': step}
+    world = {
+        'robots': [*places(count)],
+        'walls': [*placed_walls(count)],
+        'step': step,
+        'beams': beams,
+    }
     world |= {'speed': SPEED, 'turn': TURN, 'seconds': SECONDS / 2}
     python = os.environ['IRSIM_PYTHON']
     done = subprocess.run(

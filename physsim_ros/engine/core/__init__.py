@@ -27,7 +27,7 @@ _BUILD = '`pip install --editable .`'
 _HERE = files(__name__)
 
 try:
-    from physsim_ros.engine.core._declarations import ffi
+    from physsim_ros.engine.core._declarations import ffi as ffi
 except ImportError as error:
     raise ImportError(f'the core of the engine has not been compiled; run {_BUILD}') from error
 

@@ -88,6 +88,13 @@ typedef struct cpPolyShape {
     cpSplittingPlane *planes; // those in the world, then those in the body's frame
 } cpPolyShape;
 
+typedef struct cpPointQueryInfo {
+    const cpShape *shape;
+    cpVect point;    // nearest point of its outline [m]
+    double distance; // to it, negative within the shape [m]
+    cpVect gradient; // direction in which the distance grows
+} cpPointQueryInfo;
+
 typedef struct cpContact {
     cpVect r1, r2;       // from either body to the point [m]
     double nMass, tMass; // effective masses along and across the normal [kg]

@@ -104,6 +104,65 @@ typedef struct Robot {
     Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes
 } Robot;
 
+// What moves an actor, and what it does at its last point; both in the order of `model/actors`.
+enum { ACTOR_PATH, ACTOR_SOCIAL_FORCE, ACTOR_ORCA };
+enum { ONCE, LOOP, TO_AND_FRO };
+
+// A point of an actor, and when a path is there.
+typedef struct Waypoint {
+    double time; // since it started [s]
+    Pose pose;
+} Waypoint;
+
+// A path: its greatest speed [m/s] and turn rate [rad/s], and whether it turns its body (1).
+typedef struct Path {
+    double speed, turn_rate, turns;
+} Path;
+
+// The desired and the greatest speed of a pedestrian [m/s], and the distance at which it has reached a point [m].
+typedef struct Pace {
+    double speed, max_speed, goal_radius;
+} Pace;
+
+// Parameters of the social force model (`social_force.c`).
+typedef struct SocialForce {
+    double relaxation_time;             // τ [s]
+    double repulsion, range, step_time; // of pedestrians: V⁰ [m²/s²], σ [m], Δt [s]
+    double wall_repulsion, wall_range;  // of walls: U⁰ [m²/s²], R [m]
+    double cosine_of_sight, behind;     // cos φ, c
+} SocialForce;
+
+// Parameters of optimal reciprocal collision avoidance (`orca.c`).
+typedef struct Orca {
+    double horizon, wall_horizon; // [s]
+} Orca;
+
+// An actor: a body that moves on its own.
+typedef struct Actor {
+    // What Python sets.
+    int32_t body;
+    int32_t kind, repeat;
+    int32_t robot;          // number of its robot; -1 if it is none
+    int32_t holonomic;      // a robot that moves sideways
+    int32_t gate, by, near; // places of the bodies that it waits for; -1 is none
+    int32_t waits;          // for a gate or a distance
+    int32_t point_count;    // of a looped path the first one again
+    const Waypoint *points;
+    int64_t delay;   // steps between the gate and its start
+    double distance; // to `near` [m]
+    double ahead;    // of the origin of a robot, the point of it that is led [m]
+    Twist most;      // greatest speed of a robot in x [m/s], and turn rate [rad/s]
+    Path path;
+    Pace pace;
+    SocialForce social_force;
+    Orca orca;
+    // State.
+    int64_t begun;   // step at which it starts, or started
+    int64_t reached; // count of the points that it has reached
+    // What the core keeps for a step.
+    Twist wish; // velocity of the centre of mass that it goes at, world axes
+} Actor;
+
 // Kinds of constraint rows: which number x of the poses of two bodies a row bounds.
 enum {
     ROW_X,        // x of the first anchor less that of the second [m]
@@ -159,6 +218,7 @@ typedef struct Chipmunk {
     void (*reindex_body)(cpSpace *, cpBody *);
     uint8_t (*shape_query)(cpSpace *, cpShape *, void (*)(cpShape *, void *, void *), void *);
     void (*each_arbiter)(cpSpace *, void (*)(cpArbiter *, void *), void *);
+    double (*point_query)(const cpShape *, cpVect, cpPointQueryInfo *);
 } Chipmunk;
 
 // The stages that can be left out, to measure what fails without each (`make ablate`).
@@ -207,18 +267,15 @@ typedef struct World {
     double drag_force;     // greatest force of a hand, in weights of the body
     int64_t step;          // count of steps that the world has made
     int64_t age;           // count of steps since the space was built
+    // The bodies with the background, the others as they are in the world.
     Body *bodies;
-    int32_t body_count; // with the background
     Joint *joints;
-    int32_t joint_count;
     Part *parts;
-    int32_t part_count;
     Row *rows;
-    int32_t row_count;
     Grip *grips;
-    int32_t grip_count;
     Robot *robots;
-    int32_t robot_count;
+    Actor *actors;
+    int32_t body_count, joint_count, part_count, row_count, grip_count, robot_count, actor_count;
     // What the last steps have left.
     uint8_t has_broken; // a joint
     uint8_t has_lost;   // a body has left the range of numbers

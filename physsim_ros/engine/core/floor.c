@@ -139,8 +139,9 @@ void pull_by_floor(World *world) {
     }
     roll_wheels(world);
     bool conveyors = has_conveyors(world);
-    // Robots are listed in the order of the bodies.
+    // Robots are listed in the order of the bodies, and so are actors.
     const Robot *robot = world->robots, *last = world->robots + world->robot_count;
+    const Actor *actor = world->actors, *last_actor = world->actors + world->actor_count;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         Twist mean = {0}, end = {0};
@@ -148,6 +149,11 @@ void pull_by_floor(World *world) {
             mean = robot->under;
             end = robot->end;
             robot++;
+        }
+        if (actor < last_actor && actor->body == place) {
+            mean = actor->robot < 0 ? actor->wish : mean;
+            end = actor->robot < 0 ? actor->wish : end;
+            actor++;
         }
         if (body->floor_friction > 0.0) {
             Twist belt = conveyors ? conveyed(world, body) : (Twist){0};

@@ -17,6 +17,9 @@ void pull_grips(World *world);
 // Errors of the solver in what friction locks in place (`resting_damping.c`).
 void damp_resting(World *world);
 
+// Actors: where they go, and at which velocity (`actors.c`).
+void move_actors(World *world);
+
 // The floor, with drives and odometry of robots (`floor.c`, `drives.c`).
 void pull_by_floor(World *world);
 void find_pushes(World *world);

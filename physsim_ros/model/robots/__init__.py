@@ -6,13 +6,11 @@ Robots: bodies that drive, by a mapping below the key `robot` of a body.
 
 A robot is a drive, odometry, sensors and the namespace of its topics; values only, checked as they
 are made. Shipped robots are files (`files.robots`), the floor that drives act on is in the engine
-(a stage). Start with `robot`; a new drive is a file in `drives` and a line there,
-a new sensor one in `sensors`.
+(a stage). Start with `robot`; a new drive is a class in `drives`, a new sensor one in `sensors`.
 """
 
 from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni
-from physsim_ros.model.robots.odometry import Odometry
-from physsim_ros.model.robots.robot import check_namespace, Robot
+from physsim_ros.model.robots.robot import check_namespace, Odometry, Robot
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
 __all__ = [

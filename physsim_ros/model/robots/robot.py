@@ -14,14 +14,46 @@ from dataclasses import dataclass, field
 import re
 from typing import Any, ClassVar, Self
 
-from physsim_ros.model.checks import Checked, Checks, shown
+from physsim_ros.model.checks import Checked, Checks, pair, shown, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
-from physsim_ros.model.robots.odometry import Odometry
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
+from physsim_ros.model.transform import Point
+
+_SLIP = Within(0.0, 1.0)
+
+
+def _slip(value: object, name: str) -> Point:
+    way, heading = pair(value, name)
+    return _SLIP(way, name), _SLIP(heading, name)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Odometry(Checked):
+    """
+    Odometry, and its drift.
+
+    Errors are random walks: their variance grows with the way.
+
+    :param rate: messages a second [Hz]
+    :param slip: standard deviations of the drift: of the way after 1 m [m], and of the heading
+        after 1 m, or after a turn of 1 rad [rad]; 0 is exact as long as no wheel slips
+    :raises Malformed: a number is not finite
+    :raises BadProperty: a value is of the wrong kind or out of range
+    """
+
+    CHECKS: ClassVar[Checks] = {'rate': Within(0.01, 1000.0, 'Hz'), 'slip': _slip}
+
+    rate: float = 30.0
+    slip: Point = (0.0, 0.0)
+
+    def entry(self) -> dict[str, object]:
+        """Return the mapping that it is made from."""
+        return {'rate': self.rate, 'slip': list(self.slip)}
+
 
 # Names of topics that every robot has.
-OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth', 'tf', 'tf_static')
+OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
 # Names of its frames; that of a sensor is its name.
 _OWN_FRAMES = ('base_footprint', 'base_link')
 # Greatest number of sensors of a robot.

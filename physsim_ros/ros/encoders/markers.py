@@ -35,7 +35,7 @@ from physsim_ros.ros.encoders.marker_symbols import (
     Symbol,
     wall_symbol,
 )
-from physsim_ros.ros.encoders.scene_encoder import pose_columns
+from physsim_ros.ros.encoders.streams import pose_columns
 from visualization_msgs.msg import Marker
 
 # A marker from its pose on: pose, scale, color, lifetime, frame_locked, number of points.

@@ -82,6 +82,6 @@ def _draw_color(text: str) -> Color | None:
 
 
 def _setting(name: str, value: Any) -> Any:
-    if name == 'bounds' and len(value) == 0:
+    if name in {'bounds', 'datum'} and len(value) == 0:
         return None
     return tuple(value) if isinstance(SPECS[name].default, list) else value

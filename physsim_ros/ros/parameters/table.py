@@ -220,6 +220,8 @@ _MEANINGS = {
     'floor_friction': 'coefficient of friction between bodies and the floor of a world that is '
     'seen from above; 0 is a world that is seen from the side',
     'seed': 'seed of all noise of robots',
+    'datum': '[latitude, longitude] of the origin [deg], for receivers of satellite navigation: x '
+    'is east there, y north; [] is nowhere',
     'command_timeout': 'duration of a commanded wrench [s of simulation time]; 0 means no limit',
     'max_bodies': 'most bodies; a request beyond it is refused',
     'max_shapes': 'most convex pieces of all bodies; a request beyond it is refused',
@@ -231,7 +233,7 @@ _MEANINGS = {
 def _of_settings() -> dict[str, Spec]:
     defaults = asdict(WorldSettings()) | asdict(DrawingSettings())
     # ROS parameters have no None.
-    defaults |= {'bounds': [], 'draw_color': AUTO}
+    defaults |= {'bounds': [], 'datum': [], 'draw_color': AUTO}
     ranges = WORLD_RANGES | DRAWING_RANGES
     specs = {}
     for name, meaning in _MEANINGS.items():

@@ -159,6 +159,7 @@ def main() -> None:
     reduce_latency()
     limit_fragmentation()
     # ROS and the engine take a second to import, during which a signal is received already.
+    from geometry_msgs.msg import Twist
     from physsim_ros.model.errors import PhysSimError
     from physsim_ros.ros.node import PhysSimNode
     from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
@@ -167,7 +168,7 @@ def main() -> None:
 
     _initialise()
     try:
-        node = PhysSimNode()
+        node = PhysSimNode(expected_commands=Twist)
     except PhysSimError as error:
         rclpy.shutdown()
         sys.exit(f'physsim: {error}')

@@ -22,17 +22,22 @@ from nav_msgs.msg import OccupancyGrid
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.ros.encoders.clock import ClockEncoder
-from physsim_ros.ros.encoders.contacts import ContactsEncoder
 from physsim_ros.ros.encoders.map import MapEncoder
 from physsim_ros.ros.encoders.markers import MarkersEncoder
-from physsim_ros.ros.encoders.poses import PosesEncoder
 from physsim_ros.ros.encoders.preview import preview_message
-from physsim_ros.ros.encoders.states import StatesEncoder
-from physsim_ros.ros.encoders.transforms import TransformsEncoder
-from physsim_ros.ros.publishers.event_publisher import EventPublisher, EVENTS_DEPTH
+from physsim_ros.ros.encoders.streams import (
+    ClockEncoder,
+    ContactsEncoder,
+    PosesEncoder,
+    StatesEncoder,
+    TransformsEncoder,
+)
 from physsim_ros.ros.publishers.interactive_markers import InteractiveMarkers
-from physsim_ros.ros.publishers.timeline_publisher import TimelinePublisher
+from physsim_ros.ros.publishers.status_publishers import (
+    EventPublisher,
+    EVENTS_DEPTH,
+    TimelinePublisher,
+)
 from physsim_ros.ros.robots.frames import TF_DEPTH, tf_message_type
 from rclpy.node import Node
 from rclpy.publisher import Publisher

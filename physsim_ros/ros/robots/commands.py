@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Commands of a robot: `cmd_vel`, as `Twist` or as `TwistStamped`.
+Commands of a robot: `cmd_vel`, as `Twist`, as `TwistStamped`, or of a car as Ackermann drive.
 
-The type is that of the publisher, as the graph has it: a process takes one type for a topic, so
-that nothing is subscribed to before a publisher is there. Of what comes between two frames the
-last one counts, and only that is decoded: a flood costs no more than its bytes.
+The type is that of the publisher, as the graph has it. A process takes one type for a topic: where
+it has other nodes, nothing is subscribed to before a publisher is there. Of what comes between two
+frames the last one counts, and only that is decoded: a flood costs no more than its bytes.
 """
 
 from __future__ import annotations
@@ -14,11 +14,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
+import math
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
 from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.robots import Car, Drive
+from physsim_ros.model.transform import REST
+from physsim_ros.model.transform import Twist as Velocity
 from physsim_ros.ros.requests.decoding import CdrReader, Truncated
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -28,6 +32,7 @@ from rclpy.subscription import Subscription
 
 # By their names on the graph.
 _TYPES = {'geometry_msgs/msg/Twist': Twist, 'geometry_msgs/msg/TwistStamped': TwistStamped}
+_ACKERMANN = 'ackermann_msgs/msg/AckermannDriveStamped'
 # Of a burst the last ones count.
 _DEPTH = 10
 # Commands in a row that are carried out before a refusal of a code that was told is told again:
@@ -42,19 +47,35 @@ class Commands:
     :param node: that subscribes
     :param topic: `cmd_vel` below its namespace
     :param body: its name
+    :param drive: that obeys them
     :param refuse: reports what publishers cannot be heard; takes the refusal and the topic
+    :param expected: type that is subscribed to while nobody publishes; None is none
 
     :ivar topic: that commands come by
+    :ivar velocity: of the last command [m/s, rad/s]
     :ivar awaited: stamp of the scan that no command has answered yet [ns]; None is none
     """
 
     def __init__(
-        self, node: Node, topic: str, body: str, refuse: Callable[[Refusal, str], None]
+        self,
+        node: Node,
+        topic: str,
+        body: str,
+        drive: Drive,
+        refuse: Callable[[Refusal, str], None],
+        *,
+        expected: type | None = None,
     ) -> None:
         self.topic = topic
+        self.velocity: Velocity = REST
         self.awaited: int | None = None
         self._node = node
         self._body = body
+        self._drive = drive
+        self._expected = expected
+        self._types: dict[str, type] = dict(_TYPES)
+        if isinstance(drive, Car) and (ackermann := ackermann_type()) is not None:
+            self._types[_ACKERMANN] = ackermann
         self._refuse = refuse
         # Codes of refusals that were told, and number of commands carried out since the last one.
         self._told: set[str] = set()
@@ -77,7 +98,7 @@ class Commands:
     @property
     def is_awaited(self) -> bool:
         """Whether a publisher of commands that have stamps has not answered the last scan."""
-        stamped = self._heard is not None and self._heard[0] is TwistStamped
+        stamped = self._heard is not None and self._heard[0] is not Twist
         return stamped and not self._unstamped and self.awaited is not None
 
     @property
@@ -109,10 +130,11 @@ class Commands:
         """
         count = self._count_publishers()
         infos = self._node.get_publishers_info_by_topic(self.topic)
-        strange = sorted({info.topic_type for info in infos} - _TYPES.keys())
-        infos = [info for info in infos if info.topic_type in _TYPES]
-        types = [kind for name, kind in _TYPES.items() if name in {i.topic_type for i in infos}]
-        heard = None
+        known = self._types
+        strange = sorted({info.topic_type for info in infos} - known.keys())
+        infos = [info for info in infos if info.topic_type in known]
+        types = [kind for name, kind in known.items() if name in {i.topic_type for i in infos}]
+        heard = None if self._expected is None else (self._expected, ReliabilityPolicy.RELIABLE)
         if types:
             kind = self._heard[0] if self._heard and self._heard[0] in types else types[0]
             # Best effort hears publishers of both reliabilities, and may lose a message.
@@ -121,10 +143,11 @@ class Commands:
             heard = kind, best_effort if best_effort in qualities else ReliabilityPolicy.RELIABLE
         deaf = ''
         if strange:
-            deaf = f'{" and ".join(strange)} is published; Twist or TwistStamped is heard'
+            words = ' or '.join(kind.__name__ for kind in known.values())
+            deaf = f'{" and ".join(strange)} is published; {words} is heard'
         if heard is not None and len(types) > 1:
-            kind = heard[0].__name__
-            deaf = f'publishers of Twist and of TwistStamped are there; {kind} is heard'
+            words = ' and of '.join(kind.__name__ for kind in types)
+            deaf = f'publishers of {words} are there; {heard[0].__name__} is heard'
         changed = heard != self._heard
         if changed:
             of_other_type = heard and self._heard and heard[0] is not self._heard[0]
@@ -167,9 +190,20 @@ class Commands:
             message: Any = deserialize_message(data, kind)
         except rclpy_implementation.RMWError as error:
             raise Malformed(f'the message is not a {kind.__name__}') from error
-        twist = message.twist if kind is TwistStamped else message
-        velocity = twist.linear.x, twist.linear.y, twist.angular.z
-        return DriveRobot(name=self._body, velocity=velocity)
+        request = DriveRobot(name=self._body, velocity=self._velocity_of(message))
+        self.velocity = request.velocity
+        return request
+
+    def _velocity_of(self, message: Any) -> Velocity:
+        """Return the velocity that a message commands [m/s, rad/s]."""
+        if isinstance(message, Twist | TwistStamped):
+            twist = message if isinstance(message, Twist) else message.twist
+            return twist.linear.x, twist.linear.y, twist.angular.z
+        car, speed, angle = self._drive, message.drive.speed, message.drive.steering_angle
+        assert isinstance(car, Car)  # noqa: S101 - others do not hear it
+        # A bicycle: the angle is that of a front wheel in the middle.
+        angle = max(-car.steering, min(angle, car.steering)) if math.isfinite(angle) else angle
+        return speed, 0.0, speed * math.tan(angle) / car.wheelbase
 
     def note_refused(self, code: str) -> bool:
         """Note a refused command; return whether it is to be told: the first of its code."""
@@ -193,9 +227,21 @@ class Commands:
 
     def _receive(self, kind: type, data: bytes) -> None:
         self._last = kind, data
-        if kind is TwistStamped:
+        if kind is not Twist:
             with suppress(Truncated):
                 stamp = CdrReader(data).stamp()
                 self._unstamped = stamp == 0
                 if self.awaited is not None and stamp >= self.awaited:
                     self.awaited = None
+
+
+def ackermann_type() -> type | None:
+    """Return the type of commands of cars; None where its package is not installed."""
+    try:
+        from ackermann_msgs.msg import (  # noqa: PLC0415 - no part of common_interfaces
+            AckermannDriveStamped,
+        )
+    except ModuleNotFoundError:
+        return None
+    kind: type = AckermannDriveStamped
+    return kind

@@ -20,7 +20,8 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, Refusal
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.transform import REST
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
@@ -40,6 +41,9 @@ class Fleet:
     :param values: of the parameters of the node, by name, always up to date
     :param requests: the queue that commands are submitted to
     :param boundary: of the node
+    :param expected: type of commands that is subscribed to while nobody publishes, so that
+        `cmd_vel` is listed; None is none, where the process has other nodes: it takes one type for
+        a topic
 
     :ivar name: of the output
     :ivar robots: topics of each, by the name of its body, in the order of the scene
@@ -54,7 +58,12 @@ class Fleet:
         values: Mapping[str, Any],
         requests: RequestQueue,
         boundary: ErrorBoundary,
+        *,
+        expected: type | None = None,
     ) -> None:
+        self._expected = expected
+        # Whether it was told that a robot has stopped as no command came.
+        self._has_told_timeout = False
         self.robots: dict[str, RobotTopics] = {}
         self._node = node
         self._values = values
@@ -177,19 +186,37 @@ class Fleet:
             with self._boundary.output('robots'):
                 if robot is not None and robot.publish(view, row, number):
                     robot.commands.awaited = snapshot.stamp
+            if robot is not None and not self._has_told_timeout and _has_stopped(view, number):
+                self._tell_timeout(robot)
+
+    def _tell_timeout(self, robot: RobotTopics) -> None:
+        """Tell once that a robot has stopped as no command came: people expect it to drive on."""
+        commands, drive = robot.commands, robot.robot.drive
+        if commands.velocity == REST:
+            return
+        self._has_told_timeout = True
+        message = (
+            f'{robot.body} has stopped: no command has come for {drive.timeout:g} s, the timeout '
+            'of its drive. Publish commands again and again, or set that timeout to 0'
+        )
+        self._node.get_logger().warning(message)
+        topic = commands.topic
+        self._requests.tell(Answer(topic=topic, subject=robot.body, message=message))
 
     def _update(self, scene: Scene) -> None:
         """Make topics for robots that have come, and take those of others back."""
-        names = (scene.names[row] for row in scene.robot_rows.tolist())
-        there = dict(zip(names, scene.robots, strict=True))
-        for body in [*self.robots]:
-            if self.robots[body].robot != there.get(body):
-                self.robots.pop(body).close()
+        bodies = [scene.bodies[row] for row in scene.robot_rows.tolist()]
+        there = {body.name: body.robot for body in bodies}
+        for name in [*self.robots]:
+            if self.robots[name].robot != there.get(name):
+                self.robots.pop(name).close()
         before, self.robots = self.robots, {}
         # In the order of the scene.
-        for body, robot in there.items():
+        for body, robot in zip(bodies, scene.robots, strict=True):
             with self._boundary.output('robots'):
-                self.robots[body] = before.get(body) or self._make(body, robot)
+                topics = before.get(body.name) or self._make(body.name, robot)
+                self.robots[body.name] = topics
+                topics.describe(body)
 
     def _make(self, body: str, robot: Robot) -> RobotTopics:
         return RobotTopics(
@@ -199,4 +226,18 @@ class Fleet:
             robot_tf=RobotTf(self._values['robot_tf']),
             world_frame=self._values['frame_id'],
             refuse=partial(self._refuse, body),
+            expected=self._expected,
         )
+
+
+def _has_stopped(view: StampedView, number: int) -> bool:
+    """
+    Return whether the command of a robot has ended since the frame before.
+
+    :param number: of the robot among those of the scene
+    """
+    now, before = view.snapshot, view.before
+    if before is None or before.scene is not now.scene:
+        return False
+    until = int(now.robots.until[number])
+    return before.step < until <= now.step

@@ -12,6 +12,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Callable
 from functools import cached_property
+import math
 from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time as TimeMessage
@@ -21,18 +22,19 @@ from physsim_ros.model.robot_states import Covariance
 from physsim_ros.model.robots.sensors import (
     Bumper,
     FloorEye,
+    Gps,
     Imu,
     Laser,
     RangeFinder,
     Sensor,
     WheelEncoders,
 )
-from physsim_ros.model.robots.sensors.range_finder import Radiation
+from physsim_ros.model.robots.sensors.distance import Radiation
 from physsim_ros.model.transform import Pose
 from physsim_ros.ros.robots.frames import rotation_of
 from physsim_ros.sensing import read_sensor, View
 from rclpy.time import Time
-from sensor_msgs.msg import Image, JointState, LaserScan, Range
+from sensor_msgs.msg import Image, JointState, LaserScan, NavSatFix, NavSatStatus, Range
 from sensor_msgs.msg import Imu as ImuMessage
 from std_msgs.msg import Bool
 
@@ -134,6 +136,7 @@ def imu_message(view: StampedView, row: int, imu: Imu) -> ImuMessage:
     message = ImuMessage(orientation=rotation_of(reading.yaw))
     message.angular_velocity.z = reading.turn_rate
     message.linear_acceleration.x, message.linear_acceleration.y = reading.acceleration
+    message.linear_acceleration.z = imu.gravity
     acceleration, turn_rate = (max(each**2, LEAST_VARIANCE) for each in imu.noise)
     for covariance, variance in (
         (message.orientation_covariance, LEAST_VARIANCE),
@@ -166,6 +169,29 @@ def floor_message(view: StampedView, row: int, eye: FloorEye) -> Image:
     )
 
 
+def fix_message(view: StampedView, row: int, gps: Gps) -> NavSatFix:
+    """Return the reading of a receiver of satellite navigation."""
+    fix = read_sensor(view, row, gps)
+    if fix is None:
+        return NavSatFix(
+            status=NavSatStatus(status=NavSatStatus.STATUS_NO_FIX),
+            latitude=math.nan,
+            longitude=math.nan,
+            altitude=math.nan,
+        )
+    message = NavSatFix(
+        status=NavSatStatus(status=NavSatStatus.STATUS_FIX, service=NavSatStatus.SERVICE_GPS),
+        latitude=fix.latitude,
+        longitude=fix.longitude,
+        altitude=fix.altitude,
+        position_covariance_type=NavSatFix.COVARIANCE_TYPE_DIAGONAL_KNOWN,
+    )
+    variance = max(gps.noise**2, LEAST_VARIANCE)
+    message.position_covariance[0] = message.position_covariance[4] = variance
+    message.position_covariance[8] = LEAST_VARIANCE
+    return message
+
+
 class Reading(NamedTuple):
     """
     How the reading of a kind of sensor becomes a message.
@@ -187,4 +213,5 @@ READINGS: dict[type[Sensor], Reading] = {
     Imu: Reading(ImuMessage, imu_message),
     WheelEncoders: Reading(JointState, wheels_message),
     FloorEye: Reading(Image, floor_message),
+    Gps: Reading(NavSatFix, fix_message),
 }

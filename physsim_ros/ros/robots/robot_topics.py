@@ -20,7 +20,9 @@ from physsim_ros.model.errors import BadProperty, Refusal
 from physsim_ros.model.robot_states import SPAWNED
 from physsim_ros.model.robots import Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
+from physsim_ros.model.scene import Body
 from physsim_ros.ros.robots.commands import Commands
+from physsim_ros.ros.robots.description import urdf_of
 from physsim_ros.ros.robots.frames import (
     BASE,
     FOOTPRINT,
@@ -36,6 +38,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from std_msgs.msg import String
 
 
 class RobotTopics:
@@ -48,6 +51,7 @@ class RobotTopics:
     :param robot_tf: where its transforms are published
     :param world_frame: name of the world frame
     :param refuse: reports a topic that cannot be; takes the refusal and the topic
+    :param expected: type of commands that is subscribed to while nobody publishes; None is none
 
     :ivar commands: that it hears
     """
@@ -61,6 +65,7 @@ class RobotTopics:
         robot_tf: RobotTf,
         world_frame: str,
         refuse: Callable[[Refusal, str], None],
+        expected: type | None = None,
     ) -> None:
         self.body, self.robot = body, robot
         self._node = node
@@ -77,7 +82,14 @@ class RobotTopics:
             (sensor, self._publisher(READINGS[type(sensor)].kind, sensor.name))
             for sensor in robot.sensors
         ]
-        self.commands = Commands(node, f'{self._below}cmd_vel', body, refuse)
+        durability = DurabilityPolicy.TRANSIENT_LOCAL
+        self._description = self._publisher(
+            String, 'robot_description', depth=1, durability=durability
+        )
+        # Colour and shape of the last description.
+        self._described: object = None
+        topic = f'{self._below}cmd_vel'
+        self.commands = Commands(node, topic, body, robot.drive, refuse, expected=expected)
         self._tf: Publisher | None = None
         self._tf_message: Any = None if robot_tf is RobotTf.NONE else tf_message_type()
         if (kind := self._tf_message) is not None:
@@ -87,7 +99,7 @@ class RobotTopics:
                 kind,
                 'tf_static',
                 below=below,
-                durability=DurabilityPolicy.TRANSIENT_LOCAL,
+                durability=durability,
             )
             if fixed is not None:
                 fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
@@ -113,6 +125,13 @@ class RobotTopics:
             return None
         self._publishers.append(publisher)
         return publisher
+
+    def describe(self, body: Body) -> None:
+        """Publish how the robot looks, if that is new."""
+        looks = body.shape, body.color, body.total_mass
+        if self._description is not None and looks != self._described:
+            self._described = looks
+            self._description.publish(String(data=urdf_of(body, self._frames)))
 
     @property
     def has_subscribers(self) -> bool:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Entities: the bodies of the world, by the services of `simulation_interfaces`.
+Entities: the bodies of the world, by the services of `simulation_interfaces`, and filters of them.
 
 An entity's name is that of its body. Its twist is that of its centre of mass, in the world's axes,
 as on `~/states`; accelerations are neither reported nor accepted. Its description is its label;
@@ -11,6 +11,7 @@ its category and tags follow from what it is.
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -18,15 +19,22 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_pose
 from physsim_ros.model.requests import ChangeBody, Command, Delete
 from physsim_ros.model.scene import Body
+from physsim_ros.model.shapes import extent_of
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import REST
+from physsim_ros.model.transform import local_to_world, Pose, REST
 from physsim_ros.ros.requests.conversions import named_frame, planar_pose
 from physsim_ros.ros.robots.frames import rotation_of
-from physsim_ros.ros.simulation_services.bounds import box_around
-from physsim_ros.ros.simulation_services.entity_filters import category_of, passing, tags_of
-from physsim_ros.ros.simulation_services.results import failed, failing_with
+from physsim_ros.ros.simulation_services.results import box_around, failed, failing_with
 from physsim_ros.sketchpad import WorldControl
-from simulation_interfaces.msg import EntityCategory, EntityInfo, EntityState, Result
+from simulation_interfaces.msg import (
+    Bounds,
+    EntityCategory,
+    EntityFilters,
+    EntityInfo,
+    EntityState,
+    Result,
+    TagsFilter,
+)
 from simulation_interfaces.srv import SetEntityState
 
 
@@ -147,3 +155,107 @@ class Entities:
 def _description_of(body: Body) -> str:
     """Return the label of a body; of one without a label, its shape and mass."""
     return body.label or f'{body.shape.KEY}, {body.total_mass:.4g} kg'
+
+
+def category_of(body: Body) -> int:
+    """Return the category of a body, by the standard."""
+    if body.robot is not None:
+        return int(EntityCategory.CATEGORY_ROBOT)
+    if body.anchored:
+        return int(EntityCategory.CATEGORY_STATIC_OBJECT)
+    if body.kinematic:
+        return int(EntityCategory.CATEGORY_DYNAMIC_OBJECT)
+    return int(EntityCategory.CATEGORY_OBJECT)
+
+
+def tags_of(body: Body) -> Iterator[str]:
+    """Yield the words that say what a body is."""
+    yield body.shape.KEY
+    yield from (name for name in ('anchored', 'kinematic', 'sensor') if getattr(body, name))
+    if body.robot is not None:
+        yield 'robot'
+
+
+def passes_tags(tags: set[str], tags_filter: TagsFilter) -> bool:
+    """Return whether tags pass a filter."""
+    wanted = set(tags_filter.tags)
+    if tags_filter.filter_mode == TagsFilter.FILTER_MODE_ALL:
+        return wanted <= tags
+    return not wanted or bool(wanted & tags)
+
+
+def passing(snapshot: Snapshot, filters: EntityFilters) -> Iterator[int]:
+    """Return the rows of the bodies that pass all filters, in spawn order."""
+    bodies = snapshot.scene.bodies
+    named = _matching(snapshot.scene.names, filters.filter)
+    categories = {each.category for each in filters.categories}
+    overlaps = _overlap(filters.bounds)
+    return (
+        row
+        for row, body in enumerate(bodies)
+        if named[row]
+        and (not categories or category_of(body) in categories)
+        and passes_tags(set(tags_of(body)), filters.tags)
+        and overlaps(body, snapshot.poses[row].tolist())
+    )
+
+
+def _matching(names: tuple[str, ...], pattern: str) -> list[bool]:
+    """
+    Return which names have a match of a regular expression.
+
+    Those of Python take exponential time for some patterns, of whoever is on the graph. RE2, which
+    comes with Rerun in pyarrow, takes linear time for all.
+    """
+    if not pattern or not names:
+        return [True] * len(names)
+    import pyarrow as pa  # noqa: PLC0415 - few need it
+    import pyarrow.compute as pc  # noqa: PLC0415
+
+    try:
+        matches: list[bool] = pc.match_substring_regex(pa.array(names), pattern).to_pylist()
+    except (pa.ArrowInvalid, UnicodeError) as error:
+        raise failed(
+            f'{pattern!r} is no regular expression', Result.RESULT_OPERATION_FAILED, field='filter'
+        ) from error
+    return matches
+
+
+def _overlap(bounds: Bounds) -> Callable[[Body, Pose], bool]:
+    """Return whether the box around a body, of the world's axes, overlaps bounds."""
+    if bounds.type == Bounds.TYPE_EMPTY:
+        return lambda _body, _pose: True
+    points = [(each.x, each.y) for each in bounds.points]
+    if bounds.type not in (Bounds.TYPE_BOX, Bounds.TYPE_SPHERE):
+        raise failed(
+            'bounds are empty, a box or a sphere',
+            Result.RESULT_FEATURE_UNSUPPORTED,
+            field='bounds.type',
+        )
+    if len(points) != 2 or not np.isfinite(points).all():
+        raise failed(
+            'bounds need two finite points', Result.RESULT_OPERATION_FAILED, field='bounds.points'
+        )
+    (first, second) = points
+    if bounds.type == Bounds.TYPE_SPHERE:
+        low = high = first
+        reach = second[0]
+    else:
+        low, high = np.minimum(first, second).tolist(), np.maximum(first, second).tolist()
+        reach = 0.0
+
+    def overlaps(body: Body, pose: Pose) -> bool:
+        (left, bottom), (right, top) = _world_box(body, pose)
+        across = max(left - high[0], low[0] - right, 0.0)
+        along = max(bottom - high[1], low[1] - top, 0.0)
+        return bool(np.hypot(across, along) <= reach)
+
+    return overlaps
+
+
+def _world_box(body: Body, pose: Pose) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the lower left and the upper right corner of the box around a body's box."""
+    low, high = extent_of(body.shape.form)
+    corners = [local_to_world((x, y), pose) for x in (low[0], high[0]) for y in (low[1], high[1])]
+    xs, ys = zip(*corners, strict=True)
+    return (min(xs), min(ys)), (max(xs), max(ys))

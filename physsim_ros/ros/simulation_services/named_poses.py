@@ -16,8 +16,8 @@ from physsim_ros.model.errors import UnknownBody
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros.robots.frames import rotation_of
-from physsim_ros.ros.simulation_services.bounds import box_around
-from physsim_ros.ros.simulation_services.entity_filters import passes_tags, tags_of
+from physsim_ros.ros.simulation_services.entities import passes_tags, tags_of
+from physsim_ros.ros.simulation_services.results import box_around
 from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import NamedPose
 

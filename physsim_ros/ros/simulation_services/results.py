@@ -1,15 +1,18 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Result codes of `simulation_interfaces` for refusals."""
+"""Result codes of `simulation_interfaces` for refusals, and bounds of bodies."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
+from geometry_msgs.msg import Vector3
 from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
-from simulation_interfaces.msg import Result
+from physsim_ros.model.shapes import extent_of
+from simulation_interfaces.msg import Bounds, Result
 
 
 class Failed(Exception):
@@ -47,3 +50,10 @@ def result_of(error: Failed | Refusal) -> tuple[Refusal, int]:
         case UnknownBody():
             return error, int(Result.RESULT_NOT_FOUND)
     return error, int(Result.RESULT_OPERATION_FAILED)
+
+
+def box_around(shape: Any) -> Bounds:
+    """Return the box around a shape, in its own frame."""
+    low, high = extent_of(shape.form)
+    points = [Vector3(x=high[0], y=high[1]), Vector3(x=low[0], y=low[1])]
+    return Bounds(type=Bounds.TYPE_BOX, points=points)

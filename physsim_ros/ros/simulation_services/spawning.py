@@ -23,8 +23,13 @@ from physsim_ros.model.requests import Spawn
 from physsim_ros.model.robots.robot import check_namespace
 from physsim_ros.model.texts import counted
 from physsim_ros.ros.requests.conversions import mapping_of, named_frame, planar_pose
-from physsim_ros.ros.simulation_services.bounds import box_around
-from physsim_ros.ros.simulation_services.results import Failed, failed, failing_with, result_of
+from physsim_ros.ros.simulation_services.results import (
+    box_around,
+    Failed,
+    failed,
+    failing_with,
+    result_of,
+)
 from physsim_ros.ros.simulation_services.worlds import unknown_sources, Worlds
 from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import Result, Spawnable, SpawnResult

@@ -17,7 +17,7 @@ from typing import Any
 from physsim_ros.files import shipped_lessons, shipped_worlds, title_of, worlds_in
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
-from physsim_ros.ros.simulation_services.entity_filters import passes_tags
+from physsim_ros.ros.simulation_services.entities import passes_tags
 from physsim_ros.ros.simulation_services.results import Failed, failed
 from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import Resource, Result, WorldResource

@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from physsim_ros.model.actors import Pedestrian
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
@@ -80,7 +81,7 @@ def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> 
 
 def _check_role(body: Body) -> None:
     """
-    Refuse a robot or a conveyor that cannot be.
+    Refuse a robot, an actor or a conveyor that cannot be.
 
     :raises BadProperty: the body has another role, or the robot no namespace that ROS allows
     """
@@ -89,6 +90,10 @@ def _check_role(body: Body) -> None:
             f'{body.name} is not a sensor; only a sensor can be a conveyor',
             field='surface_velocity',
         )
+    if body.actor is not None and body.anchored:
+        raise BadProperty(f'{body.name} is an actor; it cannot be anchored', field='anchored')
+    if isinstance(body.actor, Pedestrian) and body.sensor:
+        raise BadProperty(f'{body.name} is a pedestrian; it cannot be a sensor', field='sensor')
     if body.robot is None:
         return
     for role in ('anchored', 'kinematic', 'sensor'):

@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Requests for bodies: spawned, changed, moved, commanded, anchored and deleted.
+Requests for bodies: spawned, changed, moved, commanded, anchored, deleted; robots are driven.
 
 Law: everything is checked before anything is changed: a handler that raises a `Refusal` has
-changed nothing.
+changed nothing. No two robots have one topic.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -19,7 +19,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, nothing_at
+from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at
 from physsim_ros.model.names import names_in
 from physsim_ros.model.requests import (
     Anchor,
@@ -29,10 +29,13 @@ from physsim_ros.model.requests import (
     Delete,
     DeleteAll,
     DeleteBodies,
+    DriveRobot,
     MoveBodies,
     Release,
     Spawn,
 )
+from physsim_ros.model.robot_states import NEVER
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
@@ -44,13 +47,13 @@ from physsim_ros.simulation.world.body_description import (
     new_body,
     spawn_changes,
 )
-from physsim_ros.simulation.world.live_space import LiveSpace
-from physsim_ros.simulation.world.lookup import (
+from physsim_ros.simulation.world.live_space import (
     body_of_name,
+    check_start,
+    LiveSpace,
     points_in_world,
     pose_in_world,
 )
-from physsim_ros.simulation.world.robot_requests import check_robot
 
 
 def spawn(live: LiveSpace, request: Spawn) -> Answer:
@@ -64,6 +67,7 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
         return Answer(subject=name, message=f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
     check_robot(space, body)
+    check_start(body, space.bodies.by_name)
     live.capacity.check_robot(body)
     live.capacity.check_body(body, pose)
     space.add(body, pose, twist)
@@ -132,12 +136,13 @@ def anchor(live: LiveSpace, request: Anchor) -> Answer:
     Anchor the topmost body at a point.
 
     :raises NothingThere: there is none
-    :raises BadProperty: it is a robot
+    :raises BadProperty: it is a robot or an actor
     """
     space = live.space
     rigid, _ = _topmost(space, request)
-    if rigid.body.robot is not None:
-        raise BadProperty(f'{rigid.body.name} is a robot; it cannot be anchored', field='point')
+    for role, noun in ((rigid.body.robot, 'a robot'), (rigid.body.actor, 'an actor')):
+        if role is not None:
+            raise BadProperty(f'{rigid.body.name} is {noun}; it cannot be anchored', field='point')
     if not rigid.body.anchored:
         space.change(rigid, replace(rigid.body, anchored=True), rigid.pose, REST)
     return Answer(subject=rigid.body.name, message=f'anchored {rigid.body.name}')
@@ -227,9 +232,105 @@ def _change(
     """Change fields and properties of a body, and its pose."""
     body = changed_body(old.body, changes, properties)
     check_robot(live.space, body)
+    if body.actor != old.body.actor:
+        check_start(body, live.space.bodies.by_name)
     live.capacity.check_robot(body)
     twist = REST if old.body.anchored else live.space.twist_of(old)
     twist = changed_twist(body, twist, properties)
     if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):
         live.capacity.check_body(body, pose, old=old)
     live.space.change(old, body, pose, twist)
+
+
+def drive(live: LiveSpace, request: DriveRobot) -> Answer:
+    """
+    Have a robot drive at a velocity.
+
+    :raises UnknownBody: there is no such body
+    :raises BadProperty: it is no robot
+    """
+    rigid, robot = robot_of_name(live.space, request.name)
+    until = live.step_after(robot.drive.timeout)
+    live.space.drive(rigid, request.velocity, NEVER if until is None else until)
+    return Answer(subject=request.name, message=f'drives {request.name}')
+
+
+def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
+    """
+    Return the body of a name, and the robot that it is.
+
+    :raises UnknownBody: there is no such body
+    :raises BadProperty: it is no robot
+    """
+    rigid = body_of_name(space, name)
+    if rigid.body.robot is None:
+        raise BadProperty(f'{name} is not a robot', field='name')
+    return rigid, rigid.body.robot
+
+
+def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
+    """
+    Return whether a robot does what a command says for some steps; true of one that is not there.
+
+    :param steps: from now on
+    """
+    rigid = live.space.bodies.by_name.get(request.name)
+    if rigid is None or rigid.body.robot is None:
+        return True
+    aim, until = live.space.drive_of(rigid)
+    if aim != rigid.body.robot.drive.aim(request.velocity):
+        return False
+    # One that stands still does so after its timeout, too.
+    return not any(aim) or until >= live.step_count + steps
+
+
+def check_robot(space: Space, body: Body) -> None:
+    """
+    Refuse a robot that has joints, or a topic or frame of another one.
+
+    :raises BadProperty: it has joints
+    :raises Exists: its namespace or another of its names is taken
+    """
+    if body.robot is None:
+        return
+    if space.joints.has_joints(body.name):
+        raise BadProperty(f'{body.name} has joints; it cannot be a robot', field='robot')
+    # Only of robots below one another, or of one namespace, can names be the same.
+    below, related = _prefix_of(body.robot, body.name), [body]
+    for name, rigid in space.bodies.by_name.items():
+        if (robot := rigid.body.robot) is not None:
+            prefix = _prefix_of(robot, name)
+            if prefix.startswith(below) or below.startswith(prefix):
+                related.append(rigid.body)
+    check_namespaces(related)
+
+
+def _prefix_of(robot: Robot, body: str) -> str:
+    """Return the prefix of the names of topics and frames of a robot."""
+    namespace = robot.namespace_of(body)
+    return f'{namespace}/' if namespace else ''
+
+
+def check_namespaces(bodies: Iterable[Body]) -> None:
+    """
+    Refuse two robots of one namespace, topic or frame; of two bodies of one name the first counts.
+
+    A sensor may have the topic of another robot, whose namespace is nested in that of its own.
+
+    :raises Exists: there are
+    """
+    taken: dict[str, str] = {}
+    seen: set[str] = set()
+    for body in bodies:
+        if body.robot is None or body.name in seen:
+            continue
+        seen.add(body.name)
+        namespace = body.robot.namespace_of(body.name)
+        for name in body.robot.names_below(namespace):
+            other = taken.setdefault(name, body.name)
+            if other != body.name:
+                raise Exists(
+                    f'the robots {other} and {body.name} have one topic or frame, /{name}; give '
+                    'one of them another namespace',
+                    field='namespace',
+                )

@@ -29,8 +29,7 @@ from physsim_ros.model.transform import (
     rotated,
     world_to_local,
 )
-from physsim_ros.simulation.world.live_space import LiveSpace
-from physsim_ros.simulation.world.lookup import body_of_name, points_in_world
+from physsim_ros.simulation.world.live_space import body_of_name, LiveSpace, points_in_world
 
 # Distance within which two points are the same [1, of their size]: markers that come back have the
 # digits of a double; no person draws a point twice so exactly.

@@ -29,7 +29,6 @@ from physsim_ros.simulation.world import (
     body_requests,
     hand_requests,
     joint_requests,
-    robot_requests,
 )
 from physsim_ros.simulation.world.live_space import LiveSpace
 
@@ -87,7 +86,7 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.PlaceHand: hand_requests.place_hand,
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
-    requests.DriveRobot: robot_requests.drive,
+    requests.DriveRobot: body_requests.drive,
     requests.Configure: configure,
     requests.Restore: restore,
 }
@@ -162,7 +161,7 @@ class World(LiveSpace):
         self.space.clear_contacts()
 
     def digest(self) -> str:
-        """Return a hash of time, scene, poses, velocities, wrenches, grips and robots."""
+        """Return a hash of time, scene, poses, velocities, wrenches, grips, robots, actors."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
         state, free = self.space.read_state()
@@ -173,7 +172,7 @@ class World(LiveSpace):
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
         for grip in self.grips:
             digest.update(repr(grip).encode())
-        for column in self.space.robot_states:
+        for column in (*self.space.robot_states, *self.space.actor_states):
             digest.update(column.tobytes())
         return digest.hexdigest()
 

@@ -3,8 +3,10 @@
 
 """The compiled core is loaded where it belongs to the sources beside it, else the mend is told."""
 
+import importlib
 from pathlib import Path
 import shutil
+import sys
 
 from physsim_ros.engine import core
 import pytest
@@ -29,6 +31,13 @@ def test_a_core_that_was_not_compiled_is_told_with_the_command_that_compiles_it(
     assert str(refused.value) == (
         'the core of the engine has not been compiled; run `pip install --editable .`'
     )
+
+
+def test_a_core_without_its_declarations_is_told_with_the_same_command(monkeypatch):
+    monkeypatch.setitem(sys.modules, f'{core.__name__}._declarations', None)
+
+    with pytest.raises(ImportError, match='has not been compiled; run `pip install'):
+        importlib.reload(core)
 
 
 def test_a_core_of_other_sources_is_told_with_the_command_that_compiles_it(folder):

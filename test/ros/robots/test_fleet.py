@@ -15,6 +15,7 @@ from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 import numpy as np
 from physsim_ros.model.requests import DriveRobot
+from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.robots import fleet
 from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
@@ -23,7 +24,7 @@ import rclpy
 from rclpy.context import Context
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import Image, Imu, JointState, LaserScan, Range
+from sensor_msgs.msg import Image, Imu, JointState, LaserScan, NavSatFix, Range
 from std_msgs.msg import Bool
 
 from .driver import Driver, yaw_of
@@ -112,12 +113,65 @@ def test_a_command_counts_for_its_timeout(flat: PhysSim, client: Client) -> None
     assert robot.truth().twist.twist.linear.x == pytest.approx(0.0, abs=1e-9)
 
 
+def test_a_robot_that_stops_as_no_command_comes_is_told_once(
+    flat: PhysSim, client: Client
+) -> None:
+    flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, looks=False)
+    flat.add(driver)
+    for _ in range(2):
+        driver.send(0.2)
+        flat.run(1.0)
+    (event,) = [event for event in client.events if event.name == '/robot_0/cmd_vel']
+    assert event.code == 'ok'
+    assert 'for 0.5 s' in event.message
+
+
+def test_a_robot_that_is_stopped_is_not_told(flat: PhysSim, client: Client) -> None:
+    flat.robot('turtlebot3_burger')
+    driver = Driver(flat.context, looks=False)
+    flat.add(driver)
+    for speed in (0.2, 0.0):
+        driver.send(speed)
+        flat.run(0.3)
+    flat.run(1.0)
+    assert not [event for event in client.events if event.name == '/robot_0/cmd_vel']
+
+
+@pytest.mark.parametrize('kind', [Twist, TwistStamped])
+def test_commands_are_listed_before_anybody_publishes_where_the_process_is_the_nodes_own(
+    monkeypatch: pytest.MonkeyPatch, kind: type
+) -> None:
+    own = partial(PhysSimNode, expected_commands=Twist)
+    monkeypatch.setattr('physsim_ros.testing.world.PhysSimNode', own)
+    other = Context()
+    with (
+        shared_context(monkeypatch) as context,
+        PhysSim(context, gravity=[0.0, 0.0]) as sim,
+        ExitStack() as closing,
+    ):
+        robot, client = sim.robot('turtlebot3_burger'), Client(sim)
+        listed = dict(client.node.get_topic_names_and_types())
+        assert listed['/robot_0/cmd_vel'] == ['geometry_msgs/msg/Twist']
+        rclpy.init(context=other, domain_id=context.get_domain_id(), args=[])
+        closing.callback(other.try_shutdown)
+        driver = Driver(other, kind=kind, looks=False)
+
+        def drives() -> bool:
+            driver.send(0.2)
+            sim.step()
+            return bool(robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6))
+
+        client.spin_until(drives)
+
+
 def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> None:
     sensors = [
         {'kind': 'laser', 'name': 'scan', 'beams': 8, 'rate': 10},
         {'kind': 'range', 'name': 'sonar', 'radiation': 'sonar', 'rate': 20},
         {'kind': 'bumper', 'name': 'bumper', 'rate': 30},
-        {'kind': 'imu', 'name': 'imu', 'rate': 60},
+        {'kind': 'imu', 'name': 'imu', 'rate': 60, 'gravity': 9.81},
+        {'kind': 'gps', 'rate': 5, 'noise': 0.5},
         {'kind': 'joint_states', 'name': 'joint_states', 'rate': 30},
         {'kind': 'floor', 'name': 'eye', 'pixels': 5, 'rate': 15},
     ]
@@ -129,6 +183,7 @@ def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> Non
         'sonar': (Range, 20),
         'bumper': (Bool, 30),
         'imu': (Imu, 60),
+        'fix': (NavSatFix, 5),
         'joint_states': (JointState, 30),
         'eye': (Image, 15),
     }
@@ -141,6 +196,15 @@ def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> Non
         assert len(messages[topic]) == pytest.approx(rate, abs=1), topic
     assert messages['scan'][0].header.frame_id == 'tb3_0/scan'
     assert len(messages['eye'][0].data) == 15
+    assert messages['imu'][-1].linear_acceleration.z == 9.81
+    # There is no datum.
+    assert messages['fix'][-1].status.status == -1
+    assert math.isnan(messages['fix'][-1].latitude)
+    set_parameter(flat, 'datum', [48.0, 11.5])
+    flat.run(1.0)
+    fix = messages['fix'][-1]
+    assert (fix.status.status, fix.position_covariance[0]) == (0, 0.25)
+    assert (fix.latitude, fix.longitude) == pytest.approx((48.0, 11.5), abs=1e-4)
     odom = messages['odom'][-1]
     assert (odom.header.frame_id, odom.child_frame_id) == ('tb3_0/odom', 'tb3_0/base_footprint')
     assert min(odom.pose.covariance[place] for place in (0, 7, 35)) > 0.0

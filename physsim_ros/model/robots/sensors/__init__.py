@@ -2,26 +2,23 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Sensors of robots: what is mounted where, and how well it measures; one file a kind.
+Sensors of robots: what is mounted where, and how well it measures.
 
 A sensor is a value. What it reads in a frame is for the simulation, its message an encoder in
-`ros`. A new kind is a file here and a member of `SENSORS`. Start with `sensor`, then `laser`.
+`ros`. A new kind is a class and a member of `SENSORS`. Start with `sensor`, then `distance`.
 """
 
 from __future__ import annotations
 
 from physsim_ros.model.checks import OfKind
-from physsim_ros.model.robots.sensors.bumper import Bumper
-from physsim_ros.model.robots.sensors.floor_eye import FloorEye
-from physsim_ros.model.robots.sensors.imu import Imu
-from physsim_ros.model.robots.sensors.laser import Laser
-from physsim_ros.model.robots.sensors.range_finder import RangeFinder
+from physsim_ros.model.robots.sensors.distance import Laser, RangeFinder
+from physsim_ros.model.robots.sensors.motion import Gps, Imu, WheelEncoders
 from physsim_ros.model.robots.sensors.sensor import Sensor
-from physsim_ros.model.robots.sensors.wheel_encoders import WheelEncoders
+from physsim_ros.model.robots.sensors.touch import Bumper, FloorEye
 
 # By the word for it.
 SENSORS: dict[str, type[Sensor]] = {
-    each.KIND: each for each in (Laser, RangeFinder, Bumper, Imu, WheelEncoders, FloorEye)
+    each.KIND: each for each in (Laser, RangeFinder, Bumper, Imu, WheelEncoders, FloorEye, Gps)
 }
 
 
@@ -32,6 +29,7 @@ __all__ = [
     'SENSORS',
     'Bumper',
     'FloorEye',
+    'Gps',
     'Imu',
     'Laser',
     'RangeFinder',

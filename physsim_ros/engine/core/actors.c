@@ -1,0 +1,319 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Actors: bodies that move on their own, along a path or as people walk.
+//
+// Problem: a robot has to be tried among what moves: doors, carts, lifts, people. They have to be where they are at the
+// same time in each run.
+// Method: at the beginning of a step each actor finds the velocity of the step from the state of the world, so that all
+// that outlives the step is when it started and how many points it has reached. A path is linear from point to point;
+// the velocity brings the body to where the path is at the end of the step (deadbeat control), at most at twice the
+// greatest speed of the path. Pedestrians choose theirs by a model (`social_force.c`, `orca.c`).
+// What the velocity does: a kinematic body has it. Any other one stands on the floor, which moves under its feet as
+// under the wheels of a robot (`floor.c`), so that it can be pushed. A robot gets it as a command; a drive that does
+// not move sideways leads a point ahead of it (input-output linearisation; Siciliano et al., "Robotics: Modelling,
+// Planning and Control", 2009, section 11.6), and pedestrians see it as a disc about that point (effective centre and
+// radius; Snape et al., "Smooth and collision-free navigation for multiple robots under differential-drive
+// constraints", 2010).
+//
+// Cost: 0.1 µs an actor on a path; of pedestrians see their models.
+
+#include "actors.h"
+#include "outline.h"
+#include "stages.h"
+
+// Time in which a robot makes up for its distance from the path, and in which a pedestrian comes to rest at its last
+// point [s]. The drives of the shipped robots reach their speed in a tenth of a second or two.
+static const double settling_time = 0.5;
+static const double two_pi = 6.283185307179586;
+static const int64_t never = INT64_C(1) << 62;
+
+static Vec shortened(Vec a, double most) {
+    double size = length(a);
+    return size > most ? scaled(a, most / size) : a;
+}
+
+// The robot of an actor; NULL if it is none.
+static Robot *robot_of(const World *world, const Actor *actor) {
+    return actor->robot < 0 ? NULL : world->robots + actor->robot;
+}
+
+// The arm from the centre of mass to the point that is led.
+static Vec arm_of(const World *world, const Actor *actor) {
+    const Robot *robot = robot_of(world, actor);
+    if (robot == NULL) {
+        return (Vec){0};
+    }
+    Vec local = {actor->ahead - robot->center.x, -robot->center.y};
+    return rotated(local, rotation(world->bodies[actor->body].engine->a));
+}
+
+// Starting
+
+static bool is_inside(const World *world, int gate, int place) {
+    const cpBody *at = world->bodies[gate].engine;
+    Vec local = rotated_back(sub(world->bodies[place].engine->p, at->p), rotation(at->a));
+    for (const cpShape *shape = at->shapeList; shape != NULL; shape = shape->next) {
+        if (covers(shape, local)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_opened(const World *world, const Actor *actor) {
+    if (actor->gate < 0) {
+        return false;
+    }
+    if (actor->by >= 0) {
+        return is_inside(world, actor->gate, actor->by);
+    }
+    for (int place = 0; place < world->body_count - 1; place++) {
+        const Body *body = world->bodies + place;
+        bool counts = !body->anchored && !body->sensor && place != actor->body && place != actor->gate;
+        if (counts && is_inside(world, actor->gate, place)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_near(const World *world, const Actor *actor) {
+    if (actor->near < 0) {
+        return false;
+    }
+    Vec way = sub(world->bodies[actor->near].engine->p, world->bodies[actor->body].engine->p);
+    return length(way) <= actor->distance;
+}
+
+static void start_actors(World *world) {
+    for (int number = 0; number < world->actor_count; number++) {
+        Actor *actor = world->actors + number;
+        bool starts = !actor->waits || is_opened(world, actor) || is_near(world, actor);
+        if (actor->begun == never && starts) {
+            actor->begun = world->step + actor->delay;
+        }
+    }
+}
+
+static bool has_begun(const World *world, const Actor *actor) {
+    return actor->begun <= world->step;
+}
+
+// Paths
+
+// Where a path is at a time since it started.
+static Pose place_on_path(const Actor *actor, double time) {
+    const Waypoint *first = actor->points, *last = first + actor->point_count - 1;
+    double whole = last->time;
+    if (actor->repeat == ONCE || whole == 0.0) {
+        time = least(time, whole);
+    } else if (actor->repeat == LOOP) {
+        time = fmod(time, whole);
+    } else {
+        time = fmod(time, 2.0 * whole);
+        time = time > whole ? 2.0 * whole - time : time;
+    }
+    int low = 0, high = actor->point_count - 1;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        *(first[middle].time <= time ? &low : &high) = middle;
+    }
+    const Waypoint *a = first + low, *b = first + high;
+    double share = b == a ? 0.0 : clamped((time - a->time) / (b->time - a->time), 0.0, 1.0);
+    Twist way = {sub(b->pose.p, a->pose.p), b->pose.yaw - a->pose.yaw};
+    return moved(a->pose, way, share);
+}
+
+// The velocity of the centre of mass that brings a kinematic body in a step to where its path is at the end.
+static Twist keep_to_path(const Actor *actor, const Body *body, Pose end, double dt) {
+    double turn = actor->path.turns != 0.0 ? remainder(end.yaw - body->engine->a, two_pi) : 0.0;
+    Rotation by = rotation(body->engine->a + turn);
+    Vec way = sub(add(end.p, rotated(body->offset, by)), body->engine->p);
+    double most_turn = 2.0 * actor->path.turn_rate;
+    return (Twist){shortened(scaled(way, 1.0 / dt), 2.0 * actor->path.speed),
+                   clamped(turn / dt, -most_turn, most_turn)};
+}
+
+// The velocity of a path, and what makes up for the distance from it: of the centre of mass of a body on the floor, of
+// a robot that of the point that is led.
+static Twist chase_path(const World *world, const Actor *actor, Pose now, Pose end, double dt) {
+    const Body *body = world->bodies + actor->body;
+    Vec offset = rotated(body->offset, rotation(body->engine->a));
+    Vec led = actor->robot >= 0 ? arm_of(world, actor) : negated(offset);
+    Vec error = sub(now.p, add(body->engine->p, led)), along = scaled(sub(end.p, now.p), 1.0 / dt);
+    double turn = 0.0;
+    if (actor->path.turns != 0.0) {
+        turn = (end.yaw - now.yaw) / dt + remainder(now.yaw - body->engine->a, two_pi) / settling_time;
+    }
+    Twist velocity = {add(along, scaled(error, 1.0 / settling_time)), turn};
+    velocity.v = actor->robot >= 0 ? velocity.v : velocity_at(velocity, offset);
+    return velocity;
+}
+
+static Twist follow_path(const World *world, const Actor *actor, double dt) {
+    const Body *body = world->bodies + actor->body;
+    double time = (double)(world->step - actor->begun) * dt;
+    Pose now = place_on_path(actor, time), end = place_on_path(actor, time + dt);
+    return body->dynamic ? chase_path(world, actor, now, end, dt) : keep_to_path(actor, body, end, dt);
+}
+
+// Pedestrians
+
+bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *nearest) {
+    double x = greatest(greatest(wall->bb[0] - place.x, place.x - wall->bb[2]), 0.0);
+    double y = greatest(greatest(wall->bb[1] - place.y, place.y - wall->bb[3]), 0.0);
+    if (greatest(x, y) > farthest_seen) {
+        return false;
+    }
+    cpPointQueryInfo found;
+    world->chipmunk.point_query(wall, place, &found);
+    *nearest = (Nearest){found.distance, found.gradient};
+    return true;
+}
+
+static bool is_anchored_disc(const Body *body) {
+    const cpShape *shape = body->engine->shapeList;
+    return body->anchored && shape != NULL && shape->next == NULL && kind_of(shape) == SHAPE_CIRCLE;
+}
+
+// The arm from the origin of the engine to the centre of a disc: the engine's origin of an anchored body is its own.
+static Vec to_center(const Body *body) {
+    Vec center = body->anchored ? ((const cpCircleShape *)body->engine->shapeList)->c : (Vec){0};
+    return rotated(center, rotation(body->engine->a));
+}
+
+// What pedestrians see: of bodies that move, and of anchored discs, the disc around them; of others each shape.
+static Surroundings look_around(World *world) {
+    Arena *arena = &world->own->arena;
+    int wall_count = 0;
+    for (int place = 0; place < world->body_count; place++) {
+        const cpShape *shape = world->bodies[place].anchored ? world->bodies[place].engine->shapeList : NULL;
+        for (; shape != NULL; shape = shape->next) {
+            wall_count++;
+        }
+    }
+    Surroundings around = {.discs = TAKE(arena, Disc, world->body_count),
+                           .walls = TAKE(arena, const cpShape *, wall_count)};
+    for (int list = 0; list < 2; list++) {
+        around.planes[list] = TAKE(arena, HalfPlane, world->body_count + wall_count);
+    }
+    const Actor *actor = world->actors, *last = actor + world->actor_count;
+    for (int place = 0; place < world->body_count; place++) {
+        const Body *body = world->bodies + place;
+        const cpBody *engine = body->engine;
+        const Actor *own = actor < last && actor->body == place ? actor++ : NULL;
+        // A pedestrian is no sensor (`simulation/world/body_description.py`), and is found here.
+        if (body->sensor && own == NULL) {
+            continue;
+        }
+        if (!body->anchored || is_anchored_disc(body)) {
+            Disc *disc = around.discs + around.disc_count++;
+            Vec arm = own != NULL ? arm_of(world, own) : to_center(body);
+            bool walks = own != NULL && own->kind != ACTOR_PATH && has_begun(world, own);
+            *disc = (Disc){body, add(engine->p, arm), velocity_at(twist_of(engine), arm),
+                           body->reach + (own != NULL ? own->ahead : 0.0), walks};
+            continue;
+        }
+        for (const cpShape *shape = engine->shapeList; shape != NULL; shape = shape->next) {
+            around.walls[around.wall_count++] = shape;
+        }
+    }
+    return around;
+}
+
+// The number of the point to which a pedestrian goes.
+static int next_point(const Actor *actor) {
+    int count = actor->point_count;
+    if (actor->repeat == ONCE) {
+        return actor->reached < count ? (int)actor->reached : count - 1;
+    }
+    if (actor->repeat == LOOP) {
+        return (int)(actor->reached % count);
+    }
+    int number = count > 1 ? (int)(actor->reached % (2 * count - 2)) : 0;
+    return number < count ? number : 2 * count - 2 - number;
+}
+
+// The velocity that a pedestrian would have alone.
+static Vec desired_velocity(Actor *actor, Vec place) {
+    Vec way = sub(actor->points[next_point(actor)].pose.p, place);
+    bool ends = actor->repeat == ONCE;
+    if (length(way) <= actor->pace.goal_radius && !(ends && actor->reached >= actor->point_count)) {
+        actor->reached++;
+        way = sub(actor->points[next_point(actor)].pose.p, place);
+    }
+    double distance = length(way), speed = actor->pace.speed;
+    if (ends && actor->reached >= actor->point_count - 1) {
+        speed = least(speed, distance / settling_time);
+    }
+    return distance > 0.0 ? scaled(way, speed / distance) : way;
+}
+
+static Vec walk(World *world, const Surroundings *around, Actor *actor, double dt) {
+    const Disc *self = around->discs;
+    while (self->body != world->bodies + actor->body) {
+        self++;
+    }
+    Vec desired = desired_velocity(actor, self->place);
+    return actor->kind == ACTOR_ORCA ? walk_by_orca(world, around, actor, self, desired)
+                                     : walk_by_social_force(world, around, actor, self, desired, dt);
+}
+
+// All of them
+
+// Command a robot, unless somebody else does.
+static void command(const World *world, const Actor *actor, Robot *robot) {
+    if (world->step < robot->until || !has_begun(world, actor)) {
+        return;
+    }
+    Vec local = rotated_back(actor->wish.v, rotation(world->bodies[actor->body].engine->a));
+    double turn = actor->wish.w;
+    if (!actor->holonomic) {
+        turn = local.y / actor->ahead;
+        local = vec(local.x, 0.0);
+    }
+    robot->aim = (Twist){shortened(local, actor->most.v.x), clamped(turn, -actor->most.w, actor->most.w)};
+    robot->until = world->step + 1;
+}
+
+static void move_actor(const World *world, const Actor *actor) {
+    Body *body = world->bodies + actor->body;
+    bool moves = actor->wish.v.x != 0.0 || actor->wish.v.y != 0.0 || actor->wish.w != 0.0;
+    if (moves && sleeps(body)) {
+        world->chipmunk.body_activate(body->engine);
+    }
+    if (actor->robot >= 0) {
+        command(world, actor, robot_of(world, actor));
+    } else if (!body->dynamic) {
+        set_twist(body->engine, actor->wish);
+    }
+}
+
+void move_actors(World *world) {
+    if (world->actor_count == 0) {
+        return;
+    }
+    double dt = world->dt * (double)SUB_STEPS;
+    start_actors(world);
+    Surroundings around = {0};
+    for (int number = 0; number < world->actor_count; number++) {
+        Actor *actor = world->actors + number;
+        actor->wish = (Twist){0};
+        if (!has_begun(world, actor)) {
+            continue;
+        }
+        if (actor->kind == ACTOR_PATH) {
+            actor->wish = follow_path(world, actor, dt);
+            continue;
+        }
+        if (around.discs == NULL) {
+            around = look_around(world);
+        }
+        actor->wish.v = walk(world, &around, actor, dt);
+    }
+    // All have seen the world as it was.
+    for (int number = 0; number < world->actor_count; number++) {
+        move_actor(world, world->actors + number);
+    }
+}

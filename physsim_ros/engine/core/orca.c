@@ -1,0 +1,166 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Optimal reciprocal collision avoidance (ORCA).
+//
+// Problem: many who move at will shall not collide, and each sees only where the others are and how they move.
+// Method: J. van den Berg, S. J. Guy, M. Lin and D. Manocha, "Reciprocal n-body collision avoidance" (Robotics
+// Research, 2011). For each other disc there is a half-plane of velocities that avoids a collision within τ if both
+// move half of the way out of the velocity obstacle; who does not avoid others leaves the whole way to the pedestrian.
+// Of the velocities in all half-planes and within the greatest speed it takes the one next to its desired velocity, by
+// incremental linear programming in the plane (ibid., section 5; de Berg et al., "Computational Geometry", chapter 4);
+// in a crowd where there is none, that which violates the worst half-plane least. A wall's half-plane bounds the
+// velocity towards its nearest point by the distance over its horizon (velocity damper; B. Faverjon and P. Tournassoud,
+// "A local based approach for path planning of manipulators with a high number of degrees of freedom", 1987): always
+// kept.
+//
+// Cost: 30 ns a pair, and 0.1 µs a wall.
+
+#include "actors.h"
+
+// Time in which overlaps are undone [s].
+static const double parting_time = 0.1;
+// Normals of half-planes that differ by less are parallel.
+static const double parallel = 1e-9;
+// Whoever cannot have the desired velocity tries it turned by this to the right [rad], where the authors' own programs
+// add noise: else two who meet head on stop before each other, and many who cross a circle in its middle. With 0.1, 30
+// of radius 0.25 m jam in a circle of 8 m; with 0.3 they come across in 14 s, and 12 in one of 4 m in 6.
+static const double swerve = 0.3;
+
+// A linear programme: half-planes in a disc of velocities.
+typedef struct Programme {
+    const HalfPlane *planes;
+    int count;
+    double speed; // radius of the disc [m/s]
+} Programme;
+
+// What of the border of a half-plane the ones before it and the disc leave: c n + s d with s in [low, high], where d is
+// n turned by a quarter; false if nothing.
+static bool border(const Programme *given, int number, double *low, double *high) {
+    HalfPlane own = given->planes[number];
+    double square = given->speed * given->speed - own.c * own.c;
+    if (square < 0.0) {
+        return false;
+    }
+    Vec along = perpendicular(own.n), place = scaled(own.n, own.c);
+    *high = sqrt(square);
+    *low = -*high;
+    for (int before = 0; before < number; before++) {
+        HalfPlane other = given->planes[before];
+        double slope = dot(other.n, along), lack = other.c - dot(other.n, place);
+        if (fabs(slope) < parallel) {
+            if (lack > 0.0) {
+                return false;
+            }
+        } else if (slope > 0.0) {
+            *low = greatest(*low, lack / slope);
+        } else {
+            *high = least(*high, lack / slope);
+        }
+    }
+    return *low <= *high;
+}
+
+// Find the velocity next to a desired one, or if `far` the farthest in its direction. Return the count of half-planes
+// that it keeps, from the first.
+static int solve(const Programme *given, Vec desired, bool far, Vec *velocity) {
+    double size = length(desired);
+    bool shortens = far || size > given->speed;
+    *velocity = shortens ? scaled(desired, given->speed / greatest(size, 1e-300)) : desired;
+    for (int number = 0; number < given->count; number++) {
+        HalfPlane own = given->planes[number];
+        if (dot(own.n, *velocity) >= own.c) {
+            continue;
+        }
+        double low, high;
+        if (!border(given, number, &low, &high)) {
+            return number;
+        }
+        Vec along = perpendicular(own.n);
+        double s = dot(desired, along);
+        s = far ? (s > 0.0 ? high : low) : clamped(s, low, high);
+        *velocity = add(scaled(own.n, own.c), scaled(along, s));
+    }
+    return given->count;
+}
+
+// Where there is no such velocity, find that which violates the worst half-plane least: of those that may be violated,
+// which begin at `fixed`, each in turn that is worse than the worst until now.
+static void relax(const Programme *given, int fixed, int failed, HalfPlane *memory, Vec *velocity) {
+    double worst = 0.0;
+    for (int number = failed; number < given->count; number++) {
+        HalfPlane own = given->planes[number];
+        if (own.c - dot(own.n, *velocity) <= worst) {
+            continue;
+        }
+        Programme relaxed = {memory, 0, given->speed};
+        for (int before = 0; before < number; before++) {
+            HalfPlane other = given->planes[before];
+            // Where the other one is violated no more than this one.
+            Vec n = before < fixed ? other.n : sub(other.n, own.n);
+            double c = before < fixed ? other.c : other.c - own.c, size = length(n);
+            if (size > parallel) {
+                memory[relaxed.count++] = (HalfPlane){scaled(n, 1.0 / size), c / size};
+            }
+        }
+        Vec found;
+        if (solve(&relaxed, own.n, true, &found) == relaxed.count) {
+            *velocity = found;
+        }
+        worst = greatest(own.c - dot(own.n, *velocity), worst);
+    }
+}
+
+// The half-plane of another disc.
+static HalfPlane avoiding(const Disc *self, const Disc *other, double horizon) {
+    Vec apart = sub(other->place, self->place), relative = sub(self->velocity, other->velocity);
+    double radius = self->radius + other->radius, square = dot(apart, apart);
+    double share = other->walks ? 0.5 : 1.0;
+    Vec n, change;
+    double time = square > radius * radius ? horizon : parting_time;
+    // From the centre of the disc that cuts the velocity obstacle off.
+    Vec from = sub(relative, scaled(apart, 1.0 / time));
+    double size = length(from), ahead = dot(from, apart);
+    if (square <= radius * radius || (ahead < 0.0 && ahead * ahead > radius * radius * size * size)) {
+        n = size > 0.0 ? scaled(from, 1.0 / size) : vec(1.0, 0.0);
+        change = scaled(n, radius / time - size);
+    } else {
+        // The tangent from the origin to the disc of the other one, on the side of the relative velocity.
+        double leg = sqrt(square - radius * radius), side = cross(apart, from) > 0.0 ? 1.0 : -1.0;
+        Vec along = scaled(add(scaled(apart, leg), scaled(perpendicular(apart), side * radius)), 1.0 / square);
+        n = scaled(perpendicular(along), side);
+        change = scaled(n, -dot(relative, n));
+    }
+    return (HalfPlane){n, dot(n, add(self->velocity, scaled(change, share)))};
+}
+
+Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *actor, const Disc *self, Vec desired) {
+    const Orca *model = &actor->orca;
+    HalfPlane *planes = around->planes[0], *memory = around->planes[1];
+    Programme programme = {planes, 0, actor->pace.max_speed};
+    for (int number = 0; number < around->wall_count; number++) {
+        const cpShape *wall = around->walls[number];
+        Nearest nearest;
+        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, &nearest)) {
+            double room = nearest.distance - self->radius, time = room > 0.0 ? model->wall_horizon : parting_time;
+            planes[programme.count++] = (HalfPlane){nearest.outwards, -room / time};
+        }
+    }
+    int fixed = programme.count;
+    for (int number = 0; number < around->disc_count; number++) {
+        const Disc *other = around->discs + number;
+        double seen = farthest_seen + self->radius + other->radius;
+        if (!passes_through(self->body, other->body) && length(sub(other->place, self->place)) < seen) {
+            planes[programme.count++] = avoiding(self, other, model->horizon);
+        }
+    }
+    Vec velocity;
+    int kept = solve(&programme, desired, false, &velocity);
+    if (velocity.x != desired.x || velocity.y != desired.y) {
+        kept = solve(&programme, rotated(desired, rotation(-swerve)), false, &velocity);
+    }
+    if (kept < programme.count) {
+        relax(&programme, fixed, kept, memory, &velocity);
+    }
+    return velocity;
+}

@@ -1,0 +1,75 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// The social force model of pedestrians.
+//
+// Problem: people keep their distance from each other and from walls, and go on towards where they want to be.
+// Method: D. Helbing and P. Molnár, "Social force model for pedestrian dynamics", Physical Review E 51, 4282 (1995),
+// without its attractions and fluctuations. A pedestrian accelerates towards its desired velocity within τ, away from
+// others by the gradient of the potential V⁰ exp(-b / σ), where b is the lesser half axis of the ellipse whose foci are
+// the other one now and where its step of Δt takes it, and away from the nearest point of each wall by that of
+// U⁰ exp(-r / R). Others out of sight count c. Its speed is bounded.
+// Every body that does not walk is a wall, at the disc around it: the paper has only people and walls.
+//
+// Cost: 30 ns a pair, and 0.1 µs a wall.
+
+#include "actors.h"
+
+// Least half axis [m], so that the force of two at one place is finite.
+static const double least_axis = 0.01;
+// Others push by this to the right of straight away [rad], where the paper has fluctuations: two who meet head on stop
+// before each other without.
+static const double swerve = 0.1;
+
+// The acceleration by another pedestrian at `apart` from it, which walks with a velocity.
+static Vec repulsion(const SocialForce *model, Vec apart, Vec velocity) {
+    Vec step = scaled(velocity, model->step_time), from_step = sub(apart, step);
+    double here = length(apart), there = length(from_step), sum = here + there;
+    double axis = greatest(sqrt(greatest(sum * sum - dot(step, step), 0.0)) / 2.0, least_axis);
+    Vec gradient = scaled(
+        add(scaled(apart, 1.0 / greatest(here, least_axis)), scaled(from_step, 1.0 / greatest(there, least_axis))),
+        sum / (4.0 * axis));
+    return scaled(gradient, model->repulsion / model->range * exp(-axis / model->range));
+}
+
+// The acceleration by a wall at a distance.
+static Vec wall_repulsion(const SocialForce *model, double distance, Vec outwards) {
+    double size = model->wall_repulsion / model->wall_range * exp(-greatest(distance, 0.0) / model->wall_range);
+    return scaled(outwards, size);
+}
+
+static Vec of_disc(const SocialForce *model, const Disc *self, const Disc *other, Vec desired) {
+    Vec apart = sub(self->place, other->place);
+    double distance = length(apart);
+    if (distance > farthest_seen + other->radius || distance == 0.0) {
+        return (Vec){0};
+    }
+    if (!other->walks) {
+        return wall_repulsion(model, distance - other->radius, scaled(apart, 1.0 / distance));
+    }
+    Vec force = rotated(repulsion(model, apart, other->velocity), rotation(swerve));
+    bool seen = -dot(desired, force) >= model->cosine_of_sight * length(desired) * length(force);
+    return seen ? force : scaled(force, model->behind);
+}
+
+Vec walk_by_social_force(const World *world, const Surroundings *around, const Actor *actor, const Disc *self,
+                         Vec desired, double dt) {
+    const SocialForce *model = &actor->social_force;
+    Vec force = scaled(sub(desired, self->velocity), 1.0 / model->relaxation_time);
+    for (int number = 0; number < around->disc_count; number++) {
+        const Disc *other = around->discs + number;
+        if (!passes_through(self->body, other->body)) {
+            force = add(force, of_disc(model, self, other, desired));
+        }
+    }
+    for (int number = 0; number < around->wall_count; number++) {
+        const cpShape *wall = around->walls[number];
+        Nearest nearest;
+        if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, &nearest)) {
+            force = add(force, wall_repulsion(model, nearest.distance, nearest.outwards));
+        }
+    }
+    Vec velocity = add(self->velocity, scaled(force, dt));
+    double speed = length(velocity);
+    return speed > actor->pace.max_speed ? scaled(velocity, actor->pace.max_speed / speed) : velocity;
+}

@@ -1,0 +1,242 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Actors: bodies that move on their own, along a path or as people walk (SDF: actor).
+
+An actor has points of the world and a kind: a path has the times of its points, pedestrians walk
+from point to point by a model of how they avoid each other. The core moves them
+(`engine/core/actors.c`).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+import itertools
+import math
+from typing import Any, ClassVar
+
+from physsim_ros.model.checks import (
+    check_point,
+    check_yaw,
+    Checked,
+    Checks,
+    FASTEST,
+    LONGEST,
+    number,
+    shown,
+    Within,
+)
+from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.texts import nearest_name
+
+# Greatest number of points of an actor.
+MOST_POINTS = 1000
+# In the order of `ONCE`, `LOOP`, `TO_AND_FRO` of `engine/core/core.h`.
+REPEATS = ('once', 'loop', 'to_and_fro')
+PACE = Within(1e-3, FASTEST, 'm/s')
+
+# x, y [m] of a point, and where a path turns its body, yaw [rad].
+Waypoint = tuple[float, ...]
+
+
+def _name(value: object, name: str) -> str:
+    if not isinstance(value, str) or not value:
+        raise BadProperty(f'{name} must be the name of a body, not {shown(value)}', field=name)
+    return value
+
+
+def _points(value: object, name: str) -> tuple[Waypoint, ...]:
+    if not isinstance(value, Sequence) or isinstance(value, str) or not value:
+        raise BadProperty(f'{name} must be a list of points, not {shown(value)}', field=name)
+    if len(value) > MOST_POINTS:
+        raise BadProperty(f'{name} has more than {MOST_POINTS} points', field=name)
+    points = tuple(_point(each, name) for each in value)
+    if len({len(each) for each in points}) != 1:
+        raise Malformed(f'all {name} are [x, y], or all are [x, y, yaw]', field=name)
+    return points
+
+
+def _point(value: object, name: str) -> Waypoint:
+    if not isinstance(value, list | tuple) or len(value) not in (2, 3):
+        raise Malformed(f'{name} must be [x, y] or [x, y, yaw], not {shown(value)}', field=name)
+    place = check_point([number(each, name) for each in value[:2]], name)
+    return place if len(value) == 2 else (*place, check_yaw(number(value[2], name), name))
+
+
+def _repeat(value: object, name: str) -> str:
+    if not isinstance(value, str) or value not in REPEATS:
+        near, words = nearest_name(str(value), REPEATS), ', '.join(REPEATS)
+        raise BadProperty(f'{name} {shown(value)} is none of {words}{near}', field=name)
+    return value
+
+
+def _times(value: object, name: str) -> tuple[float, ...]:
+    if not isinstance(value, list | tuple):
+        raise BadProperty(f'{name} must be a list of numbers, not {shown(value)}', field=name)
+    times = tuple(Within(0.0, LONGEST, 's')(each, name) for each in value)
+    if any(after <= before for before, after in itertools.pairwise(times)):
+        raise BadProperty(f'{name} must increase', field=name)
+    return times
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Start(Checked):
+    """
+    What an actor waits for: a gate, or a distance, or neither; and then a time.
+
+    :param gate: name of a body; waits until the centre of mass of another body lies in it
+    :param by: name of that other body; None is any that is neither anchored nor a sensor
+    :param near: name of a body; waits until their centres of mass are within `distance`
+    :param distance: [m]
+    :param time: after that, or after the actor was spawned [s]
+    :raises BadProperty: a value is of the wrong kind or out of range, or does not go with another
+    """
+
+    CHECKS: ClassVar[Checks] = {
+        'gate': _name,
+        'by': _name,
+        'near': _name,
+        'distance': Within(0.0, 1e7, 'm'),
+        'time': Within(0.0, LONGEST, 's'),
+    }
+
+    gate: str | None = None
+    by: str | None = None
+    near: str | None = None
+    distance: float | None = None
+    time: float | None = None
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if self.gate is not None and self.near is not None:
+            raise BadProperty('an actor waits for a gate or a distance, not both', field='gate')
+        if self.by is not None and self.gate is None:
+            raise BadProperty('by says who opens a gate, and there is no gate', field='by')
+        if (self.near is None) != (self.distance is None):
+            lacking = 'near' if self.near is None else 'distance'
+            raise BadProperty('near and distance go together', field=lacking)
+
+    @property
+    def bodies(self) -> dict[str, str]:
+        """Return the names of bodies that it waits for, by field."""
+        named = {'gate': self.gate, 'by': self.by, 'near': self.near}
+        return {key: name for key, name in named.items() if name is not None}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Actor(Checked, ABC):
+    """
+    What makes a body an actor.
+
+    :param points: x, y [m] in the world, of a path also yaw [rad]
+    :param repeat: what follows the last point: `once` nothing, `loop` the first point,
+        `to_and_fro` the way back
+    :param start: what it waits for
+    :param traction: coefficient of friction with the floor, which moves it; a kinematic body moves
+        whatever it touches, and a robot by its drive
+    :raises Malformed: a number is not finite, or a list has the wrong length
+    :raises BadProperty: a value is of the wrong kind or out of range
+    """
+
+    KIND: ClassVar[str]
+    CHECKS: ClassVar[Checks] = {
+        'points': _points,
+        'repeat': _repeat,
+        'start': Start.from_value,
+        'traction': Within(0.0, 10.0),
+    }
+
+    points: tuple[Waypoint, ...]
+    repeat: str = 'once'
+    start: Start = field(default_factory=Start)
+    traction: float = 0.8
+
+    def entry(self) -> dict[str, object]:
+        """Return the mapping that it is made from."""
+        values: dict[str, Any] = {'kind': self.KIND, **self.explicit(), **self._lists()}
+        values['start'] = self.start.explicit()
+        return {key: value for key, value in values.items() if value != {}}
+
+    def _lists(self) -> dict[str, object]:
+        return {'points': [list(point) for point in self.points]}
+
+    @property
+    @abstractmethod
+    def track(self) -> list[tuple[float, float, float, float]]:
+        """Return its points: time of a path [s], x, y [m], yaw [rad]."""
+
+    @property
+    @abstractmethod
+    def parameters(self) -> tuple[float, ...]:
+        """Return the numbers of its struct in `engine/core/core.h`, in their order."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Path(Actor):
+    """
+    A path: straight from point to point at given times, or at one speed.
+
+    The body is brought to where the path is at each moment; points with a yaw turn it too.
+
+    :param times: of the points, since it started [s]; of a `loop` one more, of its first point
+    :param speed: excludes times [m/s]
+    """
+
+    KIND: ClassVar = 'path'
+    CHECKS: ClassVar[Checks] = {**Actor.CHECKS, 'times': _times, 'speed': PACE}
+
+    times: tuple[float, ...] | None = None
+    speed: float | None = None
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if (self.times is None) == (self.speed is None):
+            raise BadProperty('a path has times or a speed', field='times')
+        count = len(self.points) + (self.repeat == 'loop')
+        if self.times is not None and len(self.times) != count:
+            again = ', and one at the first point again' if self.repeat == 'loop' else ''
+            raise Malformed(
+                f'times are {len(self.times)}, and must be {count}: one a point{again}',
+                field='times',
+            )
+        if self.times is None and any(length == 0.0 for length in self._lengths()):
+            raise BadProperty('two points at one place need times', field='points')
+
+    def _lists(self) -> dict[str, object]:
+        lists = super(Path, self)._lists()
+        return lists if self.times is None else {**lists, 'times': list(self.times)}
+
+    def _stations(self) -> tuple[Waypoint, ...]:
+        """Return its points, of a loop the first one again, turned to where the last one looks."""
+        first, *_, last = *self.points, self.points[-1]
+        if self.repeat != 'loop':
+            return self.points
+        yaw = (math.remainder(first[2] - last[2], math.tau) + last[2],) if len(first) == 3 else ()
+        return (*self.points, (*first[:2], *yaw))
+
+    def _lengths(self) -> list[float]:
+        return [math.dist(a[:2], b[:2]) for a, b in itertools.pairwise(self._stations())]
+
+    @property
+    def track(self) -> list[tuple[float, float, float, float]]:
+        """Return its points: time [s], x, y [m], yaw [rad]."""
+        times: Sequence[float] = self.times or ()
+        if self.speed is not None:
+            speed = self.speed
+            steps = (length / speed for length in self._lengths())
+            times = [*itertools.accumulate(steps, initial=0.0)]
+        stations = zip(times, self._stations(), strict=True)
+        return [(time, x, y, *(yaw or [0.0])) for time, (x, y, *yaw) in stations]  # type: ignore[misc]
+
+    @property
+    def parameters(self) -> tuple[float, ...]:
+        """Return its greatest speed [m/s] and turn rate [rad/s], and 1 where it turns its body."""
+        most = [0.0, 0.0]
+        for (before, *a), (after, *b) in itertools.pairwise(self.track):
+            lapse = after - before
+            most[0] = max(most[0], math.dist(a[:2], b[:2]) / lapse)
+            most[1] = max(most[1], abs(b[2] - a[2]) / lapse)
+        return *most, float(len(self.points[0]) == 3)

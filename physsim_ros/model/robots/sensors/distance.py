@@ -1,0 +1,138 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Sensors of distances, at equal angles or the nearest one in a cone.
+
+Their messages are `sensor_msgs/LaserScan` and `sensor_msgs/Range`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+import math
+from typing import ClassVar
+
+from physsim_ros.model.checks import Checks, shown, Whole, Within
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots.sensors.sensor import (
+    angles,
+    distances,
+    LEAST_INCREMENT,
+    LENGTH,
+    Sensor,
+)
+from physsim_ros.model.transform import Point
+
+# Greatest number of beams: ten times as many as real scanners have; some 3 ms a scan.
+MOST_BEAMS = 10_000
+# Spans that differ from a full turn by less are one [rad]: 6.2832, but not the 6.28 of 360 beams
+# with a gap.
+_FULL = 1e-3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Laser(Sensor):
+    """
+    A laser scanner.
+
+    :param beams: their number
+    :param angle: of the first and the last beam [rad]; of a full turn the last beam, which would
+        be the first again, is one increment before it
+    :param range: least and greatest distance that it measures [m]
+    :param noise: standard deviation of a distance [m]
+    :raises BadProperty: beams are closer than LEAST_INCREMENT
+    """
+
+    KIND: ClassVar = 'laser'
+    CHECKS: ClassVar[Checks] = {
+        **Sensor.CHECKS,
+        'beams': Whole(1, MOST_BEAMS),
+        'angle': angles,
+        'range': distances,
+        'noise': LENGTH,
+    }
+
+    name: str = 'scan'
+    beams: int = 360
+    angle: Point = (0.0, math.tau)
+    range: Point = (0.1, 10.0)  # noqa: A003 - a word of the interface
+    noise: float = 0.0
+
+    def __post_init__(self) -> None:
+        # `super()` without arguments has no class there: a dataclass with slots is made anew.
+        Sensor.__post_init__(self)
+        if self.beams > 1 and self.increment < LEAST_INCREMENT:
+            raise BadProperty(
+                f'{self.beams} beams in {self.angle[1] - self.angle[0]:g} rad are too close',
+                field='angle',
+            )
+
+    @property
+    def increment(self) -> float:
+        """Return the angle from a beam to the next [rad]; 0 for a single one."""
+        first, last = self.angle
+        if self.beams == 1:
+            return 0.0
+        if abs(last - first - math.tau) < _FULL:
+            return math.tau / self.beams
+        return (last - first) / (self.beams - 1)
+
+
+# Greatest opening of a cone [rad]: half a turn.
+_WIDEST = 3.1416
+# Greatest number of rays in a cone.
+_MOST_RAYS = 1000
+
+
+class Radiation(StrEnum):
+    """What a range finder measures with."""
+
+    INFRARED = 'infrared'
+    SONAR = 'sonar'
+
+
+def _radiation(value: object, name: str) -> Radiation:
+    if not isinstance(value, str) or value not in list(Radiation):
+        raise BadProperty(f'{name} is {" or ".join(Radiation)}, not {shown(value)}', field=name)
+    return Radiation(value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RangeFinder(Sensor):
+    """
+    An infrared or ultrasonic range finder.
+
+    :param radiation: infrared or sonar
+    :param cone: opening of the cone about its axis [rad]; 0 is a single ray
+    :param rays: number of rays at equal angles in the cone, of which the nearest one counts
+    :param range: least and greatest distance that it measures [m]
+    :param noise: standard deviation of a distance [m]
+    :raises BadProperty: rays are closer than LEAST_INCREMENT
+    """
+
+    KIND: ClassVar = 'range'
+    CHECKS: ClassVar[Checks] = {
+        **Sensor.CHECKS,
+        'radiation': _radiation,
+        'cone': Within(0.0, _WIDEST, 'rad'),
+        'rays': Whole(1, _MOST_RAYS),
+        'range': distances,
+        'noise': LENGTH,
+    }
+
+    name: str = 'range'
+    radiation: Radiation = Radiation.INFRARED
+    cone: float = 0.2
+    rays: int = 15
+    range: Point = (0.02, 1.0)  # noqa: A003 - a word of the interface
+    noise: float = 0.0
+
+    def __post_init__(self) -> None:
+        # `super()` without arguments has no class there: a dataclass with slots is made anew.
+        Sensor.__post_init__(self)
+        if 0.0 < self.cone < LEAST_INCREMENT * (self.rays - 1):
+            raise BadProperty(
+                f'{self.rays} rays in a cone of {self.cone:g} rad are too close', field='cone'
+            )

@@ -1,0 +1,90 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Actors as values: their mappings are read and written, and wrong ones refused."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from physsim_ros.model.actors import actor_from
+from physsim_ros.model.errors import Refusal
+import pytest
+
+SQUARE = [[0, 0], [2, 0], [2, 1], [0, 1]]
+PATH = {'kind': 'path', 'points': SQUARE, 'speed': 0.5}
+ORCA = {'kind': 'orca', 'points': SQUARE}
+
+
+@pytest.mark.parametrize(
+    'entry',
+    [
+        PATH,
+        {**PATH, 'repeat': 'loop', 'start': {'gate': 'door', 'by': 'tb3/0', 'time': 1}},
+        {'kind': 'path', 'points': [[0, 0, 0], [1, 0, 1.5]], 'times': [0, 2.5]},
+        {'kind': 'social_force', 'points': [[1, 1]], 'speed': 1.0, 'sight': 1.0},
+        {**ORCA, 'horizon': 3, 'start': {'near': 'tb3/0', 'distance': 2}},
+    ],
+)
+def test_an_actor_is_what_its_entry_says(entry: dict[str, Any]) -> None:
+    actor = actor_from(entry, 'actor')
+    assert actor_from(actor.entry(), 'actor') == actor
+    assert actor.entry()['kind'] == entry['kind']
+
+
+def test_a_loop_at_one_speed_comes_back_to_its_first_point() -> None:
+    loop = actor_from({**PATH, 'repeat': 'loop'}, 'actor')
+    assert loop.track == [
+        (0.0, 0.0, 0.0, 0.0),
+        (4.0, 2.0, 0.0, 0.0),
+        (6.0, 2.0, 1.0, 0.0),
+        (10.0, 0.0, 1.0, 0.0),
+        (12.0, 0.0, 0.0, 0.0),
+    ]
+
+
+def test_a_loop_turns_back_the_shorter_way() -> None:
+    points = [[0, 0, 0], [1, 0, 3], [1, 1, 6]]
+    loop = actor_from({'kind': 'path', 'points': points, 'speed': 1, 'repeat': 'loop'}, 'actor')
+    assert loop.track[-1][3] == pytest.approx(6.283185307179586)
+
+
+@pytest.mark.parametrize(
+    ('wrong', 'code', 'field'),
+    [
+        ('path', 'bad_property', 'actor'),
+        ({'points': SQUARE}, 'bad_property', 'kind'),
+        ({'kind': 'pth', 'points': SQUARE}, 'bad_property', 'kind'),
+        ({'kind': 'path', 'points': []}, 'bad_property', 'points'),
+        ({'kind': 'path', 'points': SQUARE}, 'bad_property', 'times'),
+        ({**PATH, 'points': 3}, 'bad_property', 'points'),
+        ({**PATH, 'points': [[0, 0], [1]]}, 'malformed', 'points'),
+        ({**PATH, 'points': [[0, 0], [1, 2, 3]]}, 'malformed', 'points'),
+        ({**PATH, 'points': [[0, 0], [float('nan'), 2]]}, 'malformed', 'points'),
+        ({**PATH, 'points': [[0, 0], [1e9, 2]]}, 'bad_property', 'points'),
+        ({**PATH, 'points': [[0, 0], [0, 0]]}, 'bad_property', 'points'),
+        ({**PATH, 'points': [[0, 0]] * 1001}, 'bad_property', 'points'),
+        ({**PATH, 'speed': 0}, 'bad_property', 'speed'),
+        ({**PATH, 'times': [0, 1, 2, 3]}, 'bad_property', 'times'),
+        ({'kind': 'path', 'points': SQUARE, 'times': [0, 1, 2]}, 'malformed', 'times'),
+        ({'kind': 'path', 'points': SQUARE, 'times': [0, 1, 1, 2]}, 'bad_property', 'times'),
+        ({'kind': 'path', 'points': SQUARE, 'times': [-1, 1, 2, 3]}, 'bad_property', 'times'),
+        ({**PATH, 'repeat': 'twice'}, 'bad_property', 'repeat'),
+        ({**PATH, 'start': 3}, 'bad_property', 'start'),
+        ({**PATH, 'start': {'gate': ''}}, 'bad_property', 'gate'),
+        ({**PATH, 'start': {'by': 'a'}}, 'bad_property', 'by'),
+        ({**PATH, 'start': {'near': 'a'}}, 'bad_property', 'distance'),
+        ({**PATH, 'start': {'distance': 1}}, 'bad_property', 'near'),
+        ({**PATH, 'start': {'gate': 'a', 'near': 'a', 'distance': 1}}, 'bad_property', 'gate'),
+        ({**PATH, 'start': {'time': -1}}, 'bad_property', 'time'),
+        ({**PATH, 'start': {'gat': 'a'}}, 'unknown_property', 'gat'),
+        ({**ORCA, 'points': [[0, 0, 0]]}, 'malformed', 'points'),
+        ({**ORCA, 'horizon': 0}, 'bad_property', 'horizon'),
+        ({**ORCA, 'sight': 1}, 'unknown_property', 'sight'),
+        ({'kind': 'social_force', 'points': SQUARE, 'behind': 2}, 'bad_property', 'behind'),
+    ],
+)
+def test_an_actor_that_cannot_be_is_refused(wrong: Any, code: str, field: str) -> None:
+    with pytest.raises(Refusal) as caught:
+        actor_from(wrong, 'actor')
+    assert (caught.value.code, caught.value.field) == (code, field)

@@ -1,0 +1,158 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Actors in a world: what is refused, and what world files keep of them."""
+
+from physsim_ros.files import load_world, save_world
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
+from physsim_ros.model.requests import Anchor, ChangeBody, Delete, Restore, Spawn
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.simulation.world import World
+import pytest
+
+SETTINGS = WorldSettings(gravity=(0.0, 0.0), floor_friction=0.5, seed=3)
+PATH = {'kind': 'path', 'points': [[0, 0], [2, 0]], 'speed': 1.0, 'repeat': 'to_and_fro'}
+
+
+def _world():
+    return World(settings=SETTINGS)
+
+
+def _spawn(world, name, x=0.0, shape=None, **properties):
+    pose = (x, 0.0, 0.0)
+    properties = Properties(**properties)
+    spawn = Spawn(name=name, shape=shape or Disc(radius=0.2), pose=pose, properties=properties)
+    return world.apply(spawn)
+
+
+def _refused(world, request, refusal, field):
+    """Tell that a request is refused by the name of the field, and nothing is changed."""
+    before = world.digest()
+    with pytest.raises(refusal) as caught:
+        world.apply(request)
+    assert caught.value.field == field
+    assert world.digest() == before
+
+
+def test_an_actor_is_not_anchored():
+    world = _world()
+    made = Properties(actor=PATH, anchored=True)
+    spawn = Spawn(name='a/0', shape=Disc(radius=0.1), properties=made)
+    _refused(world, spawn, BadProperty, 'anchored')
+    _spawn(world, 'a/0', actor=PATH)
+    _refused(
+        world,
+        ChangeBody(name='a/0', properties=Properties(anchored=True)),
+        BadProperty,
+        'anchored',
+    )
+    _refused(world, Anchor(point=(0.0, 0.0)), BadProperty, 'point')
+
+
+def test_a_pedestrian_is_no_sensor_and_a_door_may_be():
+    world = _world()
+    walks = {'kind': 'orca', 'points': [[3, 0]]}
+    made = Properties(actor=walks, sensor=True)
+    _refused(
+        world, Spawn(name='a/0', shape=Disc(radius=0.1), properties=made), BadProperty, 'sensor'
+    )
+    _spawn(world, 'a/0', actor=walks)
+    _refused(
+        world, ChangeBody(name='a/0', properties=Properties(sensor=True)), BadProperty, 'sensor'
+    )
+    _spawn(world, 'b/0', actor=PATH, sensor=True, kinematic=True)
+    world.step(240)
+    assert world.snapshot().poses[1, 0] == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ('start', 'field'),
+    [
+        ({'gate': 'door'}, 'gate'),
+        ({'gate': 'a/0', 'by': 'tb'}, 'by'),
+        ({'near': 'tb', 'distance': 1.0}, 'near'),
+    ],
+)
+def test_an_actor_does_not_wait_for_a_body_that_there_is_not(tmp_path, start, field):
+    world = _world()
+    _spawn(world, 'a/0')
+    waits = {**PATH, 'start': start}
+    _refused(world, ChangeBody(name='a/0', properties=Properties(actor=waits)), UnknownBody, field)
+    spawn = Spawn(name='b/0', shape=Disc(radius=0.1), properties=Properties(actor=waits))
+    _refused(world, spawn, UnknownBody, field)
+    path = tmp_path / 'world.yaml'
+    first = '{name: a/0, circle: {radius: 0.1}}'
+    path.write_text(
+        f'format: 1\nbodies: [{first}, {{name: b/0, circle: {{radius: 1}}, actor: {waits}}}]'
+    )
+    with pytest.raises(Refusal, match='there is no body') as caught:
+        load_world(path, settings=WorldSettings(), physics_rate=240.0)
+    assert (caught.value.code, caught.value.field) == ('bad_world_file', field)
+
+
+def test_actors_under_way_are_saved_and_loaded_to_the_bit(tmp_path):
+    world = _world()
+    _spawn(world, 'a/0', kinematic=True, actor=PATH)
+    _spawn(world, 'b/0', x=1.0, mass=70.0, actor={'kind': 'orca', 'points': [[3, 0], [-1, 0]]})
+    force = {'kind': 'social_force', 'points': [[-1, 0], [3, 0]], 'repeat': 'loop'}
+    _spawn(world, 'c/0', x=3.0, kinematic=True, actor=force)
+    _spawn(
+        world, 'd/0', x=5.0, shape=Box(width=0.2, height=0.4), actor={**PATH, 'start': {'time': 3}}
+    )
+    gate = {'gate': 'gate/0', 'by': 'a/0'}
+    _spawn(world, 'gate/0', x=1.9, sensor=True, anchored=True)
+    _spawn(world, 'e/0', x=8.0, kinematic=True, actor={**PATH, 'start': gate})
+    world.step(100)
+    # It is in no file then, and the actor waits for ever.
+    world.apply(Delete(name='gate/0'))
+
+    path = save_world(world.save(), 'actors', world_dir=tmp_path, physics_rate=240.0)
+    loaded = load_world(path, settings=WorldSettings(), physics_rate=240.0)
+    one, other = _world(), _world()
+    one.apply(Restore(state=world.save()))
+    other.apply(Restore(state=loaded))
+
+    for _ in range(8):
+        assert one.digest() == other.digest()
+        one.step(120)
+        other.step(120)
+    assert one.space.actor_states.reached.any()
+
+
+@pytest.mark.parametrize(
+    ('body', 'code', 'field'),
+    [
+        ('{name: b/0, circle: {radius: 1}, acting: {}}', 'bad_property', 'acting'),
+        ('{name: b/0, circle: {radius: 1}, actor: PATH, acting: [1]}', 'bad_property', 'acting'),
+        (
+            '{name: b/0, circle: {radius: 1}, actor: PATH, acting: {seconds: a}}',
+            'bad_property',
+            'seconds',
+        ),
+        (
+            '{name: b/0, circle: {radius: 1}, actor: PATH, acting: {reached: -1}}',
+            'bad_property',
+            'reached',
+        ),
+        (
+            '{name: b/0, circle: {radius: 1}, actor: PATH, acting: {begun: 1}}',
+            'unknown_property',
+            'begun',
+        ),
+        ('{name: b/0, circle: {radius: 1}, actor: {kind: walk}}', 'bad_property', 'kind'),
+        (
+            '{name: b/0, circle: {radius: 1}, actor: PATH, anchored: true}',
+            'bad_property',
+            'anchored',
+        ),
+    ],
+)
+def test_a_file_with_an_actor_that_cannot_be_is_refused(tmp_path, body, code, field):
+    path = tmp_path / 'world.yaml'
+    path.write_text(f'format: 1\nbodies:\n  - {body.replace("PATH", str(PATH))}\n')
+    with pytest.raises(Refusal) as caught:
+        load_world(path, settings=WorldSettings(), physics_rate=240.0)
+    assert caught.value.code == 'bad_world_file'
+    assert (caught.value.cause, caught.value.field) == (code, field)
