@@ -3,9 +3,9 @@
 
 import {createElement, inRow, textButton, textField, textOf} from './dom.js';
 import {sizeOf} from './label_view.js';
-import {materialButtons, materialFields} from './presets.js';
 import {sendNote} from './tools/note.js';
 import {isDrawn} from './words.js';
+import {materialButtons, materialFields} from './world_panel.js';
 
 /** @import {App} from './types.js' */
 /** @import {Content} from './panel.js' */

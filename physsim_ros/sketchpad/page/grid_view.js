@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The grid in metres, and rulers at the edges whose steps follow the zoom. */
+/**
+ * What lies below the bodies: the grid in metres, rulers at the edges whose steps follow the zoom, and what the laser
+ * of the selected robot sees, its beams as a fan with a dot where one hits.
+ */
 
 import {multiplesOf} from './rounding.js';
 
-/** @import {Camera, Palette} from './types.js' */
+/** @import {Camera, Frame, Palette} from './types.js' */
+
+const DOT = 4; // px: of a hit
 
 /**
  * @param {CanvasRenderingContext2D} ctx in pixels of the page
@@ -42,5 +47,25 @@ export function drawGrid(ctx, camera, palette, insets) {
   for (const value of multiplesOf(step, bottom, top)) {
     const y = pixelY(value);
     if (y > 20 && y < low - 24) ctx.fillText(`${value.toFixed(digits)} m`, insets.left + 6, y - 4);
+  }
+}
+
+/**
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Camera} camera
+ * @param {Palette} palette
+ * @param {NonNullable<Frame['scan']>} scan
+ */
+export function drawScan(ctx, camera, {accent, force}, {x, y, hit}) {
+  ctx.fillStyle = accent;
+  ctx.globalAlpha = 0.16;
+  ctx.beginPath();
+  for (let i = 0; i < x.length; i++) ctx.lineTo(...camera.toPage(x[i], y[i]));
+  ctx.fill();
+  ctx.globalAlpha = 1;
+  ctx.fillStyle = force;
+  for (let i = 1; i < x.length; i++) {
+    const [px, py] = camera.toPage(x[i], y[i]);
+    if (hit[i]) ctx.fillRect(px - DOT / 2, py - DOT / 2, DOT, DOT);
   }
 }

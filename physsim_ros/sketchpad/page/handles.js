@@ -3,8 +3,7 @@
 
 import {scaledShape} from './body_path.js';
 import {originOf} from './numbers.js';
-import {threeDigits} from './rounding.js';
-import {onGrid} from './snapping.js';
+import {onGrid, threeDigits} from './rounding.js';
 
 /** @import {App, Body, Point, SceneView, Touch} from './types.js' */
 

@@ -3,7 +3,7 @@
 
 import {drawChart} from './chart.js';
 import {createElement, download, elementOf, iconButton, inRow, textButton} from './dom.js';
-import {FORCES, QUANTITIES, tableOf} from './quantities.js';
+import {FORCES, QUANTITIES, tableOf} from './numbers.js';
 import {threeDigits} from './rounding.js';
 
 /** @import {App, Palette, Sample} from './types.js' */

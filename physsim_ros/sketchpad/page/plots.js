@@ -3,7 +3,7 @@
 
 import {drawChart} from './chart.js';
 import {createElement, inRow, textButton} from './dom.js';
-import {QUANTITIES} from './quantities.js';
+import {QUANTITIES} from './numbers.js';
 
 /** @import {App, Sample} from './types.js' */
 

@@ -67,8 +67,9 @@ export class Room {
     /** How large the world is in a room [px/m]. */
     const scaleIn = (/** @type {Box} */ {left, top, right, bottom}) => Math.min(
       (right - left - 2 * gap - LABELS) / (xmax - xmin || 1), (bottom - top - 2 * gap) / (ymax - ymin || 1));
-    const room = largestRoom({left: 0, top: 0, right: camera.width, bottom: camera.height}, this.#covered(), scaleIn);
-    dockPlot(room, scaleIn);
+    const plot = elementOf('plot', HTMLElement), page = {left: 0, top: 0, right: camera.width, bottom: camera.height};
+    const room = largestRoom(page, this.#covered(), plot.hidden ? scaleIn : (each) => Math.max(...besidePlot(each).map(scaleIn)));
+    if (!plot.hidden) dockPlot(plot, room, scaleIn);
     dockLegend(room);
     view.insets = {left: room.left, top: room.top, right: camera.width - room.right, bottom: camera.height - room.bottom};
     view.dirty = true;
@@ -118,20 +119,26 @@ function largestRoom(page, covered, scaleIn) {
 }
 
 /**
+ * @param {Box} room
+ * @returns {Box[]} what a plot leaves of it: at its right edge, and at its lower edge
+ */
+function besidePlot(room) {
+  const half = (/** @type {number} */ length, /** @type {number[]} */ [least, most]) => Math.min(Math.max(length / 2, least), most);
+  return [{...room, right: room.right - half(room.right - room.left, PLOT.width)}, {...room, bottom: room.bottom - half(room.bottom - room.top, PLOT.height)}];
+}
+
+/**
  * Dock the plot at the right or at the lower edge of a room: where it leaves more to the world.
+ * @param {HTMLElement} plot
  * @param {Box} room that becomes smaller
  * @param {(room: Box) => number} scaleIn
  */
-function dockPlot(room, scaleIn) {
-  const plot = elementOf('plot', HTMLElement);
-  if (plot.hidden) return;
-  const half = (/** @type {number} */ length, /** @type {number[]} */ [least, most]) => Math.min(Math.max(length / 2, least), most);
-  const beside = {...room, right: room.right - half(room.right - room.left, PLOT.width)};
-  const above = {...room, bottom: room.bottom - half(room.bottom - room.top, PLOT.height)};
-  const place = scaleIn(beside) > scaleIn(above) ? {...room, left: beside.right, top: room.top} : {...room, top: above.bottom};
-  Object.assign(room, place.left > room.left ? beside : above);
-  Object.assign(plot.style, {left: `${place.left + DOCKED}px`, top: `${place.top + DOCKED}px`,
-    width: `${place.right - place.left - 2 * DOCKED}px`, height: `${place.bottom - place.top - 2 * DOCKED}px`});
+function dockPlot(plot, room, scaleIn) {
+  const [beside, above] = besidePlot(room), isBeside = scaleIn(beside) > scaleIn(above);
+  const {left, top, right, bottom} = isBeside ? {...room, left: beside.right} : {...room, top: above.bottom};
+  Object.assign(plot.style, {left: `${left + DOCKED}px`, top: `${top + DOCKED}px`,
+    width: `${right - left - 2 * DOCKED}px`, height: `${bottom - top - 2 * DOCKED}px`});
+  Object.assign(room, isBeside ? beside : above);
 }
 
 /** @param {Box} room at whose upper edge the legend is docked */

@@ -2,10 +2,9 @@
 /** The canvas: grid, bodies, ghost, joints, arrows, and on top what the tool in hand draws. */
 
 import {BodyView} from './body_view.js';
-import {drawGrid} from './grid_view.js';
+import {drawGrid, drawScan} from './grid_view.js';
 import {JointView} from './joint_view.js';
 import {drawLabels, drawNumbers} from './label_view.js';
-import {drawScan} from './scan_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from './types.js' */

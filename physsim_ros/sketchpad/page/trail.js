@@ -74,10 +74,9 @@ export class Trail {
    */
   #flash(view, row, samples, number) {
     const {world, camera, arrows} = this.app, {palette} = view, sample = samples[number];
-    const {x, y, yaw, vx, vy} = sample, [nowX, nowY] = world.place(row, world.scene.bodies[row].centroid);
+    const {x, y, yaw, vx, vy, ax = 0, ay = 0} = sample, [nowX, nowY] = world.place(row, world.scene.bodies[row].centroid);
     view.outline(row, palette.faint, [x - nowX, y - nowY], {turn: yaw - world.frame.yaw[row], scale: 1});
     const from = camera.toPage(x, y), pixels = arrows.speeds.length(1);
-    const [ax, ay] = accelerationAt(samples, number);
     drawArrow(view, from, vx * pixels, vy * pixels, palette.accent);
     drawArrow(view, from, ax * pixels * ACCELERATION, ay * pixels * ACCELERATION, palette.weight);
   }
@@ -105,15 +104,4 @@ function flashesOf(samples) {
     if (Math.floor(samples[i].time / FLASH + 1e-6) > Math.floor(samples[i - 1].time / FLASH + 1e-6)) numbers.push(i);
   }
   return numbers.slice(-MOST_FLASHES);
-}
-
-/**
- * @param {Sample[]} samples
- * @param {number} number
- * @returns {[number, number]} the change of velocity from the sample before to the one after [m/s²]
- */
-export function accelerationAt(samples, number) {
-  const p = samples[Math.max(number - 1, 0)], q = samples[Math.min(number + 1, samples.length - 1)];
-  const time = q.time - p.time || 1;
-  return [(q.vx - p.vx) / time, (q.vy - p.vy) / time];
 }

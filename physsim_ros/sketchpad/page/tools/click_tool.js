@@ -5,8 +5,7 @@
  * follows the pointer.
  */
 
-import {threeDigits} from '../rounding.js';
-import {onGrid} from '../snapping.js';
+import {onGrid, threeDigits} from '../rounding.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 

@@ -2,7 +2,7 @@
 /** The hand pulls a body and throws it, places and turns it in a paused world, drags a copy, and moves the view. */
 
 import {placed} from '../numbers.js';
-import {onGrid} from '../snapping.js';
+import {onGrid} from '../rounding.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 

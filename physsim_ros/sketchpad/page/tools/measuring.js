@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that measure on the page: a ruler and a protractor, which stay until they are tapped away. */
 
-import {threeDigits} from '../rounding.js';
-import {onGrid} from '../snapping.js';
+import {onGrid, threeDigits} from '../rounding.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
