@@ -57,7 +57,7 @@ class Endpoint(ABC):
     reopens: ClassVar[bool] = True
 
     @abstractmethod
-    def open(self) -> RerunStream:
+    def open_stream(self) -> RerunStream:
         """
         Return a new stream to the receiver.
 
@@ -111,7 +111,7 @@ class FileEndpoint(Endpoint):
         # Device and inode of the open file.
         self._identity = (0, 0)
 
-    def open(self) -> RerunStream:
+    def open_stream(self) -> RerunStream:
         """Create the file, and return a stream to it."""
         import rerun as rr
 
@@ -168,7 +168,7 @@ class ClientEndpoint(Endpoint):
     def __init__(self, url: str) -> None:
         self.where = url
 
-    def open(self) -> RerunStream:
+    def open_stream(self) -> RerunStream:
         """Return a stream to the server."""
         import rerun as rr
 
@@ -200,7 +200,7 @@ class ServerEndpoint(Endpoint):
         self._uri = ''
         self._program: subprocess.Popen[bytes] | None = None
 
-    def open(self) -> RerunStream:
+    def open_stream(self) -> RerunStream:
         """Start a server and the program, and return a stream to it."""
         import rerun as rr
 

@@ -170,7 +170,7 @@ class Output:
         # The first import of Rerun takes a second, so it happens in this thread.
         from physsim_ros.view.recording import FrameRecorder
 
-        stream = self._endpoint.open()
+        stream = self._endpoint.open_stream()
         recorder = FrameRecorder(stream.recording)
         try:
             self._known_drops = self._dropped

@@ -68,7 +68,7 @@ def test_a_bug_is_told_and_nothing_is_open_any_more():
     class Buggy(Endpoint):
         kind = 'buggy'
 
-        def open(self):
+        def open_stream(self):
             raise ZeroDivisionError('by zero')
 
     told, log = [], []
@@ -90,7 +90,7 @@ def test_what_waited_for_a_receiver_that_failed_is_let_go():
         def __init__(self):
             self.release = threading.Event()
 
-        def open(self):
+        def open_stream(self):
             assert self.release.wait(PATIENCE)
             raise ConnectionError('there never can be one')
 

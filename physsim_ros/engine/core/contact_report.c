@@ -120,7 +120,7 @@ static void add_begun(World *world, Report *report, const Pair *pair) {
         world->begun = begun;
     }
     double share = first_touch(world, world->bodies + pair->a, world->bodies + pair->b);
-    double time = world->frame_steps - 1 + (world->own->sub_step + share) / SUB_STEPS;
+    double time = world->frame_steps - 1 + (world->own->sub_step + share) / (double)SUB_STEPS;
     world->begun[world->begun_count++] = (Begun){{pair->a, pair->b}, time};
 }
 
