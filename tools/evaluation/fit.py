@@ -117,7 +117,7 @@ def fit(strokes: list[Example]) -> list[tuple[str, str, Floats, Floats]]:
         meant = [
             np.array(
                 [
-                    stroke.chose(each[place : place + 1])
+                    stroke.chose(each[slice(place, place + 1)])
                     for stroke, each in zip(strokes, own, strict=True)
                 ]
             )
@@ -167,7 +167,8 @@ def _newton(blocks: list[Block], penalties: list[Floats]) -> Floats:
     size = sum(map(len, penalties))
     penalty, at = np.zeros((size, size)), 0
     for each in penalties:
-        penalty[at : at + len(each), at : at + len(each)] = each
+        own = slice(at, at + len(each))
+        penalty[own, own] = each
         at += len(each)
     found = np.zeros(size)
     for _ in range(_ROUNDS):
