@@ -227,7 +227,7 @@ class Path(Actor):
             steps = (length / speed for length in self._lengths())
             times = [*itertools.accumulate(steps, initial=0.0)]
         stations = zip(times, self._stations(), strict=True)
-        return [(time, x, y, *(yaw or [0.0])) for time, (x, y, *yaw) in stations]  # type: ignore[misc]
+        return [(time, x, y, yaw[0] if yaw else 0.0) for time, (x, y, *yaw) in stations]
 
     @property
     def parameters(self) -> tuple[float, ...]:

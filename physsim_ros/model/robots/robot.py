@@ -7,8 +7,6 @@ A robot: a drive, odometry, sensors, and the namespace of its topics.
 Law: the topics of a robot have different names, which ROS allows.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 import re
