@@ -23,7 +23,7 @@ ROBOT = {
         {'kind': 'laser', 'name': 'scan', 'beams': 36, 'range': [0.05, 3.5], 'noise': 0.01}
     ],
 }
-# Where the robot is to be from the wall on its right [m]; the corridor is 1 m wide.
+# Distance that the robot keeps from the wall on its right [m]; the corridor is 1 m wide.
 DISTANCE = 0.35
 
 

@@ -88,7 +88,7 @@ _ARBITER = {'e': 'restitution', 'u': 'friction', 'count': 'count', 'n': 'normal'
 
 
 class _Contact:
-    """What Pymunk tells of a contact of two discs, as the core has it."""
+    """The contact of two discs, as Pymunk reports it and as the core has it."""
 
     def __init__(self, arbiter: pymunk.Arbiter) -> None:
         points, (first, second) = arbiter.contact_point_set, arbiter.shapes

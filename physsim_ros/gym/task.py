@@ -23,7 +23,7 @@ from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors import Laser
 from physsim_ros.simulation.robot import Robot
 
-# What an agent does and sees: values of its spaces.
+# Actions and observations of an agent: values of its spaces.
 Action: TypeAlias = Any
 Observation: TypeAlias = Any
 

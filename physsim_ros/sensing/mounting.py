@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Where sensors are and when they read, and the noise of their readings."""
+"""Poses of sensors, the times at which they read, and the noise of their readings."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ class View:
         return FloorMarks(self.snapshot)
 
 
-# What a sensor of a kind on the body of a row reads.
+# Reading of a sensor of a kind on the body of a row.
 _READERS: Mapping[type[Sensor], Callable[[View, int, Any], Any]] = {
     Laser: lambda view, row, laser: read_laser(view.surroundings, row, laser, view.seed),
     RangeFinder: lambda view, row, finder: read_range(view.surroundings, row, finder, view.seed),

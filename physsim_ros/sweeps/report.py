@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What came of a sweep: a table, a picture, and world files of the runs that failed."""
+"""Results of a sweep: a table, a picture, and world files of the runs that failed."""
 
 from __future__ import annotations
 

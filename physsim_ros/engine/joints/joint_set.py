@@ -30,7 +30,7 @@ from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
 import pymunk
 
-# What no joints did, which frames share: `JointSet.report`.
+# The report of no joints, which frames share (`JointSet.report`).
 NO_REPORT = np.empty(0), np.empty((0, 2)), np.empty(0, np.bool_)
 
 

@@ -202,7 +202,7 @@ class Spec:
 
     @property
     def meaning(self) -> str:
-        """Return what it is, as plain text, with the unit."""
+        """Return its description as plain text, with the unit."""
         sentence, check = self.declaration.sentence.replace('`', ''), self.declaration.check
         if isinstance(check, Vector):
             return f'{sentence}, {check.span}'

@@ -37,7 +37,7 @@ from simulation_interfaces.srv import SpawnEntities
 
 # Entities of one call: a tenth of a second on a laptop. Meanwhile nothing else is done.
 MOST_ENTITIES = 300
-# What can be spawned by name besides the shipped robots: entries of a world file [m].
+# Bodies that can be spawned by name besides the shipped robots: entries of a world file [m].
 _SHAPES: dict[str, Mapping[str, Any]] = {
     'disc': {'circle': {'radius': 0.5}},
     'box': {'box': {'width': 1.0, 'height': 1.0}},
@@ -179,7 +179,7 @@ class Spawning:
 
 
 def _wanted(message: Any) -> _Wanted:
-    """Return what a simulation_interfaces/msg/SpawnEntity asks for."""
+    """Return the spawn that a simulation_interfaces/msg/SpawnEntity asks for."""
     return _Wanted(
         name=message.name,
         allow_renaming=message.allow_renaming,

@@ -80,7 +80,7 @@ _MOST_RAYS = 1000
 
 
 class Radiation(StrEnum):
-    """What a range finder measures with."""
+    """The radiation with which a range finder measures."""
 
     INFRARED = 'infrared'
     SONAR = 'sonar'
