@@ -12,8 +12,6 @@ import pymunk
 COLLISION_SLOP = 0.005
 # Overlap of small bodies at rest, as a share of the inner radius: 5 mm of a box of 10 cm.
 SLOP_SHARE = 0.1
-# Share of a deeper overlap that is left after a second: Pymunk's default, 0.9 after 1/60 s.
-COLLISION_BIAS = 0.9**60
 # An island sleeps when none of its bodies had more kinetic energy than at this speed [m/s]: a ball
 # that rolls at 1 cm/s stays awake. Pymunk's default, g dt, is 4 cm/s at 240 Hz.
 IDLE_SPEED = 0.005

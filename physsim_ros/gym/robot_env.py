@@ -62,6 +62,7 @@ class RobotEnv(Env[Observation, Action]):
     def __init__(self, task: Task, *, render_mode: str | None = None) -> None:
         self.task = task
         self.render_mode = render_mode
+        self.metadata = {**self.metadata, 'render_fps': max(1, round(1.0 / task.period))}
         simulation = Simulation(
             physics_rate=task.physics_rate,
             publish_rate=1.0 / task.period,

@@ -28,7 +28,7 @@ Action: TypeAlias = Any
 Observation: TypeAlias = Any
 
 # Ranges of the times of a task.
-_TIMES = {'period': Within(1e-4, 1e3, 's'), 'longest': Within(1e-4, LONGEST, 's')}
+_TIMES = {'period': Within(1e-4, 1.0, 's'), 'longest': Within(1e-4, LONGEST, 's')}
 
 
 def drive(robot: Robot, action: NDArray[np.float32]) -> None:

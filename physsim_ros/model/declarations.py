@@ -109,9 +109,12 @@ class Checked:
 
         :raises UnknownProperty: a key is no field; the nearest one is named
         :raises Malformed: a number is not finite or an array has the wrong length
-        :raises BadProperty: a value is null, of the wrong kind, or out of range
+        :raises BadProperty: a value is missing, null, of the wrong kind, or out of range
         """
         cls.check_keys(mapping)
+        for each in cls.FIELDS.values():
+            if each.default is MISSING and each.name not in mapping:
+                raise BadProperty(f'{each.name} is missing', field=each.name)
         return cls(**mapping)
 
     @classmethod

@@ -14,9 +14,6 @@ from physsim_ros.model.transform import Point
 
 Bounds = tuple[float, float, float, float]
 
-# Standard gravity [m/s²]: of weights on the floor of a world seen from above, and of the forces of
-# hands in worlds without gravity.
-STANDARD_GRAVITY = 9.81
 # Greatest gravity [m/s²]: a thousand times that of the earth, 40 m/s in a step.
 STRONGEST = 1e4
 # Greatest number of joints on one body [1]: a new joint takes a microsecond for each joint on its

@@ -265,14 +265,19 @@ class Simulation:
         """
         Return this moment, to the bit, for `restore`.
 
+        Requests that wait are applied before, and hands let go.
+
         This world continues from it as all do that restore it: it, too, moves into a space that
         is built from the checkpoint. Without the call its later bits may be others.
 
         :raises InPast: the past is shown
         """
-        frame = self.frame
-        if frame.past:
+        self._handler.apply_waiting()
+        if self.frame.past:
             raise InPast('the past is shown; go to its end first', field='history')
+        self._handler.hands.clear()
+        self._handler.release_grips()
+        frame = self.frame
         checkpoint = self.past.cursor.add_keyframe()
         return SavedMoment(
             checkpoint=checkpoint,
@@ -450,12 +455,12 @@ class Simulation:
             nothing has changed
         """
         playback = self.playback
-        if playback.speed > 0.0:
-            self._hold_drives()
         if playback.is_world_due or self.requests.has_requests:
             playback.seek_shown()
         if not self.finish_seek(is_overdue):
             return ()
+        if playback.speed > 0.0:
+            self._hold_drives()
         self._handler.apply_up_to_seek(is_spent)
         if not self.finish_seek(is_overdue):
             return ()

@@ -191,9 +191,13 @@ class _Watch(GuardedSocket):
 
     async def _hand_on(self, world: WebSocketClientConnection) -> None:
         """Hand on what the world sends until one side leaves."""
-        with suppress(WebSocketClosedError):
-            while (message := await world.read_message()) is not None:
-                await self.write_message(message, binary=isinstance(message, bytes))
+        try:
+            with suppress(WebSocketClosedError):
+                while (message := await world.read_message()) is not None:
+                    await self.write_message(message, binary=isinstance(message, bytes))
+        finally:
+            # The teacher may have left before there was a socket.
+            world.close()
         self.close()
 
     async def on_message(self, message: str | bytes) -> None:

@@ -19,6 +19,7 @@ import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import LONGEST, Within
+from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
@@ -28,7 +29,7 @@ _MARGIN = 0.5
 # Ranges of the times of an experiment; the past of a run is kept whole up to an hour.
 _TIMES = {
     'seconds': Within(1e-4, LONGEST, 's'),
-    'period': Within(1e-4, 1e3, 's'),
+    'period': Within(1e-4, 1.0, 's'),
     'before': Within(0.0, 3600.0, 's'),
 }
 
@@ -123,7 +124,7 @@ class Experiment:
         """
         Run a case.
 
-        An error of the controller is the failure of its run, and ends no other one.
+        An error of `begin` or of the controller is the failure of its run, and ends no other one.
 
         :raises Refusal: the world cannot be simulated, or has no such robot
         """
@@ -136,9 +137,9 @@ class Experiment:
         settings = replace(self.world.settings, seed=case.seed)
         simulation.begin(replace(self.world, settings=settings))
         robot = Robot(simulation, self.robot)
-        self.begin(robot, np.random.default_rng(case.seed))
         way, failure, score = [robot.truth().pose[:2]], '', float('nan')
         try:
+            self.begin(robot, np.random.default_rng(case.seed))
             control = self.controller(**case.parameters)
             for _ in range(round(self.seconds / self.period)):
                 control(robot)
@@ -149,7 +150,7 @@ class Experiment:
                     break
             if self.score is not None:
                 score = float(self.score(robot))
-        except Exception as error:  # noqa: BLE001 - whatever it is, it is told, and others run on
+        except (Exception, StepFailed) as error:  # noqa: BLE001 - whatever it is, it is told, and others run on
             failure = _told(error)
         seconds = simulation.step / self.physics_rate
         return Run(
@@ -163,7 +164,7 @@ class Experiment:
         )
 
 
-def _told(error: Exception) -> str:
+def _told(error: BaseException) -> str:
     """Return an error in one line, with the place where it was raised."""
     place = traceback.extract_tb(error.__traceback__)[-1]
     return f'{type(error).__name__}: {error} ({place.name}, line {place.lineno})'

@@ -204,6 +204,7 @@ class ServerEndpoint(Endpoint):
         """Start a server and the program, and return a stream to it."""
         import rerun as rr
 
+        self.close()
         server = rr.GrpcServerSink('127.0.0.1', _free_port(), server_memory_limit=SERVER_MEMORY)
         stream = RerunStream(server)
         self._uri = server.uri
@@ -226,8 +227,9 @@ class ServerEndpoint(Endpoint):
 
     def close(self) -> None:
         """End the program."""
-        if self._program is not None:
-            end_child(self._program, timeout=ENDING)
+        program, self._program = self._program, None
+        if program is not None:
+            end_child(program, timeout=ENDING)
 
     def _fall_back(self, reason: str) -> None:
         self.kind = 'web'

@@ -55,6 +55,7 @@ def test_a_loop_turns_back_the_shorter_way() -> None:
         ('path', 'bad_property', 'actor'),
         ({'points': SQUARE}, 'bad_property', 'kind'),
         ({'kind': 'pth', 'points': SQUARE}, 'bad_property', 'kind'),
+        ({'kind': 'path'}, 'bad_property', 'points'),
         ({'kind': 'path', 'points': []}, 'bad_property', 'points'),
         ({'kind': 'path', 'points': SQUARE}, 'bad_property', 'times'),
         ({**PATH, 'points': 3}, 'bad_property', 'points'),

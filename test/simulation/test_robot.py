@@ -14,6 +14,7 @@ import numpy as np
 from physsim_ros import (
     Box,
     Delete,
+    Disc,
     find_world,
     load_world,
     Properties,
@@ -25,6 +26,7 @@ from physsim_ros import (
     WorldSettings,
 )
 from physsim_ros.model.errors import BadProperty, InPast, OutOfHistory, UnknownBody
+from physsim_ros.model.requests import Grab
 import pytest
 
 NOISY = {'from': 'turtlebot3_burger', 'odometry': {'slip': [0.05, 0.05]}}
@@ -172,6 +174,21 @@ def test_a_saved_moment_is_continued_to_the_bit(
         assert (another.step, again.bumped, again.read('imu')) == (step, bumped, imu)
         assert wander(again, 60) == first
         assert another.world.digest() == digest
+
+
+def test_a_saved_moment_has_the_requests_that_waited_and_no_hand() -> None:
+    simulation, another = Simulation(), Simulation()
+    simulation.perform(Spawn(name='ball/0', shape=Disc(radius=0.2)))
+    simulation.perform(Grab(hand='h', point=(0.0, 0.0)))
+    simulation.requests.submit(Spawn(name='box/0', shape=Box(width=0.2, height=0.2)), topic='t')
+
+    another.restore(simulation.checkpoint())
+
+    assert 'box/0' in another.world
+    for each in (simulation, another):
+        assert not each.world.grips
+        each.run(1.0)
+    assert simulation.world.digest() == another.world.digest()
 
 
 def test_a_restored_simulation_has_a_past_of_its_own_and_is_reset_as_the_first() -> None:

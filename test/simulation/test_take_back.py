@@ -6,8 +6,8 @@
 from __future__ import annotations
 
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory
-from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Join, MoveBodies, Request
+from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.requests import Axle, Delete, Join, MoveBodies, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.past import past
 from physsim_ros.simulation.simulation import Simulation
@@ -125,3 +125,30 @@ def test_what_a_person_has_added_and_is_still_there_is_told() -> None:
     assert simulation.past.doings_of('Anna') == (('a/0',), ('j/0',))
     assert simulation.past.doings_of('Ben') == (('b/0',), ())
     assert simulation.past.doings_of('Cleo') == ((), ())
+
+
+def test_what_a_person_added_is_what_was_added_last_by_them() -> None:
+    again = (30, 'Ben', spawning('a/0', DISC, LEFT))
+    simulation = class_of(ANNA, BEN, (25, 'Anna', Delete(name='a/0')), again)
+    simulation.requests.submit(Axle(point=LEFT[:2]), topic='t', author='Anna')
+    simulation.advance_frame()
+
+    assert simulation.past.doings_of('Ben') == (('b/0', 'a/0'), ())
+    bodies, joints = simulation.past.doings_of('Anna')
+    assert not bodies
+    assert joints == tuple(joint.name for joint in simulation.world.scene.joints)
+
+
+def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back() -> None:
+    weak = JointProperties(break_force=1.0)
+    hung = Join(
+        name='j/0', kind=JointKind.PIN, points=(RIGHT[:2],), a='b/0', b='world', properties=weak
+    )
+    move = (5, 'Ben', MoveBodies(names=('a/0',), by=(0.0, 1.0)))
+    simulation = class_of(ANNA, move, BEN, (20, 'Ben', hung))
+    assert not simulation.world.scene.joints
+
+    with pytest.raises(NotAlone):
+        simulation.take_back('Anna')
+
+    assert [each.topic for each in simulation.advance_frame().answers] == []

@@ -10,17 +10,16 @@
 // impact is at least -e times that before it, where K is the inverse effective mass (D. Baraff, "Analytical methods for
 // dynamic simulation of non-penetrating rigid bodies", 1989; of two points E. Catto,
 // `b2ContactSolver::SolveVelocityConstraints` in Box2D 2.4, "block solver"). Chipmunk's own solver begins with these
-// impulses, and adds friction.
-// Scope: two bodies that hit each other in two points or more, or one that so hits what forces do not move: the
-// outermost contacts of each normal, between which the others have nothing to add. With them all contacts of these
-// bodies and of those that they touch in turn, up to `MOST_POINTS`: the ground that carries a body which is hit, a
-// short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a part of a pile throw its light
-// bodies out.
-// Energy: Newton's law of restitution for several points at once can create energy, as where a light body is pinched
-// between a heavy one and the ground. Such an impact is mixed with the inelastic one of the same points, to the share
-// at which it gains none: the energy of such a mix is a quadratic of the share.
-// Cost: 1 µs for each pair of bodies that hit each other so. Without it laws 8 (bodies that fall flat) and
-// 21 (elastic polygons keep their energy) fail; without its bound of energy law 34 (random crowds).
+// impulses. Friction and what it changes of the normal impulses are found by rounds of sequential impulses over the
+// same points, as Chipmunk makes them. Scope: two bodies that hit each other in two points or more, or one that so hits
+// what forces do not move: the outermost contacts of each normal, between which the others have nothing to add. With
+// them all contacts of these bodies and of those that they touch in turn, up to `MOST_POINTS`: the ground that carries
+// a body which is hit, a short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a part of a
+// pile throw its light bodies out. Energy: Newton's law of restitution for several points at once can create energy, as
+// where a light body is pinched between a heavy one and the ground. Such an impact is mixed with the inelastic one of
+// the same points, to the share at which it gains none: the energy of such a mix is a quadratic of the share. Cost: 1
+// µs for each pair of bodies that hit each other so. Without it laws 8 (bodies that fall flat) and 21 (elastic polygons
+// keep their energy) fail; without its bound of energy law 34 (random crowds).
 
 #include "impact_propagation.h"
 #include "lcp.h"
@@ -240,7 +239,7 @@ static void push(const Point *point, Vec impulse) {
     b->w += cross(point->contact->r2, impulse) * point->b->i_inv;
 }
 
-// As `cpArbiterApplyImpulse`; returns the change of velocity
+// Make the impulse of a point better, as `cpArbiterApplyImpulse` does; return the change of velocity [m/s].
 static double improve(const Point *point) {
     cpContact *contact = point->contact;
     Twist a = body_of(point->a)->without, b = body_of(point->b)->without;
@@ -255,7 +254,10 @@ static double improve(const Point *point) {
     return greatest(fabs(dn) / contact->nMass, fabs(dt) / contact->tMass);
 }
 
+// Most rounds of sequential impulses over the points of an impact.
 enum { ROUNDS = 200 };
+// Change of velocity below which a round is the last one [m/s].
+static const double settled = 1e-12;
 
 static Vec impulse_of(const Point *point) {
     return vec(point->contact->jnAcc - point->added, point->contact->jtAcc - point->added_t);
@@ -292,7 +294,7 @@ static void find_impulses(const World *world, Point *points, int count) {
         for (int row = 0; row < count; row++) {
             most = greatest(most, improve(points + row));
         }
-        if (most < 1e-12) {
+        if (most < settled) {
             break;
         }
     }

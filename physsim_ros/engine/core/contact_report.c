@@ -109,7 +109,7 @@ static double first_touch(World *world, Body *a, Body *b) {
     return 1.0 - least(a->since + a->left, b->since + b->left) / world->dt;
 }
 
-static void add_begun(World *world, Report *report, const Pair *pair) {
+static void add_begun(World *world, Report *report, Begun added) {
     if (world->begun_count == report->begun_room) {
         report->begun_room = 2 * report->begun_room + 16;
         Begun *begun = allocated((size_t)report->begun_room, sizeof(Begun));
@@ -119,9 +119,7 @@ static void add_begun(World *world, Report *report, const Pair *pair) {
         free(world->begun);
         world->begun = begun;
     }
-    double share = first_touch(world, world->bodies + pair->a, world->bodies + pair->b);
-    double time = world->frame_steps - 1 + (world->own->sub_step + share) / (double)SUB_STEPS;
-    world->begun[world->begun_count++] = (Begun){{pair->a, pair->b}, time};
+    world->begun[world->begun_count++] = added;
 }
 
 // Begin the step of a pair, unless another contact of it has.
@@ -130,7 +128,9 @@ static void touch(World *world, Report *report, Pair *pair) {
         return;
     }
     if (pair->stamp != report->stamp - 1 && report->follows) {
-        add_begun(world, report, pair);
+        double share = first_touch(world, world->bodies + pair->a, world->bodies + pair->b);
+        double time = world->frame_steps - 1 + (world->own->sub_step + share) / (double)SUB_STEPS;
+        add_begun(world, report, (Begun){{pair->a, pair->b}, time});
     }
     pair->stamp = report->stamp;
     pair->in_frame = true;
@@ -373,8 +373,6 @@ void core_copy_contacts(World *world, const World *old) {
     world->begun_count = 0;
     world->frame_steps = old->frame_steps;
     for (int number = 0; number < old->begun_count; number++) {
-        Pair pair = {.a = (int)old->begun[number].rows[0], .b = (int)old->begun[number].rows[1]};
-        add_begun(world, report, &pair);
-        world->begun[number].time = old->begun[number].time;
+        add_begun(world, report, old->begun[number]);
     }
 }

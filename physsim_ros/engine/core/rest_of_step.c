@@ -34,9 +34,8 @@ static double true_parting(const World *world, const cpArbiter *arbiter, const c
     return dot(sub(velocity_at(of_b, point->r2), velocity_at(of_a, point->r1)), arbiter->n);
 }
 
-// Have an impact take place when it did; return whether the bodies part. The velocity of what flies leads by half a
-// step
-// (`half_step.c`).
+// Have an impact take place when it did; return whether the bodies part. The velocity of a body in free flight leads by
+// half a step (`half_step.c`).
 static bool set_bounce(const World *world, const cpArbiter *arbiter, double left) {
     bool parts = false;
     for (int number = 0; number < arbiter->count; number++) {
@@ -81,8 +80,8 @@ static Twist way_left(const Body *body, double dt) {
     return twist_sum(twist_sum((Twist){0}, mean, left), gone, -1.0);
 }
 
-// The same of bodies that could pass through the smallest thing there is on it; of others, the sweep would find
-// nothing.
+// The way that a body has still to go, if it could pass through the smallest thing there is on it: of others, the sweep
+// would find nothing.
 static Twist far_way(const World *world, const Body *body) {
     Twist way = way_left(body, world->dt);
     bool is_far = length(way.v) + fabs(way.w) * body->turning_radius > world->own->least_depth;

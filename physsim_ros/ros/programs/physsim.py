@@ -63,7 +63,7 @@ class TerminationWatch:
         self._signals.settimeout(ENDING)
         with suppress(TimeoutError):
             self._signals.recv(1)
-        # Child processes end with their parent (`view.sinks.child_process`).
+        # Child processes end with their parent (`view.child_process`).
         os._exit(0)
 
 

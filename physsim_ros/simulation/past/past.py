@@ -177,12 +177,14 @@ class Past:
         """
         cursor, tree = self.cursor, self.tree
         left = tree.line(cursor.moment) if not cursor.is_newest else None
+        changed = False
         try:
             done = cursor.apply(request, gesture, author)
+            changed = cursor.world.changed
         finally:
-            if left is not None and not cursor.world.changed:
+            if left is not None and not changed:
                 self.tree.drop(left)
-        if cursor.world.changed:
+        if changed:
             if left is not None:
                 self._begin_course(left)
             self.tree.drop_undone()
@@ -234,8 +236,11 @@ class Past:
             raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
         before = tree.line(cursor.moment)
         before.words = gesture_phrase(first, 1)
+        told = len(self.reports)
         step, _, refused = cursor.amend((first.gesture,), ())
         if refused:
+            # What happened on the way has been told before.
+            del self.reports[told:]
             left, _ = self._go_to(before)
             self.tree.drop(left)
             raise NotAlone('somebody has used it since; delete it instead')

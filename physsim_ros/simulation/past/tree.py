@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.requests import Join, Request, Restore, Spawn
+from physsim_ros.model.requests import Axle, Join, Pin, Request, Restore, Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Snapshot
@@ -185,11 +185,18 @@ class Tree:
         return None
 
     def added_by(self, author: str, scene: Scene) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the bodies and the joints of a scene that a person has added, by name."""
-        requests = [node.request for node in self.nodes[1:] if node.author == author]
-        added = {each.name for each in requests if isinstance(each, Spawn | Join)}
-        joints = tuple(joint.name for joint in scene.joints if joint.name in added)
-        return tuple(name for name in scene.names if name in added), joints
+        """Return the bodies and the joints of a scene that a person was the last to add."""
+        bodies: dict[str, str] = {}
+        joints: dict[str, str] = {}
+        for node in self.nodes[1:]:
+            if isinstance(node.request, Spawn):
+                bodies[node.subject] = node.author
+            elif isinstance(node.request, Join | Pin | Axle):
+                joints[node.subject] = node.author
+        return (
+            tuple(name for name in scene.names if bodies.get(name) == author),
+            tuple(joint.name for joint in scene.joints if joints.get(joint.name) == author),
+        )
 
     def gesture_start(self, gesture: int, serial: int) -> Moment | None:
         """Return the moment before the first request of a gesture up to a serial, if kept."""
@@ -355,7 +362,8 @@ class Tree:
 
     def courses_left(self) -> list[tuple[Line, int]]:
         """Return the courses that can be returned to, each with the step at which it parts."""
-        partings = ((line, self.parting(line.tip, line.head)) for line in self.left.values())
+        lines = (line for line in self.left.values() if line.era == self.era)
+        partings = ((line, self.parting(line.tip, line.head)) for line in lines)
         return [(line, step) for line, step in partings if step is not None]
 
     def keep_course(self, line: Line, ghost: Sequence[CachedFrame]) -> None:
