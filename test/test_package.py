@@ -185,7 +185,7 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
     assert set(always) == named
     assert '1.26.4' not in always['numpy']
     assert '8.0.0' not in always['pymunk']
-    assert extras == {'extra == "class"', 'extra == "docs"', 'extra == "jazzy"', 'extra == "test"'}
+    assert extras == {f'extra == "{name}"' for name in ('class', 'docs', 'gym', 'jazzy', 'test')}
 
 
 def test_the_wheels_of_ros_come_with_their_middleware(distribution):
@@ -478,9 +478,7 @@ def test_the_manifest_names_every_ros_package_that_is_imported():
     }
 
     others = {name for name in declared if name.startswith('python3-')}
-    # For transforms of robots, and for the services of simulators.
-    optional = {'tf2_msgs', 'simulation_interfaces'}
-    assert of_ros - optional == declared - others
+    assert of_ros == declared - others
 
 
 def test_colcon_installs_every_world(workspace, overlay):

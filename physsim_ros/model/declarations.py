@@ -223,10 +223,10 @@ class OfKind(Generic[_Value]):
             if isinstance(value, each):
                 return value
         if not isinstance(value, dict):
-            raise BadProperty(f'a {self.noun} must be a mapping, not {shown(value)}', field=name)
+            raise BadProperty(f'{name} must be a mapping, not {shown(value)}', field=name)
         kind, words = value.get('kind'), ', '.join(self.kinds)
         if kind is None:
-            raise BadProperty(f'a {self.noun} needs a kind: {words}', field='kind')
+            raise BadProperty(f'{name} has no kind, which is one of {words}', field='kind')
         if not isinstance(kind, str) or kind not in self.kinds:
             near = nearest_name(str(kind), self.kinds)
             raise BadProperty(

@@ -140,6 +140,7 @@ class Experiment:
         way, failure, score = [robot.truth().pose[:2]], '', float('nan')
         try:
             self.begin(robot, np.random.default_rng(case.seed))
+            way = [robot.truth().pose[:2]]
             control = self.controller(**case.parameters)
             for _ in range(round(self.seconds / self.period)):
                 control(robot)

@@ -58,6 +58,8 @@ def marker_of(spawn: Spawn) -> Marker | None:
         'lifetime': spawn.lifetime,
         'frame': spawn.frame,
     } | spawn.properties.explicit()
+    for key in more.keys() & {'actor', 'robot'}:
+        more[key] = more[key].entry()
     match spawn.shape:
         case Disc(radius=radius):
             return disc(spawn.name, diameter=2.0 * radius, **more)

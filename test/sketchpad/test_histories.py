@@ -32,8 +32,8 @@ SEEDS = range(800, 808)
 
 def _said(properties: Properties) -> dict[str, Any]:
     said = properties.explicit()
-    if properties.robot is not None:
-        said['robot'] = properties.robot.entry()
+    for key in said.keys() & {'actor', 'robot'}:
+        said[key] = said[key].entry()
     return said
 
 

@@ -183,7 +183,7 @@ def test_gates_start_and_stop_the_clock_to_the_step(sheet: Sheet) -> None:
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_label('Starts when touched').select_option('gate/0')
     panel.get_by_label('Stops when touched').select_option('gate/1')
-    clock = panel.get_by_label('Stopwatch')
+    clock = panel.get_by_label('Stopwatch', exact=True)
     sheet.play_until(3.0)
     sheet.until(lambda: clock.inner_text() == '1.4000 s', '2.1 m at 1.5 m/s')
     panel.get_by_text('started at').wait_for()

@@ -67,8 +67,9 @@ def test_free_fall_is_measured_again_and_again(outside: Outside) -> None:
 @pytest.mark.slow
 def test_a_kind_of_joint_is_added_in_the_steps_of_its_tutorial(tmp_path: Path) -> None:
     tree = copy_source(tmp_path / 'clone')
-    for core in (ROOT / 'physsim_ros/engine/core').glob('*.so'):
-        shutil.copy(core, tree / 'physsim_ros/engine/core')
+    core = Path('physsim_ros/engine/core')
+    for built in (*(ROOT / core).glob('*.so'), ROOT / core / '_declarations.py'):
+        shutil.copy(built, tree / core)
     edits = EDIT.findall(page('tutorials/add_a_joint_kind'))
     assert len(edits) == 6
     for line, file, block in edits:

@@ -24,7 +24,12 @@ def test_what_is_recorded_goes_on_when_the_viewer_changes(viewers, server, tmp_p
     server.wait_for('/events', 2)
     viewer.open_viewer(ViewerMode.NONE)
     viewer.show(frame(8, 'third'))
-    assert 'connect' not in viewer.state
+
+    def is_left():
+        viewer.poll()
+        return 'connect' not in viewer.state
+
+    until(is_left)
     viewer.close()
 
     assert rows(path)['/events'] == 3

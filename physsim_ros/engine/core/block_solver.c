@@ -300,15 +300,14 @@ static void find_impulses(const World *world, Point *points, int count) {
     }
 }
 
-// The energy that the impulses give to the bodies beyond what gravity may give in a step [J]; < 0 is lost.
+// The energy that the impulses give to the bodies [J]; < 0 is lost.
 static double gain_of(const World *world, const Point *points, int count) {
-    double gain = 0.0, fall = length(world->space->gravity) * world->dt;
+    double gain = 0.0;
     for (int row = 0; row < count; row++) {
         const Point *point = points + row;
         Vec before = surface_velocity(point, free_twist(world, point->a), free_twist(world, point->b));
         Vec after = surface_velocity(point, body_of(point->a)->without, body_of(point->b)->without);
-        Vec impulse = impulse_of(point);
-        gain += dot(impulse, add(before, after)) / 2.0 - fabs(impulse.x) * fall;
+        gain += dot(impulse_of(point), add(before, after)) / 2.0;
     }
     return gain;
 }

@@ -64,8 +64,6 @@ MOST_TILT = 1e-3
 _FIELDS = ('at', 'circle', 'box', 'color', 'lifetime')
 # The greatest length of `text` [characters]: ten times all properties with all digits.
 LONGEST_TEXT = 10_000
-# The greatest number of brackets in `text`; two are needed. PyYAML takes 1 s for 1000 nested ones.
-MOST_BRACKETS = 50
 
 # Namespace of the walls of a map, and their greatest number: the default of `max_bodies`.
 WALLS, MOST_WALLS = 'walls', 20_000
@@ -310,8 +308,6 @@ def mapping_of(text: str, field: str) -> dict[Any, Any]:
     """
     if len(text) > LONGEST_TEXT:
         raise Malformed(f'{field} is longer than {LONGEST_TEXT} characters', field=field)
-    if text.count('[') + text.count('{') > MOST_BRACKETS:
-        raise Malformed(f'{field} has more than {MOST_BRACKETS} brackets', field=field)
     return load_mapping(text, field=field)
 
 

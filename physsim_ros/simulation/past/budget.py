@@ -44,7 +44,7 @@ _RELIEF = 1 / 2
 
 # Memory of a request, of the description of a body or joint, and of a piece or vertex of a shape
 # [bytes], measured with tracemalloc on CPython 3.11.
-_REQUEST, _BODY, _VERTEX = 600, 1200, 150
+_REQUEST, _BODY, _VERTEX = 800, 1200, 150
 # A name of a body in a list; names are in memory once.
 _NAME = 8
 # A checkpoint and a frame beside their arrays, and a body or joint in a scene.
