@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 import traceback
 from typing import Any
 
@@ -24,6 +25,7 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
 
+_PACKAGE = Path(__file__).resolve().parents[1]
 # Past that a run keeps beyond the moment to which a failed one returns [s].
 _MARGIN = 0.5
 # Ranges of the times of an experiment; the past of a run is kept whole up to an hour.
@@ -166,8 +168,10 @@ class Experiment:
 
 
 def _told(error: BaseException) -> str:
-    """Return an error in one line, with the place where it was raised."""
-    place = traceback.extract_tb(error.__traceback__)[-1]
+    """Return an error in one line, with the last place outside of this package."""
+    places = traceback.extract_tb(error.__traceback__)
+    outside = [each for each in places if not Path(each.filename).is_relative_to(_PACKAGE)]
+    place = (outside or places)[-1]
     return f'{type(error).__name__}: {error} ({place.name}, line {place.lineno})'
 
 

@@ -56,6 +56,7 @@ def test_a_loop_turns_back_the_shorter_way() -> None:
         ({'points': SQUARE}, 'bad_property', 'kind'),
         ({'kind': 'pth', 'points': SQUARE}, 'bad_property', 'kind'),
         ({'kind': 'path'}, 'bad_property', 'points'),
+        ({'kind': 'orca', 'points': [[0, 0]], 'max_speed': 1.0}, 'bad_property', 'max_speed'),
         ({'kind': 'path', 'points': []}, 'bad_property', 'points'),
         ({'kind': 'path', 'points': SQUARE}, 'bad_property', 'times'),
         ({**PATH, 'points': 3}, 'bad_property', 'points'),

@@ -10,7 +10,7 @@ from typing import Annotated, ClassVar
 from physsim_ros.model.actors.actor import Actor, PACE
 from physsim_ros.model.checks import Within
 from physsim_ros.model.declarations import Checked
-from physsim_ros.model.errors import Malformed
+from physsim_ros.model.errors import BadProperty, Malformed
 
 # Greatest length of a model of pedestrians [m], time [s] and strength [m²/s²].
 _FAR, _LONG, _STRONG = 100.0, 100.0, 1e4
@@ -30,6 +30,8 @@ class Pedestrian(Actor):
         Checked.__post_init__(self)
         if len(self.points[0]) != 2:
             raise Malformed('points of pedestrians are [x, y]', field='points')
+        if self.max_speed is not None and self.max_speed < self.speed:
+            raise BadProperty('max_speed is less than speed', field='max_speed')
 
     @property
     def track(self) -> list[tuple[float, float, float, float]]:
