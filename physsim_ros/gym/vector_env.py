@@ -14,6 +14,9 @@ from gymnasium.vector.utils import concatenate, create_empty_array
 import numpy as np
 from physsim_ros.gym.robot_env import RobotEnv, SavedEpisode
 from physsim_ros.gym.task import Observation, Task
+from physsim_ros.model.checks import Whole
+
+_COUNT = Whole(1, 10_000)
 
 
 class RobotVectorEnv(SyncVectorEnv):
@@ -25,10 +28,11 @@ class RobotVectorEnv(SyncVectorEnv):
 
     :param task: of the agent
     :param count: number of worlds
+    :raises BadProperty: it is none, or too many
     """
 
     def __init__(self, task: Task, count: int) -> None:
-        super().__init__([partial(RobotEnv, task)] * count)
+        super().__init__([partial(RobotEnv, task)] * _COUNT(count, 'count'))
 
     @property
     def _worlds(self) -> list[RobotEnv]:

@@ -153,7 +153,7 @@ class Experiment:
                     break
             if self.score is not None:
                 score = float(self.score(robot))
-        except (Exception, StepFailed) as error:  # noqa: BLE001 - whatever it is, it is told, and others run on
+        except (Exception, StepFailed) as error:  # noqa: BLE001 - told, and others run on
             failure = _told(error)
         seconds = simulation.step / self.physics_rate
         return Run(

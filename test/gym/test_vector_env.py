@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.gym import RobotEnv, RobotVectorEnv
+from physsim_ros.model.errors import BadProperty
 import pytest
 
 from .tasks import task
@@ -56,3 +57,9 @@ def test_saved_worlds_continue_to_the_bit_ended_ones_too() -> None:
     assert told[0] == told[1]
     with pytest.raises(ValueError, match='zip'):
         many.restore(saved[:-1])
+
+
+@pytest.mark.parametrize('count', [0, -1, 2.5, 10**9])
+def test_a_number_of_worlds_that_cannot_be_is_refused(count: int) -> None:
+    with pytest.raises(BadProperty, match='count'):
+        RobotVectorEnv(task(), count)
