@@ -84,7 +84,7 @@ class BuildCore(build_ext):
         write_declarations(SOURCE / CORE / DECLARATIONS)
 
     def get_outputs(self) -> list[str]:
-        """Return what is built: the core, and its declarations."""
+        """Return the files that are built: the core, and its declarations."""
         core = super().get_outputs()
         return [*core, *(str(Path(each).with_name(DECLARATIONS)) for each in core)]
 

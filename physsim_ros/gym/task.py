@@ -19,8 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import LONGEST, Within
-from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.robots.sensors import Laser
 from physsim_ros.simulation.robot import Robot
 
 # Actions and observations of an agent: values of its spaces.
@@ -48,7 +46,7 @@ def observe_scan(robot: Robot) -> NDArray[np.float32]:
 
     It is 1 where nothing is within range, and 0 where something is nearer than the least range.
     """
-    laser = _first_laser(robot)
+    laser = robot.first_laser
     shares: NDArray[np.float32] = np.clip(robot.scan() / laser.range[1], 0.0, 1.0)
     return shares.astype(np.float32)
 
@@ -112,11 +110,4 @@ class Task:
         """
         if self.observation_space is not None:
             return self.observation_space
-        return Box(0.0, 1.0, (_first_laser(robot).beams,), np.float32)
-
-
-def _first_laser(robot: Robot) -> Laser:
-    for sensor in robot.description.sensors:
-        if isinstance(sensor, Laser):
-            return sensor
-    raise BadProperty(f'{robot.name} has no laser to observe', field='sensors')
+        return Box(0.0, 1.0, (robot.first_laser.beams,), np.float32)

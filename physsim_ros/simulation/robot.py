@@ -96,7 +96,7 @@ class Robot:
         :param sensor: its name; '' is the first laser
         :raises BadProperty: there is no such sensor
         """
-        ranges: Floats = self.read(sensor or self._first_laser())
+        ranges: Floats = self.read(sensor or self.first_laser.name)
         return ranges
 
     def read(self, sensor: str) -> Any:
@@ -136,8 +136,14 @@ class Robot:
         """Return the row of its body in the frame of now."""
         return self.simulation.view.snapshot.row(self.name)
 
-    def _first_laser(self) -> str:
+    @property
+    def first_laser(self) -> Laser:
+        """
+        Return its first laser.
+
+        :raises BadProperty: it has none
+        """
         for each in self.description.sensors:
             if isinstance(each, Laser):
-                return each.name
+                return each
         raise BadProperty(f'{self.name} has no laser', field='sensors')

@@ -16,7 +16,7 @@ class Map(Protocol):
     """As `map` of Python, that of an executor of `concurrent.futures`, and others."""
 
     def __call__(self, run: Callable[[Case], Run], cases: Sequence[Case], /) -> Iterable[Run]:
-        """Return what a function returns for each case, in the order of the cases."""
+        """Return the results of a function for each case, in the order of the cases."""
 
 
 def cases_of(seeds: Iterable[int], **parameters: Sequence[Any]) -> list[Case]:

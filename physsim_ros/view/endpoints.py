@@ -33,7 +33,7 @@ SERVER_MEMORY = '256MiB'
 CONNECTING, ENDING = 0.5, 0.5
 # Longest time for the index of a file [s]: 600 MB on an idle machine.
 INDEXING = 7.0
-# What `.rrd` files begin with, before the digit of their version (Rerun 0.41: RRF2).
+# Beginning of `.rrd` files, before the digit of their version (Rerun 0.41: RRF2).
 _MAGIC = b'RRF'
 
 

@@ -180,7 +180,7 @@ def test_what_does_not_fit_is_refused() -> None:
         RobotEnv(task(robot='wall/0'))
     blind = Simulation()
     blind.perform(robot_spawn('mouse'))
-    with pytest.raises(BadProperty, match='no laser to observe'):
+    with pytest.raises(BadProperty, match='no laser'):
         RobotEnv(Task(world=blind.save(), reward=reward))
 
 

@@ -304,7 +304,7 @@ def test_lanes_form_where_pedestrians_of_social_force_walk_against_each_other(re
     for _ in range(400):
         sim.world.step(24)
         places = sim.world.snapshot().poses[2:]
-        # Whoever leaves at one end comes in at the other.
+        # Pedestrians who leave at one end come in at the other.
         for number in np.flatnonzero(places[:, 0] * ahead > length / 2).tolist():
             back = places[number] - (ahead[number] * length, 0.0, 0.0)
             sim.perform(Command(names=(f'person/{number}',), poses=back[None]))

@@ -6,11 +6,14 @@
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.requests import Command, Delete
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import Failed, OutOfHistory
+from physsim_ros.model.requests import Command, Delete, Request
 from physsim_ros.model.shapes import Box
+from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.tree import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
 import pytest
 
 from ..building import BOX, spawning
@@ -292,3 +295,25 @@ def test_the_status_tells_time_state_and_words() -> None:
     assert sim.status.course == 2
     sim.undo()
     assert (sim.status.course, sim.status.redo) == (1, 'redo reset')
+
+
+def test_a_request_that_fails_in_the_past_keeps_no_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    sim = Simulation(boundary=ErrorBoundary(lambda _: None))
+    sim.perform(spawning('a/0', BOX, (0.0, 1.0, 0.0)))
+    run(sim, 1.0)
+    sim.seek(SECOND // 2)
+    users = sim.past.tree.tip.users
+    carry_out = World.apply
+
+    def fail(world: World, request: Request) -> Answer:
+        if isinstance(request, Command):
+            raise ZeroDivisionError
+        return carry_out(world, request)
+
+    monkeypatch.setattr(World, 'apply', fail)
+    for _ in range(5):
+        with pytest.raises(Failed):
+            act(sim, 1.0)
+
+    assert sim.past.tree.tip.users == users
+    assert not sim.past.tree.left

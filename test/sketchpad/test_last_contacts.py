@@ -40,7 +40,7 @@ def test_bodies_that_stay_keep_their_contacts_and_others_lose_them() -> None:
     assert touching(simulation, kept) == {'a/0', 'a/2'}
     simulation.perform(Delete(name='a/0'))
     assert touching(simulation, kept) == {'a/2'}
-    # What is put onto the floor stands on it at once.
+    # A body that is put onto the floor stands on it at once.
     simulation.perform(spawning('b/0', BOX, (12.0, 0.5, 0.0)))
     assert touching(simulation, kept) == {'a/2', 'b/0'}
     simulation.perform(MoveBodies(names=('b/0',), by=(0.0, 4.0)))

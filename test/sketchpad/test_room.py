@@ -144,7 +144,7 @@ def test_the_panel_of_a_body_is_folded_while_time_runs(
     sheet.page.get_by_text('2 kg · ').wait_for()
     # The view stays.
     assert sheet.place(0.0, 0.0) == before
-    # Whoever wants all of it has it.
+    # A person who wants all of it has it.
     sheet.press('More')
     friction.wait_for()
     sheet.press('Pause')

@@ -26,7 +26,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 RUNS = 3
 BODIES = 1000
-# What the program imports before its first pose, and the least time of a package that is told [s].
+# Imports of the program before its first pose, and the least time of a package that is told [s].
 IMPORTS = 'import physsim_ros.ros.node, physsim_ros.ros.programs.real_time_loop'
 TOLD = 0.005
 

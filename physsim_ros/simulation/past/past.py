@@ -239,7 +239,7 @@ class Past:
         told = len(self.reports)
         step, _, refused = cursor.amend((first.gesture,), ())
         if refused:
-            # What happened on the way has been told before.
+            # Reports of the way have been given before.
             del self.reports[told:]
             left, _ = self._go_to(before)
             self.tree.drop(left)
