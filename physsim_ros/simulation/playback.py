@@ -80,7 +80,7 @@ class Playback:
     @property
     def is_there(self) -> bool:
         """Return whether the world is at the moment that is shown, without a replay."""
-        return self._shown is None and not self._past.cursor.is_seeking
+        return self._shown is None and not self._past.cursor.is_working
 
     @property
     def step(self) -> int:
@@ -157,6 +157,7 @@ class Playback:
         self._seek_step(self._past.steps_in(stamp * 1e-9))
 
     def _seek_step(self, step: int) -> None:
+        self._past.cursor.finish_amendment()
         self._show_requests()
         frame = self._past.frames.cached_frame(step)
         if frame is None:
@@ -176,9 +177,13 @@ class Playback:
             step, self._shown = self._shown.snapshot.step, None
             self._past.cursor.seek(step, with_contacts=False)
 
-    def continue_seek(self) -> bool:
-        """Replay a part of a seek whose goal is shown; return whether it is still under way."""
-        return self._shown is None and self._past.cursor.continue_seek()
+    def continue_work(self) -> bool:
+        """
+        Carry out a part of a seek or an amendment; return whether it is still under way.
+
+        Nothing is done while a cached frame is shown in place of the goal.
+        """
+        return self._shown is None and self._past.cursor.continue_work()
 
     def note_jump(self) -> None:
         """Show the moment of the cursor, which is another than the one that was shown."""

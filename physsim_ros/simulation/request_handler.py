@@ -11,7 +11,7 @@ requests before it, and before those after it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from physsim_ros.model.errors import Refusal
@@ -29,7 +29,15 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_queue import Amend, Call, RequestQueue, Seek, Unread, Waiting
+from physsim_ros.simulation.request_queue import (
+    Amend,
+    Call,
+    RequestQueue,
+    Seek,
+    TakeBack,
+    Unread,
+    Waiting,
+)
 
 # Steady time without a request after which a hand lets go [ns]: its page is gone.
 LONGEST_SILENCE = 5 * 10**9
@@ -140,17 +148,25 @@ class RequestHandler:
 
     def apply_waiting(self) -> None:
         """Apply the requests that wait, and collect their answers."""
+        self._past.cursor.finish_amendment()
         for waiting in self._queue.take():
             self._carry_out(waiting)
+            self._past.cursor.finish_amendment()
 
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> None:
         """
-        Apply the requests that wait up to a seek; those after it wait for its end.
+        Apply the requests that wait up to a seek or an amendment; others wait for its end.
 
         :param is_spent: whether there is no time for a further request, which waits, too
         """
-        for waiting in self._queue.take(lambda: self._playback.is_there, is_spent):
+        for waiting in self._queue.take(self._is_ready, is_spent):
             self._carry_out(waiting)
+
+    def _is_ready(self, waiting: Waiting) -> bool:
+        """Return whether an entry of the queue can be carried out now, without a replay."""
+        if waiting.is_for_world:
+            return self._playback.is_there
+        return waiting.is_answer or not self._past.cursor.is_amending
 
     def _carry_out(self, waiting: Waiting) -> None:
         """Carry out an entry of the queue, and collect its answers."""
@@ -163,12 +179,9 @@ class RequestHandler:
                     self._answer(refusal, waiting)
                 case Call(call=call):
                     self.answers += call()
-                case Amend(gestures=gestures, requests=requests):
+                case Amend() | TakeBack() as change:
                     self._playback.seek_shown()
-                    results = self._past.amend(gestures, requests, waiting.author)
-                    self._playback.note_jump()
-                    for result in results:
-                        self._answer(result, waiting)
+                    self._past.cursor.work(self._amend(change, waiting))
                 case Seek(stamp=stamp):
                     self._answer(Answer(message=self.seek(stamp)), waiting)
                 case request:
@@ -181,6 +194,24 @@ class RequestHandler:
                         self._answer(done, waiting)
         except Refusal as refusal:
             self._answer(refusal, waiting)
+
+    def _amend(self, change: Amend | TakeBack, waiting: Waiting) -> Iterator[None]:
+        """Change the past in parts, and collect the answers."""
+        results: list[Answer | Refusal]
+        try:
+            with self._past.boundary.message(waiting.topic):
+                if isinstance(change, Amend):
+                    results = yield from self._past.amend(
+                        change.gestures, change.requests, waiting.author
+                    )
+                else:
+                    phrase = yield from self._past.take_back(waiting.author)
+                    results = [Answer(message=f'undid {phrase}')]
+        except Refusal as refusal:
+            results = [refusal]
+        self._playback.note_jump()
+        for result in results:
+            self._answer(result, waiting)
 
     def _answer(self, result: Answer | Refusal, waiting: Waiting) -> None:
         """Collect the answer to a request that waited."""

@@ -67,6 +67,11 @@ class Amend:
 
 
 @dataclass(frozen=True, slots=True)
+class TakeBack:
+    """Take back the last gesture of the author of the entry, at this moment."""
+
+
+@dataclass(frozen=True, slots=True)
 class Unread:
     """
     A request in a message that is converted when its turn comes, as of an array of thousands.
@@ -84,7 +89,8 @@ class Wait(Enum):
     The time at which a call is carried out.
 
     :cvar NONE: at once: it does not depend on requests
-    :cvar BEHIND_REQUESTS: after the requests that wait; also during a seek, which it replaces
+    :cvar BEHIND_REQUESTS: after the requests that wait; also during a seek, which it replaces, but
+        not during an amendment
     :cvar FOR_SEEK: after the requests and the end of a seek: it reads or replaces the world
     """
 
@@ -111,7 +117,7 @@ class Waiting:
     """
     An entry of the queue.
 
-    :param request: to be applied; or an amendment, a seek, a call, the refusal of a message that
+    :param request: to be applied; or a change of the past, a seek, a call, the refusal of a message that
         is no request, an answer without a request
     :param topic: its source
     :param subject: name of the body or joint that it names, or ''
@@ -122,7 +128,7 @@ class Waiting:
     :param author: name of the person who did it; '' is nobody
     """
 
-    request: Request | Unread | Amend | Seek | Call | Refusal | Answer
+    request: Request | Unread | Amend | TakeBack | Seek | Call | Refusal | Answer
     topic: str
     subject: str
     gesture: int
@@ -141,17 +147,24 @@ class Waiting:
                 return False
         return True
 
+    @property
+    def is_answer(self) -> bool:
+        """Return whether it only answers."""
+        return isinstance(self.request, Refusal | Answer)
 
-def size_of(request: Request | Unread | Amend) -> int:
+
+def size_of(request: Request | Unread | Amend | TakeBack) -> int:
     """Return the memory that a request takes [bytes]."""
     if isinstance(request, Unread):
         return _UNREAD
     if isinstance(request, Amend):
         return sum(map(size_of, request.requests))
+    if isinstance(request, TakeBack):
+        return 0
     return request_size(request)
 
 
-def subject_of(request: Request | Unread | Amend) -> str:
+def subject_of(request: Request | Unread | Amend | TakeBack) -> str:
     """Return the one body or joint that a request names, or ''."""
     match request:
         case (
@@ -216,7 +229,7 @@ class RequestQueue:
 
     def submit(
         self,
-        request: Request | Unread | Amend,
+        request: Request | Unread | Amend | TakeBack,
         *,
         topic: str,
         joined: bool = False,
@@ -330,7 +343,7 @@ class RequestQueue:
 
     def take(
         self,
-        is_there: Callable[[], bool] = lambda: True,
+        is_ready: Callable[[Waiting], bool] = lambda _: True,
         is_spent: Callable[[], bool] = lambda: False,
     ) -> Iterator[Waiting]:
         """
@@ -339,15 +352,14 @@ class RequestQueue:
         Not re-entrant: a call among them that takes entries too gets none, since they come after
         it.
 
-        :param is_there: whether the world can take a request; else the next one for the world and
-            all entries after it wait
+        :param is_ready: whether an entry can be carried out; else it and all entries after it wait
         :param is_spent: whether there is no time for a further entry; asked after each
         """
         if self._is_taken:
             return
         self._is_taken = True
         try:
-            while self._waiting and (not self._waiting[0].is_for_world or is_there()):
+            while self._waiting and is_ready(self._waiting[0]):
                 waiting = self._waiting.popleft()
                 self._size -= waiting.size
                 match waiting.request:

@@ -11,7 +11,7 @@ after it; a frame without a step shows what requests have changed.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 import math
@@ -326,7 +326,7 @@ class Simulation:
         :raises Refusal: there is none, or it does not stand alone; nothing is changed
         """
         with self._jump():
-            return f'undid {self.past.take_back(author)}'
+            return f'undid {_result(self.past.take_back(author))}'
 
     def redo(self) -> str:
         """
@@ -385,12 +385,14 @@ class Simulation:
 
     def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
         """
-        Replay up to the goal of a seek whose frame is not cached; until then no step is due.
+        Replay up to the goal of a seek whose frame is not cached, or to the end of an amendment.
 
-        :param is_overdue: whether the replay is to continue in another call
-        :return: whether the goal is reached
+        Until then no step is due.
+
+        :param is_overdue: whether the work is to continue in another call
+        :return: whether it is done
         """
-        while self.playback.continue_seek():
+        while self.playback.continue_work():
             if is_overdue():
                 # The time of this replay is not made up for.
                 self.playback.clock.restart()
@@ -555,3 +557,12 @@ class Simulation:
         self.playback.seek_shown()
         yield
         self.playback.note_jump()
+
+
+def _result(parts: Generator[None, None, str]) -> str:
+    """Carry out all parts of work, and return its result."""
+    while True:
+        try:
+            next(parts)
+        except StopIteration as end:
+            return str(end.value)

@@ -15,7 +15,7 @@ theory of operation.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -25,6 +25,7 @@ from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
+from physsim_ros.simulation.past.amendment import Amendment
 from physsim_ros.simulation.past.budget import Budget
 from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.frames import FrameCache
@@ -52,6 +53,7 @@ class Past:
     :param boundary: of the requests
     :raises BadProperty: the memory is out of range
 
+    :ivar boundary: of the requests
     :ivar budget: of all that is kept
     :ivar tree: of all lines
     :ivar cursor: the world at a moment of the line in force
@@ -72,6 +74,7 @@ class Past:
     ) -> None:
         self.physics_rate = physics_rate
         self.frame_steps = frame_steps
+        self.boundary = boundary
         self.budget = Budget(memory)
         self.reports: list[Answer] = []
         self.tree = Tree(
@@ -175,24 +178,20 @@ class Past:
         :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
-        cursor, tree = self.cursor, self.tree
-        left = tree.line(cursor.moment) if not cursor.is_newest else None
-        changed = False
-        try:
-            done = cursor.apply(request, gesture, author)
-            changed = cursor.world.changed
-        finally:
-            if left is not None and not changed:
-                self.tree.drop(left)
-        if changed:
-            if left is not None:
-                self._begin_course(left)
+        cursor = self.cursor
+        with cursor.request(request) as world:
+            answer = world.apply(request)
+        if world.changed:
+            if not cursor.is_newest:
+                self._begin_course()
+            cursor.log(request, answer.subject, gesture, author)
             self.tree.drop_undone()
-        return done
+        return answer
 
-    def _begin_course(self, left: Line) -> None:
-        """Begin a course at this moment, and keep the line that was in force."""
+    def _begin_course(self) -> None:
+        """Begin a course at this moment, and keep the line that is in force."""
         step, _ = self.cursor.moment
+        left = self.tree.line(self.cursor.moment)
         self.tree.keep_course(left, self.frames.drop_from(step))
         self._courses += 1
         self.tree.course = self._courses
@@ -201,21 +200,21 @@ class Past:
 
     def amend(
         self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
-    ) -> list[Answer | Refusal]:
+    ) -> Generator[None, None, list[Answer | Refusal]]:
         """
-        Replace the requests of earlier gestures, and simulate again up to this moment.
+        Replace the requests of earlier gestures, in parts; see `Amendment`.
 
-        :param author: name of the person who did it; '' is nobody
-        :return: for each request what `apply` returns, or its refusal
+        :return: for each request its answer, or its refusal
         """
-        step, done, _ = self.cursor.amend(gestures, requests, author)
+        amendment = Amendment(self.cursor, self.tree, gestures, requests, author)
+        yield from amendment.parts()
         self.tree.drop_undone()
-        self.frames.drop_from(step)
-        return done
+        self.frames.drop_from(amendment.step)
+        return amendment.done
 
-    def take_back(self, author: str) -> str:
+    def take_back(self, author: str) -> Generator[None, None, str]:
         """
-        Take back the last gesture of a person, and simulate again up to this moment.
+        Take back the last gesture of a person, and simulate again up to this moment, in parts.
 
         What others have done since is done again as it was asked.
 
@@ -237,14 +236,15 @@ class Past:
         before = tree.line(cursor.moment)
         before.words = gesture_phrase(first, 1)
         told = len(self.reports)
-        step, _, refused = cursor.amend((first.gesture,), ())
-        if refused:
+        amendment = Amendment(cursor, tree, (first.gesture,), ())
+        yield from amendment.parts()
+        if amendment.refused:
             # Reports of the way have been given before.
             del self.reports[told:]
             left, _ = self._go_to(before)
             self.tree.drop(left)
             raise NotAlone('somebody has used it since; delete it instead')
-        self.frames.drop_from(step)
+        self.frames.drop_from(amendment.step)
         self.tree.drop_undone()
         self.tree.undone.append(before)
         return before.words

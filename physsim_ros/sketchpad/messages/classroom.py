@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-from functools import partial
 import re
 
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies, Unjoin
-from physsim_ros.simulation.request_queue import Wait
+from physsim_ros.simulation.request_queue import TakeBack
 from physsim_ros.sketchpad.locks import locks_of
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
@@ -67,8 +66,8 @@ def say(page: PageSession, origin: Origin, text: str) -> None:
 @message('take_back', '~/undo')
 def take_back(page: PageSession, origin: Origin) -> None:
     """Undo the last gesture of the person at this page, where it stands alone; time stays."""
-    action = partial(page.world.simulation.take_back, page.person)
-    page.perform(origin, action, Wait.BEHIND_REQUESTS)
+    queue, author = page.world.simulation.requests, page.person
+    queue.submit(TakeBack(), topic=origin.topic, asker=origin.asker, author=author)
 
 
 @message('freeze', 'page', Right.TEACH, frozen=flag)

@@ -1,0 +1,107 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Amendment: requests of the past are replaced, and the world is simulated again up to its moment.
+
+Laws: later requests are carried out again in their order, each at its step; those that the amended
+past refuses are dropped, and so is the future of the moment. Between two parts of the work the
+line in force counts as reached up to that moment, though not all of it is simulated yet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import Request
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.past.tree import Tree
+
+
+class Amendment:
+    """
+    The replacement of the requests of earlier gestures, up to the moment of a cursor.
+
+    Gestures that changed nothing or are no longer kept are ignored; without any other, the
+    requests are applied now.
+
+    :param cursor: on the line in force
+    :param tree: with that line
+    :param gestures: their numbers, at least one; the requests get the first number
+    :param requests: that replace theirs, at their first step
+    :param author: name of the person who did it; '' is nobody
+
+    :ivar step: the first step that differs
+    :ivar done: for each new request its answer or its refusal
+    :ivar refused: the refusals of later requests
+    """
+
+    def __init__(
+        self,
+        cursor: Cursor,
+        tree: Tree,
+        gestures: Sequence[int],
+        requests: Sequence[Request],
+        author: str = '',
+    ) -> None:
+        self._cursor, self._tree = cursor, tree
+        self._requests, self._gesture, self._author = requests, gestures[0], author
+        now = cursor.moment
+        starts = [tree.gesture_start(each, now[1]) for each in gestures]
+        found = [start for start in starts if start is not None]
+        self.step, self._serial = min(found, key=lambda start: start[1], default=now)
+        self._end = now[0]
+        # Commands of robots join the gesture before them, whose author is another one.
+        self._later = [
+            each
+            for each in tree.nodes_between(self._serial, now[1])
+            if each.gesture not in gestures or each.author != tree.node(each.opening).author
+        ]
+        self.done: list[Answer | Refusal] = []
+        self.refused: list[Refusal] = []
+
+    def parts(self) -> Iterator[None]:
+        """Carry it out; yield after each frame and each request."""
+        tree = self._tree
+        for _ in self._simulate():
+            reached, tree.head = tree.head, self._end
+            yield
+            tree.head = reached
+
+    def _simulate(self) -> Iterator[None]:
+        cursor, tree = self._cursor, self._tree
+        start = self.step, self._serial
+        cursor.follow(tree.node(self._serial), self.step, start)
+        yield from cursor.parts_of_work()
+        for request in self._requests:
+            self.done.append(self._apply(request, self._gesture, self._author))
+            yield
+        for node in self._later:
+            yield from self._advance(node.step)
+            answer = self._apply(node.request, node.gesture, node.author)
+            if isinstance(answer, Refusal):
+                self.refused.append(answer)
+            yield
+        yield from self._advance(self._end)
+        cursor.world.clear_contacts()
+
+    def _advance(self, step: int) -> Iterator[None]:
+        world = self._cursor.world
+        while (left := step - world.step_count) > 0:
+            self._cursor.advance(min(left, world.frame_steps))
+            yield
+
+    def _apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
+        cursor = self._cursor
+        try:
+            with cursor.request(request) as world:
+                answer = world.apply(request)
+        except Refusal as refusal:
+            # The world may have to be rebuilt.
+            cursor.finish_work()
+            return refusal
+        if world.changed:
+            cursor.log(request, answer.subject, gesture, author)
+        return answer
