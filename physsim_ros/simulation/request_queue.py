@@ -117,8 +117,8 @@ class Waiting:
     """
     An entry of the queue.
 
-    :param request: to be applied; or a change of the past, a seek, a call, the refusal of a message that
-        is no request, an answer without a request
+    :param request: to be applied; or a change of the past, a seek, a call, the refusal of a
+        message that is no request, an answer without a request
     :param topic: its source
     :param subject: name of the body or joint that it names, or ''
     :param gesture: number of its gesture; requests of one gesture are undone together

@@ -6,9 +6,9 @@ The cursor: a world at a moment of the line of events in force.
 
 Laws: a world that continues from a moment of the past makes the same bits as before, from the same
 checkpoints and with the same requests, until a request changes its course; a difference is
-reported. A refused request changes nothing. Long work, a seek or an amendment of the past, is made
-in parts. While it is under way it counts as done: moment and settings are those to which it leads,
-and a reader of the world finishes it. Another seek replaces a seek; an amendment is finished first.
+reported. Long work, a seek or an amendment of the past, is made in parts. While it is under way it
+counts as done: moment and settings are those to which it leads, and a reader of the world finishes
+it. Another seek replaces a seek; an amendment is finished first.
 """
 
 from __future__ import annotations
@@ -348,7 +348,12 @@ class Cursor:
         """
         tree, settings = self._tree, self._world.settings
         tree.add_request(
-            self.moment, request, gesture=gesture, author=author, subject=subject, settings=settings
+            self.moment,
+            request,
+            gesture=gesture,
+            author=author,
+            subject=subject,
+            settings=settings,
         )
         self.serial += 1
         if tree.is_log_long:
