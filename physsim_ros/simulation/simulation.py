@@ -28,7 +28,6 @@ from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_handler import RequestHandler
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import forces_now, World
 from physsim_ros.simulation.world.body_requests import is_driving
@@ -75,7 +74,7 @@ class Simulation:
     :raises BadProperty: a rate or the memory is out of range, or publish_rate does not divide
         physics_rate
 
-    :ivar requests: queue of the requests that wait for the next frame
+    :ivar requests: queue of the requests that wait for the next frame, and what applies them
     :ivar past: the lines of events, cached frames, and their budget of memory
     :ivar playback: the moment that is shown
     :ivar held: the commands with which robots drive on, by the names of their bodies
@@ -114,8 +113,7 @@ class Simulation:
             boundary=boundary or ErrorBoundary(),
         )
         self.playback = Playback(self.past, speed=speed)
-        self.requests = RequestQueue()
-        self._handler = RequestHandler(self.past, self.playback, self.requests)
+        self.requests = RequestQueue(self.past, self.playback)
         self._view: View | None = None
         self.held: dict[str, DriveRobot] = {}
 
@@ -144,7 +142,7 @@ class Simulation:
     @speed.setter
     def speed(self, speed: float) -> None:
         if speed < 0.0:
-            self._handler.hands.clear()
+            self.requests.hands.clear()
             self.let_go()
         self.playback.speed = speed
 
@@ -165,7 +163,7 @@ class Simulation:
         self.playback.changed = True
         if not self.past.cursor.keep_within(self.past.steps_in(seconds)):
             self.playback.note_jump()
-            self._handler.report_oldest()
+            self.requests.report_oldest()
 
     def limit_memory(self, megabytes: float) -> None:
         """
@@ -215,9 +213,9 @@ class Simulation:
         :param gesture: its gesture; None is a new one
         :raises Refusal: and nothing is changed
         """
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
-        message = self._handler.apply(request, gesture).message
+        message = self.requests.apply(request, gesture).message
         self.playback.changed = True
         return message
 
@@ -228,7 +226,7 @@ class Simulation:
 
     def _note_beginning(self) -> None:
         """Note that the world is another one, which nobody holds or drives."""
-        self._handler.hands.clear()
+        self.requests.hands.clear()
         self.let_go()
         self.playback.note_jump()
 
@@ -245,7 +243,7 @@ class Simulation:
         to its next impact: the engine solves contacts in the order in which it found them, which
         is not in a state.
         """
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         return self.world.save()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
@@ -272,11 +270,11 @@ class Simulation:
 
         :raises InPast: the past is shown
         """
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         if self.frame.past:
             raise InPast('the past is shown; go to its end first', field='history')
-        self._handler.hands.clear()
-        self._handler.release_grips()
+        self.requests.hands.clear()
+        self.requests.release_grips()
         frame = self.frame
         checkpoint = self.past.cursor.add_keyframe()
         return SavedMoment(
@@ -303,7 +301,7 @@ class Simulation:
         :raises BadProperty: the seed is out of range
         """
         with self._jump():
-            self._handler.hands.clear()
+            self.requests.hands.clear()
             self.let_go()
             done = self.past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
@@ -347,7 +345,7 @@ class Simulation:
         """
         with self._jump():
             if self.past.return_to_course(number):
-                self._handler.hands.clear()
+                self.requests.hands.clear()
         return f'on course {number}, at {self.playback.time}'
 
     def seek(self, stamp: int) -> str:
@@ -359,9 +357,9 @@ class Simulation:
         """
         if not isinstance(stamp, Integral):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         self.let_go()
-        return self._handler.seek(stamp)
+        return self.requests.seek(stamp)
 
     def let_go(self) -> None:
         """End what `Robot.drive` has robots do; their last commands end with their timeouts."""
@@ -371,7 +369,7 @@ class Simulation:
 
     def apply_waiting(self) -> None:
         """Apply the requests that wait, at whose seeks the world goes at once."""
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
 
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
@@ -380,7 +378,7 @@ class Simulation:
         :param is_spent: whether there is no time for a further one
         :return: whether no seek is under way, and no request waits
         """
-        self._handler.apply_up_to_seek(is_spent)
+        self.requests.apply_up_to_seek(is_spent)
         return self.playback.is_there and not self.requests.has_requests
 
     def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
@@ -401,12 +399,12 @@ class Simulation:
 
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         return self._observe_frame(moved=False) if self.playback.changed else None
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that no frame has taken, and drop them."""
-        return self._handler.take_answers()
+        return self.requests.take_answers()
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
@@ -431,8 +429,8 @@ class Simulation:
     def _advance_period(self) -> None:
         """Apply the requests that wait, and advance by one publish period."""
         self._hold_drives()
-        self._handler.apply_waiting()
-        self._handler.release_grips()
+        self.requests.apply_waiting()
+        self.requests.release_grips()
         self.playback.clock.restart()
         self._play(self.playback.steps_to_period)
 
@@ -463,7 +461,7 @@ class Simulation:
             return ()
         if playback.speed > 0.0:
             self._hold_drives()
-        self._handler.apply_up_to_seek(is_spent)
+        self.requests.apply_up_to_seek(is_spent)
         if not self.finish_seek(is_overdue):
             return ()
         if self.requests.is_in_gesture or (playback.frames_due and self.requests.has_requests):
@@ -472,9 +470,9 @@ class Simulation:
         if playback.frames_due:
             playback.frames_due -= 1
             return (self.advance_frame(),)
-        self._handler.hands.note_time(now_ns, paused=playback.speed == 0)
+        self.requests.hands.note_time(now_ns, paused=playback.speed == 0)
         if playback.speed > 0:
-            self._handler.release_grips()
+            self.requests.release_grips()
         frames = tuple(self._due_frames(now_ns, is_overdue))
         if not frames and playback.changed:
             return (self._observe_frame(moved=False),)
@@ -509,7 +507,7 @@ class Simulation:
         for drive in self.held.values():
             if not is_driving(self.world, drive, self.frame_steps):
                 # In the gesture before, with which it is undone: nobody undoes a tick.
-                self._handler.apply(drive, self.requests.gesture)
+                self.requests.apply(drive, self.requests.gesture)
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
@@ -524,20 +522,20 @@ class Simulation:
                 break
         if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
-            self._handler.report_oldest('; paused')
+            self.requests.report_oldest('; paused')
         return self._observe_frame(moved=self.playback.step < before)
 
     def _observe_frame(self, *, moved: bool) -> Frame:
         """Return the frame that is shown, with all answers; fit the past into its budget."""
         snapshot, contacts = self.playback.observe_frame(moved=moved)
         self.past.fit_memory(self.playback.moment)
-        self._handler.answers += self.past.reports
+        self.requests.answers += self.past.reports
         self.past.reports.clear()
         self.playback.changed = False
         frame = Frame(
             snapshot=snapshot,
             contacts=contacts if self.past.reports_contacts else None,
-            answers=self._handler.take_answers(),
+            answers=self.requests.take_answers(),
             speed=self.playback.speed,
             moved=moved,
             past=snapshot.step < self.past.tree.head,
@@ -552,7 +550,7 @@ class Simulation:
     @contextmanager
     def _jump(self) -> Iterator[None]:
         """Have the block move the cursor, from the moment that is shown after all requests."""
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         self.playback.frames_due = 0
         self.playback.seek_shown()
         yield
