@@ -12,7 +12,7 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
-from physsim_ros.simulation.past.budget import frames_size, LEAST_MEMORY, MEGABYTE
+from physsim_ros.simulation.past.budget import frame_size, LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -300,6 +300,6 @@ def test_the_size_of_the_frames_is_that_of_each_after_every_way_through_time() -
         driven.tick()
         sizes.append(cache.size)
 
-        assert cache.size == frames_size(cache._frames.values())  # noqa: SLF001
+        assert cache.size == sum(frame_size(*frame) for frame in cache._frames.values())  # noqa: SLF001
     assert driven.simulation.past.frames is cache
     assert min(sizes) > 0

@@ -15,19 +15,21 @@ between two checkpoints, is replayed forward while the segment after it is shown
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
-from collections import Counter
 from collections.abc import Iterator
 from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.budget import frame_size, scene_size
+from physsim_ros.simulation.past.budget import frame_size
 from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.node import CachedFrame, Keyframe
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
+# Share of the budget for frames [1]: 64 MB of 256, three minutes of 100 bodies. More saves little,
+# since a rewind replays ahead of the frame that is shown.
+_SHARE = 1 / 4
 # Greatest memory of a body in a frame, on average of all frames [bytes]: a pose.
 _BODY = 24
 
@@ -66,8 +68,6 @@ class FrameCache:
         # The frames by step, and their steps in the order of time.
         self._frames: dict[int, CachedFrame] = {}
         self._steps: list[int] = []
-        # Number of frames of each scene, whose memory is counted once.
-        self._scenes: Counter[int] = Counter()
         # The step that is shown.
         self._shown = 0
         # Number of bodies in the last frame.
@@ -199,28 +199,18 @@ class FrameCache:
         """Add a frame, in place of the one of the same step."""
         step = frame.snapshot.step
         if step in self._frames:
-            self._count(self._frames[step], -1)
+            self.size -= frame_size(*self._frames[step])
         else:
             insort(self._steps, step)
         self._frames[step] = frame.copy()
-        self._count(frame, 1)
+        self.size += frame_size(*frame)
 
     def _drop(self, begin: int, end: int) -> list[CachedFrame]:
         """Drop and return the frames from one place to another in the order of time."""
         dropped = [self._frames.pop(step) for step in self._steps[begin:end]]
         del self._steps[begin:end]
-        for frame in dropped:
-            self._count(frame, -1)
+        self.size -= sum(frame_size(*frame) for frame in dropped)
         return dropped
-
-    def _count(self, frame: CachedFrame, sign: int) -> None:
-        """Add the memory of a frame, or subtract it."""
-        scene = frame.snapshot.scene
-        others = self._scenes[id(scene)] - (sign < 0)
-        self.size += sign * (frame_size(*frame) + (0 if others else scene_size(scene)))
-        self._scenes[id(scene)] += sign
-        if not self._scenes[id(scene)]:
-            del self._scenes[id(scene)]
 
     def _evict(self, step: int) -> None:
         """Drop the frames before the history, and more until all fit."""
@@ -228,7 +218,7 @@ class FrameCache:
         tree, frame = self._tree, self._world.frame_steps
         self._drop(0, bisect_left(self._steps, tree.keyframes[0].step))
         poses = tree.length // frame * self._bodies
-        limit = min(tree.budget.frame_limit, poses * _BODY)
+        limit = min(tree.budget.size * _SHARE, poses * _BODY)
         while self.size > limit and self.drop_oldest():
             pass
 

@@ -35,6 +35,8 @@ from physsim_ros.simulation.world import World
 
 # Greatest simulation time that is simulated again where a gesture is taken back [s].
 LONGEST_AGAIN = 60.0
+# Share of the budget below which the next loss is reported again [1].
+_RELIEF = 1 / 2
 
 
 class Past:
@@ -156,17 +158,33 @@ class Past:
 
         :param shown: the moment that is shown, which is kept
         """
-        tree, frames = self.tree, self.frames
+        tree, frames, budget = self.tree, self.frames, self.budget
         tree.shown = shown
         tree.drop_lost()
-        kinds = (
+        self._count_memory()
+        budget.told &= budget.used > _RELIEF * budget.size
+        is_lost = False
+        # Frames come back by a replay, and are no loss.
+        for drop in (
             frames.drop_oldest,
             tree.drop_oldest_ghost,
             tree.drop_oldest_line,
             tree.drop_oldest_checkpoint,
-        )
-        if self.budget.fit(lambda: frames.size + tree.size, kinds):
-            self.reports.append(self.budget.report(tree.oldest / self.physics_rate))
+        ):
+            while budget.used > budget.size and drop():
+                self._count_memory()
+                is_lost |= drop != frames.drop_oldest
+        if is_lost and not budget.told:
+            budget.told = True
+            oldest = tree.oldest / self.physics_rate
+            message = (
+                f'the past would take more than {budget.megabytes:g} MB (history_memory): the '
+                f'oldest goes, {oldest:.3f} s is the oldest that is kept'
+            )
+            self.reports.append(Answer(topic='history', message=message, code='history'))
+
+    def _count_memory(self) -> None:
+        self.budget.used = self.frames.size + self.tree.size
 
     # Requests
 

@@ -25,7 +25,7 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.budget import (
     Budget,
     checkpoint_size,
-    frames_size,
+    frame_size,
     request_size,
 )
 from physsim_ros.simulation.past.node import CachedFrame, Keyframe, Line, Moment, Node
@@ -33,6 +33,9 @@ from physsim_ros.simulation.past.node import CachedFrame, Keyframe, Line, Moment
 # Greatest number of courses that are kept, as many as a person tells apart; the one that was left
 # first is dropped first.
 MOST_COURSES = 16
+# Share of the budget from which the requests after a checkpoint make the next one due [1], so that
+# the past has at least eight parts that can be dropped.
+_LOG_SHARE = 1 / 8
 
 
 class Tree:
@@ -162,7 +165,7 @@ class Tree:
     def is_log_long(self) -> bool:
         """Whether the memory of the requests since the last checkpoint exceeds the limit."""
         last = self.node(self.keyframes[-1].serial)
-        return self.tip.total - last.total > self.budget.log_limit
+        return self.tip.total - last.total > self.budget.size * _LOG_SHARE
 
     def last_gesture(self, serial: int) -> tuple[Node, int] | None:
         """
@@ -369,7 +372,7 @@ class Tree:
     def keep_course(self, line: Line, ghost: Sequence[CachedFrame]) -> None:
         """Keep a line as a course that was left, with the frames that only it has shown."""
         line.ghost = [frame._replace(contacts=None) for frame in ghost]
-        line.size = frames_size(line.ghost)
+        line.size = sum(frame_size(*frame) for frame in line.ghost)
         self.size += line.size
         self.left[line.course] = line
         of_era = [each for each in self.left.values() if each.era == line.era]
