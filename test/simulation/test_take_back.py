@@ -122,9 +122,9 @@ def test_what_a_person_has_added_and_is_still_there_is_told() -> None:
     rod = Join(name='j/0', kind=JointKind.ROD, points=((-3.0, 4.0), (0.0, 9.0)), a='a/0')
     simulation = class_of(ANNA, BEN, (30, 'Anna', rod))
 
-    assert simulation.past.doings_of('Anna') == (('a/0',), ('j/0',))
-    assert simulation.past.doings_of('Ben') == (('b/0',), ())
-    assert simulation.past.doings_of('Cleo') == ((), ())
+    assert simulation.past.added_by('Anna') == (('a/0',), ('j/0',))
+    assert simulation.past.added_by('Ben') == (('b/0',), ())
+    assert simulation.past.added_by('Cleo') == ((), ())
 
 
 def test_what_a_person_added_is_what_was_added_last_by_them() -> None:
@@ -133,8 +133,8 @@ def test_what_a_person_added_is_what_was_added_last_by_them() -> None:
     simulation.requests.submit(Axle(point=LEFT[:2]), topic='t', author='Anna')
     simulation.advance_frame()
 
-    assert simulation.past.doings_of('Ben') == (('b/0', 'a/0'), ())
-    bodies, joints = simulation.past.doings_of('Anna')
+    assert simulation.past.added_by('Ben') == (('b/0', 'a/0'), ())
+    bodies, joints = simulation.past.added_by('Anna')
     assert not bodies
     assert joints == tuple(joint.name for joint in simulation.world.scene.joints)
 

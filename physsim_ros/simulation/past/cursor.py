@@ -4,11 +4,10 @@
 """
 The cursor: a world at a moment of the line of events in force.
 
-Laws: a world that continues from a moment of the past makes the same bits as before, from the same
-checkpoints and with the same requests, until a request changes its course; a difference is
-reported. Long work, a seek or an amendment of the past, is made in parts. While it is under way it
-counts as done: moment and settings are those to which it leads, and a reader of the world finishes
-it. Another seek replaces a seek; an amendment is finished first.
+Laws: a world that continues from a moment of the past makes the same bits as before, until a
+request changes its course. Long work, a seek or an amendment of the past, is made in parts. While
+it is under way it counts as done: moment and settings are those to which it leads, and a reader of
+the world finishes it. Another seek replaces a seek; an amendment is finished first.
 """
 
 from __future__ import annotations
@@ -19,11 +18,12 @@ from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
+from physsim_ros.model.errors import Failed, OutOfHistory
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past.node import Keyframe, Moment, Node
+from physsim_ros.simulation.past.node import Moment, Node
+from physsim_ros.simulation.past.replay import finish, Replay
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -45,7 +45,7 @@ class _Work(NamedTuple):
     parts: Iterator[None]
 
 
-class Cursor:
+class Cursor(Replay):
     """
     A world at a moment of the line in force.
 
@@ -53,20 +53,13 @@ class Cursor:
     :param tree: of all lines
     :param reports: of events without a request, to which it adds
     :param boundary: of the requests
-
-    :ivar serial: number of the last request that was applied
     """
 
     def __init__(
         self, world: World, tree: Tree, reports: list[Answer], boundary: ErrorBoundary
     ) -> None:
-        self.serial = 0
-        self._world = world
-        self._tree = tree
-        self._reports = reports
+        super().__init__(world, tree, reports)
         self._boundary = boundary
-        # The checkpoint from which the present space was built.
-        self._resumed: Moment | None = None
         self._work: _Work | None = None
 
     # The moment
@@ -88,11 +81,6 @@ class Cursor:
         if self._work is None:
             return self._here
         return self._work.goal or self._tree.end
-
-    @property
-    def _here(self) -> Moment:
-        """Step and serial of the world as it is."""
-        return self._world.step_count, self.serial
 
     @property
     def is_newest(self) -> bool:
@@ -165,16 +153,6 @@ class Cursor:
         self._work, self.serial = None, 0
         self._tree.begin(loaded, checkpoint, self._world.digest())
         self._resumed = self.moment
-
-    def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
-        """
-        Go to a keyframe.
-
-        :param going_over: whether the world is at that moment now, with the same bits
-        """
-        self._world.resume(keyframe.checkpoint, going_over=going_over)
-        self.serial = keyframe.serial
-        self._resumed = keyframe.moment
 
     def seek(self, step: int, *, with_contacts: bool = True) -> None:
         """
@@ -253,72 +231,6 @@ class Cursor:
         self.seek(tree.oldest)
         return False
 
-    # Replay
-
-    def replay_shown(self, step: int) -> None:
-        """Replay up to a step of the line, with the requests with which it was shown."""
-        _finish(self._replay_to(step, self._tree.serial_shown_at(step)))
-
-    def _replay_to(self, step: int, serial: int) -> Iterator[None]:
-        """Replay up to a moment of the line, no earlier than now; yield after each part."""
-        world = self._world
-        while world.step_count < step:
-            yield from self._replay_to_stop(min(step, world.step_count + world.frame_steps))
-            yield
-        yield from self._apply_logged(serial)
-
-    def _replay_to_stop(self, end: int) -> Iterator[None]:
-        """Replay up to the next step with a request or a checkpoint, or to the end."""
-        tree, world = self._tree, self._world
-        yield from self._apply_logged(tree.serial_at(world.step_count))
-        self._enter_checkpoint()
-        self._make_steps(end)
-        yield from self._apply_logged(tree.serial_shown_at(world.step_count))
-
-    def _make_steps(self, end: int) -> None:
-        step = self._world.step_count
-        stop = self._tree.next_stop(step, end)
-        lost, broken = self._world.step(stop - step), self._world.take_broken()
-        # In a replay, events were reported the first time.
-        if stop > self._tree.head:
-            for name in lost:
-                self._report(
-                    'divergence', f'{name} left the range of numbers and was removed', name
-                )
-            for name, force in broken:
-                self._report(
-                    'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
-                )
-
-    def _apply_logged(self, serial: int) -> Iterator[None]:
-        """Apply the logged requests of this step up to a serial; yield after each."""
-        for node in self._tree.nodes_between(self.serial, serial):
-            self._enter_checkpoint()
-            try:
-                self._world.replay(node.request)
-            except Refusal as refusal:
-                self._report('divergence', f'a request of the log is refused now: {refusal}')
-            self.serial += 1
-            yield
-
-    def _enter_checkpoint(self) -> None:
-        """Move into a space that is built from the checkpoint of this moment, if there is one."""
-        keyframe = self._tree.keyframe_at(*self._here)
-        if keyframe is not None and self._resumed != keyframe.moment:
-            self.resume(keyframe, going_over=self.check_digest())
-
-    def check_digest(self) -> bool:
-        """Return whether the world has the digest of the keyframe here; report a difference."""
-        keyframe = self._tree.keyframe_at(*self._here)
-        same = keyframe is None or self._world.digest() == keyframe.digest
-        if not same:
-            seconds = self._world.step_count * self._world.dt
-            self._report('divergence', f'{seconds:.3f} s was reached with other bits than before')
-        return same
-
-    def _report(self, code: str, message: str, subject: str = '') -> None:
-        self._reports.append(Answer(topic=code, subject=subject, message=message, code=code))
-
     # Going on
 
     @contextmanager
@@ -366,9 +278,9 @@ class Cursor:
         end = world.step_count + steps
         while world.step_count < end:
             if world.step_count < tree.head:
-                _finish(self._replay_to_stop(min(end, tree.head)))
+                finish(self._replay_to_stop(min(end, tree.head)))
             else:
-                _finish(self._apply_logged(tree.serial_at(world.step_count)))
+                finish(self._apply_logged(tree.serial_at(world.step_count)))
                 self._make_checkpoint()
                 self._make_steps(end)
                 tree.note_step(world.step_count)
@@ -398,9 +310,3 @@ class Cursor:
         """Build the share of the bodies for the next checkpoint that is due in some steps."""
         bodies, spacing = len(self.world), self._tree.spacing
         self._world.build_bodies(-(-bodies * steps // max(1, int(spacing * _AHEAD))))
-
-
-def _finish(parts: Iterator[None]) -> None:
-    """Carry out all parts of a replay."""
-    for _ in parts:
-        pass

@@ -22,8 +22,8 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.budget import frame_size
-from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.node import CachedFrame, Keyframe
+from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -52,17 +52,17 @@ class FrameCache:
     """
     The cached frames of the line in force.
 
-    :param cursor: of a world that replays segments
-    :param world: of that cursor
+    :param replay: that replays segments
+    :param world: of that replay
     :param tree: of all lines, with the budget; for few bodies frames take less of it: a pose of
         each body in each frame of the history
 
     :ivar size: memory that the frames take [bytes]
     """
 
-    def __init__(self, cursor: Cursor, world: World, tree: Tree) -> None:
+    def __init__(self, replay: Replay, world: World, tree: Tree) -> None:
         self.size = 0
-        self._cursor = cursor
+        self._replay = replay
         self._world = world
         self._tree = tree
         # The frames by step, and their steps in the order of time.
@@ -163,24 +163,24 @@ class FrameCache:
         keyframe, end = self._tree.segment(step)
         of, segment = (keyframe, end, self._world.reports_contacts), self._segment
         if segment is None or segment.of != of or segment.stride > stride:
-            self._cursor.resume(keyframe)
-            self._cursor.replay_shown(keyframe.step)
+            self._replay.resume(keyframe)
+            self._replay.replay_shown(keyframe.step)
             segment = _Segment(of, stride, self._parts_of_segment(keyframe, end, stride))
             self._segment = segment
         return segment.parts
 
     def _parts_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
         """Replay a segment from its keyframe; at its end its frames replace those cached."""
-        cursor, world, frames = self._cursor, self._world, []
+        replay, world, frames = self._replay, self._world, []
         # The step may have been shown without the requests before the keyframe.
-        if cursor.serial == self._tree.serial_shown_at(keyframe.step):
+        if replay.serial == self._tree.serial_shown_at(keyframe.step):
             frames.append(self._frame())
         while (at := world.step_count) < end:
-            cursor.replay_shown(min(end, at - at % stride + stride))
+            replay.replay_shown(min(end, at - at % stride + stride))
             frames.append(self._frame())
             if world.step_count < end:
                 yield
-        cursor.check_digest()
+        replay.check_digest()
         self._segment = None
         # The frame at its keyframe is the last one of the segment before, if there is one.
         begin = keyframe.step

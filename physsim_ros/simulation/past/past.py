@@ -24,12 +24,14 @@ from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.model.timeline import CourseSpan, TimelineStatus
+from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.simulation.past.amendment import Amendment
 from physsim_ros.simulation.past.budget import Budget
 from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.frames import FrameCache
-from physsim_ros.simulation.past.node import CachedFrame, gesture_phrase, Line, Moment
+from physsim_ros.simulation.past.node import CachedFrame, Line, Moment
+from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.status import gesture_phrase, timeline_status
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -86,10 +88,9 @@ class Past:
         self._worlds = tuple(
             World(physics_rate=physics_rate, frame_steps=frame_steps) for _ in range(2)
         )
-        self.cursor, replay = (
-            Cursor(world, self.tree, self.reports, boundary) for world in self._worlds
-        )
-        self.frames = FrameCache(replay, self._worlds[1], self.tree)
+        present, shown = self._worlds
+        self.cursor = Cursor(present, self.tree, self.reports, boundary)
+        self.frames = FrameCache(Replay(shown, self.tree, self.reports), shown, self.tree)
         self.cursor.begin(WorldState(settings=settings))
         self._courses = 1
 
@@ -114,33 +115,7 @@ class Past:
         :param shown: the moment that is shown
         :param speed: simulation seconds a second
         """
-        tree, rate = self.tree, self.physics_rate
-        if speed < 0.0:
-            state = 'rewinding'
-        elif shown != tree.end:
-            state = 'in the past'
-        else:
-            state = 'playing' if speed else 'paused'
-        gesture, undo = tree.last_gesture(shown[1]), ''
-        if gesture is not None:
-            undo = gesture_phrase(*gesture)
-        elif self._undoes_reset(shown[1]):
-            undo = 'reset'
-        redo = tree.undone[-1].words if self._is_undone else ''
-        return TimelineStatus(
-            state=state,
-            speed=speed,
-            oldest=tree.oldest / rate,
-            now=shown[0] / rate,
-            newest=tree.head / rate,
-            course=tree.course,
-            undo=undo and f'undo {undo}',
-            redo=redo and f'redo {redo}',
-            courses=tuple(
-                CourseSpan(line.course, min(step, line.head) / rate, line.head / rate)
-                for line, step in sorted(tree.courses_left(), key=lambda each: each[0].course)
-            ),
-        )
+        return timeline_status(self.tree, shown, speed, self.physics_rate)
 
     def ghost(self, course: int, seconds: float) -> Snapshot | None:
         """
@@ -267,7 +242,7 @@ class Past:
         self.tree.undone.append(before)
         return before.words
 
-    def doings_of(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    def added_by(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the bodies and the joints in the world that a person has added, by name."""
         return self.tree.added_by(author, self.cursor.world.scene)
 
@@ -335,7 +310,7 @@ class Past:
             first, count = gesture
             words, before = gesture_phrase(first, count), tree.node(first.serial - 1)
             goal = tree.line_to(before, first.step, (first.step, before.serial))
-        elif self._undoes_reset(serial):
+        elif tree.undoes_reset(serial):
             # The requests since a reset are undone before it, though they are no longer kept.
             words, goal = 'reset', tree.resets[-1]
         else:
@@ -351,9 +326,9 @@ class Past:
 
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
-        if not self._is_undone:
-            raise OutOfHistory('there is nothing to redo', field='history')
         tree, era = self.tree, self.tree.era
+        if not tree.has_undone:
+            raise OutOfHistory('there is nothing to redo', field='history')
         left, _ = self._go_to(tree.undone[-1])
         if tree.era == era:
             self.tree.drop(left)
@@ -378,16 +353,6 @@ class Past:
         tree.keep_course(*self._go_to(line))
         self.tree.drop_undone()
         return True
-
-    @property
-    def _is_undone(self) -> bool:
-        """Whether there is anything to redo."""
-        self.tree.drop_lost()
-        return bool(self.tree.undone)
-
-    def _undoes_reset(self, serial: int) -> bool:
-        """Return whether an undo at a serial reverts a reset: all since the reset is undone."""
-        return serial == 0 and self.tree.oldest == 0 and bool(self.tree.resets)
 
     def _go_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
         """Put a line in force; return the line before, and the frames that only that has shown."""

@@ -89,7 +89,7 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
     """Delete the bodies and joints that a person has added, as far as the history reaches."""
     # Requests may wait that add some.
     page.world.current_snapshot()
-    bodies, joints = page.world.simulation.past.doings_of(person)
+    bodies, joints = page.world.simulation.past.added_by(person)
     if not bodies and not joints:
         raise NothingThere(f'there is nothing of {person}', field='person')
     deletion = [DeleteBodies(names=bodies)] if bodies else []
