@@ -14,7 +14,7 @@ down, and the late frames are counted.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 import math
 
 from physsim_ros.model.settings import WorldSettings
@@ -208,17 +208,22 @@ class Playback:
         self.frames_due += 1
         return round(step * 1e9 / self._past.physics_rate)
 
-    def play(self, steps: int) -> Iterator[None]:
-        """Advance by steps; yield at each multiple of the publish period."""
+    def play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
+        """
+        Advance by steps, or to the first multiple of the publish period at which time is up.
+
+        :param is_overdue: whether time is up
+        """
         self.seek_shown()
-        self._lacks_contacts = False
+        self._lacks_contacts, self.changed = False, True
         cursor = self._past.cursor
         while steps > 0:
             some = min(steps, self.steps_to_period)
             cursor.advance(some)
             cursor.build_ahead(some)
             steps -= some
-            yield
+            if is_overdue():
+                return
 
     def rewind(self, steps: int) -> bool:
         """
