@@ -357,7 +357,7 @@ class RequestQueue:
         return f'at {self._playback.time}'
 
     def release_grips(self) -> None:
-        """Remove the grips of hands that are gone, unless the history has their release ahead."""
+        """Remove the grips of hands that are gone, unless their release lies ahead."""
         cursor = self._past.cursor
         if self._playback.is_frame_cached or not cursor.world.grips or not cursor.is_newest:
             return

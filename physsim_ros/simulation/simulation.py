@@ -253,7 +253,7 @@ class Simulation(FrameMaker):
         """
         Go back to before the last gesture that changed the world; return a message about it.
 
-        :raises OutOfHistory: there is none in the history
+        :raises OutOfHistory: there is none that is kept
         """
         with self._jump():
             undone = self.past.undo()

@@ -55,7 +55,7 @@ class FrameCache:
     :param replay: that replays segments
     :param world: of that replay
     :param tree: of all lines, with the budget; for few bodies frames take less of it: a pose of
-        each body in each frame of the history
+        each body in each frame of the past
 
     :ivar size: memory that the frames take [bytes]
     """
@@ -85,7 +85,7 @@ class FrameCache:
         return [self._frames[step].snapshot for step in steps[-count:]]
 
     def add_frame(self, frame: CachedFrame) -> None:
-        """Add a frame that has just been shown; to a history without length none is added."""
+        """Add a frame that has just been shown; to a past without length none is added."""
         if not self._tree.length:
             return
         self._bodies = len(frame.snapshot.poses)
@@ -105,7 +105,7 @@ class FrameCache:
         return self._drop(bisect_left(self._steps, step), len(self._steps))
 
     def cached_frame(self, step: int) -> CachedFrame | None:
-        """Return the cached frame of a step; None if it is not cached, or not in the history."""
+        """Return the cached frame of a step; None if it is not cached, or not in the past."""
         if self._tree.oldest <= step <= self._tree.head and self._is_cached(step):
             return self._frames[step].copy()
         return None
@@ -213,7 +213,7 @@ class FrameCache:
         return dropped
 
     def _evict(self, step: int) -> None:
-        """Drop the frames before the history, and more until all fit."""
+        """Drop the frames that are no longer kept, and more until all fit."""
         self._shown = step
         tree, frame = self._tree, self._world.frame_steps
         self._drop(0, bisect_left(self._steps, tree.keyframes[0].step))

@@ -302,7 +302,7 @@ class Past:
         """
         Go back to the moment before the last gesture, and return the phrase for it.
 
-        :raises OutOfHistory: there is none in the history
+        :raises OutOfHistory: there is none that is kept
         """
         tree, serial = self.tree, self.cursor.moment[1]
         gesture = tree.last_gesture(serial)
