@@ -12,11 +12,10 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
-from physsim_ros.simulation.past.budget import frame_size, LEAST_MEMORY, MEGABYTE
+from physsim_ros.simulation.past.budget import LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .driven import Driven
 from ..slow import slow
 
 SECOND = 1_000_000_000
@@ -286,20 +285,3 @@ def test_a_budget_that_is_none_is_refused(value: float, refusal: type[Refusal]) 
     with pytest.raises(refusal):
         sim.limit_memory(value)
     assert sim.past.budget.megabytes == 256.0
-
-
-def test_the_size_of_the_frames_is_that_of_each_after_every_way_through_time() -> None:
-    driven = Driven(history=20.0, checkpoints=1.0, history_memory=1.0)
-    driven.ask(Spawn(name='body/0', shape=Disc(radius=0.1), pose=(0.0, 5.0, 0.0)))
-    cache = driven.simulation.past.frames
-    sizes = []
-    for speed, seconds in ((1.0, 5.0), (-1.0, 2.0), (1.0, 1.0), (-2.0, 1.0), (1.0, 25.0)):
-        driven.run(speed, seconds)
-        # From the past on: another course, whose frames take the place of those.
-        driven.ask(Command(names=('body/0',), twists=np.array([[speed, 0.0, 0.0]])))
-        driven.tick()
-        sizes.append(cache.size)
-
-        assert cache.size == sum(frame_size(*frame) for frame in cache._frames.values())  # noqa: SLF001
-    assert driven.simulation.past.frames is cache
-    assert min(sizes) > 0
