@@ -300,7 +300,7 @@ class RequestQueue:
         """Change the past in parts, and collect the answers."""
         results: list[Answer | Refusal]
         try:
-            with self._past.boundary.message(entry.topic):
+            with self._past.boundary.reading(entry.topic):
                 if isinstance(change, Amend):
                     results = yield from self._past.amend(
                         change.gestures, change.requests, entry.author
@@ -338,13 +338,13 @@ class RequestQueue:
                 request = placing(request)
             gesture = self.hands.gesture_of(request, gesture)
         self._playback.seek_shown()
-        done = self._past.apply(request, gesture, author)
+        answer = self._past.apply(request, gesture, author)
         if isinstance(request, HandRequest):
             self.hands.note_request(request, gesture, cursor.world.grips)
         if cursor.moment != before:
             # On a new course, grips of the past have no hand.
             self.release_grips()
-        return done
+        return answer
 
     def seek(self, stamp: int) -> str:
         """
