@@ -5,12 +5,14 @@
 
 from __future__ import annotations
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Axle, Configure, Delete, Join, MoveBodies, Request
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.past import past
-from physsim_ros.simulation.request_queue import Amend
+from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.request_queue import Amend, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -245,3 +247,28 @@ def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back() -> Non
         simulation.take_back('Anna')
 
     assert [each.topic for each in simulation.advance_frame().answers] == []
+
+
+@pytest.mark.parametrize('change', [TakeBack(), Amend((2,), (spawning('c/0', DISC),))])
+def test_an_unexpected_error_on_the_way_leaves_the_world_and_its_past_as_they_were(
+    change: TakeBack | Amend, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulation = world_after(ANNA, BEN)
+    simulation.past.boundary = ErrorBoundary(lambda _: None)
+    before, users = simulation.world.digest(), simulation.past.tree.tip.users
+    simulation.undo()
+    simulation.redo()
+
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Cursor, 'advance', fail)
+        simulation.requests.submit(change, topic='t', author='Anna')
+        frame = simulation.apply_requests()
+
+    assert frame is not None
+    assert [each.code for each in frame.answers] == ['failed']
+    assert simulation.world.digest() == before
+    assert simulation.past.tree.tip.users == users
+    assert simulation.undo().startswith('undid spawn b/0')

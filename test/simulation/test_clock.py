@@ -5,7 +5,7 @@
 
 import random
 
-from physsim_ros.simulation.playback import Clock, MOST_BEHIND
+from physsim_ros.simulation.clock import Clock, MOST_BEHIND
 import pytest
 
 SECOND = 1_000_000_000

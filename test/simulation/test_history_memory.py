@@ -56,7 +56,7 @@ def used(sim: Simulation) -> float:
 @pytest.mark.parametrize('paused', [slow(False), True])
 def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None:
     tracemalloc.start()
-    sim = crowd(2.0)
+    sim = crowd(LEAST_MEMORY)
     # The world and the space before it, of which the bodies are used again, are not the past.
     for _ in range(2):
         sim.advance_frame()
@@ -64,7 +64,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None
     gc.collect()
     before, first = tracemalloc.get_traced_memory()[0], used(sim)
     digests, events = {}, []
-    for number in range(300):
+    for number in range(150):
         for part in range(4):
             command(sim, number + part)
         if paused:
@@ -76,7 +76,7 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None
             events += [each for each in frame.answers if each.code == 'history']
             if frame.snapshot.step % 240 == 0:
                 digests[frame.snapshot.step] = sim.world.digest()
-        assert used(sim) <= 2.0 * MEGABYTE
+        assert used(sim) <= LEAST_MEMORY * MEGABYTE
     gc.collect()
     after, _ = tracemalloc.get_traced_memory()
     tracemalloc.stop()

@@ -4,16 +4,16 @@
 """
 Amendment: requests of the past are replaced, and the world is simulated again up to its moment.
 
-Laws: later requests are carried out again in their order, each at its step; those that the amended
-past refuses are dropped, and so is the future of the moment. Between two parts of the work the
-line in force counts as reached up to that moment, though not all of it is simulated yet.
+Laws: later requests are carried out again in their order, each at its step; the future of the
+moment is dropped. Between two parts of the work the line in force counts as reached up to that
+moment, though not all of it is simulated yet.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import NotAlone, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.cursor import Cursor
@@ -32,10 +32,10 @@ class Amendment:
     :param gestures: their numbers, at least one; the requests get the first number
     :param requests: that replace theirs, at their first step
     :param author: name of the person who did it; '' is nobody
+    :param stands_alone: whether it ends where a later request is refused, which else is dropped
 
     :ivar step: the first step that differs
     :ivar done: for each new request its answer or its refusal
-    :ivar refused: the refusals of later requests
     """
 
     def __init__(
@@ -45,6 +45,8 @@ class Amendment:
         gestures: Sequence[int],
         requests: Sequence[Request],
         author: str = '',
+        *,
+        stands_alone: bool = False,
     ) -> None:
         self._cursor, self._tree = cursor, tree
         self._requests, self._gesture, self._author = requests, gestures[0], author
@@ -59,11 +61,15 @@ class Amendment:
             for each in tree.nodes_between(self._serial, now[1])
             if each.gesture not in gestures or each.author != tree.node(each.opening).author
         ]
+        self._stands_alone = stands_alone
         self.done: list[Answer | Refusal] = []
-        self.refused: list[Refusal] = []
 
     def parts(self) -> Iterator[None]:
-        """Carry it out; yield after each frame and each request."""
+        """
+        Carry it out; yield after each frame and each request.
+
+        :raises NotAlone: a later request is refused, and it is to stand alone
+        """
         tree = self._tree
         for _ in self._simulate():
             reached, tree.head = tree.head, self._end
@@ -81,8 +87,8 @@ class Amendment:
         for node in self._later:
             yield from self._advance(node.step)
             answer = self._apply(node.request, node.gesture, node.author)
-            if isinstance(answer, Refusal):
-                self.refused.append(answer)
+            if self._stands_alone and isinstance(answer, Refusal):
+                raise NotAlone('somebody has used it since; delete it instead')
             yield
         yield from self._advance(self._end)
         cursor.world.clear_contacts()

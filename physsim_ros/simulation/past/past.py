@@ -200,9 +200,8 @@ class Past:
         :return: for each request its answer, or its refusal
         """
         amendment = Amendment(self.cursor, self.tree, gestures, requests, author)
-        yield from amendment.parts()
-        self.tree.drop_undone()
-        self.frames.drop_from(amendment.step)
+        before = yield from self._carry_out(amendment)
+        self.tree.drop(before)
         return amendment.done
 
     def take_back(self, author: str) -> Generator[None, None, str]:
@@ -226,21 +225,30 @@ class Past:
             raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
         if cursor.moment[0] - first.step > self.steps_in(LONGEST_AGAIN):
             raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
-        before = tree.line(cursor.moment)
+        amendment = Amendment(cursor, tree, (first.gesture,), (), stands_alone=True)
+        before = yield from self._carry_out(amendment)
         before.words = gesture_phrase(first, 1)
-        told = len(self.reports)
-        amendment = Amendment(cursor, tree, (first.gesture,), ())
-        yield from amendment.parts()
-        if amendment.refused:
-            # Reports of the way have been given before.
+        tree.undone.append(before)
+        return before.words
+
+    def _carry_out(self, amendment: Amendment) -> Generator[None, None, Line]:
+        """
+        Carry out an amendment; where it fails, the line before is in force again.
+
+        :return: the line before
+        """
+        before, told = self.tree.line(self.cursor.moment), len(self.reports)
+        try:
+            yield from amendment.parts()
+        except Exception:
+            # Reports of the way were given the first time.
             del self.reports[told:]
             left, _ = self._go_to(before)
             self.tree.drop(left)
-            raise NotAlone('somebody has used it since; delete it instead')
-        self.frames.drop_from(amendment.step)
+            raise
         self.tree.drop_undone()
-        self.tree.undone.append(before)
-        return before.words
+        self.frames.drop_from(amendment.step)
+        return before
 
     def added_by(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the bodies and the joints in the world that a person has added, by name."""
@@ -331,7 +339,7 @@ class Past:
             raise OutOfHistory('there is nothing to redo', field='history')
         left, _ = self._go_to(tree.undone[-1])
         if tree.era == era:
-            self.tree.drop(left)
+            tree.drop(left)
         else:
             tree.resets.append(left)
 
