@@ -10,7 +10,6 @@ is gone, or after another moment is shown, change nothing. In a paused world han
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 from physsim_ros.model.requests import (
@@ -22,7 +21,9 @@ from physsim_ros.model.requests import (
     MoveHand,
     PlaceHand,
 )
-from physsim_ros.model.snapshot import Grip
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.playback import Playback
 
 # Steady time without a request after which a hand lets go [ns]: its page is gone.
 LONGEST_SILENCE = 5 * 10**9
@@ -43,40 +44,71 @@ class _Hand:
 
 
 class Hands:
-    """The hands of people that drag a body at the moment that is shown."""
+    """
+    The hands of people that drag a body at the moment that is shown.
 
-    def __init__(self) -> None:
+    :param past: of the world
+    :param playback: the moment that is shown
+    """
+
+    def __init__(self, past: Past, playback: Playback) -> None:
+        self._past = past
+        self._playback = playback
         self._dragging: dict[str, _Hand] = {}
 
     def __contains__(self, hand: str) -> bool:
         return hand in self._dragging
 
-    def gesture_of(self, request: HandRequest, gesture: int) -> int:
+    def apply(self, request: HandRequest, gesture: int, author: str) -> Answer:
         """
-        Return the gesture that a request is part of.
+        Apply a request of a hand now.
 
-        :param gesture: its own, if no drag is under way
+        :param gesture: its own; requests of a drag have that of the grab
+        :param author: name of the person who did it; '' is nobody
+        :raises Refusal: and nothing is changed
         """
         hand = self._dragging.get(request.hand)
-        return gesture if hand is None or isinstance(request, Grab) else hand.gesture
-
-    def note_request(self, request: HandRequest, gesture: int, grips: Iterable[Grip]) -> None:
-        """
-        Note that a request of a hand was carried out.
-
-        :param grips: of the world now; at a grab, hands without one are dropped: their bodies are
-            gone
-        """
+        if hand is None and not isinstance(request, Grab):
+            # Grips of a past moment belong to no present hand.
+            return Answer(message=f'{request.hand} holds no body')
+        if hand is not None and not isinstance(request, Grab):
+            gesture = hand.gesture
+        if self._playback.speed == 0.0:
+            request = _placing(request)
+        self._playback.seek_shown()
+        answer = self._past.apply(request, gesture, author)
         match request:
-            case Grab(hand=hand):
-                self._dragging[hand] = _Hand(gesture)
-                with_grip = {grip.hand for grip in grips}
-                for name in self._dragging.keys() - with_grip:
-                    del self._dragging[name]
-            case MoveHand(hand=hand) | KeepHand(hand=hand):
-                self._dragging[hand].silent_since = None
-            case LetGo(hand=hand):
-                self._dragging.pop(hand, None)
+            case Grab(hand=name):
+                self._dragging[name] = _Hand(gesture)
+                # Those without a grip are dropped: their bodies are gone.
+                with_grip = {grip.hand for grip in self._past.cursor.world.grips}
+                for other in self._dragging.keys() - with_grip:
+                    del self._dragging[other]
+            case MoveHand(hand=name) | KeepHand(hand=name):
+                self._dragging[name].silent_since = None
+            case LetGo(hand=name):
+                self._dragging.pop(name, None)
+        return answer
+
+    def release_grips(self, gesture: int) -> list[Answer]:
+        """
+        Remove the grips of hands that are gone, unless their release lies ahead.
+
+        :param gesture: of the release, where no request was made before
+        :return: events about it
+        """
+        cursor = self._past.cursor
+        if self._playback.is_frame_cached or not cursor.world.grips or not cursor.is_newest:
+            return []
+        events = []
+        for grip in cursor.world.grips:
+            if grip.hand not in self:
+                # In the gesture of the request before, so that they are undone together.
+                before = self._past.tree.node(cursor.serial).gesture
+                self._past.apply(LetGo(hand=grip.hand), before or gesture)
+                message = f'released {grip.body}: no message from {grip.hand}'
+                events.append(Answer(topic='~/drag/feedback', subject=grip.body, message=message))
+        return events
 
     def note_time(self, now_ns: int, *, paused: bool) -> None:
         """
@@ -96,7 +128,7 @@ class Hands:
         self._dragging.clear()
 
 
-def placing(request: HandRequest) -> HandRequest:
+def _placing(request: HandRequest) -> HandRequest:
     """Return the request of a hand in a paused world, in which it places bodies."""
     match request:
         case GrabToPlace() | PlaceHand() | KeepHand() | LetGo():

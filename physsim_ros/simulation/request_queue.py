@@ -20,10 +20,8 @@ from dataclasses import replace
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import (
     DriveRobot,
-    Grab,
     HandRequest,
     KeepHand,
-    LetGo,
     MoveHand,
     Request,
 )
@@ -39,7 +37,7 @@ from physsim_ros.simulation.entries import (
     Unread,
     Wait,
 )
-from physsim_ros.simulation.hands import Hands, placing
+from physsim_ros.simulation.hands import Hands
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
 
@@ -64,7 +62,7 @@ class RequestQueue:
 
     def __init__(self, past: Past, playback: Playback) -> None:
         self.gesture = 0
-        self.hands = Hands()
+        self.hands = Hands(past, playback)
         self.answers: list[Answer] = []
         self._past = past
         self._playback = playback
@@ -328,19 +326,12 @@ class RequestQueue:
         :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
-        cursor = self._past.cursor
-        before = cursor.moment
+        cursor, before = self._past.cursor, self._past.cursor.moment
         if isinstance(request, HandRequest):
-            if request.hand not in self.hands and not isinstance(request, Grab):
-                # Grips of a past moment belong to no present hand.
-                return Answer(message=f'{request.hand} holds no body')
-            if self._playback.speed == 0.0:
-                request = placing(request)
-            gesture = self.hands.gesture_of(request, gesture)
-        self._playback.seek_shown()
-        answer = self._past.apply(request, gesture, author)
-        if isinstance(request, HandRequest):
-            self.hands.note_request(request, gesture, cursor.world.grips)
+            answer = self.hands.apply(request, gesture, author)
+        else:
+            self._playback.seek_shown()
+            answer = self._past.apply(request, gesture, author)
         if cursor.moment != before:
             # On a new course, grips of the past have no hand.
             self.release_grips()
@@ -358,18 +349,7 @@ class RequestQueue:
 
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
-        cursor = self._past.cursor
-        if self._playback.is_frame_cached or not cursor.world.grips or not cursor.is_newest:
-            return
-        for grip in cursor.world.grips:
-            if grip.hand not in self.hands:
-                # In the gesture of the request before, so that they are undone together.
-                gesture = self._past.tree.node(cursor.serial).gesture or self.gesture
-                self._past.apply(LetGo(hand=grip.hand), gesture)
-                message = f'released {grip.body}: no message from {grip.hand}'
-                self.answers.append(
-                    Answer(topic='~/drag/feedback', subject=grip.body, message=message)
-                )
+        self.answers += self.hands.release_grips(self.gesture)
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, and drop them."""
