@@ -24,7 +24,7 @@ from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
-from physsim_ros.sketchpad.access import Access, Role
+from physsim_ros.sketchpad.access import Access
 from physsim_ros.sketchpad.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
 from physsim_ros.sketchpad.messages import fields
@@ -37,6 +37,7 @@ from physsim_ros.sketchpad.page_handlers import (
     PageFiles,
     QrCode,
 )
+from physsim_ros.sketchpad.rights import Role
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.web import Application
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError

@@ -17,8 +17,8 @@ from threading import Lock
 from typing import Any
 
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.message import Message
+from physsim_ros.sketchpad.rights import Role
 
 # Waiting messages of one page: a second of a moving hand at 60 Hz.
 CAPACITY = 64

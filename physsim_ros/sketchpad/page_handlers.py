@@ -10,8 +10,8 @@ import io
 from pathlib import Path
 import re
 
-from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.guarded import Guarded, TYPES
+from physsim_ros.sketchpad.rights import Role
 from tornado.web import HTTPError, StaticFileHandler
 
 # Width of a module of a QR code [pixels], and of the quiet zone around the code, in modules

@@ -19,9 +19,10 @@ from typing import Any
 from physsim_ros.files import OwnWorlds, shipped_pictures
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.sketchpad.access import Access, Role
+from physsim_ros.sketchpad.access import Access
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.frame_feed import FrameFeed
+from physsim_ros.sketchpad.gallery import gallery_content
 from physsim_ros.sketchpad.guarded import LEFT
 from physsim_ros.sketchpad.inbox import Inbox
 from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
@@ -37,14 +38,9 @@ from physsim_ros.sketchpad.page_handlers import (
     QrCode,
 )
 from physsim_ros.sketchpad.page_socket import PageSocket
+from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.scene_codec import compact
-from physsim_ros.sketchpad.world_handlers import (
-    Download,
-    gallery_content,
-    Picture,
-    Unsaved,
-    UploadWorld,
-)
+from physsim_ros.sketchpad.world_handlers import Download, Picture, Unsaved, UploadWorld
 from tornado.web import Application
 
 # Size of a message of a page, and of an uploaded world [bytes].

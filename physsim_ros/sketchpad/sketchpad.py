@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 import time
 from typing import Any
 
@@ -22,18 +21,15 @@ from physsim_ros.model.errors import Busy, Frozen
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import Wait
-from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
-from physsim_ros.sketchpad.body_past import BodyPasts
+from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
-from physsim_ros.sketchpad.last_contacts import LastContacts
-from physsim_ros.sketchpad.locks import check_locked
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession
-from physsim_ros.sketchpad.rights import check_right, Right
+from physsim_ros.sketchpad.past import BodyPasts, timeline_content, TimelineReport
+from physsim_ros.sketchpad.rights import check_locked, check_right, Right, Role
 from physsim_ros.sketchpad.server import Server
-from physsim_ros.sketchpad.timeline_report import timeline_content, TimelineReport
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes
@@ -51,7 +47,11 @@ class Sketchpad:
     :param recording_address: of the viewer's web page on this machine; '' while there is none
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
+
+    :ivar name: of the output
     """
+
+    name = 'page'
 
     def __init__(
         self,
@@ -186,7 +186,7 @@ class Sketchpad:
         content = {
             'type': 'class',
             'frozen': self._world.is_frozen,
-            'locked': self._world.locked_bodies(),
+            'locked': self._world.locked_bodies,
             'people': people,
             'watched': bool(self._watching),
         }
@@ -238,22 +238,20 @@ class Sketchpad:
         role = opened.role
         if opened.watches:
             self._watching.add(number)
-        send = partial(self._server.send, page=number)
         self._sessions[number] = PageSession(
             number,
             opened.person,
             role,
             self._world,
-            send=send,
+            send=self._server.send,
             pasts=self._pasts,
             own_worlds=self._own_worlds,
             autosave=self._autosave,
             list_worlds=self._server.list_worlds,
-            tell_all=self._server.send,
         )
         simulation, settings = self._simulation, self._simulation.settings
-        drawing = self._world.drawing_settings()
-        send(
+        drawing = self._world.drawing_settings
+        self._server.send(
             {
                 'type': 'welcome',
                 'client': str(number),
@@ -275,7 +273,8 @@ class Sketchpad:
                     'draw_color': drawing.draw_color,
                     'snap': drawing.snap,
                 },
-            }
+            },
+            number,
         )
         # To all: what is not sent again is what all pages have got.
         self._server.send(timeline_content(self._timeline.read_status(time.monotonic())))

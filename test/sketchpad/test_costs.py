@@ -15,11 +15,11 @@ from typing import Any
 import numpy as np
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.sketchpad import Role
+from physsim_ros.sketchpad.contacts import MOST_FOLLOWED
 from physsim_ros.sketchpad.inbox import Opened
-from physsim_ros.sketchpad.locks import MOST_PATTERNS
 from physsim_ros.sketchpad.message import KINDS, Message, read_message
+from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server import MOST_BYTES
-from physsim_ros.sketchpad.touches import MOST_FOLLOWED
 from physsim_ros.testing import own_context, PhysSim
 import pytest
 

@@ -15,21 +15,20 @@ from physsim_ros.ros import world_files
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import (
     autosave,
-    lesson_list,
+    gallery,
     message,
     Role,
     sketchpad,
     world_handlers,
 )
 from physsim_ros.sketchpad.autosave import Autosave
-from physsim_ros.sketchpad.body_past import BodyPasts
-from physsim_ros.sketchpad.cursors import Cursors
 from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.message import KINDS
+from physsim_ros.sketchpad.open_pages import OpenPages
 from physsim_ros.sketchpad.page_handlers import CookieCheck
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.past import BodyPasts, TimelineReport
 from physsim_ros.sketchpad.server import Server
-from physsim_ros.sketchpad.timeline_report import TimelineReport
 import pytest
 
 from .browser import Browser
@@ -159,14 +158,14 @@ def test_a_file_of_the_list_of_worlds(
     browser: Browser, goes_on: Callable[[], None], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A lesson that nobody can read is in the list by its name, and so are all others."""
-    load, bad = lesson_list.load_world, browser.physsim.node.world_files.directory / 'lessons'
+    load, bad = gallery.load_world, browser.physsim.node.world_files.directory / 'lessons'
     bad.mkdir()
     (bad / 'bad.yaml').write_text(WORLD)
 
     def load_unless_bad(path: Path) -> Any:
         return fail() if path.stem == 'bad' else load(path)
 
-    monkeypatch.setattr(lesson_list, 'load_world', load_unless_bad)
+    monkeypatch.setattr(gallery, 'load_world', load_unless_bad)
     page = browser.open_page()
     page.until(lambda: page.of_type('worlds'))
     (content,) = page.of_type('worlds')
@@ -185,7 +184,7 @@ def test_a_file_of_the_list_of_worlds(
         (sketchpad.Sketchpad, '_send_class'),
         (Server, '_show'),
         (FrameFeed, 'send_frame'),
-        (Cursors, 'move'),
+        (OpenPages, 'move_cursor'),
     ],
     ids=lambda value: value if isinstance(value, str) else '',
 )

@@ -19,7 +19,7 @@ from physsim_ros.files import text_of
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import body_past, open_pages, world_handlers
+from physsim_ros.sketchpad import open_pages, past, world_handlers
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.inbox import Upload
 from physsim_ros.sketchpad.message import KINDS
@@ -357,7 +357,7 @@ def test_the_past_of_a_body_is_told(browser: Browser) -> None:
 def test_pasts_are_told_one_after_the_other_of_each_page_the_last_that_it_asked_for(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(body_past, 'PERIOD', 2.0 * PATIENCE)
+    monkeypatch.setattr(past, 'PAST_PERIOD', 2.0 * PATIENCE)
     page, other = browser.open_page(), browser.open_page('/ws?view')
     sketchpad = browser.physsim.node.outputs.sketchpad
 

@@ -15,10 +15,10 @@ from typing import Any
 from physsim_ros.model.errors import UnknownBody
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.robots.frames import rotation_of
 from physsim_ros.ros.simulation_services.entities import passes_tags, tags_of
 from physsim_ros.ros.simulation_services.results import box_around
-from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import NamedPose
 
 
@@ -29,7 +29,7 @@ class NamedPoses:
     :param control: of the node
     """
 
-    def __init__(self, control: WorldControl) -> None:
+    def __init__(self, control: NodeControl) -> None:
         self._control = control
 
     def poses(self, request: Any, response: Any) -> str:

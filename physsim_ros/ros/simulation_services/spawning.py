@@ -22,6 +22,7 @@ from physsim_ros.model.names import check_body_name
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.robots.robot import check_namespace
 from physsim_ros.model.texts import counted
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.requests.conversions import mapping_of, named_frame, planar_pose
 from physsim_ros.ros.simulation_services.results import (
     box_around,
@@ -31,7 +32,6 @@ from physsim_ros.ros.simulation_services.results import (
     result_of,
 )
 from physsim_ros.ros.simulation_services.worlds import unknown_sources, Worlds
-from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import Result, Spawnable, SpawnResult
 from simulation_interfaces.srv import SpawnEntities
 
@@ -76,7 +76,7 @@ class Spawning:
     :param worlds: of the services, since nothing is spawned where none is loaded
     """
 
-    def __init__(self, control: WorldControl, worlds: Worlds) -> None:
+    def __init__(self, control: NodeControl, worlds: Worlds) -> None:
         self._control = control
         self._worlds = worlds
         self._frame_id = str(control.values['frame_id'])

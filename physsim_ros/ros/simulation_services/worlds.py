@@ -17,9 +17,9 @@ from typing import Any
 from physsim_ros.files import shipped_lessons, shipped_worlds, title_of, worlds_in
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.entities import passes_tags
 from physsim_ros.ros.simulation_services.results import Failed, failed
-from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import Resource, Result, WorldResource
 from simulation_interfaces.srv import (
     GetAvailableWorlds,
@@ -36,7 +36,7 @@ class Worlds:
     :param control: of the node
     """
 
-    def __init__(self, control: WorldControl) -> None:
+    def __init__(self, control: NodeControl) -> None:
         self._control = control
         # The empty state that `unload` has put in place of a world; None before the first.
         self._unloaded: WorldState | None = None
@@ -122,8 +122,7 @@ class Worlds:
         return ''
 
     def _stop(self) -> None:
-        pause, _ = self._control.services['pause']
-        pause()
+        self._control.services['pause'].perform()
         self._control.simulation.reset()
 
     def _current(self) -> WorldResource:

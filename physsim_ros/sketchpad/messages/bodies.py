@@ -31,11 +31,11 @@ from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, REST, Twist
 from physsim_ros.simulation.world.joint_requests import drawn_points
+from physsim_ros.sketchpad.contacts import MOST_FOLLOWED
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
-from physsim_ros.sketchpad.touches import MOST_FOLLOWED
 
 
 def _body(value: object, name: str) -> Spawn:
