@@ -36,10 +36,8 @@ from physsim_ros.ros.requests.conversions import (
     name_of,
     point_request,
 )
-from physsim_ros.ros.requests.decoding import command_from
 from physsim_ros.testing import box, command, delete, delete_all, marker, point, polygon
 import pytest
-from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
 
@@ -62,8 +60,7 @@ def yaw_of(x: float, y: float, z: float, w: float) -> float:
 
 
 def command_request_of(message: MultiDOFJointState) -> Command:
-    decoded = command_from(serialize_message(message))
-    return command_request(decoded, frame_id='map')
+    return command_request(message, frame_id='map')
 
 
 def refusal_of(message: Marker) -> Refusal:

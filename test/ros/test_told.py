@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from nav_msgs.msg import Path
-from physsim_ros.ros.requests import decoding
+from physsim_ros.ros.requests import request_topics
 from physsim_ros.testing import disc, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -140,10 +140,10 @@ def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
 @pytest.mark.parametrize(
     ('kind', 'most'),
     [
-        (Marker, decoding.MOST_BYTES_OF_ONE),
-        (MarkerArray, decoding.MOST_BYTES[MarkerArray]),
-        (MultiDOFJointState, decoding.MOST_BYTES[MultiDOFJointState]),
-        (Path, decoding.MOST_BYTES[Path]),
+        (Marker, request_topics.MOST_BYTES_OF_ONE),
+        (MarkerArray, request_topics.MOST_BYTES[MarkerArray]),
+        (MultiDOFJointState, request_topics.MOST_BYTES[MultiDOFJointState]),
+        (Path, request_topics.MOST_BYTES[Path]),
     ],
 )
 def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
@@ -154,7 +154,9 @@ def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
     told(client)
     before = physsim.digest()
     decoded = list[bytes]()
-    monkeypatch.setattr(decoding, 'deserialize_message', lambda data, _: decoded.append(data))
+    monkeypatch.setattr(
+        request_topics, 'deserialize_message', lambda data, _: decoded.append(data)
+    )
     client._publishers[topic].publish(bytes(most + 1))  # noqa: SLF001 - it is sent as it is
     physsim.settle()
     (event,) = told(client)
