@@ -177,14 +177,13 @@ def commands(draw: Any) -> MultiDOFJointState:
     number = numbers if odd else st.floats(-5.0, 5.0)
     vector = st.builds(Vector3, x=number, y=number, z=number)
     turn = quaternions if odd else turns
-    message = MultiDOFJointState(
+    return MultiDOFJointState(
         header=draw(headers) if odd else Header(),
         joint_names=names,
         transforms=some(st.builds(Transform, translation=vector, rotation=turn)),
         twist=some(st.builds(Twist, linear=vector, angular=vector)),
         wrench=some(st.builds(Wrench, force=vector, torque=vector)),
     )
-    return message
 
 
 points = st.one_of(

@@ -22,7 +22,6 @@ from physsim_ros.model.robots import Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body
 from physsim_ros.ros.robots.commands import Commands
-from physsim_ros.ros.robots.description import urdf_of
 from physsim_ros.ros.robots.frames import (
     BASE,
     FOOTPRINT,
@@ -31,6 +30,7 @@ from physsim_ros.ros.robots.frames import (
     RobotTf,
     TF_DEPTH,
     tf_message_type,
+    urdf_of,
 )
 from physsim_ros.ros.robots.messages import odometry_message, READINGS, StampedView
 from physsim_ros.sensing import is_due, true_motion
