@@ -113,3 +113,23 @@ def set_parameter(physsim: PhysSim, name: str, value: object) -> None:
     """Set a parameter of the node of a world."""
     (result,) = physsim.node.set_parameters([Parameter(name, value=value)])
     assert result.successful, result.reason
+
+
+def parameter(physsim: PhysSim, name: str) -> Any:
+    """Return the value of a parameter of the node of a world."""
+    value = physsim.node.get_parameter(name).value
+    return value if isinstance(value, int | float | str) else list(value)
+
+
+def succeeded(response: Trigger.Response) -> str:
+    """Return the message of a service that has succeeded."""
+    assert response.success, response.message
+    assert response.message
+    return str(response.message)
+
+
+def failed(response: Trigger.Response) -> str:
+    """Return the message of a service that was refused."""
+    assert not response.success, response.message
+    assert response.message
+    return str(response.message)
