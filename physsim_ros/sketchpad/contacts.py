@@ -20,9 +20,6 @@ import numpy as np
 from physsim_ros.model.arrays import Flags, Ints
 from physsim_ros.model.snapshot import Contacts, Frame, NO_CONTACTS, Snapshot
 
-# Greatest number of bodies that a page follows: gates of its stopwatch, bodies whose collisions it
-# counts.
-MOST_FOLLOWED = 64
 # The forces of a world as it is now: contacts as of one step, and a snapshot with joint forces.
 Forces = tuple[Contacts, Snapshot]
 

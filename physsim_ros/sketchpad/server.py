@@ -10,7 +10,6 @@ Laws: the world's thread never waits for a page; answers are not dropped.
 from __future__ import annotations
 
 import asyncio
-from collections import deque
 from collections.abc import Callable
 from functools import partial
 import threading
@@ -112,9 +111,6 @@ class Server:
             # Answers with an error concern those who asked.
             log_function=lambda _: None,
         )
-        # Calls of the world's thread for the server's thread.
-        self._outbox: deque[Callable[[], None]] = deque()
-        self._scheduled = False
         self._ended = asyncio.Event()
         self._thread = threading.Thread(target=self._run, name='sketchpad', daemon=True)
         self._thread.start()
@@ -166,13 +162,9 @@ class Server:
         self._thread.join(_CLOSING)
 
     def _post(self, call: Callable[[], None]) -> None:
-        """Have the server's thread make a call in its turn, and then send the newest frame."""
-        if not self._thread.is_alive():
-            return
-        self._outbox.append(call)
-        if not self._scheduled:
-            self._scheduled = True
-            self._loop.call_soon_threadsafe(self._flush)
+        """Have the server's thread make a call, in the order in which they come."""
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._carry_out, call)
 
     # The server's thread
 
@@ -205,20 +197,18 @@ class Server:
             page.close(1001, 'the world has ended')
         await server.close_all_connections()
 
-    def _flush(self) -> None:
-        """Make the calls that the world's thread has left here, and send the newest frame."""
-        self._scheduled = False
-        while self._outbox:
-            with self._boundary.output('page'):
-                self._outbox.popleft()()
-        self._feed.send_frame()
+    def _carry_out(self, call: Callable[[], None]) -> None:
+        with self._boundary.output('page'):
+            call()
 
     def _show(self, frame: Frame, ghost: Snapshot | None, timeline: Content | None) -> None:
-        """Send what belongs to a frame; the frame, if no newer one waits, is sent after it."""
+        """Send what belongs to a frame, and then the frame, if no newer one has come."""
         self._feed.pages.send_answers(frame.answers)
         if timeline is not None:
             self._send(timeline)
         self._feed.newest = frame, ghost
+        # Behind the calls that have come meanwhile.
+        self._loop.call_soon(self._feed.send_frame)
 
     def _send(self, content: Content, page: int | None = None) -> None:
         text = compact(content() if callable(content) else content)

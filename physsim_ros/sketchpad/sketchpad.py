@@ -214,11 +214,8 @@ class Sketchpad:
         origin, simulation = Origin(UPLOADERS, '', '~/load_world'), self._simulation
 
         def load() -> str:
-            content = upload.take()
-            if content is None:
-                raise Busy('an upload has waited too long; nothing was done')
             settings, rate = simulation.settings, simulation.physics_rate
-            return simulation.load(state_from(content, settings, rate))
+            return simulation.load(state_from(upload.content, settings, rate))
 
         def answers() -> list[Answer]:
             answer = answer_of(origin, load, self._boundary)

@@ -14,7 +14,7 @@ from typing import Any
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import pair, Within
-from physsim_ros.model.errors import BadProperty, no_joint
+from physsim_ros.model.errors import no_joint
 from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.requests import (
     ChangeBody,
@@ -31,7 +31,6 @@ from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, REST, Twist
 from physsim_ros.simulation.world.joint_requests import drawn_points
-from physsim_ros.sketchpad.contacts import MOST_FOLLOWED
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
@@ -68,10 +67,7 @@ def _velocity(value: object, name: str) -> Twist:
 
 
 def _followed(value: object, name: str) -> frozenset[str]:
-    names = fields.names(value, name) if value else ()
-    if len(names) > MOST_FOLLOWED:
-        raise BadProperty(f'a page follows at most {MOST_FOLLOWED} bodies', field=name)
-    return frozenset(names)
+    return frozenset(fields.names(value, name) if value else ())
 
 
 # Bodies
