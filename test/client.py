@@ -111,7 +111,8 @@ class Client:
 
 def set_parameter(physsim: PhysSim, name: str, value: object) -> None:
     """Set a parameter of the node of a world."""
-    (result,) = physsim.node.set_parameters([Parameter(name, value=value)])
+    kind = Parameter.Type.DOUBLE_ARRAY if value == [] else None
+    (result,) = physsim.node.set_parameters([Parameter(name, kind, value)])
     assert result.successful, result.reason
 
 

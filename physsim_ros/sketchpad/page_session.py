@@ -25,6 +25,7 @@ from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
+from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, Content, KINDS, Message, Origin
 from physsim_ros.sketchpad.past import BodyPasts
 from physsim_ros.sketchpad.rights import check_locked, check_right, Role
@@ -44,8 +45,7 @@ class PageSession:
     The session of one page.
 
     :param number: of the page
-    :param person: number of the person at it
-    :param role: its rights
+    :param opened: who is at it, with which rights
     :param world: that it draws in
     :param send: sends a message to the page of a number, or to all
     :param pasts: of bodies, for all pages
@@ -53,6 +53,8 @@ class PageSession:
     :param autosave: of the world
     :param list_worlds: sends the list of worlds to the page of a number, or to all
 
+    :ivar role: its rights
+    :ivar watches: whether a teacher watches a class with it, and is nobody in this world
     :ivar person: name of the person at it, who makes its requests
     :ivar unnamed: name of that person before one is chosen
     :ivar drawing: its strokes and clicks
@@ -68,8 +70,7 @@ class PageSession:
     def __init__(
         self,
         number: int,
-        person: int,
-        role: Role,
+        opened: Opened,
         world: WorldControl,
         *,
         send: Callable[[Content, int | None], None],
@@ -79,8 +80,10 @@ class PageSession:
         list_worlds: Callable[[int | None], None],
     ) -> None:
         self.number = number
-        self.role = role
-        self.person = self.unnamed = TEACHER if role is Role.TEACH else f'{UNNAMED}{person}'
+        self.role = opened.role
+        self.watches = opened.watches
+        teaches = self.role is Role.TEACH
+        self.person = self.unnamed = TEACHER if teaches else f'{UNNAMED}{opened.person}'
         self.world = world
         self._send = send
         self.pasts = pasts

@@ -81,8 +81,6 @@ class Sketchpad:
         )
         self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
-        # Numbers of the pages with which a teacher watches a class.
-        self._watching: set[int] = set()
         # The last one; None before the first.
         self._frame: Frame | None = None
         self._sent_recording = self._recording_address()
@@ -121,7 +119,6 @@ class Sketchpad:
             case Opened():
                 self._open(page, entry)
             case Closed():
-                self._watching.discard(page)
                 if (session := self._sessions.pop(page, None)) is not None:
                     session.close()
             case Upload():
@@ -181,14 +178,14 @@ class Sketchpad:
                 'raised': session.raised,
             }
             for number, session in self._sessions.items()
-            if session.role.draws and number not in self._watching
+            if session.role.draws and not session.watches
         ]
         content = {
             'type': 'class',
             'frozen': self._world.is_frozen,
             'locked': self._world.locked_bodies,
             'people': people,
-            'watched': bool(self._watching),
+            'watched': any(session.watches for session in self._sessions.values()),
         }
         if self._sessions and content != self._sent_class:
             self._sent_class = content
@@ -233,12 +230,9 @@ class Sketchpad:
     def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""
         role = opened.role
-        if opened.watches:
-            self._watching.add(number)
         self._sessions[number] = PageSession(
             number,
-            opened.person,
-            role,
+            opened,
             self._world,
             send=self._server.send,
             pasts=self._pasts,
