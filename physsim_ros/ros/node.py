@@ -107,16 +107,10 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._create_world()
         self._create_outputs()
         self._create_doors()
-        self._pages = Pages(self, self.outputs, self.control, self.loop)
-        live = self._live
-        live.effects['tool'] = self.outputs.publish_preview
-        live.effects['sketchpad'] = self._pages.update
-        live.effects['viewer'] = self._open_viewer
-        live.prepare['sketchpad'] = self._pages.open_for
-        live.prepare['sketchpad_locked'] = self._pages.check_locks
-        live.mirror_settings()
-        self._pages.open_for(self._values['sketchpad'])
-        self._pages.update()
+        self._live.effects['tool'] = self.outputs.publish_preview
+        self._live.effects['viewer'] = self._open_viewer
+        self._live.mirror_settings()
+        self._pages = Pages(self, self.outputs, self.control, self.loop, self._live)
 
     def _create_world(self) -> None:
         """Create the simulation, which begins with the world file, and the drawing session."""
@@ -153,13 +147,8 @@ class PhysSimNode(NodeWithoutQosEvents):
 
     def _create_doors(self) -> None:
         """Create topics and services of requests."""
-        simulation, outputs, loop, boundary = (
-            self.simulation,
-            self.outputs,
-            self.loop,
-            self.boundary,
-        )
-        frame_id = self._values['frame_id']
+        simulation, outputs, loop = self.simulation, self.outputs, self.loop
+        boundary, frame_id = self.boundary, self._values['frame_id']
         self.requests = topics = RequestTopics(self, simulation.requests, boundary, frame_id)
         self.diagnostics = Diagnostics(self, simulation, outputs, topics, boundary)
         drawing = DrawingTopics(

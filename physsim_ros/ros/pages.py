@@ -14,6 +14,7 @@ import sys
 from physsim_ros.model.errors import BadProperty, PhysSimError
 from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
+from physsim_ros.ros.live_parameters import LiveParameters
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.outputs import Outputs
 from rclpy.node import Node
@@ -27,6 +28,8 @@ class Pages:
     :param outputs: of the node; they have the sketchpad while it is served
     :param control: the actions of the node that pages use
     :param loop: of the node; once it has started, its ticks handle the messages
+    :param live: the parameters of the node; those of the page are checked and take effect here
+    :raises BadProperty: the page is to be served, and cannot listen
     """
 
     def __init__(
@@ -35,11 +38,17 @@ class Pages:
         outputs: Outputs,
         control: NodeControl,
         loop: FrameLoop,
+        live: LiveParameters,
     ) -> None:
         self._node = node
         self._outputs = outputs
         self._control = control
         self._loop = loop
+        live.prepare['sketchpad'] = self.open_for
+        live.prepare['sketchpad_locked'] = self.check_locks
+        live.effects['sketchpad'] = self.update
+        self.open_for(control.values['sketchpad'])
+        self.update()
 
     def open_for(self, value: str) -> None:
         """
