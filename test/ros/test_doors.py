@@ -30,7 +30,7 @@ from physsim_ros.simulation.world import world
 from physsim_ros.testing import box, disc, PhysSim
 from physsim_ros.view import Viewer
 import pytest
-from rcl_interfaces.srv import GetParameters, SetParameters
+from rcl_interfaces.srv import GetParameters
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
@@ -38,7 +38,7 @@ from std_msgs.msg import Float64
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 from visualization_msgs.srv import GetInteractiveMarkers
 
-from ..client import Client, Event
+from ..client import Client, Event, message_of
 
 TOPICS = {
     '~/spawn': Marker,
@@ -173,11 +173,7 @@ def test_a_parameter_that_is_read(doors: Doors) -> None:
 
 def test_a_parameter_that_is_set(doors: Doors) -> None:
     doors.fail(parameters, 'drawing_settings')
-    message = Parameter('snap', value=0.5).to_parameter_msg()
-    response = doors.client.request(
-        SetParameters, '~/set_parameters', SetParameters.Request(parameters=[message])
-    )
-    (result,) = response.results
+    (result,) = doors.client.set_parameters(message_of('snap', 0.5))
     assert not result.successful
     assert result.reason.startswith('failed: an unexpected error')
     assert doors.goes_on().name == '~/set_parameters'

@@ -25,8 +25,6 @@ from rcl_interfaces.srv import (
     DescribeParameters,
     GetParameters,
     GetParameterTypes,
-    SetParameters,
-    SetParametersAtomically,
 )
 from rclpy.context import Context
 from rclpy.node import Node
@@ -34,7 +32,7 @@ from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 
-from ..client import Client, Event, parameter, set_parameter
+from ..client import Client, Event, message_of, parameter, set_parameter
 
 # Default, and whether it is fixed once running; the ends of ranges.
 CONTRACT: dict[str, tuple[Any, str]] = {
@@ -204,21 +202,13 @@ def test_a_bad_value_is_refused_with_its_code(physsim: PhysSim) -> None:
 
 
 def test_many_are_taken_together_or_not_at_all(physsim: PhysSim, client: Client) -> None:
-    def double(name: str, number: float) -> ParameterMessage:
-        kind = ParameterType.PARAMETER_DOUBLE
-        return ParameterMessage(name=name, value=ParameterValue(type=kind, double_value=number))
-
-    request = SetParametersAtomically.Request(
-        parameters=[double('density', 2.0), double('friction', 99.0)]
-    )
-    response = client.request(SetParametersAtomically, '~/set_parameters_atomically', request)
-    assert not response.result.successful
+    asked = message_of('density', 2.0), message_of('friction', 99.0)
+    assert not client.set_together(*asked).successful
     assert parameter(physsim, 'density') == 1.0
     assert physsim.node.simulation.world.settings.density == 1.0
-    request = SetParameters.Request(parameters=request.parameters)
-    response = client.request(SetParameters, '~/set_parameters', request)
-    assert [result.successful for result in response.results] == [True, False]
-    assert response.results[1].reason
+    results = client.set_parameters(*asked)
+    assert [result.successful for result in results] == [True, False]
+    assert results[1].reason
     assert physsim.node.simulation.world.settings.density == 2.0
     assert physsim.node.simulation.world.settings.friction == 0.5
 
@@ -238,15 +228,13 @@ def test_a_call_about_more_parameters_than_there_may_be_does_nothing(
             assert len(getattr(response, field)) == (number if number <= most else 0)
     client.ask('~/command', MultiDOFJointState())
     client.events.clear()
-    density = Parameter('density', value=2.0).to_parameter_msg()
-    request = SetParameters.Request(parameters=[density] * (most + 1))
-    response = client.request(SetParameters, '~/set_parameters', request)
+    results = client.set_parameters(*[message_of('density', 2.0)] * (most + 1))
     physsim.node.apply_requests()
     physsim.settle()
     (event,) = client.events
     assert event.code == 'malformed'
-    assert {each.reason for each in response.results} == {f'malformed: {event.message}'}
-    assert len(response.results) == most + 1
+    assert {each.reason for each in results} == {f'malformed: {event.message}'}
+    assert len(results) == most + 1
     assert parameter(physsim, 'density') == 1.0
 
 
@@ -255,9 +243,7 @@ def test_a_call_about_more_parameters_than_there_may_be_does_nothing(
 
 def serve(client: Client) -> tuple[SetParametersResult, Event]:
     """Set parameter `sketchpad` to `serve` over ROS; return the result, and its event."""
-    value = ParameterValue(type=ParameterType.PARAMETER_STRING, string_value='serve')
-    request = SetParameters.Request(parameters=[ParameterMessage(name='sketchpad', value=value)])
-    (result,) = client.request(SetParameters, '~/set_parameters', request).results
+    (result,) = client.set_parameters(message_of('sketchpad', 'serve'))
     client.physsim.node.apply_requests()
     client.physsim.settle()
     return result, client.events[-1]
@@ -293,12 +279,8 @@ def test_a_page_that_cannot_be_served_is_refused_and_the_node_goes_on(
 def test_a_whole_number_is_taken_for_a_double_over_ros(physsim: PhysSim, client: Client) -> None:
     # 1 is beyond what `beautify` may be.
     names = [name for name in DOUBLES if name in LIVE and name != 'beautify']
-    value = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=1)
-    request = SetParameters.Request(
-        parameters=[ParameterMessage(name=name, value=value) for name in names]
-    )
-    response = client.request(SetParameters, '~/set_parameters', request)
-    for name, result in zip(names, response.results, strict=True):
+    results = client.set_parameters(*(message_of(name, 1) for name in names))
+    for name, result in zip(names, results, strict=True):
         assert result.successful, result.reason
         assert parameter(physsim, name) == 1.0
         assert isinstance(parameter(physsim, name), float)
@@ -315,17 +297,10 @@ def test_a_whole_number_is_taken_for_a_double_over_ros(physsim: PhysSim, client:
 def test_lists_of_doubles_are_taken_and_checked_over_ros(
     physsim: PhysSim, client: Client, name: str, numbers: list[float], beyond: list[float]
 ) -> None:
-    def set_(numbers: list[float]) -> SetParametersResult:
-        kind = ParameterType.PARAMETER_DOUBLE_ARRAY
-        value = ParameterValue(type=kind, double_array_value=numbers)
-        request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
-        (result,) = client.request(SetParameters, '~/set_parameters', request).results
-        return result
-
-    result = set_(numbers)
+    (result,) = client.set_parameters(message_of(name, numbers))
     assert result.successful, result.reason
     assert parameter(physsim, name) == numbers
-    result = set_(beyond)
+    (result,) = client.set_parameters(message_of(name, beyond))
     assert not result.successful
     assert result.reason.partition(':')[0] in ('malformed', 'bad_property')
     assert parameter(physsim, name) == numbers
@@ -338,33 +313,27 @@ def test_a_value_of_no_type_is_refused(physsim: PhysSim, client: Client) -> None
         for name in ('speed', 'gravity', 'use_sim_time', 'nobody')
         for kind in (10, 255)
     ]
-    request = SetParameters.Request(parameters=messages)
-    results = client.request(SetParameters, '~/set_parameters', request).results
+    results = client.set_parameters(*messages)
     assert [result.successful for result in results] == [False] * len(messages)
-    for message in messages:
-        together = SetParametersAtomically.Request(parameters=[message])
-        response = client.request(SetParametersAtomically, '~/set_parameters_atomically', together)
-        assert not response.result.successful
+    assert not any(client.set_together(message).successful for message in messages)
     assert {each: parameter(physsim, each) for each in CONTRACT} == values
 
 
 def test_lists_of_whole_numbers_and_empty_ones_are_taken(physsim: PhysSim, client: Client) -> None:
-    def set_(name: str, value: ParameterValue) -> None:
-        request = SetParameters.Request(parameters=[ParameterMessage(name=name, value=value)])
-        response = client.request(SetParameters, '~/set_parameters', request)
-        assert response.results[0].successful, response.results[0].reason
+    def set_(message: ParameterMessage) -> None:
+        (result,) = client.set_parameters(message)
+        assert result.successful, result.reason
 
-    whole = ParameterType.PARAMETER_INTEGER_ARRAY
-    set_('bounds', ParameterValue(type=whole, integer_array_value=[-9, 0, 9, 9]))
+    set_(message_of('bounds', [-9, 0, 9, 9]))
     assert parameter(physsim, 'bounds') == [-9.0, 0.0, 9.0, 9.0]
-    set_('gravity', ParameterValue(type=whole, integer_array_value=[1, -2]))
+    set_(message_of('gravity', [1, -2]))
     assert parameter(physsim, 'gravity') == [1.0, -2.0]
     # The type of an empty list depends on its sender.
     for kind in range(
         ParameterType.PARAMETER_BYTE_ARRAY, ParameterType.PARAMETER_STRING_ARRAY + 1
     ):
-        set_('bounds', ParameterValue(type=whole, integer_array_value=[-9, 0, 9, 9]))
-        set_('bounds', ParameterValue(type=kind))
+        set_(message_of('bounds', [-9, 0, 9, 9]))
+        set_(ParameterMessage(name='bounds', value=ParameterValue(type=kind)))
         assert parameter(physsim, 'bounds') == []
         assert physsim.node.simulation.world.settings.bounds is None
 
