@@ -98,6 +98,11 @@ class NodeControl:
         return parameters.drawing_settings(self.values)
 
     @property
+    def recording_address(self) -> str:
+        """Return the address of the viewer's web page on this machine; '' while there is none."""
+        return self._outputs.viewer.page_address
+
+    @property
     def is_frozen(self) -> bool:
         """Whether pages of pupils change nothing."""
         return bool(self.values['sketchpad_frozen'])

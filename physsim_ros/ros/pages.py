@@ -65,7 +65,6 @@ class Pages:
         try:
             sketchpad = Sketchpad(
                 self._control,
-                recording_address=lambda: self._outputs.viewer.page_address,
                 address=values['sketchpad_address'],
                 port=values['sketchpad_port'],
                 wake=self._wake,

@@ -44,7 +44,6 @@ class Sketchpad:
     :param world: that the pages draw in
     :param address: to listen on
     :param port: to listen on, or the first free one after it
-    :param recording_address: of the viewer's web page on this machine; '' while there is none
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
 
@@ -59,13 +58,11 @@ class Sketchpad:
         *,
         address: str,
         port: int,
-        recording_address: Callable[[], str],
         wake: Callable[[], None],
     ) -> None:
         self._world = world
         self._boundary = world.boundary
         self._simulation = world.simulation
-        self._recording_address = recording_address
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts(world.simulation.forces_now)
@@ -83,7 +80,7 @@ class Sketchpad:
         self._sessions: dict[int, PageSession] = {}
         # The last one; None before the first.
         self._frame: Frame | None = None
-        self._sent_recording = self._recording_address()
+        self._sent_recording = world.recording_address
         self._sent_class: dict[str, Any] = {}
 
     def url(self, role: Role = Role.DRAW) -> str:
@@ -163,8 +160,8 @@ class Sketchpad:
             # Where too many requests wait, the world is saved later.
             with suppress(Busy):
                 self._world.submit_call(self._save_unsaved, Wait.FOR_SEEK)
-        if self._recording_address() != self._sent_recording:
-            self._sent_recording = self._recording_address()
+        if self._world.recording_address != self._sent_recording:
+            self._sent_recording = self._world.recording_address
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
     def _send_class(self) -> None:
@@ -251,7 +248,7 @@ class Sketchpad:
                 'physics_rate': simulation.physics_rate,
                 'frame_id': self._world.values['frame_id'],
                 'rate': self._world.values['publish_rate'],
-                'rerun': self._recording_address(),
+                'rerun': self._world.recording_address,
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,
                 'unsaved': self._autosave.unsaved_at if role.draws else 0.0,

@@ -43,6 +43,10 @@ class WorldControl(Protocol):
         """Return the settings of drawing."""
 
     @property
+    def recording_address(self) -> str:
+        """Return the address of the viewer's web page on this machine; '' while there is none."""
+
+    @property
     def is_frozen(self) -> bool:
         """Whether pages of pupils change nothing."""
 
