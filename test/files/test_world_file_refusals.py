@@ -13,14 +13,11 @@ import numpy as np
 from physsim_ros.files import (
     find_world,
     load_mapping,
-    PARAMETERS,
-    SETTINGS,
     world_reader,
 )
 from physsim_ros.files.yaml12 import load_entries
 from physsim_ros.model.errors import BadWorldFile, Malformed, WorldFull
 from physsim_ros.model.requests import Spawn
-from physsim_ros.ros.parameters import SPECS
 from physsim_ros.simulation.world import World
 import pytest
 import yaml
@@ -222,13 +219,9 @@ def test_a_text_of_one_line_says_no_line() -> None:
 
 
 def test_a_parameter_of_the_node_is_told_from_a_word_that_means_nothing(folder: Path) -> None:
-    assert 'parameter of the node' in str(refusal_of('format: 1\nspeed: 2', folder))
+    assert 'parameter of the node' in str(refusal_of('format: 1\nmax_bodies: 2', folder))
     refusal = refusal_of('format: 1\nflavour: 2', folder)
     assert str(refusal).startswith("w.yaml: there is no property 'flavour'; there are format, ")
-
-
-def test_the_parameters_that_no_file_holds_are_all_the_others_of_the_node() -> None:
-    assert set(SPECS) - set(SETTINGS) == PARAMETERS
 
 
 @pytest.mark.parametrize(

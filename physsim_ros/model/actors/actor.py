@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 import itertools
 import math
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar
 
 from physsim_ros.model.checks import (
     check_point,
@@ -133,8 +133,6 @@ class Actor(Checked, ABC):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    KIND: ClassVar[str]
-
     points: Annotated[
         tuple[Waypoint, ...], _points, 'x, y [m] in the world, of a path also yaw [rad]'
     ]
@@ -151,15 +149,6 @@ class Actor(Checked, ABC):
         'coefficient of friction with the floor, which moves it; a kinematic body moves whatever '
         'it touches, and a robot by its drive',
     ] = 0.8
-
-    def entry(self) -> dict[str, object]:
-        """Return the mapping that it is made from."""
-        values: dict[str, Any] = {'kind': self.KIND, **self.explicit(), **self._lists()}
-        values['start'] = self.start.explicit()
-        return {key: value for key, value in values.items() if value != {}}
-
-    def _lists(self) -> dict[str, object]:
-        return {'points': [list(point) for point in self.points]}
 
     @property
     @abstractmethod
@@ -202,10 +191,6 @@ class Path(Actor):
             )
         if self.times is None and any(length == 0.0 for length in self._lengths()):
             raise BadProperty('two points at one place need times', field='points')
-
-    def _lists(self) -> dict[str, object]:
-        lists = super(Path, self)._lists()
-        return lists if self.times is None else {**lists, 'times': list(self.times)}
 
     def _stations(self) -> tuple[Waypoint, ...]:
         """Return its points, of a loop the first one again, turned to where the last one looks."""

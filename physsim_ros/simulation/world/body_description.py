@@ -124,13 +124,7 @@ def _default_body(request: Spawn, settings: WorldSettings) -> Body:
         name=request.name,
         shape=request.shape,
         color=color_of(request.name),
-        mass=None,
         density=settings.density,
         friction=settings.friction,
         elasticity=settings.elasticity,
-        anchored=False,
-        kinematic=False,
-        group=0,
-        sensor=False,
-        expires=None,
     )
