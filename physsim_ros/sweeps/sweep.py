@@ -42,5 +42,9 @@ def sweep(experiment: Experiment, cases: Iterable[Case], spread: Map = map) -> l
     :param cases: of it, as by `cases_of`
     :param spread: `map` runs one after the other; `map` of a process pool executor on all
         processors; for those of a Dask cluster see docs/learning.md
+    :raises Refusal: before the first run, as `Experiment.check`; and as `Experiment.run`
     """
-    return list(spread(experiment.run, list(cases)))
+    cases = list(cases)
+    for case in cases:
+        experiment.check(case)
+    return list(spread(experiment.run, cases))
