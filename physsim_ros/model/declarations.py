@@ -243,7 +243,7 @@ class OfKind(Generic[_Value]):
         if kind is None:
             raise BadProperty(f'{name} has no kind, which is one of {words}', field='kind')
         if not isinstance(kind, str) or kind not in self.kinds:
-            near = nearest_name(str(kind), self.kinds)
+            near = nearest_name(shown(kind).strip("'"), self.kinds)
             raise BadProperty(
                 f'there is no kind of {self.noun} {shown(kind)}{near}; there are {words}',
                 field='kind',

@@ -24,13 +24,13 @@ from physsim_ros.model.checks import (
     FASTEST,
     LONGEST,
     number,
+    OneOf,
     shown,
     Within,
 )
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.robot_states import NEVER
-from physsim_ros.model.texts import nearest_name
 
 # Greatest number of points of an actor.
 MOST_POINTS = 1000
@@ -64,13 +64,6 @@ def _point(value: object, name: str) -> Waypoint:
         raise Malformed(f'{name} must be [x, y] or [x, y, yaw], not {shown(value)}', field=name)
     place = check_point([number(each, name) for each in value[:2]], name)
     return place if len(value) == 2 else (*place, check_yaw(number(value[2], name), name))
-
-
-def _repeat(value: object, name: str) -> str:
-    if not isinstance(value, str) or value not in REPEATS:
-        near, words = nearest_name(str(value), REPEATS), ', '.join(REPEATS)
-        raise BadProperty(f'{name} {shown(value)} is none of {words}{near}', field=name)
-    return value
 
 
 def _times(value: object, name: str) -> tuple[float, ...]:
@@ -141,7 +134,7 @@ class Actor(Checked, ABC):
     ]
     repeat: Annotated[
         str,
-        _repeat,
+        OneOf(REPEATS),
         'what follows the last point: `once` nothing, `loop` the first point, `to_and_fro` the '
         'way back',
     ] = 'once'
