@@ -99,7 +99,7 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
 def _properties_entry(state: BodyState) -> dict[str, object]:
     """Return the properties of a body that are not those of any body."""
     body = state.body
-    values = {each.name: getattr(body, each.name) for each in fields(body)}
+    values = {name: getattr(body, name) for name in _DEFAULTS}
     if body.mass is not None:
         del values['density']
     if not body.anchored:
