@@ -82,7 +82,7 @@ def state_from(
     changes = {key: content[key] for key in SETTINGS if key in content}
     changes |= {key: None for key in ('bounds', 'datum') if changes.get(key) == []}
     settings = replace(settings, **changes)
-    lesson = Lesson.from_value(content['lesson'], 'lesson') if 'lesson' in content else None
+    lesson = _lesson(content['lesson']) if 'lesson' in content else None
     entries = entries_of(content.get('bodies'), 'bodies')
     bodies, unmoved = _body_states(entries, settings, physics_rate, progress)
     check_namespaces(state.body for state in bodies)
@@ -94,6 +94,16 @@ def state_from(
     if not joints:
         return unjoined
     return replace(unjoined, joints=joints_from(unjoined, joints, unmoved, physics_rate))
+
+
+def _lesson(value: object) -> Lesson:
+    try:
+        return Lesson.from_value(value, 'lesson')
+    except BadProperty as refusal:
+        if isinstance(value, dict) and refusal.field not in value:
+            # Of what is missing, the line is that of the lesson.
+            raise BadProperty(str(refusal), field='lesson') from refusal
+        raise
 
 
 def _body_states(
