@@ -351,10 +351,14 @@ def test_a_body_is_spawned_changed_moved_and_deleted_by_name(browser: Browser) -
     for number in range(3):
         body = {'name': f'box/{number}', 'box': {'width': 1, 'height': 1}, 'at': [2 * number, 5]}
         assert page.ask('spawn', body=body)['ok']
+    actor = {'kind': 'path', 'points': [[0, 7]], 'times': [0]}
+    assert page.ask('change', name='box/0', properties={'actor': actor})['ok']
     changed = {'friction': 0.9, 'color': '#00ff00', 'velocity': [1, 0], 'at': [0, 7, 0.5]}
+    changed['actor'] = None
     assert page.ask('change', name='box/0', properties=changed)['ok']
     assert page.ask('move_bodies', names=['box/1', 'box/2'], by=[0, 3])['ok']
     assert physsim.pose('box/0') == pytest.approx((0, 7, 0.5))
+    assert page.ask('change', name='box/0', properties={'anchored': True})['ok']
     assert [physsim.pose(name).y for name in ('box/1', 'box/2')] == [8, 8]
     assert page.ask('delete', names=['box/1', 'box/2'])['ok']
     assert physsim.names == ('box/0',)

@@ -12,8 +12,8 @@ import zlib
 from hypothesis import given
 from hypothesis import strategies as st
 import numpy as np
-from physsim_ros.files import engine_state
-from physsim_ros.files.engine_state import pack, unpack
+from physsim_ros.files import impulse_cache
+from physsim_ros.files.impulse_cache import pack, unpack
 from physsim_ros.model.errors import BadProperty
 import pytest
 
@@ -54,6 +54,6 @@ def test_what_was_not_packed_is_refused(text: object) -> None:
 
 
 def test_a_line_that_would_fill_the_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(engine_state, 'MOST_BYTES', 800)
+    monkeypatch.setattr(impulse_cache, 'MOST_BYTES', 800)
     with pytest.raises(BadProperty, match='no end'):
         unpack(pack(np.zeros(10_000)), 'it', np.float64)
