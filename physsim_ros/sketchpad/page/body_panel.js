@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What the panel shows of a body, and of several: their numbers, their properties, plots. */
 
-import {createElement, inRow, textButton, textField, textOf} from './dom.js';
+import {checkField, createElement, inRow, textButton, textField, textOf} from './dom.js';
 import {sizeOf} from './label_view.js';
+import {t} from './strings.js';
 import {sendNote} from './tools/note.js';
 import {isDrawn} from './words.js';
 import {materialButtons, materialFields} from './world_panel.js';
@@ -21,10 +22,6 @@ export function bodyContent(app, name) {
   const body = app.world.scene.bodies.find((each) => each.name === name);
   if (!body) return null;
   const change = (/** @type {object} */ properties) => app.connection.send('change', {name, properties});
-  const anchored = createElement('input', {type: 'checkbox', checked: body.anchored,
-    onchange: () => change({anchored: anchored.checked})});
-  const gate = createElement('input', {type: 'checkbox', checked: body.sensor,
-    onchange: () => change({sensor: gate.checked})});
   const label = textField({value: body.label, onchange: () => {
     const value = textOf(label), {height = 0} = body.shape, row = app.world.row(name);
     if (body.name.startsWith('note/') && height) {
@@ -32,7 +29,7 @@ export function bodyContent(app, name) {
     } else change({label: value});
   }});
   const material = materialFields(body, change);
-  material.find((each) => each.textContent === 'Friction')?.append(app.numbers.pairs);
+  material.find((each) => each.textContent === t('Friction'))?.append(app.numbers.pairs);
   return {
     title: app.words.title(name), name: isDrawn(name) ? name : '',
     first: [app.numbers.element, ...body.robot ? app.driving.show(body.robot) : []],
@@ -40,13 +37,13 @@ export function bodyContent(app, name) {
       app.numbers.typed,
       materialButtons(change),
       ...material,
-      createElement('label', {}, 'Label', label),
+      createElement('label', {}, t('Label'), label),
       // A robot is neither.
-      ...body.robot ? [] : [createElement('label', {}, 'Anchored', anchored), createElement('label', {}, 'Gate: lets bodies through', gate)],
+      ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})), checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
       inRow(
-        textButton('Copy', () => copy(app, name)),
-        textButton('Delete body', () => app.selection.deleteBodies(), 'danger')),
-      createElement('p', {hidden: body.anchored, textContent: 'Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.'}),
+        textButton(t('Copy'), () => copy(app, name)),
+        textButton(t('Delete body'), () => app.selection.deleteBodies(), 'danger')),
+      createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
       ...app.trail.switches(name),
       app.plots.element,
     ],
@@ -63,12 +60,12 @@ export function bodyContent(app, name) {
  * @returns {Content}
  */
 export function severalContent(app, names) {
-  return {title: `${names.length} bodies`, first: [app.numbers.totals], rest: [
-    createElement('p', {textContent: 'Drag them with the lasso.'}),
-    inRow(textButton('Copy beside', () => {
+  return {title: t('{count} bodies', {count: names.length}), first: [app.numbers.totals], rest: [
+    createElement('p', {textContent: t('Drag them with the lasso.')}),
+    inRow(textButton(t('Copy beside'), () => {
       const [left, , right] = app.world.boundsOfAll(names);
       app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
-    }), textButton('Plot them', () => app.plotWindow.open(names)), textButton('Delete bodies', () => app.selection.deleteBodies(), 'danger'))]};
+    }), textButton(t('Plot them'), () => app.plotWindow.open(names)), textButton(t('Delete bodies'), () => app.selection.deleteBodies(), 'danger'))]};
 }
 
 /**

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Short forms to make and find elements of the page. */
 
+import {chooseLanguage, language, LANGUAGES, t} from './strings.js';
+
 /**
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
@@ -35,7 +37,7 @@ export function icon(id) {
  * @param {string} title
  */
 export function iconButton(name, id, onclick, title = name) {
-  return createElement('button', {type: 'button', 'aria-label': name, title, onclick}, icon(id));
+  return createElement('button', {type: 'button', 'aria-label': name, 'data-icon': id, title, onclick}, icon(id));
 }
 
 /**
@@ -79,7 +81,7 @@ export function textOf(field) {
  * @param {(value: number) => void} change when it is let go
  */
 export function range(label, min, max, step, value, change) {
-  const typed = createElement('input', {type: 'number', min, step: 'any', value: Number(value.toPrecision(5)), 'aria-label': `${label}, typed`,
+  const typed = createElement('input', {type: 'number', min, step: 'any', value: Number(value.toPrecision(5)), 'aria-label': t('{quantity}, typed', {quantity: label}),
     oninput: () => {
       input.max = String(Math.max(max, Number(typed.value)));
       input.value = typed.value;
@@ -89,6 +91,24 @@ export function range(label, min, max, step, value, change) {
     oninput: () => { typed.value = input.value; },
     onchange: () => change(Number(input.value))});
   return createElement('div', {className: 'field'}, createElement('span', {textContent: label}), typed, input);
+}
+
+/**
+ * @param {string} label
+ * @param {boolean} checked
+ * @param {(checked: boolean) => void} change
+ */
+export function checkField(label, checked, change) {
+  const input = createElement('input', {type: 'checkbox', checked, onchange: () => change(input.checked)});
+  return createElement('label', {}, label, input);
+}
+
+/** @returns {HTMLElement} a choice of the language; the page is loaded again in it */
+export function languageField() {
+  const input = createElement('select', {'aria-label': t('Language'), onchange: () => chooseLanguage(input.value)},
+    ...Object.entries(LANGUAGES).map(([value, name]) => createElement('option', {value, lang: value, textContent: name})));
+  input.value = language;
+  return createElement('label', {}, t('Language'), input);
 }
 
 /** @param {Node[]} children beside each other */

@@ -2,6 +2,7 @@
 /** Driving the selected robot: by W A S D, and by a stick for thumbs in its panel. */
 
 import {createElement} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App, Point, Robot} from './types.js' */
 
@@ -22,7 +23,7 @@ export class Driving {
     this.stick = [0, 0];
     this.timer = 0;
     this.knob = createElement('i');
-    this.element = createElement('div', {className: 'stick', role: 'img', 'aria-label': 'Stick: drag to drive'}, this.knob);
+    this.element = createElement('div', {className: 'stick', role: 'img', 'aria-label': t('Stick: drag to drive')}, this.knob);
     this.element.addEventListener('pointerdown', (event) => {
       this.element.setPointerCapture(event.pointerId);
       this.#drag(event);
@@ -44,10 +45,10 @@ export class Driving {
    * @returns {Node[]} its part of the panel
    */
   show({kind, namespace, max_speed: speed, max_turn: turn}) {
-    return [createElement('h3', {textContent: `Robot, ${kind} · /${namespace}`}),
-      createElement('p', {textContent: `Up to ${speed} m/s and ${turn} rad/s`}),
+    return [createElement('h3', {textContent: `${t('Robot, {drive}', {drive: kind})} · /${namespace}`}),
+      createElement('p', {textContent: t('Up to {speed} m/s and {turn} rad/s', {speed, turn})}),
       createElement('div', {className: 'drive'}, this.element,
-        createElement('p', {textContent: `Drag the knob; or ${kind === 'omni' ? 'W A S D, Q and E' : 'W A S D'}, after a click on the world.`}))];
+        createElement('p', {textContent: t('Drag the knob; or {keys}, after a click on the world.', {keys: kind === 'omni' ? 'W A S D Q E' : 'W A S D'})}))];
   }
 
   /**

@@ -5,17 +5,18 @@
  */
 
 import {elementOf} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App, WorldState} from './types.js' */
 
-/** Id, text, the button that is pointed at, and when it is true. @type {[string, string, string, ((world: WorldState) => boolean)?][]} */
+/** Id, text, icon of the button that is pointed at, and when it is true. @type {[string, string, string, ((world: WorldState) => boolean)?][]} */
 const STEPS = [
-  ['draw', 'Draw a circle, a box, a line: it comes to life.', ''],
-  ['play', 'Time is paused: press Play.', 'Play', ({paused}) => paused],
-  ['throw', 'A small circle over two bodies is an axle. Or take the hand and throw one.', 'Hand'],
-  ['rewind', 'Nothing is lost: rewind, or drag the time line.', 'Rewind', ({timeline: {oldest, now}}) => oldest < now],
-  ['change', 'This is the past. Draw or move something here, and the future changes.', '', ({timeline: {newest, now}}) => now < newest],
-  ['ghost', 'Dashed: what happened before. The ring on the time line returns there.', 'Play', ({timeline}) => Boolean(timeline.courses?.length)],
+  ['draw', t('Draw a circle, a box, a line: it comes to life.'), ''],
+  ['play', t('Time is paused: press Play.'), 'play', ({paused}) => paused],
+  ['throw', t('A small circle over two bodies is an axle. Or take the hand and throw one.'), 'hand'],
+  ['rewind', t('Nothing is lost: rewind, or drag the time line.'), 'rewind', ({timeline: {oldest, now}}) => oldest < now],
+  ['change', t('This is the past. Draw or move something here, and the future changes.'), '', ({timeline: {newest, now}}) => now < newest],
+  ['ghost', t('Dashed: what happened before. The ring on the time line returns there.'), 'play', ({timeline}) => Boolean(timeline.courses?.length)],
 ];
 const KEY = 'physsim-hints';
 const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step
@@ -81,7 +82,7 @@ export class Hints {
     this.#show(text);
     this.shown = id;
     for (const each of document.querySelectorAll('.next')) each.classList.remove('next');
-    if (button) document.querySelector(`button[aria-label="${button}"]`)?.classList.add('next');
+    if (button) document.querySelector(`button[data-icon=${button}]`)?.classList.add('next');
     if (id === 'ghost') this.timer = setTimeout(() => this.completeStep('ghost'), LAST_SHOWN);
   }
 

@@ -8,6 +8,7 @@
 
 import {bodyContent, severalContent} from './body_panel.js';
 import {createElement, elementOf, iconButton} from './dom.js';
+import {t} from './strings.js';
 import {worldContent} from './world_panel.js';
 
 /** @import {App, Point} from './types.js' */
@@ -35,11 +36,11 @@ export class Panel {
     /** @type {?boolean} whether it is folded, where somebody has chosen that for this subject */
     this.chosen = null;
     this.isStale = false; // the scene has changed while somebody worked in it
-    this.more = iconButton('More', 'fold', () => {
+    this.more = iconButton(t('More'), 'fold', () => {
       this.chosen = !this.isFolded;
       this.#fold();
       app.room.fit();
-    }, 'All of this panel, or its first lines');
+    }, t('All of this panel, or its first lines'));
     this.rest = createElement('div');
     app.connection.on('scene', () => queueMicrotask(() => this.#follow()));
     this.element.addEventListener('focusout', () => setTimeout(() => this.isStale && this.#follow()));
@@ -97,7 +98,7 @@ export class Panel {
     this.rest.replaceChildren(...rest);
     element.replaceChildren(createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})), this.more,
-      iconButton('Close', 'close', () => app.selection.select([]))), ...first, this.rest);
+      iconButton(t('Close'), 'close', () => app.selection.select([]))), ...first, this.rest);
     app.numbers.update();
     this.#fold();
   }

@@ -2,7 +2,8 @@
 /** Strokes until they are read, and their readings beside them, with other guesses to choose. */
 
 import {textButton} from './dom.js';
-import {meaningWord} from './words.js';
+import {t} from './strings.js';
+import {thingWord} from './words.js';
 
 /** @import {App, Point, Reading} from './types.js' */
 
@@ -51,19 +52,19 @@ export class Readings {
       this.#forget(request);
       // A rope may be meant as a chain: no stroke tells them apart.
       const other = guesses.slice(1).filter(([guess, sure], i) => i ? guess === 'chain' : sure > LIKELY)
-        .map(([guess]) => this.#guessButton(`or ${meaningWord(guess)}`, request, guess));
+        .map(([guess]) => this.#guessButton(t('or {meaning}', {meaning: thingWord(guess)}), request, guess));
       // A note at the place would cover a running machine.
       const kind = this.app.world.paused ? '' : 'docked';
       // Where somebody has chosen another guess, it is sure.
-      const label = guesses.some(([, sure]) => sure > confidence) ? meaningWord(meaning) : labelOf(meaning, confidence);
+      const label = guesses.some(([, sure]) => sure > confidence) ? thingWord(meaning) : labelOf(meaning, confidence);
       this.dismiss = this.app.notes.pin(() => at, [label, ...other],
         other.length ? {kind} : {kind, shown: GLANCED});
       return;
     }
     const choices = guesses.map(([guess, sure]) => this.#guessButton(labelOf(guess, sure), request, guess));
     const close = textButton('×', () => this.dismiss());
-    close.ariaLabel = 'Forget the stroke';
-    const words = choices.length ? 'Not sure. Is it' : 'Not recognised';
+    close.ariaLabel = t('Forget the stroke');
+    const words = choices.length ? t('Not sure. Is it') : t('Not recognised');
     const remove = this.app.notes.pin(() => at, [words, ...choices, close], {shown: 0});
     this.dismiss = () => {
       remove();
@@ -96,5 +97,5 @@ export class Readings {
  * @param {number} confidence 0 .. 1
  */
 function labelOf(meaning, confidence) {
-  return `${meaningWord(meaning)} ${Math.round(100 * confidence)} %`;
+  return `${thingWord(meaning)} ${Math.round(100 * confidence)} %`;
 }

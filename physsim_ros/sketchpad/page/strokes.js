@@ -2,6 +2,7 @@
 /** The card of strokes: what the pen understands, each as a small picture that draws itself. */
 
 import {createElement, elementOf, iconButton} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
 
@@ -10,20 +11,20 @@ import {createElement, elementOf, iconButton} from './dom.js';
  * @type {[string, string, string?][]}
  */
 const STROKES = [
-  ['circle', 'M44 20a14 14 0 1 1-1-5'],
-  ['box, polygon', 'M15 9h30v22H15V10'],
-  ['line: wall', 'M8 26 52 22'],
-  ['x: anchor', 'M24 14 36 26 30 20 36 14 24 26', 'M14 9h32v22H14z'],
-  ['small circle: axle', 'M34 20a4 4 0 1 1 0-1', 'M8 14h32v12H8zM22 8h30v24H22z'],
-  ['round arrow: motor', 'M40 20a10 10 0 1 1-4-8M30 8l7 4-6 6', 'M32 20a2 2 0 1 1 0-1M14 4h32v32H14z'],
-  ['small square: pin', 'M27 16h8v8h-8z', 'M8 14h30v12H8zM22 8h30v24H22z'],
-  ['zigzag: spring', 'M9 20h5l4-7 5 14 5-14 5 14 5-14 5 14 3-7h5', 'M4 12h10v16H4zM46 12h10v16H46z'],
-  ['straight: rod', 'M9 20h42', 'M4 12h10v16H4zM46 12h10v16H46z'],
-  ['slack: rope, chain', 'M9 12Q30 50 51 12', 'M4 6h10v12H4zM46 6h10v12H46z'],
-  ['arrow: gravity', 'M30 5V34l-7-8 7 8 7-8'],
-  ['arrow from a body: velocity', 'M16 20h36l-8-7 8 7-8 7', 'M6 10h20v20H6z'],
-  ['hatching: heavier', 'M22 26 34 14M26 28 38 16', 'M14 9h32v22H14z'],
-  ['scribble: delete', 'M10 30 20 8 24 32 32 8 37 32 44 8 50 30', 'M16 11h28v18H16z'],
+  [t('circle'), 'M44 20a14 14 0 1 1-1-5'],
+  [t('box, polygon'), 'M15 9h30v22H15V10'],
+  [t('line: wall'), 'M8 26 52 22'],
+  [t('x: anchor'), 'M24 14 36 26 30 20 36 14 24 26', 'M14 9h32v22H14z'],
+  [t('small circle: axle'), 'M34 20a4 4 0 1 1 0-1', 'M8 14h32v12H8zM22 8h30v24H22z'],
+  [t('round arrow: motor'), 'M40 20a10 10 0 1 1-4-8M30 8l7 4-6 6', 'M32 20a2 2 0 1 1 0-1M14 4h32v32H14z'],
+  [t('small square: pin'), 'M27 16h8v8h-8z', 'M8 14h30v12H8zM22 8h30v24H22z'],
+  [t('zigzag: spring'), 'M9 20h5l4-7 5 14 5-14 5 14 5-14 5 14 3-7h5', 'M4 12h10v16H4zM46 12h10v16H46z'],
+  [t('straight: rod'), 'M9 20h42', 'M4 12h10v16H4zM46 12h10v16H46z'],
+  [t('slack: rope, chain'), 'M9 12Q30 50 51 12', 'M4 6h10v12H4zM46 6h10v12H46z'],
+  [t('arrow: gravity'), 'M30 5V34l-7-8 7 8 7-8'],
+  [t('arrow from a body: velocity'), 'M16 20h36l-8-7 8 7-8 7', 'M6 10h20v20H6z'],
+  [t('hatching: heavier'), 'M22 26 34 14M26 28 38 16', 'M14 9h32v22H14z'],
+  [t('scribble: delete'), 'M10 30 20 8 24 32 32 8 37 32 44 8 50 30', 'M16 11h28v18H16z'],
 ];
 const SEEN = 'physsim-strokes';
 
@@ -45,8 +46,8 @@ export class EmptyCard {
     if (hidden === element.hidden) return;
     element.hidden = hidden;
     if (hidden) return;
-    element.replaceChildren(createElement('header', {}, createElement('h2', {textContent: 'Draw with the pen'}),
-      iconButton('Close', 'close', () => {
+    element.replaceChildren(createElement('header', {}, createElement('h2', {textContent: t('Draw with the pen')}),
+      iconButton(t('Close'), 'close', () => {
         this.closed = true;
         this.update();
       })), strokeCard());

@@ -2,19 +2,21 @@
 /** Time: the buttons, the slider over the history, with the courses that were left, the clock. */
 
 import {createElement, elementOf, iconButton} from './dom.js';
-import {capital} from './words.js';
+import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
 
 /** Name, service, key. @type {[string, string, string][]} */
 export const TIME = [
-  ['Fast rewind', 'fast_rewind', 'Shift+J'], ['Rewind', 'rewind', 'J'], ['Pause', 'pause', 'K'],
-  ['Play', 'play', 'L'], ['Fast forward', 'fast_forward', 'Shift+L'], ['Step', 'step', '.'],
+  [t('Fast rewind'), 'fast_rewind', 'Shift+J'], [t('Rewind'), 'rewind', 'J'], [t('Pause'), 'pause', 'K'],
+  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'], [t('Step'), 'step', '.'],
 ];
 /** @type {[string, string, string][]} */
-export const EDIT = [['Undo', 'undo', 'Ctrl+Z'], ['Redo', 'redo', 'Ctrl+Y'], ['Reset', 'reset', '0']];
+export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0']];
 /** Additions to names of buttons. */
-const MORE = new Map([['step', ': one frame forward'], ['reset', ': back to the beginning']]);
+const MORE = new Map([['step', `: ${t('one frame forward')}`], ['reset', `: ${t('back to the beginning')}`]]);
+/** States of the timeline, as the server has them. */
+const STATES = new Map([['rewinding', t('rewinding')], ['in the past', t('in the past')], ['playing', t('playing')], ['paused', t('paused')]]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
 const WATCHED = 1500; // ms over which the pace is measured
 const SLOW = 0.9; // share of the speed asked for below which the pace is told
@@ -135,8 +137,8 @@ export class TimeBar {
     this.shown = text;
     this.speed.textContent = text;
     this.speed.classList.toggle('slow', pace > 0);
-    this.speed.setAttribute('aria-label', pace ? `Speed ${text}, slower than ${speed}×` : `Speed ${text}`);
-    this.speed.title = pace ? `Slower than ${speed}×: ${bodies.length} bodies are as much as this machine can do` : 'Speed of playing';
+    this.speed.setAttribute('aria-label', pace ? t('Speed {pace}, slower than {speed}×', {pace: text, speed}) : t('Speed {pace}', {pace: text}));
+    this.speed.title = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: bodies.length}) : t('Speed of playing');
   }
 
   #showTime() {
@@ -158,19 +160,28 @@ export class TimeBar {
     }
   }
 
+  /**
+   * @param {string} service
+   * @param {string} title '' where there is nothing to do
+   * @param {string} otherwise what is told then
+   */
+  #showEdit(service, title, otherwise) {
+    const button = this.buttons.get(service);
+    button?.classList.toggle('idle', !title);
+    if (button) button.title = title || otherwise;
+  }
+
   showTimeline() {
     const {undo, redo, oldest, newest, state, courses = []} = this.app.world.timeline;
     // What is undone is one's own, and that is not known here.
-    for (const [service, words] of [['undo', this.app.classroom.isShared ? 'undo what you did last' : undo], ['redo', redo]]) {
-      const button = this.buttons.get(service);
-      button?.classList.toggle('idle', !words);
-      if (button) button.title = words ? capital(this.app.words.phrase(words)) : `Nothing to ${service}`;
-    }
+    const gesture = (/** @type {string} */ told) => this.app.words.phrase(told.replace(/^(undo|redo) /, ''));
+    this.#showEdit('undo', this.app.classroom.isShared ? t('Undo what you did last') : undo && t('Undo: {gesture}', {gesture: gesture(undo)}), t('Nothing to undo'));
+    this.#showEdit('redo', redo && t('Redo: {gesture}', {gesture: gesture(redo)}), t('Nothing to redo'));
     this.clock.classList.toggle('past', state === 'in the past');
-    this.clock.title = state;
+    this.clock.title = STATES.get(state) ?? state;
     const before = this.rings;
     this.rings = new Map(courses.map(({id, from}) => {
-      const name = `Go back to how it went before, from ${from.toFixed(1)}\u00a0s`, key = `${id} ${name}`;
+      const name = t('Go back to how it went before, from {time}\u00a0s', {time: from.toFixed(1)}), key = `${id} ${name}`;
       // While time runs it is the same element: one that was made anew could not be pressed.
       const ring = before.get(key) ?? this.marks.appendChild(createElement('button', {type: 'button', 'aria-label': name, title: name,
         onclick: () => this.app.connection.send('course', {course: id})}));

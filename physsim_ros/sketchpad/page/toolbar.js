@@ -2,6 +2,7 @@
 /** The tools: their names, keys and hints, and the bar at the left. */
 
 import {createElement, elementOf, iconButton} from './dom.js';
+import {t} from './strings.js';
 import {ClickTool} from './tools/click_tool.js';
 import {Lasso, Pen} from './tools/freehand.js';
 import {Hand} from './tools/hand.js';
@@ -12,32 +13,32 @@ import {Note} from './tools/note.js';
 
 /** Groups of tools: id, name, key, hint. @type {[string, string, string, string][][]} */
 export const TOOLS = [[
-  ['pen', 'Pen', 'p', 'draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x an anchor'],
-  ['hand', 'Hand', 'h', 'drag and throw bodies; tap one to change it'],
-  ['lasso', 'Lasso', 's', 'select several bodies, to drag or delete them'],
+  ['pen', t('Pen'), 'p', t('draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x an anchor')],
+  ['hand', t('Hand'), 'h', t('drag and throw bodies; tap one to change it')],
+  ['lasso', t('Lasso'), 's', t('select several bodies, to drag or delete them')],
 ], [
-  ['circle', 'Circle', 'c', 'from the centre to the rim'],
-  ['circle_diameter', 'Circle by diameter', 'd', 'from edge to edge'],
-  ['rectangle', 'Rectangle', 'b', 'drag from corner to corner, or click three'],
-  ['polygon', 'Polygon', 'g', 'click each corner; click the first one again to close it'],
-  ['wall', 'Wall', 'w', 'a fixed line'],
+  ['circle', t('Circle'), 'c', t('from the centre to the rim')],
+  ['circle_diameter', t('Circle by diameter'), 'd', t('from edge to edge')],
+  ['rectangle', t('Rectangle'), 'b', t('drag from corner to corner, or click three')],
+  ['polygon', t('Polygon'), 'g', t('click each corner; click the first one again to close it')],
+  ['wall', t('Wall'), 'w', t('a fixed line')],
 ], [
-  ['anchor', 'Anchor', 'a', 'fix a body to the background'],
-  ['release', 'Release', 'e', 'remove anchor, pins and axles of a body'],
-  ['pin', 'Pin', 'i', 'weld two bodies'],
-  ['axle', 'Axle', 'x', 'let two bodies turn about a point'],
-  ['spring', 'Spring', 'z', 'from body to body, or to the background'],
-  ['rod', 'Rod', 'o', 'keeps two points at a distance'],
-  ['rope', 'Rope', 'y', 'pulls, but does not push'],
-  ['chain', 'Chain', '8', 'links from end to end; for a slack one, draw it with the pen as a rope'],
+  ['anchor', t('Anchor'), 'a', t('fix a body to the background')],
+  ['release', t('Release'), 'e', t('remove anchor, pins and axles of a body')],
+  ['pin', t('Pin'), 'i', t('weld two bodies')],
+  ['axle', t('Axle'), 'x', t('let two bodies turn about a point')],
+  ['spring', t('Spring'), 'z', t('from body to body, or to the background')],
+  ['rod', t('Rod'), 'o', t('keeps two points at a distance')],
+  ['rope', t('Rope'), 'y', t('pulls, but does not push')],
+  ['chain', t('Chain'), '8', t('links from end to end; for a slack one, draw it with the pen as a rope')],
 ], [
-  ['velocity', 'Velocity', 'v', 'drag an arrow from a body: 1 m is 1 m/s'],
-  ['gravity', 'Gravity', 'u', 'drag an arrow: that way is down'],
-  ['delete', 'Delete', 't', 'remove a body'],
+  ['velocity', t('Velocity'), 'v', t('drag an arrow from a body: 1 m is 1 m/s')],
+  ['gravity', t('Gravity'), 'u', t('drag an arrow: that way is down')],
+  ['delete', t('Delete'), 't', t('remove a body')],
 ], [
-  ['ruler', 'Ruler', 'm', 'drag from point to point; tap it to remove it'],
-  ['protractor', 'Protractor', 'q', 'drag from the corner along one side, then click the other one; tap it to remove it'],
-  ['note', 'Note', '9', 'press where it is to be, type, Enter'],
+  ['ruler', t('Ruler'), 'm', t('drag from point to point; tap it to remove it')],
+  ['protractor', t('Protractor'), 'q', t('drag from the corner along one side, then click the other one; tap it to remove it')],
+  ['note', t('Note'), '9', t('press where it is to be, type, Enter')],
 ]];
 
 /** @type {Record<string, new (app: App) => Tool>} */
@@ -59,10 +60,10 @@ export class Toolbar {
       }
       bar.append(box);
     }
-    bar.lastElementChild?.append(iconButton('Measure', 'measure', () => {
+    bar.lastElementChild?.append(iconButton(t('Measure'), 'measure', () => {
       app.selection.select([]);
       app.panel.show('measure');
-    }, 'Stopwatch with gates, counter of collisions'));
+    }, t('Stopwatch with gates, counter of collisions')));
     this.#select('pen');
   }
 

@@ -3,6 +3,7 @@
 
 import {createElement, elementOf, iconButton} from './dom.js';
 import {showHelp} from './help.js';
+import {t} from './strings.js';
 import {switchTheme} from './theme.js';
 
 /** @import {App} from './types.js' */
@@ -12,20 +13,20 @@ export class TopBar {
   constructor(app) {
     this.app = app;
     this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
-      textContent: 'Rerun', title: 'The recording'});
+      textContent: 'Rerun', title: t('The recording')});
     elementOf('files', HTMLElement).append(
-      iconButton('Worlds', 'worlds', () => app.gallery.openWorlds(), 'Worlds to open'),
-      iconButton('Save', 'save', () => app.gallery.showSave(), 'Save, link, picture'));
+      iconButton(t('Worlds'), 'worlds', () => app.gallery.openWorlds(), t('Worlds to open')),
+      iconButton(t('Save'), 'save', () => app.gallery.showSave(), t('Save, link, picture')));
     elementOf('looks', HTMLElement).append(
-      this.#toggle('velocities', 'Show velocities', 'velocities', 'Velocities as arrows, in m/s'),
-      this.#toggle('forces', 'Show forces', 'forces', 'Forces as arrows, in newtons; on a body that you tap, all'),
-      iconButton('Material', 'material', () => {
+      this.#toggle('velocities', t('Show velocities'), 'velocities', t('Velocities as arrows, in m/s')),
+      this.#toggle('forces', t('Show forces'), 'forces', t('Forces as arrows, in newtons; on a body that you tap, all')),
+      iconButton(t('Material'), 'material', () => {
         app.selection.select([]);
         app.panel.show('world');
-      }, 'Material of new bodies; gravity'),
-      iconButton('Frame the world', 'fit', () => app.room.frame(), 'Frame the world (F)'),
-      iconButton('Light or dark', 'theme', switchTheme),
-      iconButton('Help', 'help', () => showHelp(app), 'Help: keys and gestures (?)'));
+      }, t('Material of new bodies; gravity')),
+      iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)')),
+      iconButton(t('Light or dark'), 'theme', switchTheme),
+      iconButton(t('Help'), 'help', () => showHelp(app), t('Help: keys and gestures (?)')));
     elementOf('looks', HTMLElement).after(this.recording);
     app.connection.on('recording', ({rerun}) => this.#link(rerun));
     app.connection.on('welcome', ({rerun}) => this.#link(rerun));

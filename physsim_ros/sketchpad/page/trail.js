@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The trail of a body: its way, and as in a stroboscope where it was at equal times, numbered, with arrows of v and a. */
 
-import {createElement} from './dom.js';
+import {checkField} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App, Point, Sample, SceneView} from './types.js' */
 
@@ -31,15 +32,19 @@ export class Trail {
    * @returns {HTMLElement[]} its switches
    */
   switches(name) {
-    const trail = createElement('input', {type: 'checkbox', checked: this.bodies.has(name)});
-    const flashes = createElement('input', {type: 'checkbox', checked: this.bodies.get(name) ?? false});
-    const change = () => {
-      if (trail.checked || flashes.checked) this.bodies.set(name, flashes.checked);
+    let trail = this.bodies.has(name), flashes = this.bodies.get(name) ?? false;
+    const follow = () => {
+      if (trail || flashes) this.bodies.set(name, flashes);
       else this.bodies.delete(name);
       this.app.records.want(this, [...this.bodies.keys()]);
     };
-    trail.onchange = flashes.onchange = change;
-    return [createElement('label', {}, 'Trail', trail), createElement('label', {}, 'Stroboscope, with v and a', flashes)];
+    return [checkField(t('Trail'), trail, (checked) => {
+      trail = checked;
+      follow();
+    }), checkField(t('Stroboscope, with v and a'), flashes, (checked) => {
+      flashes = checked;
+      follow();
+    })];
   }
 
   /**

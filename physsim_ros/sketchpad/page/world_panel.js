@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What the panel shows of the world: the material of the next drawings, gravity, air, sound; and the fields of a material. */
 
-import {createElement, inRow, range, textButton} from './dom.js';
+import {checkField, createElement, inRow, range, textButton} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
 /** @import {Content} from './panel.js' */
@@ -12,16 +13,16 @@ import {createElement, inRow, range, textButton} from './dom.js';
  * @type {Record<string, {density: number, friction: number, elasticity: number}>}
  */
 const MATERIALS = {
-  Ice: {density: 0.92, friction: 0.03, elasticity: 0.3},
-  Wood: {density: 0.7, friction: 0.4, elasticity: 0.5},
-  Rubber: {density: 1.1, friction: 1, elasticity: 0.8},
-  Steel: {density: 7.85, friction: 0.6, elasticity: 0.6},
+  [t('Ice')]: {density: 0.92, friction: 0.03, elasticity: 0.3},
+  [t('Wood')]: {density: 0.7, friction: 0.4, elasticity: 0.5},
+  [t('Rubber')]: {density: 1.1, friction: 1, elasticity: 0.8},
+  [t('Steel')]: {density: 7.85, friction: 0.6, elasticity: 0.6},
 };
 /** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
-const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
-  ['elasticity', 'Bounciness', 0, 1, 0.05]];
+const RANGES = [['density', t('Density [kg/m²]'), 0.1, 10, 0.1], ['friction', t('Friction'), 0, 2, 0.05],
+  ['elasticity', t('Bounciness'), 0, 1, 0.05]];
 /** Gravity at the surface [m/s²]. */
-const PLACES = {Earth: 9.81, Moon: 1.62, Mars: 3.71, None: 0};
+const PLACES = {[t('Earth')]: 9.81, [t('Moon')]: 1.62, [t('Mars')]: 3.71, [t('None')]: 0};
 const STEP_OF_DIAL = Math.PI / 12; // rad
 let turn = 0; // of gravity from down, counter-clockwise [rad]: as it was, while there is none
 
@@ -47,30 +48,29 @@ export function worldContent(app) {
     app.connection.send('draw_with', properties);
   };
   const chosen = app.material.color ?? app.color, color = chosen || [0.3, 0.47, 0.66];
-  const any = createElement('input', {type: 'checkbox', checked: !chosen,
-    onchange: () => change({color: any.checked ? '' : hexOf(color)})});
-  return {title: 'Material of new bodies', rest: [
+  const any = checkField(t('Each body another colour'), !chosen, (checked) => change({color: checked ? '' : hexOf(color)}));
+  return {title: t('Material of new bodies'), rest: [
     materialButtons((preset) => {
       change(preset);
       app.panel.render();
     }),
     ...materialFields({...scene, ...app.material, color}, (properties) => {
-      if (properties.color) any.checked = false;
+      if (properties.color) /** @type {HTMLInputElement} */ (any.control).checked = false;
       change(properties);
     }),
-    createElement('label', {}, 'Each body another colour', any),
-    createElement('h3', {textContent: 'Gravity'}),
-    range('Gravity [m/s²]', 0, 25, 0.01, strength, setSize),
+    any,
+    createElement('h3', {textContent: t('Gravity')}),
+    range(t('Gravity [m/s²]'), 0, 25, 0.01, strength, setSize),
     gravityButtons(setSize),
-    createElement('label', {}, 'Direction', dial(turn, (angle) => {
+    createElement('label', {}, t('Direction'), dial(turn, (angle) => {
       turn = angle;
       pull();
     })),
-    range('Air drag [of the speed, each second]', 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping})),
-    createElement('label', {}, 'Sound of impacts', createElement('input', {type: 'checkbox', checked: app.sound.on, onchange: () => {
+    range(t('Air drag [of the speed, each second]'), 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping})),
+    checkField(t('Sound of impacts'), app.sound.on, () => {
       app.sound.toggle();
       app.askForParts();
-    }}))]};
+    })]};
 }
 
 /**
@@ -79,13 +79,13 @@ export function worldContent(app) {
  * @param {(turn: number) => void} change
  */
 function dial(turn, change) {
-  const canvas = createElement('canvas', {className: 'dial', width: 144, height: 144, tabIndex: 0, role: 'slider', 'aria-label': 'Direction of gravity',
+  const canvas = createElement('canvas', {className: 'dial', width: 144, height: 144, tabIndex: 0, role: 'slider', 'aria-label': t('Direction of gravity'),
     'aria-valuemin': -180, 'aria-valuemax': 180});
   const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
   const show = () => {
     const degrees = Math.round(turn * 180 / Math.PI), x = Math.sin(turn), y = Math.cos(turn);
     canvas.setAttribute('aria-valuenow', String(degrees));
-    canvas.setAttribute('aria-valuetext', degrees ? `${degrees}° from down` : 'down');
+    canvas.setAttribute('aria-valuetext', degrees ? t('{degrees}° from down', {degrees}) : t('down'));
     ctx.setTransform(1, 0, 0, 1, 72, 72);
     ctx.clearRect(-72, -72, 144, 144);
     ctx.lineWidth = 6;
@@ -152,7 +152,7 @@ export function materialFields(values, change) {
   return [
     ...RANGES.map(([key, label, least, most, step]) => range(label, least, most, step, values[key],
       (value) => change({[key]: value}))),
-    createElement('label', {}, 'Colour', color)];
+    createElement('label', {}, t('Colour'), color)];
 }
 
 /**
