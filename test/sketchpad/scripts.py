@@ -47,9 +47,9 @@ def texts_of(script: str) -> Iterator[Text]:
             depths.pop()
             begins = True
         elif piece.startswith("'"):
-            before = script[max(found.start() - 2, 0) : found.start()]
-            translated = before == 't(' and not script[found.start() - 3].isalnum()
-            line = script.count('\n', 0, found.start()) + 1
+            begin = found.start()
+            translated = script.endswith('t(', 0, begin) and not script[begin - 3].isalnum()
+            line = script.count('\n', 0, begin) + 1
             yield Text(_unescaped(piece[1:-1]), translated, line)
         if not begins:
             continue

@@ -183,7 +183,7 @@ def test_all_that_the_page_shows_comes_from_its_table(marked: Sheet) -> None:
     for dialog in ('Help', 'Save'):
         press(marked, dialog)
         assert unmarked(marked) == set()
-        press(marked, 'Close')
+        marked.page.keyboard.press('Escape')
 
 
 def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
