@@ -28,7 +28,7 @@ WORDS = re.compile(r'[A-Za-z]{2,} [A-Za-z(]|^\W*[A-Z][a-z]+')
 # heads of tables that other programs read, names of languages, errors for developers.
 OTHER = re.compile(
     r"""\.js(on)?$ | system-ui | \((max|min)-width | ^[#.\[] | ^format: | ^Content-Type$ |
-    ^(Escape|Enter|Tab|Delete|Backspace|Esc|Shift\+[JL]|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
+    ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End|Shift\+[JL]|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
     ^(Arrow|Page|Key)[A-Z] | ^\^\(Arrow | ^W\ A\ S\ D | ^(Teacher|Rerun|Deutsch|English)$ |
     ^(in\ the\ past|set\ velocity\ of|(all|several)\ bodies|all\ joints)$ | \[[NJ]\]$ |
     ^(cards\ lessons|row\ legend|normal\ force|force\ of\ joints|sum\ of\ forces)$ |

@@ -17,6 +17,7 @@ import {Hints} from './hints.js';
 import {JointPanel} from './joint_panel.js';
 import {Cursor, Keyboard} from './keyboard.js';
 import {Lessons} from './lessons.js';
+import {Narrator} from './narrator.js';
 import {Notes, Refusals} from './notes.js';
 import {Numbers} from './numbers.js';
 import {Panel} from './panel.js';
@@ -26,8 +27,10 @@ import {Pointers} from './pointer.js';
 import {Readings} from './readings.js';
 import {Records} from './records.js';
 import {Room} from './room.js';
+import {makeToolbar} from './roving.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
+import {Settings} from './settings.js';
 import {Sound} from './sound.js';
 import {Stopwatch} from './stopwatch.js';
 import {t} from './strings.js';
@@ -94,6 +97,10 @@ export class App {
     this.tips = new Tips(this.camera);
     this.card = new EmptyCard(this);
     this.room = new Room(this);
+    this.settings = new Settings(this);
+    this.narrator = new Narrator(this);
+    for (const id of ['tools', 'files', 'looks', 'edit', 'marks', 'legend']) makeToolbar(elementOf(id, HTMLElement));
+    makeToolbar(elementOf('time', HTMLElement), '[data-icon=play]');
     this.#listen();
     this.connection.connect();
     setInterval(() => this.#listBodies(), LIST_EVERY);
@@ -128,11 +135,11 @@ export class App {
 
   /** Ask for the parts of frames that are shown. */
   askForParts() {
-    const {velocities, forces} = this.arrows, {name} = this.panel;
+    const {velocities, forces} = this.arrows, {name} = this.panel, told = this.settings?.speaks || this.selection.names.size > 0;
     const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
     this.view.dirty = true;
     // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.records.records || this.tool.measures === true, contacts: forces || name !== '' || this.sound.on || this.records.recordsForces, forces: true, laser: robot ? name : ''});
+    this.connection.send('show', {velocities: velocities || forces || told || this.records.records || this.tool.measures === true, contacts: forces || told || this.sound.on || this.records.recordsForces, forces: true, laser: robot ? name : ''});
   }
 
   #listBodies() {

@@ -37,7 +37,8 @@ export function icon(id) {
  * @param {string} title
  */
 export function iconButton(name, id, onclick, title = name) {
-  return createElement('button', {type: 'button', 'aria-label': name, 'data-icon': id, title, onclick}, icon(id));
+  return createElement('button', {type: 'button', 'aria-label': name, 'data-icon': id, title, onclick}, icon(id),
+    createElement('span', {className: 'word', 'aria-hidden': true, textContent: name}));
 }
 
 /**

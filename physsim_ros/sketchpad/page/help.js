@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The help: keys, and where there are fingers, gestures and tools first. */
 
-import {createElement, icon, inRow, languageField} from './dom.js';
+import {createElement, icon, inRow} from './dom.js';
 import {t} from './strings.js';
 import {noteSeen, strokeCard} from './strokes.js';
 import {EDIT, TIME} from './time_bar.js';
@@ -32,7 +32,7 @@ export function showHelp(app) {
   noteSeen();
   const parts = [strokes, section(t('Keys'), keys)];
   if (TOUCHED.matches) parts.splice(1, 0, section(t('Gestures'), GESTURES), section(t('Tools'), tools));
-  app.gallery.show(t('Help'), inRow(languageField()), ...parts.flat());
+  app.gallery.show(t('Help'), inRow(...app.settings.fields()), ...parts.flat());
 }
 
 /**

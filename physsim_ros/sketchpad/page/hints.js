@@ -18,7 +18,8 @@ const STEPS = [
   ['change', t('This is the past. Draw or move something here, and the future changes.'), '', ({timeline: {newest, now}}) => now < newest],
   ['ghost', t('Dashed: what happened before. The ring on the time line returns there.'), 'play', ({timeline}) => Boolean(timeline.courses?.length)],
 ];
-const KEY = 'physsim-hints';
+const KEY = 'physsim-hints', TOOLS = 'physsim-tools';
+const KNOWN = 2; // times that a tool was used after its hint, which is not shown any more
 const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step
 
 export class Hints {
@@ -27,6 +28,9 @@ export class Hints {
     this.app = app;
     this.line = elementOf('hint', HTMLElement);
     this.step = Number(localStorage.getItem(KEY) ?? 0);
+    /** @type {Record<string, number>} how often tools were used after their hints */
+    this.used = JSON.parse(localStorage.getItem(TOOLS) ?? '{}');
+    this.tool = ''; // whose hint was shown last, until it is used
     this.timer = 0;
     this.shown = ''; // id of the step whose text is shown
     const {connection} = app;
@@ -69,12 +73,26 @@ export class Hints {
     return holds ? step : step[0] === 'play' ? STEPS[this.step + 1] : undefined;
   }
 
-  /** @param {string} text how the tool in hand is used */
-  showTool(text) {
+  /**
+   * Tell how the tool in hand is used, until somebody has done so twice.
+   * @param {string} id of the tool
+   * @param {string} text
+   */
+  showTool(id, text) {
+    this.tool = id;
+    if ((this.used[id] ?? 0) >= KNOWN) return;
     this.app.notes.hide();
     this.#show(text);
     this.shown = 'tool';
     this.timer = setTimeout(() => this.#showStep(), TOOL_SHOWN);
+  }
+
+  /** Note that the tool in hand was used. */
+  noteUse() {
+    if (!this.tool) return;
+    this.used[this.tool] = (this.used[this.tool] ?? 0) + 1;
+    this.tool = '';
+    localStorage.setItem(TOOLS, JSON.stringify(this.used));
   }
 
   #showStep() {

@@ -177,7 +177,10 @@ export class Cursor {
     }
     app.time.endRewind();
     if (!this.pressed) app.tool.down(this.touch);
-    if (this.pressed || app.tool.clicks) app.tool.up(this.touch);
+    if (this.pressed || app.tool.clicks) {
+      app.tool.up(this.touch);
+      app.hints.noteUse();
+    }
     this.pressed = !this.pressed && !app.tool.clicks;
     app.view.dirty = true;
   }

@@ -127,6 +127,7 @@ export class Pointers {
     if (event.pointerId !== this.working) return;
     this.working = -1;
     this.worked.up(this.#touch(event));
+    if (this.worked === this.app.tool) this.app.hints.noteUse();
     this.app.handles.point(this.#touch(event), event.pointerType === 'touch');
     this.app.view.dirty = true;
   }

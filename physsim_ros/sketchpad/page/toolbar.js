@@ -74,7 +74,7 @@ export class Toolbar {
   selectTool(id) {
     this.#select(id);
     const [, name, , hint] = TOOLS.flat().find(([each]) => each === id) ?? ['', '', '', ''];
-    this.app.hints.showTool(`${name}: ${hint}.`);
+    this.app.hints.showTool(id, `${name}: ${hint}.`);
   }
 
   /** @param {string} id */

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Sentences for screen readers about what moves: of the selected bodies, and where none is selected and somebody has
+ * asked for it, of all. The newest ones are told, at most once in `PERIOD`.
+ */
+
+import {elementOf} from './dom.js';
+import {t} from './strings.js';
+
+/** @import {App} from './types.js' */
+
+const PERIOD = 1500; // ms between two announcements
+const TOLD = 3; // sentences of an announcement, the newest ones
+const APART = 0.25; // s without a touch after which a pair touches anew
+const MOVES = 0.05, RESTS = 0.02; // m/s: faster is motion, slower rest
+const STILL = 0.5; // s of rest after which it is told
+
+/** @typedef {{moves: boolean, since: number}} Motion since: when the body was faster than a body at rest [s] */
+
+export class Narrator {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.line = elementOf('moves', HTMLElement);
+    this.time = 0; // of the last frame [s]
+    /** @type {Map<string, number>} when pairs of bodies touched last [s] */
+    this.touched = new Map();
+    /** @type {Map<string, Motion>} by name of the body */
+    this.motions = new Map();
+    /** @type {string[]} */
+    this.sentences = [];
+    this.timer = 0;
+    app.connection.on('frame', ({ghost}) => ghost || this.#follow());
+    app.connection.on('world', () => this.#forget());
+  }
+
+  #forget() {
+    this.touched.clear();
+    this.motions.clear();
+  }
+
+  #follow() {
+    const {world, selection, settings} = this.app, {frame: {time, velocities}, scene: {bodies}} = world;
+    // What was told of a time lies ahead again after a rewind.
+    if (time < this.time) this.#forget();
+    const later = time > this.time;
+    this.time = time;
+    if (!later || !velocities || !selection.names.size && !settings.speaks) return;
+    const rows = new Set();
+    for (let row = 0; row < world.count; row++) {
+      const {name, anchored} = bodies[row];
+      if (anchored || selection.names.size && !selection.names.has(name)) continue;
+      rows.add(row);
+      this.#followBody(row, Math.hypot(velocities.x[row], velocities.y[row]));
+    }
+    this.#followTouches(rows);
+  }
+
+  /**
+   * @param {number} row
+   * @param {number} speed [m/s]
+   */
+  #followBody(row, speed) {
+    const {world, words} = this.app, {name, centroid} = world.scene.bodies[row], time = this.time.toFixed(1);
+    const motion = this.motions.get(name) ?? {moves: speed > MOVES, since: this.time};
+    this.motions.set(name, motion);
+    if (speed > RESTS) motion.since = this.time;
+    if (!motion.moves && speed > MOVES) {
+      motion.moves = true;
+      this.#tell(t('{name} moves at {time} s', {name: words.item(name), time}));
+    } else if (motion.moves && this.time - motion.since > STILL) {
+      motion.moves = false;
+      const [x, y] = world.place(row, centroid);
+      this.#tell(t('{name} rests at {x}, {y} m, at {time} s', {name: words.item(name), x: x.toFixed(1), y: y.toFixed(1), time}));
+    }
+  }
+
+  /** @param {Set<number>} rows of the bodies that are followed */
+  #followTouches(rows) {
+    const {world: {frame: {contacts}, scene: {bodies}}, words} = this.app;
+    for (let i = 0; contacts && i < contacts.a.length; i++) {
+      const [one, other] = rows.has(contacts.a[i]) ? [contacts.a[i], contacts.b[i]] : [contacts.b[i], contacts.a[i]];
+      if (!rows.has(one)) continue;
+      const pair = `${bodies[one].name} ${bodies[other]?.name}`, before = this.touched.get(pair) ?? -Infinity;
+      this.touched.set(pair, this.time);
+      if (this.time - before < APART) continue;
+      this.#tell(t('{name} touches {other} at {time} s', {name: words.item(bodies[one].name),
+        other: bodies[other] ? words.item(bodies[other].name) : t('a wall'), time: this.time.toFixed(1)}));
+    }
+  }
+
+  /** @param {string} sentence */
+  #tell(sentence) {
+    this.sentences.push(sentence);
+    this.timer ||= setTimeout(() => {
+      this.timer = 0;
+      this.line.textContent = this.sentences.splice(0).slice(-TOLD).join('. ');
+    }, this.line.textContent ? PERIOD : 0);
+  }
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What a reader chooses for this browser, in the help: the language, words at icons, sentences about what moves. */
+
+import {checkField, languageField} from './dom.js';
+import {t} from './strings.js';
+
+/** @import {App} from './types.js' */
+
+const WORDS = 'physsim-words', SPEAKS = 'physsim-speaks'; // keys
+
+export class Settings {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    app.connection.on('scene', () => this.#showWords());
+    addEventListener('resize', () => this.#showWords());
+  }
+
+  /** @returns {boolean} whether icons have words: until somebody chooses, in lessons, where there is room */
+  get words() {
+    const chosen = localStorage.getItem(WORDS), {world, room} = this.app;
+    return chosen === null ? Boolean(world.scene.lesson) && room.isRoomy : chosen === '1';
+  }
+
+  /** @returns {boolean} whether the motion of all bodies is told, not of the selected ones alone */
+  get speaks() {
+    return localStorage.getItem(SPEAKS) === '1';
+  }
+
+  #showWords() {
+    document.body.classList.toggle('words', this.words);
+  }
+
+  /** @returns {HTMLElement[]} */
+  fields() {
+    return [languageField(), checkField(t('Words at icons'), this.words, (checked) => {
+      localStorage.setItem(WORDS, checked ? '1' : '0');
+      this.#showWords();
+    }), checkField(t('Tell what moves, for screen readers'), this.speaks, (checked) => {
+      localStorage.setItem(SPEAKS, checked ? '1' : '0');
+      this.app.askForParts();
+    })];
+  }
+}
