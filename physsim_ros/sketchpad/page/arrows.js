@@ -8,7 +8,7 @@
  * that bears.
  */
 
-import {createElement, elementOf} from './dom.js';
+import {createElement, elementOf, textButton, toggling} from './dom.js';
 import {bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {roundUp, threeDigits} from './rounding.js';
 import {t} from './strings.js';
@@ -85,12 +85,10 @@ export class Arrows {
       return createElement('span', {className: `scale ${kind}`}, this.bars[unit]);
     };
     const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) => {
-      const button = createElement('button', {type: 'button', textContent: name, className: kind, 'aria-pressed': isOn(), onclick: () => {
+      return toggling(textButton(name, () => {}, kind), isOn, () => {
         change();
-        button.setAttribute('aria-pressed', String(isOn()));
         this.app.view.dirty = true;
-      }});
-      return button;
+      });
     };
     const {legend, off} = this;
     legend.hidden = !this.velocities && !this.forces;

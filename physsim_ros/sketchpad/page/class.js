@@ -7,10 +7,10 @@
 import {Camera} from './camera.js';
 import {sayForm} from './classroom.js';
 import {Connection} from './connection.js';
-import {createElement, elementOf, inRow, languageField, textButton} from './dom.js';
+import {choice, createElement, elementOf, inRow, languageField, textButton} from './dom.js';
 import {SceneView} from './scene_view.js';
+import {watchTheme} from './settings.js';
 import {t} from './strings.js';
-import {watchTheme} from './theme.js';
 import {WorldState} from './world_state.js';
 
 /** @import {Classmate} from './types.js' */
@@ -112,7 +112,7 @@ function begin(count) {
   const toAll = (/** @type {string} */ type, /** @type {Record<string, unknown>} */ fields) => {
     for (const {connection} of cards) connection.send(type, fields);
   };
-  const lessons = createElement('select', {'aria-label': t('Lesson')});
+  const lessons = choice(t('Lesson'), [], '', () => {});
   cards[0].connection.on('worlds', ({lessons: list}) => lessons.replaceChildren(...list.map(
     (/** @type {{name: string, number: number, title: string}} */ each) =>
       createElement('option', {value: each.name, textContent: `${each.number}. ${each.title}`}))));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
 
-import {createElement, elementOf, iconButton, inRow, textButton} from './dom.js';
+import {createElement, elementOf, fieldForm, iconButton, inRow, textButton} from './dom.js';
 import {t} from './strings.js';
 
 /** @import {App, Classmate, Point, SceneView} from './types.js' */
@@ -99,12 +99,11 @@ export class Classroom {
     const {app, state, teacher} = this, {connection} = app;
     const own = state.people.find(({page}) => page === this.page)?.name ?? '';
     const input = createElement('input', {value: localStorage.getItem(NAME) ?? '', placeholder: own, required: true, maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': t('Your name')});
-    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-      event.preventDefault();
-      localStorage.setItem(NAME, input.value.trim());
-      connection.send('person', {name: input.value.trim()});
+    const form = fieldForm(input, t('Use this name'), (name) => {
+      localStorage.setItem(NAME, name);
+      connection.send('person', {name});
       app.gallery.dialog.close();
-    }}, input, createElement('button', {textContent: t('Use this name')}));
+    });
     const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role, answered, raised}) =>
       createElement('li', {}, dot(name), `${name}${page === this.page ? ` (${t('you')})` : ''}${role === 'teach' && name !== 'Teacher' ? `, ${t('teacher')}` : ''}`,
         ...raised ? [createElement('strong', {textContent: t('hand raised')})] : [], ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
@@ -158,11 +157,10 @@ export class Classroom {
 /** @param {(text: string) => void} say to all */
 export function sayForm(say) {
   const input = createElement('input', {required: true, maxLength: 200, autocomplete: 'off', placeholder: t('Message to all'), 'aria-label': t('Message to all')});
-  return createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    say(input.value.trim());
+  return fieldForm(input, t('Send'), (text) => {
+    say(text);
     input.value = '';
-  }}, input, createElement('button', {textContent: t('Send')}));
+  });
 }
 
 /** @param {string} name of a person */

@@ -104,12 +104,54 @@ export function checkField(label, checked, change) {
   return createElement('label', {}, label, input);
 }
 
+/**
+ * @param {string} label
+ * @param {[value: string, text: string][]} options
+ * @param {string} value that is chosen
+ * @param {(value: string) => void} change
+ */
+export function choice(label, options, value, change) {
+  const input = createElement('select', {'aria-label': label, onchange: () => change(input.value)},
+    ...options.map(([each, textContent]) => createElement('option', {value: each, textContent})));
+  input.value = value;
+  return input;
+}
+
 /** @returns {HTMLElement} a choice of the language; the page is loaded again in it */
 export function languageField() {
-  const input = createElement('select', {'aria-label': t('Language'), onchange: () => chooseLanguage(input.value)},
-    ...Object.entries(LANGUAGES).map(([value, name]) => createElement('option', {value, lang: value, textContent: name})));
-  input.value = language;
-  return createElement('label', {}, t('Language'), input);
+  return createElement('label', {}, t('Language'), choice(t('Language'), Object.entries(LANGUAGES), language, chooseLanguage));
+}
+
+/**
+ * A field with a button, in a row; Enter presses it.
+ * @param {HTMLInputElement} input
+ * @param {string} label of the button
+ * @param {(text: string) => void} done gets what was typed, trimmed
+ * @param {string} unit between them
+ */
+export function fieldForm(input, label, done, unit = '') {
+  return createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
+    event.preventDefault();
+    done(input.value.trim());
+  }}, input, unit, createElement('button', {textContent: label}));
+}
+
+/**
+ * Let a button show whether it is on, and change that.
+ * @template {HTMLButtonElement} T
+ * @param {T} button
+ * @param {() => boolean} isOn
+ * @param {() => void} change
+ * @returns {T}
+ */
+export function toggling(button, isOn, change) {
+  const show = () => button.setAttribute('aria-pressed', String(isOn()));
+  button.onclick = () => {
+    change();
+    show();
+  };
+  show();
+  return button;
 }
 
 /** @param {Node[]} children beside each other */

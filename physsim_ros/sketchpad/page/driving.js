@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Driving the selected robot: by W A S D, and by a stick for thumbs in its panel. */
+/** What moves on its own: a robot, driven by W A S D or by a stick for thumbs in its panel; an actor, with its way in the world. */
 
 import {createElement} from './dom.js';
 import {t} from './strings.js';
 
-/** @import {App, Point, Robot} from './types.js' */
+/** @import {Actor, App, Point, Robot, SceneView, WorldState} from './types.js' */
 
 const PERIOD = 100; // ms between commands: a drive stops without one after half a second
 const TURN = 0.5; // share of the greatest turn rate that a key asks for
@@ -115,4 +115,37 @@ export class Driving {
     connection.send('drive', {name: panel.name, velocity: sum.map((each, i) => Math.max(-1, Math.min(each, 1)) * most[i])});
     this.name = this.timer ? panel.name : '';
   }
+}
+
+/** @type {Record<Actor['kind'], string>} */
+const KINDS = {path: t('Follows a path'), social_force: t('Walks by social forces'), orca: t('Walks and avoids others (ORCA)')};
+/** @type {Record<string, string>} */
+const REPEATS = {once: t('once'), loop: t('round and round'), to_and_fro: t('to and fro')};
+const POINT = 4; // px: radius of a point of the way
+
+/**
+ * @param {Actor} actor
+ * @returns {Node[]} lines of the panel
+ */
+export function actorLines({kind, points, speed, repeat = 'once', start = {}}) {
+  const {gate, near, distance, time} = start;
+  const texts = [`${KINDS[kind]}, ${REPEATS[repeat]}`, t('{count} points', {count: points.length})];
+  if (speed) texts.push(`${speed} m/s`);
+  if (gate) texts.push(t('starts when something is in {name}', {name: gate}));
+  if (near) texts.push(t('starts when {name} is within {distance} m', {name: near, distance: distance ?? 0}));
+  if (time) texts.push(t('waits {time} s', {time}));
+  return [createElement('p', {className: 'actor', textContent: texts.join(' · ')})];
+}
+
+/**
+ * @param {SceneView} view
+ * @param {WorldState} world
+ * @param {string} name of the selected body, whose way is drawn if it is an actor
+ */
+export function drawWay(view, {scene}, name) {
+  const actor = scene.bodies.find((body) => body.name === name)?.actor, {accent} = view.palette;
+  if (!actor) return;
+  const points = actor.points.map(([x, y]) => /** @type {Point} */ ([x, y]));
+  view.line(actor.repeat === 'loop' ? [...points, points[0]] : points, accent, [8, 5]);
+  for (const point of points) view.ring(point, POINT, accent);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
-import {createElement, download, elementOf, icon, iconButton, inRow, textButton} from './dom.js';
+import {createElement, download, elementOf, fieldForm, icon, iconButton, inRow, textButton} from './dom.js';
 import {language, t} from './strings.js';
 import {capital} from './words.js';
 
@@ -124,13 +124,11 @@ export class Gallery {
   #nameForm(title, value, label, done) {
     const name = createElement('input', {value, required: true, maxLength: 64, autocomplete: 'off', 'aria-label': title,
       pattern: NAME, title: t('Letters, digits, spaces, - and _; without / and .')});
-    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-      event.preventDefault();
-      this.dialog.close();
-      done(name.value.trim());
-    }}, name, createElement('button', {textContent: label}));
     queueMicrotask(() => name.select());
-    return form;
+    return fieldForm(name, label, (text) => {
+      this.dialog.close();
+      done(text);
+    });
   }
 
   /**

@@ -5,7 +5,7 @@
  * A lesson belongs to its world (`scene.lesson`), so that all pages of the world have its card.
  */
 
-import {createElement, elementOf, icon, inRow, textButton} from './dom.js';
+import {createElement, elementOf, fieldForm, icon, inRow, textButton} from './dom.js';
 import {t} from './strings.js';
 
 /** @import {App, Lesson} from './types.js' */
@@ -95,20 +95,19 @@ export class Lessons {
     const input = createElement('input', {inputMode: 'decimal', required: true, autocomplete: 'off', 'aria-label': t('Your answer {unit}', {unit: shown})});
     const solution = folded(t('Answer'), answer);
     solution.hidden = true;
-    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-      event.preventDefault();
-      const value = Number(input.value.trim().replace(',', '.')), right = Math.abs(value - figure) <= within;
+    const form = fieldForm(input, t('Check'), (typed) => {
+      const value = Number(typed.replace(',', '.')), right = Math.abs(value - figure) <= within;
       result.className = right ? 'right' : '';
       result.textContent = right ? t('Right!') : Number.isNaN(value) ? t('That is not a number.') : t('Not yet. Measure again, or look at the hint.');
-      this.answered = {lesson: title, answer: input.value.trim(), right};
-      if (input.value.trim()) this.app.connection.send('answered', this.answered);
+      this.answered = {lesson: title, answer: typed, right};
+      if (typed) this.app.connection.send('answered', this.answered);
       // Who has tried may look.
       solution.hidden = false;
       solution.open = right;
       if (!right) return;
       this.solved.add(title);
       localStorage.setItem(SOLVED, JSON.stringify([...this.solved]));
-    }}, input, shown, createElement('button', {textContent: t('Check')}));
+    }, shown);
     const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
     const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
     if (next) buttons.push(textButton(t('Next lesson'), () => this.#open(next.name)));

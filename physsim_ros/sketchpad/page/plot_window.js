@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
 
-import {createElement, download, elementOf, iconButton, inRow, textButton} from './dom.js';
+import {choice, createElement, download, elementOf, iconButton, inRow, textButton, toggling} from './dom.js';
 import {FORCES, QUANTITIES, tableOf} from './numbers.js';
 import {drawChart} from './plots.js';
 import {threeDigits} from './rounding.js';
@@ -13,7 +13,6 @@ import {t} from './strings.js';
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
 const NARROW = 560; // px
 const EVERY = 80; // ms
-const LISTED = 200; // bodies that can be added
 /** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
 const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
 
@@ -49,15 +48,12 @@ export class PlotWindow {
 
   /** @param {string[]} names of bodies */
   open(names) {
-    const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => {
-      const input = createElement('select', {'aria-label': label, onchange: () => {
-        this.axes[axis] = input.value;
-        this.#record();
-        this.#draw();
-      }}, ...Object.entries(QUANTITIES).map(([value, quantity]) => createElement('option', {value, textContent: quantity.label})));
-      input.value = this.axes[axis];
-      return input;
-    };
+    const quantities = Object.entries(QUANTITIES).map(([key, {label}]) => /** @type {[string, string]} */ ([key, label]));
+    const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => choice(label, quantities, this.axes[axis], (key) => {
+      this.axes[axis] = key;
+      this.#record();
+      this.#draw();
+    });
     this.element.replaceChildren(createElement('header', {},
       inRow(select('y', t('Upwards')), createElement('span', {textContent: t('over')}), select('x', t('To the right')),
         this.#adder(), this.#summer(), this.legend, textButton(t('Copy table'), () => this.#copyTable())),
@@ -91,23 +87,19 @@ export class PlotWindow {
 
   /** @returns {HTMLElement} the switch of the sum over the bodies, of what can be summed */
   #summer() {
-    const button = textButton(t('Sum'), () => {
+    const button = toggling(textButton(t('Sum'), () => {}), () => this.sums, () => {
       this.sums = !this.sums;
-      button.setAttribute('aria-pressed', String(this.sums));
       this.#draw();
     });
     button.title = t('Momentum or energy of all bodies of the plot together');
-    button.setAttribute('aria-pressed', String(this.sums));
     return button;
   }
 
   #adder() {
-    const {bodies} = this.app.world.scene;
-    const input = createElement('select', {'aria-label': t('Add a body'), onchange: () => {
-      this.#show([...this.names.filter((name) => name !== input.value), input.value]);
+    const input = choice(t('Add a body'), this.app.words.choices(t('Add a body …')), '', (added) => {
+      this.#show([...this.names.filter((name) => name !== added), added]);
       input.value = '';
-    }}, ...['', ...bodies.slice(0, LISTED).map(({name}) => name)].map((name) =>
-      createElement('option', {value: name, textContent: name ? this.app.words.item(name) : t('Add a body …')})));
+    });
     return input;
   }
 

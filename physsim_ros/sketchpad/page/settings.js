@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What a reader chooses for this browser, in the help: the language, words at icons, sentences about what moves. */
+/** What a reader chooses for this browser: light or dark, the language, words at icons, sentences about what moves. */
 
 import {checkField, languageField} from './dom.js';
 import {t} from './strings.js';
 
-/** @import {App} from './types.js' */
+/** @import {App, Palette} from './types.js' */
 
 const WORDS = 'physsim-words', SPEAKS = 'physsim-speaks'; // keys
 
@@ -41,4 +41,34 @@ export class Settings {
       this.app.askForParts();
     })];
   }
+}
+
+const KEY = 'physsim-theme';
+const NAMES = ['paper', 'minor', 'major', 'faint', 'ink', 'accent', 'force', 'warn', 'weight', 'friction', 'joint', 'air', 'momentum'];
+
+/** @returns {Palette} */
+export function readPalette() {
+  const style = getComputedStyle(document.documentElement);
+  const entries = NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]);
+  return Object.fromEntries(entries);
+}
+
+/** @param {() => void} listener */
+export function watchTheme(listener = () => {}) {
+  const dark = matchMedia('(prefers-color-scheme: dark)');
+  const set = () => {
+    const chosen = localStorage.getItem(KEY);
+    document.documentElement.dataset.theme = chosen ?? (dark.matches ? 'dark' : 'light');
+    listener();
+  };
+  dark.addEventListener('change', set);
+  addEventListener('storage', set);
+  addEventListener('theme', set);
+  set();
+}
+
+export function switchTheme() {
+  const now = document.documentElement.dataset.theme;
+  localStorage.setItem(KEY, now === 'dark' ? 'light' : 'dark');
+  dispatchEvent(new Event('theme'));
 }

@@ -4,7 +4,7 @@
  * touches; and a stopwatch by hand, in the time of the world, with laps.
  */
 
-import {createElement, inRow, textButton} from './dom.js';
+import {choice, createElement, inRow, textButton} from './dom.js';
 import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
@@ -12,7 +12,6 @@ import {t} from './strings.js';
 
 /** @typedef {{name: string, other: string, time: number}} Touched a body that was followed, by another one */
 
-const LISTED = 200; // bodies that can be chosen
 const MOST = 10000; // touches that are kept
 const SAME = 1e-9; // s
 const MOST_LAPS = 8; // that are shown
@@ -71,15 +70,10 @@ export class Stopwatch {
    * @param {string} none
    */
   #chooser(role, label, none) {
-    const {bodies} = this.app.world.scene, gates = bodies.filter(({sensor}) => sensor);
-    const names = [...gates, ...bodies.filter(({sensor}) => !sensor)].slice(0, LISTED).map(({name}) => name);
-    const input = createElement('select', {'aria-label': label, onchange: () => {
-      this[role] = input.value;
+    return createElement('label', {}, label, choice(label, this.app.words.choices(none), this[role], (name) => {
+      this[role] = name;
       this.#follow();
-    }}, createElement('option', {value: '', textContent: none}), ...names.map((name) =>
-      createElement('option', {value: name, textContent: this.app.words.item(name)})));
-    input.value = this[role];
-    return createElement('label', {}, label, input);
+    }));
   }
 
   #follow() {

@@ -19,6 +19,7 @@ const MORE = new Map([['step', `: ${t('one frame forward')}`], ['reset', `: ${t(
 const STATES = new Map([['rewinding', t('rewinding')], ['in the past', t('in the past')], ['playing', t('playing')], ['paused', t('paused')]]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
 const WATCHED = 1500; // ms over which the pace is measured
+const EXPLAINED = 3000; // ms for which the world is slow before that is explained
 const SLOW = 0.9; // share of the speed asked for below which the pace is told
 
 export class TimeBar {
@@ -44,6 +45,9 @@ export class TimeBar {
     this.shown = ''; // speed
     /** @type {[number, number, number][]} wall time [ms], simulation time [s] and speed of the last frames */
     this.paces = [];
+    this.reason = ''; // why the world is slower than asked for
+    this.slowSince = 0; // [ms]; 0 where it is not
+    this.explained = -1; // epoch of the scene for which that was told
     this.rate = 1; // of playing, as this page has chosen it
     this.held = false; // by a finger or the mouse
     this.busy = false; // a seek is on its way
@@ -133,12 +137,27 @@ export class TimeBar {
   #showSpeed(speed) {
     const pace = this.#slowPace, {bodies} = this.app.world.scene;
     const text = `${Number((pace || speed).toFixed(2))}×`.replace('-', '−');
+    this.#tellSlow(pace > 0);
     if (text === this.shown) return;
     this.shown = text;
     this.speed.textContent = text;
     this.speed.classList.toggle('slow', pace > 0);
     this.speed.setAttribute('aria-label', pace ? t('Speed {pace}, slower than {speed}×', {pace: text, speed}) : t('Speed {pace}', {pace: text}));
-    this.speed.title = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: bodies.length}) : t('Speed of playing');
+    this.reason = t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: bodies.length});
+    this.speed.title = pace ? this.reason : t('Speed of playing');
+  }
+
+  /**
+   * Tell why the speed is red, once for a world that stays slow.
+   * @param {boolean} slow
+   */
+  #tellSlow(slow) {
+    const now = performance.now(), {epoch} = this.app.world.scene;
+    if (!slow) this.slowSince = 0;
+    else this.slowSince ||= now;
+    if (!this.slowSince || now - this.slowSince < EXPLAINED || this.explained === epoch) return;
+    this.explained = epoch;
+    this.app.notes.pin(() => null, [this.reason], {kind: 'docked'});
   }
 
   #showTime() {

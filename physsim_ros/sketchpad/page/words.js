@@ -32,6 +32,7 @@ const SENTENCES = [
   [/^a chain of (\d+) links from .+/, t('Chain of $1 links added')], [/^pose is /, t('position is') + ' '], [/^the yaw of pose /, t('the angle') + ' '], [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')], [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')], [/^redid .*/, t('Redone')], [/^(back )?at the beginning, .*/, t('Back at the beginning')],
   [/ at \([^)]*\)$/, ` ${t('here')}`],
 ];
+const LISTED = 200; // bodies that can be chosen from
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
 /** Names that nobody chose: of what a pen or a click has drawn. */
 const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((?:drawn|note)\/\d+)/g;
@@ -41,7 +42,10 @@ export class Words {
   constructor(connection) {
     /** Words for the bodies of the last scene, and of the one before: answers come before and after theirs. */
     this.known = /** @type {Map<string, string>[]} */ ([new Map(), new Map()]);
+    /** @type {Body[]} of the last scene */
+    this.bodies = [];
     connection.on('scene', ({bodies}) => {
+      this.bodies = bodies;
       this.known = [new Map(bodies.map((/** @type {Body} */ body) => [body.name, shapeWord(body)])), this.known[0]];
     });
   }
@@ -65,6 +69,15 @@ export class Words {
    */
   item(name) {
     return isDrawn(name) ? `${this.title(name)} ${name.split('/')[1]}` : shorten(name);
+  }
+
+  /**
+   * @param {string} none what is said for no body
+   * @returns {[name: string, item: string][]} bodies to choose from, gates first
+   */
+  choices(none) {
+    const bodies = [...this.bodies].sort((one, other) => Number(other.sensor) - Number(one.sensor));
+    return [['', none], ...bodies.slice(0, LISTED).map(({name}) => /** @type {[string, string]} */ ([name, this.item(name)]))];
   }
 
   /** @param {string} name of a body */
