@@ -12,7 +12,7 @@ import {Connection} from './connection.js';
 import {createElement, elementOf} from './dom.js';
 import {Driving} from './driving.js';
 import {Gallery} from './gallery.js';
-import {Handles, VelocityArrow} from './handles.js';
+import {Handles} from './handles.js';
 import {Hints, Tips} from './hints.js';
 import {JointPanel} from './joint_panel.js';
 import {Cursor, Keyboard} from './keyboard.js';
@@ -75,7 +75,6 @@ export class App {
     this.panel = new Panel(this);
     this.joints = new JointPanel(this);
     this.stopwatch = new Stopwatch(this);
-    this.arrow = new VelocityArrow(this);
     this.handles = new Handles(this);
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);

@@ -64,7 +64,7 @@ export class Pointers {
       this.working = event.pointerId;
       app.time.endRewind();
       const touch = this.#touch(event);
-      this.worked = [app.arrow, app.handles].find((handle) => handle.isAt(touch)) ?? app.tool;
+      this.worked = app.handles.isAt(touch) ? app.handles : app.tool;
       this.worked.down(touch);
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
       this.worked.cancel();
