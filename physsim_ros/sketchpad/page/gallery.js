@@ -94,7 +94,7 @@ export class Gallery {
       ...shipped && title !== heading ? [createElement('small', {textContent: title})] : []);
     if (shipped) return card;
     return createElement('div', {className: 'own'}, card, inRow(
-      textButton(t('Rename'), () => this.#askName(t('Rename {name}', {name}), name, t('Rename'), (to) => this.#rename(name, to))),
+      textButton(t('Rename'), () => this.show(t('Rename {name}', {name}), this.#nameForm(t('New name'), name, t('Rename'), (to) => this.#rename(name, to)))),
       textButton(t('Delete'), () => this.#delete(name), 'danger')));
   }
 
@@ -129,16 +129,6 @@ export class Gallery {
       this.dialog.close();
       done(text);
     });
-  }
-
-  /**
-   * @param {string} title
-   * @param {string} value
-   * @param {string} label of the button
-   * @param {(name: string) => void} done
-   */
-  #askName(title, value, label, done) {
-    this.show(title, this.#nameForm(t('New name'), value, label, done));
   }
 
   /**

@@ -12,7 +12,7 @@ import {sizeOf} from './label_view.js';
 import {t} from './strings.js';
 import {sendNote} from './tools/note.js';
 import {isDrawn} from './words.js';
-import {materialButtons, materialFields, worldContent} from './world_panel.js';
+import {materialFields, worldContent} from './world_panel.js';
 
 /** @import {App, Point} from './types.js' */
 
@@ -158,7 +158,6 @@ export function bodyContent(app, name) {
     first: [app.numbers.element, ...body.actor ? actorLines(body.actor) : [], ...body.robot ? app.driving.show(body.robot) : []],
     rest: [
       app.numbers.typed,
-      materialButtons(change),
       ...material,
       createElement('label', {}, t('Label'), label),
       // A robot is neither.
