@@ -1,17 +1,23 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The page by keys, with words at its icons, with hints that learn, and told to a screen reader."""
+"""The page by keys, with words at its icons, hints that learn, and a screen reader."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+import re
 from typing import Any
 
 import pytest
 
 from .chromium import Sheet
 
+# The page's clock runs ten times faster than before.
+SLOWED = """() => {
+    const now = performance.now.bind(performance), begin = now();
+    performance.now = () => begin + 10 * (now() - begin);
+}"""
 FOCUSED = "document.activeElement.getAttribute('aria-label')"
 ENOUGH = 8
 
@@ -136,3 +142,38 @@ def test_a_screen_reader_is_told_of_all_bodies_where_somebody_asks(sheet: Sheet)
     sheet.press('Play')
     log.get_by_text('box/0 touches a wall at').wait_for()
     sheet.press('Pause')
+
+
+def test_buttons_of_the_legend_are_as_large_as_a_finger(chromium: Any, address: str) -> None:
+    for width, height in ((1200, 800), (390, 844), (844, 390)):
+        size = {'width': width, 'height': height}
+        sheet = Sheet(chromium, address, viewport=size, has_touch=True, is_mobile=True)
+        sheet.press('Show forces')
+        boxes = [each.bounding_box() for each in sheet.page.locator('#legend button').all()]
+        assert boxes
+        assert all(min(box['width'], box['height']) >= 44 for box in boxes)
+        sheet.close()
+
+
+def test_the_reason_of_a_slow_world_is_told_once(sheet: Sheet) -> None:
+    # Frames that come ten times too late: their clock says so, not the machine of the test.
+    sheet.page.evaluate(SLOWED)
+    sheet.press('Play')
+    sheet.wait("heard.notes.some((note) => note.startsWith('Slower than 1×: 3 bodies'))")
+    speed = sheet.page.locator('#speed.slow')
+    speed.wait_for()
+    sheet.press('Pause')
+    assert sheet.page.evaluate("heard.notes.filter((note) => note.includes('Slower')).length") == 1
+
+
+def test_rings_of_the_time_line_end_with_their_world(sheet: Sheet) -> None:
+    rings = sheet.page.locator('#marks button')
+    sheet.play_until(1.0)
+    sheet.seek(0.5)
+    sheet.press('Circle')
+    sheet.drag((2.0, 5.0), (2.7, 5.0))
+    rings.first.wait_for()
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name=re.compile('^1\\. ')).click()
+    sheet.page.get_by_role('heading', name='Free fall').wait_for()
+    sheet.wait("document.querySelectorAll('#marks button').length === 0")
