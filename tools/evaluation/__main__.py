@@ -5,7 +5,8 @@
 `make evaluate`: how well strokes are read, by hands that were not there when limits were chosen.
 
 `make evaluate ARGS='300 tuning'` chooses the strokes of each kind and the half: `report`,
-`tuning`, by which limits are chosen, or `apart`, hands of another kind.
+`tuning`, by which limits are chosen, `apart`, hands of another kind, or `strangers`, hands and
+arrows of a third kind with which nothing was chosen.
 """
 
 from __future__ import annotations
