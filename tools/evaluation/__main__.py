@@ -21,7 +21,7 @@ import time
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.meanings import DELETION, GRAVITY
-from physsim_ros.drawing.strokes.recogniser import recognise_form
+from physsim_ros.drawing.strokes.reading import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 

@@ -17,8 +17,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.plane import angles
-from physsim_ros.drawing.strokes.polyline import smoothed, turns
+from physsim_ros.drawing.strokes.geometry import angles, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, dots, norms, Point

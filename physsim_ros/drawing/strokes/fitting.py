@@ -14,12 +14,15 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.plane import (
+from physsim_ros.drawing.strokes.geometry import (
+    COUNT,
     principal_axis,
     quarter_heading,
+    size_of,
+    smoothed,
+    spaced,
     unit_vector,
 )
-from physsim_ros.drawing.strokes.polyline import COUNT, size_of, smoothed, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import dots, norms, rotated_each
 

@@ -14,21 +14,21 @@ from physsim_ros.drawing.strokes import regularisation
 from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import segment_distances
-from physsim_ros.drawing.strokes.hypothesis import Hypothesis
+from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.drawing.strokes.meanings import (
     Context,
+    Form,
     GRAVITY,
-    Interpretation,
+    Meaning,
     MISPLACED,
     Outcome,
+    Sign,
 )
-from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
 from physsim_ros.model.transform import cross, dots, norms
 
-PRIMITIVE = 'arrow'
 # The least gap between the ends of an arrow, in shares of its length.
 _LEAST_GAP = 0.1
 # The part of a shaft that shows how it is bowed, from its tail on, and the part of an arrow in
@@ -40,7 +40,7 @@ _NECK = 0.2
 _ALONG = np.linspace(0.15, 1.0, 8)[:, None]
 
 
-def candidates(features: Features) -> Iterator[Candidate]:
+def _candidates(features: Features) -> Iterator[Candidate]:
     """Yield a shaft and a head, in either order; points: tail and tip."""
     stroke = features.stroke
     if stroke.gap >= _LEAST_GAP:
@@ -116,22 +116,22 @@ def _in_frame(points: Floats, origin: Floats, one: Floats) -> Floats:
     return local / max(float(dots(along, along)), 1e-300)
 
 
-def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a velocity where the tail lies on a body that can move, else a turn of gravity."""
-    points = hypothesis.points
+    points = form.points
     under = context.scene.bodies_at(point_of(points[0]))
     moving = next((name for name in under if not context.scene.body(name).anchored), None)
     if moving is not None:
-        yield Interpretation(
-            meaning='velocity',
-            weight=hypothesis.weight,
+        yield Meaning(
+            name='velocity',
+            weight=form.weight,
             build=partial(_set_velocity, moving, points, context),
         )
         return
     free = not under
-    yield Interpretation(
-        meaning=GRAVITY,
-        weight=hypothesis.weight * (1.0 if free else MISPLACED),
+    yield Meaning(
+        name=GRAVITY,
+        weight=form.weight * (1.0 if free else MISPLACED),
         build=partial(_turn_gravity, points, context),
     )
 
@@ -166,3 +166,6 @@ def _turn_gravity(points: Floats, context: Context) -> Outcome:
         message=f'gravity towards ({gravity[0]:.3g}, {gravity[1]:.3g}) m/s²',
         outline=context.drawn.points,
     )
+
+
+ARROW = Sign(name='arrow', candidates=_candidates, meanings=_meanings)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The order of several strokes that are one figure, as if the pen had not been lifted.
+Several strokes as one: which touch each other, and their order as if the pen had not been lifted.
 
 Law: the shape of a figure does not depend on the order and the directions of its strokes. The
 strokes are joined in the order and the directions with the shortest way between them. Of more than
@@ -16,8 +16,17 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.model.arrays import Floats
+from physsim_ros.drawing.strokes.geometry import path_length, size_of
+from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.transform import norms
 
+# The greatest distance of strokes that touch, in shares of the larger one's size.
+_TOUCHING = 0.15
+# Stride of the points of a stroke between which distances are taken: 1.6 % of its length.
+_STRIDE = 2
+# The length by which a stroke may end short of another that it is to meet, in shares of its own;
+# the number of points on it; the number of those at an end of a stroke that give its direction.
+_BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
 # The greatest number of strokes of which all orders are compared: 4! · 2⁴ = 384.
 _COMPARED = 4
 # The number of points along the way between two strokes, which is then no jump of the pen.
@@ -77,3 +86,46 @@ def _nearest_next(paths: Sequence[Floats], first: tuple[int, bool]) -> tuple[Flo
 def _way_between(paths: Sequence[Floats]) -> float:
     """Return the length of the way between the paths [m]."""
     return sum(math.dist(a[-1], b[0]) for a, b in itertools.pairwise(paths))
+
+
+def touching(strokes: Sequence[Floats], snap: float) -> Flags:
+    """Return which strokes touch each other, (n, n) bool."""
+    paths, sizes = (
+        [_extended(stroke) for stroke in strokes],
+        [size_of(stroke) for stroke in strokes],
+    )
+    touching = np.zeros((len(paths), len(paths)), np.bool_)
+    for one, other in itertools.combinations(range(len(paths)), 2):
+        size = max(sizes[one], sizes[other])
+        touching[one, other] = touch(paths[one], paths[other], size, snap)
+    return touching | touching.T
+
+
+def is_connected(touching: Flags) -> bool:
+    """Return whether each stroke touches another one, directly or by others."""
+    reached = np.arange(len(touching)) == 0
+    for _ in range(len(touching)):
+        reached |= touching[reached].any(axis=0)
+    return bool(reached.all())
+
+
+def touch(one: Floats, other: Floats, size: float, snap: float) -> bool:
+    """Return whether points of two strokes of a size are near enough to touch."""
+    x, y = (one[:, None] - other[None]).transpose(2, 0, 1)
+    return float(np.hypot(x, y).min()) <= min(_TOUCHING * size, max(snap, size / 20))
+
+
+def _extended(stroke: Floats) -> Floats:
+    """Return points of a stroke and of its lines beyond both ends, where others may meet it."""
+    step = _BEYOND * path_length(stroke) / _POINTS_BEYOND
+    parts = [few_points(stroke)]
+    for points in (stroke, stroke[::-1]):
+        ahead = points[0] - points[_END]
+        ahead *= step / max(float(norms(ahead)), 1e-300)
+        parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
+    return np.vstack(parts)
+
+
+def few_points(stroke: Floats) -> Floats:
+    """Return the points of a stroke between which distances are taken."""
+    return stroke[::_STRIDE]
