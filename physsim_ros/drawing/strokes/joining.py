@@ -4,9 +4,10 @@
 """
 Several strokes as one: which touch each other, and their order as if the pen had not been lifted.
 
-Law: the shape of a figure does not depend on the order and the directions of its strokes. The
-strokes are joined in the order and the directions with the shortest way between them. Of more than
-four strokes, each is followed by the one that begins nearest to its end.
+Law: the shape of a figure does not depend on the order and the directions of its strokes. A shaft
+and the head of an arrow are joined as an arrow in one stroke, whose pen returns from the first
+barb to the tip. All other strokes are joined in the order and the directions with the shortest way
+between them. Of more than four strokes, each is followed by the one that begins nearest to its end.
 """
 
 from __future__ import annotations
@@ -16,7 +17,8 @@ import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.geometry import path_length, size_of
+from physsim_ros.drawing.strokes.fitting import segment_distances
+from physsim_ros.drawing.strokes.geometry import angles, path_length, size_of
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import norms
 
@@ -27,6 +29,10 @@ _STRIDE = 2
 # The length by which a stroke may end short of another that it is to meet, in shares of its own;
 # the number of points on it; the number of those at an end of a stroke that give its direction.
 _BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
+# A head: the least straightness of its barbs and of the shaft (distance of the ends by length), the
+# greatest angle between barbs [rad], the least length of the shorter by that of the longer, the
+# greatest distance of its tip from the shaft, in lengths of that.
+_STRAIGHT, _WIDEST, _BALANCE, _NECK = 0.85, 2.3, 0.35, 0.35
 # The greatest number of strokes of which all orders are compared: 4! · 2⁴ = 384.
 _COMPARED = 4
 # The number of points along the way between two strokes, which is then no jump of the pen.
@@ -43,12 +49,37 @@ def joined_strokes(strokes: Sequence[Floats]) -> Floats:
     paths = list(strokes)
     if len(paths) < 2:
         return paths[0]
+    if len(paths) == 2:
+        arrow = _arrow(*paths) or _arrow(*reversed(paths))
+        if arrow is not None:
+            return np.vstack(arrow)
     if len(paths) <= _COMPARED:
         ordered = min(_orders(paths), key=_way_between)
     else:
         ordered = min((_nearest_next(paths, first) for first in _ways(paths)), key=_way_between)
     ways = [np.linspace(a[-1], b[0], _BETWEEN + 2)[1:-1] for a, b in itertools.pairwise(ordered)]
     return np.vstack([ordered[0], *itertools.chain(*zip(ways, ordered[1:], strict=True))])
+
+
+def _arrow(shaft: Floats, head: Floats) -> list[Floats] | None:
+    """Return the parts of an arrow from its tail on, or None where two strokes are no arrow."""
+    tip = int(segment_distances(head, head[0], head[-1]).argmax())
+    barbs = norms(head[[0, -1]] - head[tip])
+    less, more = np.sort(barbs).tolist()
+    angle = abs(float(angles(head[0] - head[tip], head[-1] - head[tip])))
+    chord = math.dist(shaft[0], shaft[-1])
+    straight = min((less + more) / path_length(head), chord / path_length(shaft))
+    if straight < _STRAIGHT or angle > _WIDEST or less < _BALANCE * more or less > chord:
+        return None
+    if math.dist(shaft[0], head[tip]) < math.dist(shaft[-1], head[tip]):
+        shaft = shaft[::-1]
+    gap = math.dist(shaft[-1], head[tip])
+    if gap > _NECK * chord or gap > norms(head[[0, -1]] - shaft[-1]).min():
+        return None
+    # A shaft that goes beyond the tip ends beside it.
+    shaft = shaft[: int(norms(shaft - head[tip]).argmin()) + 1]
+    way = np.linspace(shaft[-1], head[tip], _BETWEEN)
+    return [shaft, way[1:-1], head[tip::-1], head[1:]]
 
 
 def _orders(paths: Sequence[Floats]) -> list[tuple[Floats, ...]]:
