@@ -45,7 +45,7 @@ _CIRCULAR, _OVAL_SIDES = 0.63, 48
 # Evidence for an ellipse, in log odds: a constant, and the factors of the logarithms of the
 # residuals of straight sides and of the ellipse, of the bulge of the sides, and of the log of
 # the aspect below that of `_PLANK`: what is thinner is more often a plank than an oval.
-_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -6.0, 1.55, 3.9, 3.75, 8.6, 0.35
+_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -5.5, 2.8, 5.55, 4.95, 7.5, 0.35
 # The least residual that is told from 0, in shares of the size.
 _EXACT = 0.001
 # The least aspect of the corners of a polygon that may be a small circle.
@@ -109,16 +109,13 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Form]:
         sided = sided if boundary is not None else 0.0
         found = found if boundary is None else boundary
     sided *= 1.0 - square
-    yield Form(name=POLYGON, weight=broad * sided, points=found)
     free = BLOB * max(1.0 - max(square, circle) - sided, 0.0)
-    if free < LEAST:
-        return
-    along: Floats | None = traced(outline)
-    if along is not None and crosses_itself(along):
-        along = outer_boundary(along)
-    if along is not None:
+    if free > sided:
         # Neither round nor sided: a polygon along the stroke.
-        yield Form(name=POLYGON, weight=broad * free, points=along)
+        along = traced(outline)
+        boundary = outer_boundary(along) if crosses_itself(along) else along
+        found, free = (found, 0.0) if boundary is None else (boundary, free)
+    yield Form(name=POLYGON, weight=broad * (sided + free), points=found)
 
 
 def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) -> float:

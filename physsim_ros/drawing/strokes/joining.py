@@ -5,9 +5,9 @@
 Several strokes as one: which touch each other, and their order as if the pen had not been lifted.
 
 Law: the shape of a figure does not depend on the order and the directions of its strokes. A shaft
-and the head of an arrow are joined as an arrow in one stroke, whose pen returns from the first
-barb to the tip. All other strokes are joined in the order and the directions with the shortest way
-between them. Of more than four strokes, each is followed by the one that begins nearest to its end.
+and a head are joined as an arrow in one stroke, whose pen returns from the first barb to the tip.
+Other strokes are joined in the order and the directions with the shortest way between them. Of
+more than four strokes, each is followed by the one that begins nearest to its end.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ _STRIDE = 2
 # The length by which a stroke may end short of another that it is to meet, in shares of its own;
 # the number of points on it; the number of those at an end of a stroke that give its direction.
 _BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
-# A head: the least straightness of its barbs and of the shaft (distance of the ends by length), the
-# greatest angle between barbs [rad], the least length of the shorter by that of the longer, the
-# greatest distance of its tip from the shaft, in lengths of that.
-_STRAIGHT, _WIDEST, _BALANCE, _NECK = 0.85, 2.3, 0.35, 0.35
+# A shaft and a head: the least straightness of the shaft and of barbs (distance of the ends by
+# length), the greatest angle between barbs [rad], the least length of the shorter barb by that of
+# the longer, and its greatest length and the greatest gap before the tip, in lengths of the shaft.
+_STRAIGHT, _WIDEST, _BALANCE, _LONGEST, _NECK = 0.8, 2.3, 0.35, 1.1, 0.35
 # The greatest number of strokes of which all orders are compared: 4! · 2⁴ = 384.
 _COMPARED = 4
 # The number of points along the way between two strokes, which is then no jump of the pen.
@@ -63,23 +63,22 @@ def joined_strokes(strokes: Sequence[Floats]) -> Floats:
 
 def _arrow(shaft: Floats, head: Floats) -> list[Floats] | None:
     """Return the parts of an arrow from its tail on, or None where two strokes are no arrow."""
-    tip = int(segment_distances(head, head[0], head[-1]).argmax())
-    barbs = norms(head[[0, -1]] - head[tip])
-    less, more = np.sort(barbs).tolist()
+    chord, bend = math.dist(shaft[0], shaft[-1]), segment_distances(head, head[0], head[-1])
+    tip = int(bend.argmax())
+    less, more = sorted(norms(head[[0, -1]] - head[tip]).tolist())
     angle = abs(float(angles(head[0] - head[tip], head[-1] - head[tip])))
-    chord = math.dist(shaft[0], shaft[-1])
     straight = min((less + more) / path_length(head), chord / path_length(shaft))
-    if straight < _STRAIGHT or angle > _WIDEST or less < _BALANCE * more or less > chord:
+    if straight < _STRAIGHT or angle > _WIDEST or not _BALANCE * more < less < _LONGEST * chord:
         return None
     if math.dist(shaft[0], head[tip]) < math.dist(shaft[-1], head[tip]):
         shaft = shaft[::-1]
     gap = math.dist(shaft[-1], head[tip])
-    if gap > _NECK * chord or gap > norms(head[[0, -1]] - shaft[-1]).min():
+    if gap > min(_NECK * chord, float(norms(head[[0, -1]] - shaft[-1]).min())):
         return None
     # A shaft that goes beyond the tip ends beside it.
     shaft = shaft[: int(norms(shaft - head[tip]).argmin()) + 1]
-    way = np.linspace(shaft[-1], head[tip], _BETWEEN)
-    return [shaft, way[1:-1], head[tip::-1], head[1:]]
+    neck = np.linspace(shaft[-1], head[tip], _BETWEEN)[1:-1]
+    return [shaft, neck, head[tip::-1], head[1:]]
 
 
 def _orders(paths: Sequence[Floats]) -> list[tuple[Floats, ...]]:

@@ -25,7 +25,7 @@ from physsim_ros.model.requests import Request
 # meaning that can be carried out is taken before it.
 MISPLACED = 0.5
 # Share of the weight of a line between two bodies that is a joint's; the rest is a wall's.
-BETWEEN = 0.9
+BETWEEN = 0.98
 # Meanings of closed outlines.
 DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
 # Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.

@@ -156,14 +156,16 @@ def guess_meanings(
     weights: dict[str, float] = {}
     # Of each meaning, the likeliest one: several forms may have it.
     best: dict[str, Meaning] = {}
-    for form in recognise_form(context.drawn):
+    forms = recognise_form(context.drawn)
+    for form in forms:
         for each in _MEANINGS[form.name](form, context):
             if each.weight < LEAST:
                 continue
             weights[each.name] = weights.get(each.name, 0.0) + each.weight
             if each.name not in best or each.weight > best[each.name].weight:
                 best[each.name] = each
-    total = sum(weights.values())
+    # The weight that no form has is that of something else.
+    total = sum(weights.values()) + max(1.0 - sum(form.weight for form in forms), 0.0)
     guesses: list[Guess] = []
     for meaning, weight in weights.items():
         others = _group_of(meaning)

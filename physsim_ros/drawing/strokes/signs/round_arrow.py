@@ -33,14 +33,14 @@ _TURN = 1.5
 def _candidates(features: Features) -> Iterator[Candidate]:
     """Yield an arc and a head, from either end; points: the arc's centre, then the arc."""
     path = smoothed(features.stroke.points, 1.0, closed=False)
-    for points in (path, path[::-1]):
-        yield from _from_tail(points, features)
-
-
-def _from_tail(points: Floats, features: Features) -> Iterator[Candidate]:
-    """Yield the round arrow whose tail is the first point, if it has a tip."""
-    sides = points[_STRIDE:] - points[:-_STRIDE]
+    sides = path[_STRIDE:] - path[:-_STRIDE]
     bends = np.abs(angles(sides[:-_STRIDE], sides[_STRIDE:]))
+    for points, turns in ((path, bends), (path[::-1], bends[::-1])):
+        yield from _from_tail(points, turns, features)
+
+
+def _from_tail(points: Floats, bends: Floats, features: Features) -> Iterator[Candidate]:
+    """Yield the round arrow whose tail is the first point, if it has a tip."""
     # Sharp bends before are of the hand, or corners: those are counted below.
     earliest = len(points) // 3
     sharp = earliest + np.flatnonzero(bends[earliest:] > _TURN)
