@@ -9,7 +9,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.stroke_order import joined_strokes
+from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, Refusal
 from physsim_ros.model.requests import Configure, Spawn

@@ -13,10 +13,10 @@ import math
 
 import numpy as np
 from physsim_ros.drawing import body_requests, chains
-from physsim_ros.drawing.strokes import regularisation, snapping
+from physsim_ros.drawing.strokes import bodies_under, regularisation
 from physsim_ros.drawing.strokes.fitting import simplified
+from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.drawing.strokes.meanings import Context, Outcome
-from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -84,8 +84,8 @@ def wall(points: Floats, context: Context) -> Outcome:
     curve = simplified(context.drawn.points, points)
     path = regularisation.line(points, settings.beautify) if curve is None else curve
     corners = list(map(point_of, path))
-    corners[0] = snapping.wall_end(corners[0], context)
-    end = snapping.wall_end(corners[-1], context)
+    corners[0] = bodies_under.wall_end(corners[0], context)
+    end = bodies_under.wall_end(corners[-1], context)
     if end != corners[0]:
         # Of a short wall, both ends would go to the same point.
         corners[-1] = end
@@ -100,7 +100,7 @@ def wall(points: Floats, context: Context) -> Outcome:
 
 def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
     """Return a joint between the bodies at the first and the last point."""
-    ends = snapping.joint_ends(points, context)
+    ends = bodies_under.joint_ends(points, context)
     if ends is None:
         raise NothingThere(
             f'{kind.phrase} joins two bodies, one of which moves; there are none at its ends',
@@ -127,7 +127,7 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
 def chain(context: Context) -> Outcome:
     """Return a chain between the bodies at the ends of the stroke, along it."""
     path = context.drawn.points.copy()
-    ends = snapping.joint_ends(path, context)
+    ends = bodies_under.joint_ends(path, context)
     if ends is None:
         raise NothingThere('a chain joins two bodies; there are none at its ends', field='poses')
     first, last = sorted(ends, key=lambda end: math.dist(end.point, path[0]))

@@ -12,16 +12,59 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 import math
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.errors import BadSize, nothing_at, UnknownBody
+from physsim_ros.model.requests import Request
 from physsim_ros.model.shapes import SMALLEST
+from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.transform import Point
 
 # The least length that clicks can draw, in shares of `snap`: 15 mm by default.
 SLIP = 0.1
+
+
+class Tool(StrEnum):
+    """The tools of clicks: the values of parameter `tool`."""
+
+    NONE = 'none'
+    CIRCLE = 'circle'
+    CIRCLE_DIAMETER = 'circle_diameter'
+    RECTANGLE = 'rectangle'
+    POLYGON = 'polygon'
+    WALL = 'wall'
+    ANCHOR = 'anchor'
+    RELEASE = 'release'
+    PIN = 'pin'
+    AXLE = 'axle'
+    DELETE = 'delete'
+    SPRING = 'spring'
+    ROD = 'rod'
+    ROPE = 'rope'
+    CHAIN = 'chain'
+    VELOCITY = 'velocity'
+    GRAVITY = 'gravity'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ClickResult:
+    """
+    The result of a click.
+
+    :param requests: to be submitted; empty while the gesture needs more clicks
+    :param message: the clicks so far, and the next click; or what several requests make together
+    """
+
+    requests: tuple[Request, ...] = ()
+    message: str = ''
+
+    @property
+    def values(self) -> tuple[tuple[str, str], ...]:
+        """Return the number of requests that the message is about, as a pair of key and value."""
+        return (request_count(len(self.requests)),) if self.requests else ()
 
 
 @dataclass(frozen=True, slots=True)

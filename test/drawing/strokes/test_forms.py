@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.features import swings_of
-from physsim_ros.drawing.strokes.recogniser import recognise_form
+from physsim_ros.drawing.strokes.reading import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 import pytest
@@ -74,7 +74,7 @@ RULED: dict[str, tuple[str, Floats]] = {
 def test_what_is_drawn_by_ruler_is_recognised(primitive: str, way: Floats) -> None:
     best, *others = recognise_form(resample_stroke(way))
 
-    assert best.primitive == primitive
+    assert best.name == primitive
     assert best.weight > 0.6
     assert best.weight > 2 * max((other.weight for other in others), default=0.0)
 
@@ -89,7 +89,7 @@ def test_turned_mirrored_backwards_and_in_any_size_it_is_the_same(name: str, tur
     for other in (turned, turned[::-1], 100.0 * turned, 0.01 * turned):
         if name == 'arrow' and other is turned[::-1]:
             continue
-        assert recognise_form(resample_stroke(other))[0].primitive == primitive
+        assert recognise_form(resample_stroke(other))[0].name == primitive
 
 
 @pytest.mark.parametrize(
@@ -112,7 +112,7 @@ def test_of_forty_hands_nearly_all_are_read(draw, least: int) -> None:
     for _ in range(40):
         figure: Figure = draw(random)
         found = recognise_form(resample_stroke(drawn_by_anybody(figure, random)))
-        right += bool(found) and found[0].primitive == figure.kind
+        right += bool(found) and found[0].name == figure.kind
 
     assert right >= least
 
@@ -177,9 +177,9 @@ def test_a_brace_whose_tip_is_retraced_is_a_line_and_a_pigtail_no_x() -> None:
     loop = 0.3 * np.column_stack((np.sin(ANGLE), 1.0 - np.cos(ANGLE)))
     pigtail = np.vstack(([(-0.7, 0.0)], loop, [(0.7, 0.0)]))
 
-    assert recognise_form(resample_stroke(brace))[0].primitive == 'line'
+    assert recognise_form(resample_stroke(brace))[0].name == 'line'
     found = recognise_form(resample_stroke(pigtail))
-    assert not any(each.primitive == 'x' and each.weight > 0.1 for each in found)
+    assert not any(each.name == 'x' and each.weight > 0.1 for each in found)
 
 
 @pytest.mark.parametrize(
@@ -190,8 +190,8 @@ def test_an_x_of_unequal_arms_is_no_arrow(arms: tuple[float, ...]) -> None:
 
     best, *others = recognise_form(resample_stroke(ends))
 
-    assert best.primitive == 'x'
-    assert not any(each.primitive == 'arrow' and each.weight > 0.2 for each in others)
+    assert best.name == 'x'
+    assert not any(each.name == 'arrow' and each.weight > 0.2 for each in others)
 
 
 @pytest.mark.parametrize('height', [0.2, 0.4, 0.6, 1.0])
@@ -200,7 +200,7 @@ def test_a_thin_wedge_is_no_plank(height: float) -> None:
 
     best = recognise_form(resample_stroke(wedge))[0]
 
-    assert best.primitive == 'polygon'
+    assert best.name == 'polygon'
     assert best.weight > 0.85
 
 
@@ -212,4 +212,4 @@ def test_a_circle_with_a_gap_or_an_overlap_is_a_disc(closing: float, slip: float
     radius = 1.0 - slip * np.clip(np.linspace(-2.0, 1.0, 50), 0.0, 1.0)
     way = radius[:, None] * np.column_stack((np.cos(angle), 0.85 * np.sin(angle)))
 
-    assert recognise_form(resample_stroke(way))[0].primitive == 'disc'
+    assert recognise_form(resample_stroke(way))[0].name == 'disc'

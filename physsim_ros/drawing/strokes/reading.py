@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Interpretation: the likeliest meanings of a stroke in the scene that it was drawn over.
+Reading: the likeliest meanings of a stroke in the scene that it was drawn over.
 
-Law: interpretation changes nothing; a reading holds ordinary requests, to be submitted.
+Law: reading changes nothing; a reading holds ordinary requests, to be submitted.
 
 Each form that the stroke may have has a weight, and the scene divides that weight among the
 meanings of the form. Meanings are chosen by group: closed outlines are one group, since circles,
@@ -17,24 +17,32 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes import calibration, closed_shapes, open_lines
-from physsim_ros.drawing.strokes.hypothesis import Hypothesis, LEAST
+from physsim_ros.drawing.strokes import closed_shapes, open_lines
+from physsim_ros.drawing.strokes.evidence import (
+    evidence,
+    group_confidence,
+    LEAST,
+    probabilities,
+    share_confidence,
+)
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.meanings import (
     CLOSED,
     Context,
     DELETION,
     DISC,
+    Form,
     GRAVITY,
-    Interpretation,
+    Meaning,
     OPEN,
     Outcome,
     POLYGON,
     RECTANGLE,
 )
-from physsim_ros.drawing.strokes.recogniser import recognise_form
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.errors import NotRecognised
@@ -44,16 +52,14 @@ MOST_GUESSES = 3
 # The least confidence with which bodies are deleted, and gravity is turned.
 SURE = 0.9
 
-Interpret = Callable[[Hypothesis, Context], Iterator[Interpretation]]
-
-# The interpretations of each form, by its name.
-_INTERPRET: dict[str, Interpret] = {
-    **{sign.PRIMITIVE: sign.interpretations for sign in SIGNS},
-    open_lines.LINE: open_lines.interpretations,
-    DISC: closed_shapes.disc_interpretations,
-    closed_shapes.OVAL: closed_shapes.oval_interpretations,
-    RECTANGLE: closed_shapes.rectangle_interpretations,
-    POLYGON: closed_shapes.polygon_interpretations,
+# The function from each form to its meanings, by the form's name.
+_MEANINGS: dict[str, Callable[[Form, Context], Iterator[Meaning]]] = {
+    **{sign.name: sign.meanings for sign in SIGNS},
+    open_lines.LINE: open_lines.meanings,
+    DISC: closed_shapes.disc_meanings,
+    closed_shapes.OVAL: closed_shapes.oval_meanings,
+    RECTANGLE: closed_shapes.rectangle_meanings,
+    POLYGON: closed_shapes.polygon_meanings,
 }
 
 
@@ -113,6 +119,29 @@ class Reading(Outcome):
         return _values(self.guesses)
 
 
+def recognise_form(stroke: Stroke) -> tuple[Form, ...]:
+    """Return the forms that a stroke may have, by falling weight."""
+    features = Features.of(stroke)
+    signs, plain = _signs(features)
+    shapes = [
+        *open_lines.forms(features, plain),
+        *closed_shapes.forms(features, plain),
+    ]
+    likely = (each for each in (*signs, *shapes) if each.weight >= LEAST)
+    return tuple(sorted(likely, key=lambda each: -each.weight))
+
+
+def _signs(features: Features) -> tuple[list[Form], float]:
+    """Return the form of each sign, and the weight of the stroke being no sign."""
+    candidates = [(sign.name, each) for sign in SIGNS for each in sign.candidates(features)]
+    weights = probabilities([evidence(name, each.measures) for name, each in candidates])
+    best: dict[str, Form] = {}
+    for (name, each), weight in zip(candidates, weights, strict=True):
+        if name not in best or weight > best[name].weight:
+            best[name] = Form(name=name, weight=weight, points=each.points)
+    return list(best.values()), 1.0 - sum(weights)
+
+
 def guess_meanings(
     drawn: Stroke, scene: SceneQuery, settings: DrawingSettings
 ) -> tuple[Guess, ...]:
@@ -125,29 +154,32 @@ def guess_meanings(
     """
     context = Context(drawn=drawn, scene=scene, settings=settings)
     weights: dict[str, float] = {}
-    # The likeliest interpretation of each meaning.
-    best: dict[str, Interpretation] = {}
-    for hypothesis in recognise_form(context.drawn):
-        for each in _INTERPRET[hypothesis.primitive](hypothesis, context):
+    # Of each meaning, the likeliest one: several forms may have it.
+    best: dict[str, Meaning] = {}
+    forms = recognise_form(context.drawn)
+    for form in forms:
+        for each in _MEANINGS[form.name](form, context):
             if each.weight < LEAST:
                 continue
-            weights[each.meaning] = weights.get(each.meaning, 0.0) + each.weight
-            if each.meaning not in best or each.weight > best[each.meaning].weight:
-                best[each.meaning] = each
-    total = sum(weights.values())
+            weights[each.name] = weights.get(each.name, 0.0) + each.weight
+            if each.name not in best or each.weight > best[each.name].weight:
+                best[each.name] = each
+    # The weight that no form has is that of something else.
+    total = sum(weights.values()) + max(1.0 - sum(form.weight for form in forms), 0.0)
     guesses: list[Guess] = []
     for meaning, weight in weights.items():
         others = _group_of(meaning)
-        # In the order of the interpretations: that of a set differs from process to process.
+        # In the order of the meanings: that of a set differs from process to process.
         group = sum(share for each, share in weights.items() if each in others)
-        sure = calibration.group_confidence(group, total)
-        within = calibration.share_confidence(weight / group) if len(others) > 1 else 1.0
+        sure = group_confidence(group, total)
+        within = share_confidence(weight / group) if len(others) > 1 else 1.0
         guesses.append(
             Guess(
                 meaning=meaning,
                 confidence=sure * within,
                 group_confidence=sure,
-                build=best[meaning].build,
+                # An outcome is built once, whoever needs it first.
+                build=cache(best[meaning].build),
             )
         )
     guesses.sort(key=lambda each: (-each.group_confidence, -each.confidence))

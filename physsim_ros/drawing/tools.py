@@ -4,28 +4,30 @@
 """
 The tools of drawing by clicks: each is a function from the clicks of a gesture to requests.
 
-Law: a tool changes neither clicks nor scene. With the last click it returns the requests, before
-that a message about the next click. Clicks without a valid geometry are refused.
+Laws: a tool changes neither clicks nor scene. With the last click it returns the requests, before
+that a message about the next click. Clicks without a valid geometry are refused, and the gesture
+is dropped as a whole. A click that is not a finite point leaves the gesture as it was.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
-from enum import StrEnum
 from functools import partial
 import math
 
 import numpy as np
 from physsim_ros.drawing import body_requests, chains
-from physsim_ros.drawing.clicks.click import (
+from physsim_ros.drawing.click import (
     checked_distance,
     checked_length,
     Click,
+    ClickResult,
+    Tool,
     without_repeats,
 )
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.model.checks import check_point
 from physsim_ros.model.errors import Anchored, BadOutline, NothingThere
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
@@ -41,48 +43,12 @@ from physsim_ros.model.requests import (
     Request,
 )
 from physsim_ros.model.shapes import MOST_POINTS
-from physsim_ros.model.snapshot import request_count
+from physsim_ros.model.snapshot import Line, Preview
 from physsim_ros.model.transform import Point
 
-
-class Tool(StrEnum):
-    """The tools of clicks: the values of parameter `tool`."""
-
-    NONE = 'none'
-    CIRCLE = 'circle'
-    CIRCLE_DIAMETER = 'circle_diameter'
-    RECTANGLE = 'rectangle'
-    POLYGON = 'polygon'
-    WALL = 'wall'
-    ANCHOR = 'anchor'
-    RELEASE = 'release'
-    PIN = 'pin'
-    AXLE = 'axle'
-    DELETE = 'delete'
-    SPRING = 'spring'
-    ROD = 'rod'
-    ROPE = 'rope'
-    CHAIN = 'chain'
-    VELOCITY = 'velocity'
-    GRAVITY = 'gravity'
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ClickResult:
-    """
-    The result of a click.
-
-    :param requests: to be submitted; empty while the gesture needs more clicks
-    :param message: the clicks so far, and the next click; or what several requests make together
-    """
-
-    requests: tuple[Request, ...] = ()
-    message: str = ''
-
-    @property
-    def values(self) -> tuple[tuple[str, str], ...]:
-        """Return the number of requests that the message is about, as a pair of key and value."""
-        return (request_count(len(self.requests)),) if self.requests else ()
+Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
+# Number of corners of the circle around the first corner of a polygon.
+_CIRCLE_CORNERS = 24
 
 
 def circle(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
@@ -219,8 +185,6 @@ def chain(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings)
     return ClickResult(requests=requests, message=chains.message(requests, (first, last)))
 
 
-Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
-
 TOOLS: dict[Tool, Draw] = {
     Tool.CIRCLE: circle,
     Tool.CIRCLE_DIAMETER: circle_diameter,
@@ -255,3 +219,62 @@ def _next_click(done: str, wanted: str) -> ClickResult:
 
 def _finished(*requests: Request) -> ClickResult:
     return ClickResult(requests=requests)
+
+
+class Gesture:
+    """
+    The clicks so far with a tool.
+
+    :param tool: of the gesture
+    """
+
+    def __init__(self, tool: Tool = Tool.NONE) -> None:
+        self.tool = tool
+        self._clicks: tuple[Click, ...] = ()
+
+    def click(
+        self, point: Point, frame: str, scene: SceneQuery, settings: DrawingSettings
+    ) -> ClickResult:
+        """
+        Add a click.
+
+        :param point: [m]
+        :param frame: of the point: '' for the world, or the name of a body
+        :param scene: the world that was clicked
+        :param settings: of drawing
+        :return: the requests that end the gesture, or a message about the next click
+        :raises Malformed: the point is not finite; the gesture stays as it was
+        :raises UnknownFrame: there is no such frame; the gesture stays as it was
+        :raises Refusal: the gesture cannot be drawn; it is dropped
+        """
+        if self.tool is Tool.NONE:
+            return ClickResult(message='ignored: no tool is in hand; parameter tool takes one')
+        check_point(point, 'point')
+        in_world = scene.resolve_point(point, frame)
+        check_point(in_world, 'point')
+        clicks = (*self._clicks, Click.at_point(scene, in_world))
+        # The gesture is over, refused or not, unless the tool needs more clicks.
+        self._clicks = ()
+        step = TOOLS[self.tool](clicks, scene, settings)
+        if not step.requests:
+            self._clicks = clicks
+        return step
+
+    def preview(self, settings: DrawingSettings) -> Preview:
+        """Return the preview of the clicks so far."""
+        points = tuple(click.point for click in self._clicks)
+        if not points:
+            return Preview()
+        lines: list[Line] = [points] if len(points) > 1 else []
+        if self.tool is Tool.POLYGON:
+            lines.append(_circle(points[0], settings.snap))
+        return Preview(lines=tuple(lines), points=points, label=str(self.tool))
+
+
+def _circle(center: Point, radius: float) -> Line:
+    """Return a circle as a closed line; a click within it closes a polygon."""
+    angles = [math.tau * corner / _CIRCLE_CORNERS for corner in range(_CIRCLE_CORNERS + 1)]
+    return tuple(
+        (center[0] + radius * math.cos(angle), center[1] + radius * math.sin(angle))
+        for angle in angles
+    )
