@@ -10,6 +10,7 @@ from physsim_ros.model.requests import Anchor, ChangeBody, Delete, Restore, Spaw
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 import pytest
+import yaml
 
 from .driven import assert_refused, body_request, put, seen_from_above
 
@@ -134,3 +135,43 @@ def test_a_file_with_an_actor_that_cannot_be_is_refused(tmp_path, body, code, fi
         load_world(path, settings=WorldSettings(), physics_rate=240.0)
     assert caught.value.code == 'bad_world_file'
     assert (caught.value.cause, caught.value.field) == (code, field)
+
+
+@pytest.mark.parametrize('kinematic', [True, False])
+@pytest.mark.parametrize('actor', [PATH, {'kind': 'orca', 'points': [[9, 0]]}])
+def test_a_body_that_is_no_actor_any_more_goes_on_by_itself(tmp_path, actor, kinematic):
+    world, twin = seen_from_above(), seen_from_above()
+    put(world, 'a/0', actor=actor, kinematic=kinematic)
+    world.step(60)
+    before = world.snapshot()
+    put(twin, 'a/0', velocity=before.twists[0, :2].tolist(), kinematic=kinematic)
+
+    world.apply(ChangeBody(name='a/0', unset=('actor',)))
+
+    assert world.scene.bodies[0].actor is None
+    assert world.snapshot().twists == pytest.approx(before.twists)
+    world.step(60)
+    twin.step(60)
+    way = world.snapshot().poses - before.poses
+    assert way == pytest.approx(twin.snapshot().poses, abs=1e-9)
+    path = save_world(world.save(), 'w', world_dir=tmp_path, physics_rate=240.0)
+    assert not {'actor', 'acting'} & {*yaml.safe_load(path.read_text())['bodies'][0]}
+    again = seen_from_above()
+    again.apply(Restore(state=load_world(path)))
+    assert again.scene.key == world.scene.key
+    # Only now may it be anchored.
+    world.apply(Anchor(point=world.snapshot().poses[0, :2].tolist()))
+
+
+def test_an_actor_that_is_unset_by_a_spawn_may_be_one_again_and_starts_anew():
+    world = seen_from_above()
+    put(world, 'a/0', kinematic=True, actor=PATH)
+    world.step(120)
+    spawn = Spawn(name='a/0', shape=Disc(radius=0.2), unset=('actor', 'kinematic'))
+    world.apply(spawn)
+    assert (world.scene.bodies[0].actor, world.scene.bodies[0].kinematic) == (None, False)
+
+    world.apply(ChangeBody(name='a/0', properties=Properties(actor=PATH, kinematic=True)))
+
+    world.step(240)
+    assert world.snapshot().poses[0, 0] == pytest.approx(1.0)

@@ -234,3 +234,18 @@ def test_a_file_with_a_robot_that_cannot_be_is_refused(tmp_path, body, code):
         load_world(path, settings=WorldSettings(), physics_rate=240.0)
 
     assert caught.value.cause == code
+
+
+def test_a_body_that_is_no_robot_any_more_has_no_state_of_one():
+    world = seen_from_above()
+    put(world, 'a/0', robot={'drive': DRIVE})
+    world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
+    world.step(60)
+
+    world.apply(ChangeBody(name='a/0', unset=('robot',)))
+
+    assert world.save().bodies[0].driven is None
+    with pytest.raises(BadProperty):
+        world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
+    world.apply(ChangeBody(name='a/0', properties=Properties(robot={'drive': DRIVE})))
+    assert not any(world.snapshot().robots.odometry[0])
