@@ -5,7 +5,7 @@
 // of modules, which are made from docstrings. Sphinx's own figures are in searchtools.js; what differs is objNameMatch
 // (11 there), objPartialMatch (6) and score.
 var RANKS = [
-  [/^interface$/, 40],
+  [/^interface/, 40],
   [/^(robots|drawing|time|testing|python)$/, 30],
   [/^(decisions\/|changelog|figures|glossary)/, -30],
   [/^api\//, -100],
