@@ -24,6 +24,7 @@ from physsim_ros.model.robots import DRIVES, Odometry, Robot
 from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.parameters import NodeSettings, Spec, SPECS
+from physsim_ros.sketchpad.message import KINDS, Optional
 
 ROOT = Path(__file__).parents[2]
 # Columns of a comment in YAML.
@@ -48,7 +49,7 @@ _GROUPS: Mapping[str, type[Checked]] = {
 def files() -> dict[Path, str]:
     """Return the text that each file must have, by its path."""
     tables = {
-        'properties': {
+        'interface/properties': {
             'properties of a body': _table(Properties.FIELDS.values()),
             'kinds of joints': _joint_kinds(),
             'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
@@ -56,9 +57,10 @@ def files() -> dict[Path, str]:
             'keys of a sensor': _sensor_keys(),
             'keys of an actor': _actor_keys(),
         },
-        'parameters': {'parameters': _parameters()},
+        'interface/parameters': {'parameters': _parameters()},
+        'page_protocol': {'messages of a page': _page_messages()},
     }
-    pages = {ROOT / 'docs' / 'interface' / f'{name}.md': parts for name, parts in tables.items()}
+    pages = {ROOT / 'docs' / f'{name}.md': parts for name, parts in tables.items()}
     types = ROOT / 'physsim_ros' / 'testing' / 'parameters.py'
     return {
         **{
@@ -176,6 +178,17 @@ def _by_kinds(
             first, words = found.get(key, (each, ()))
             found[key] = first, (*words, word)
     yield from found.values()
+
+
+def _page_messages() -> str:
+    rows = []
+    for type_, kind in sorted(KINDS.items()):
+        meaning = (kind.handle.__doc__ or '').strip().partition('\n')[0].rstrip('.')
+        fields = [
+            f'`{name}`' + '?' * isinstance(read, Optional) for name, read in kind.fields.items()
+        ]
+        rows.append((f'`{type_}`', kind.right.name.lower(), ', '.join(fields), meaning))
+    return _rows(('type', 'right', 'fields', 'meaning'), *rows)
 
 
 def _row(each: Declaration) -> tuple[str, str, str, str]:
