@@ -6,7 +6,10 @@ document.addEventListener('DOMContentLoaded', () => {
   for (const table of document.querySelectorAll('table.docutils')) {
     const titles = [...table.querySelectorAll('thead th')].map((cell) => cell.textContent);
     for (const row of table.querySelectorAll('tbody tr')) {
-      [...row.children].forEach((cell, column) => { cell.dataset.title = titles[column] ?? ''; });
+      [...row.children].forEach((cell, column) => {
+        cell.dataset.title = titles[column] ?? '';
+        cell.classList.toggle('is-empty', !cell.textContent.trim() && !cell.querySelector('img'));
+      });
     }
   }
 });
