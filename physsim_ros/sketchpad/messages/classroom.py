@@ -12,11 +12,10 @@ from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies, Unjoin
 from physsim_ros.simulation.request_queue import Wait
-from physsim_ros.sketchpad.locks import locks_of
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession, TEACHER, UNNAMED
-from physsim_ros.sketchpad.rights import Right
+from physsim_ros.sketchpad.rights import locks_of, Right
 
 # Lengths of an answer to a lesson and of a message to all [characters]; the rest is left out.
 LONGEST_ANSWER, LONGEST_MESSAGE = 24, 200
@@ -60,7 +59,7 @@ def raise_hand(page: PageSession, origin: Origin, *, raised: bool) -> None:
 @message('say', 'page', Right.TEACH, text=fields.text)
 def say(page: PageSession, origin: Origin, text: str) -> None:
     """Show a message on all pages of this world."""
-    page.tell_all({'type': 'said', 'name': page.person, 'text': text[:LONGEST_MESSAGE]})
+    page.send_all({'type': 'said', 'name': page.person, 'text': text[:LONGEST_MESSAGE]})
     page.answer_page(origin, 'the message is shown')
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 from physsim_ros.model.requests import Delete, MoveBodies
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad.last_contacts import LastContacts
+from physsim_ros.sketchpad.contacts import LastContacts
 
 from ..building import BOX, spawn, spawning
 

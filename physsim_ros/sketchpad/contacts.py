@@ -2,17 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The contacts and joint forces of a world that stands still.
+Contacts for pages: forces of a world that stands still, and touches of bodies that pages follow.
 
-Law: contacts belong to the first frame of a step; later frames of this step have them too. Where
+Laws: contacts belong to the first frame of a step; later frames of this step have them too. Where
 the world was opened or changed since, they are solved for it as it is now; while a hand drags a
-body, contacts remain where both bodies are where they were.
+body, contacts remain where both bodies are where they were. A touch has the time of the step in
+which it began, whatever the frames are.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Ints
@@ -105,3 +107,29 @@ def _rows_of(before: Snapshot, now: Snapshot) -> tuple[Ints, Flags]:
     there = rows >= 0
     there[there] = (now.poses[rows[there]] == before.poses[there]).all(axis=1)
     return np.append(rows, -1), np.append(there, True)
+
+
+def touches_content(
+    frame: Frame, followed: frozenset[str], physics_rate: float
+) -> dict[str, Any] | None:
+    """
+    Return the message of the touches of followed bodies that began during a frame.
+
+    :param followed: names of the bodies
+    :param physics_rate: steps a second of simulation
+    :return: None where there is none
+    """
+    contacts = frame.contacts
+    if contacts is None or not len(contacts.begun):
+        return None
+    # Row -1 is a wall of the bounds.
+    names = [*frame.snapshot.scene.names, '']
+    first = frame.snapshot.step - contacts.steps
+    pairs = zip(contacts.begun.tolist(), contacts.begun_at.tolist(), strict=True)
+    found = [
+        (names[one], names[other], (first + time) / physics_rate)
+        for (a, b), time in pairs
+        for one, other in ((a, b), (b, a))
+        if names[one] in followed
+    ]
+    return {'type': 'touches', 'touches': found} if found else None

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The past of a body for plots: places and velocities of the frames that were shown, by columns.
+The past for pages: the timeline with the ghost of a course that was left, and pasts of bodies.
 
-Law: the world's thread only looks up the snapshots; the server's thread makes the columns.
+Laws: the timeline is sent at once where more than its time changes, else each 0.1 s. The world's
+thread only looks up the snapshots of a body's past; the server's thread makes its columns.
 """
 
 from __future__ import annotations
@@ -18,16 +19,85 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.model.transform import rotated_each
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.message import Content
 
+# Time from one timeline to the next while nothing but its time changes [s].
+TIMELINE_PERIOD = 0.1
 # Greatest number of frames of a past: a minute at 60 Hz.
 MOST_FRAMES = 3600
 # Time from one past to the next, for all pages together [s]: a past takes some 35 ms of the
 # server's thread.
-PERIOD = 0.2
+PAST_PERIOD = 0.2
+
+
+class TimelineReport:
+    """
+    The status of the timeline that was sent last, and the course of the ghost.
+
+    :param simulation: of the timeline
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._sent: TimelineStatus | None = None
+        self._read_at = 0.0
+        # The course that was left last.
+        self._beside: CourseSpan | None = None
+
+    def take_status(self, frame: Frame, now: float) -> TimelineStatus | None:
+        """
+        Return the status with a frame; None where it need not be sent.
+
+        :param now: steady time [s]
+        """
+        last = self._sent
+        # A running world without requests changes nothing but its time.
+        runs = frame.moved and not frame.answers and frame.speed != 0.0
+        known = last is not None and last.speed == frame.speed
+        if runs and known and now - self._read_at < TIMELINE_PERIOD:
+            return None
+        status = self.read_status(now)
+        return None if status == last else status
+
+    def read_status(self, now: float) -> TimelineStatus:
+        """
+        Return the status, to be sent to all pages.
+
+        :param now: steady time [s]
+        """
+        self._sent = status = self._simulation.status
+        self._read_at = now
+        self._beside = max(status.courses, key=lambda each: each.number, default=None)
+        return status
+
+    def ghost(self, snapshot: Snapshot) -> Snapshot | None:
+        """Return the snapshot of the course that was left last at the time of a snapshot."""
+        course, seconds = self._beside, snapshot.stamp * 1e-9
+        if course is None or not course.begins <= seconds <= course.ends:
+            return None
+        return self._simulation.past.ghost(course.number, seconds)
+
+
+def timeline_content(status: TimelineStatus) -> dict[str, Any]:
+    """Return the message of a status; times in [s]."""
+    return {
+        'type': 'timeline',
+        'state': status.state,
+        'speed': status.speed,
+        'oldest': status.oldest,
+        'now': status.now,
+        'newest': status.newest,
+        'course': status.course,
+        'undo': status.undo,
+        'redo': status.redo,
+        'courses': [
+            {'id': each.number, 'from': each.begins, 'to': each.ends} for each in status.courses
+        ],
+    }
 
 
 class BodyPasts:
@@ -75,7 +145,7 @@ class BodyPasts:
         """
         if not self._asked or now < self._due:
             return
-        self._due = now + PERIOD
+        self._due = now + PAST_PERIOD
         page = next(iter(self._asked))
         name, request_id = self._asked.pop(page)
         simulation = self._simulation
