@@ -142,7 +142,7 @@ def robot_marker(
         )
     entry = shipped_robot(str(changes['from']))
     key = next(key for key in SHAPES if key in entry)
-    kind, scale, points = geometry_of(SHAPES[key].from_entry(entry[key]))
+    kind, scale, points = geometry_of(SHAPES[key].from_value(entry[key], key))
     if namespace is not None:
         changes['namespace'] = namespace
     text = {key: entry[key] for key in ('mass', 'density') if key in entry} | {'robot': changes}

@@ -51,6 +51,14 @@ def test_text_names_every_property() -> None:
     assert properties_of('anchored: true\nfriction: 0').anchored is True
 
 
+@pytest.mark.parametrize('text', ['{actor: null, mass: 2}', 'actor:\nmass: 2'])
+def test_a_property_that_is_null_is_unset(text: str) -> None:
+    request = body_request(box(text=text), frame_id='map')
+
+    assert isinstance(request, Spawn)
+    assert (request.unset, request.properties) == (('actor',), Properties(mass=2.0))
+
+
 @pytest.mark.parametrize(
     ('text', 'value'),
     [
@@ -74,8 +82,6 @@ def test_numbers_are_those_of_yaml_1_2(text: str, value: float) -> None:
     ('text', 'code', 'field'),
     [
         ('{density: heavy}', 'bad_property', 'density'),
-        ('{density: ~}', 'bad_property', 'density'),
-        ('{density: }', 'bad_property', 'density'),
         ('{density: 1e999}', 'malformed', 'density'),
         ('{density: .NaN}', 'malformed', 'density'),
         ('{velocity: [.inf, 0]}', 'malformed', 'velocity'),

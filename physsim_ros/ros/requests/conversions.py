@@ -46,6 +46,7 @@ from physsim_ros.model.requests import (
     Spawn,
     Unjoin,
     UnjoinAll,
+    without_unset,
 )
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.texts import property_meant
@@ -105,6 +106,7 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         return DeleteAll(namespace=marker.ns or None)
     if marker.action != Marker.ADD:
         raise BadProperty(f'there is no action {marker.action}', field='action')
+    properties, unset = _properties(marker)
     return Spawn(
         name=name_of(marker),
         shape=shape_from(marker),
@@ -112,15 +114,16 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         frame=named_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
         lifetime=marker.lifetime.sec + marker.lifetime.nanosec * 1e-9,
-        properties=_properties(marker),
+        properties=properties,
+        unset=unset,
     )
 
 
-def _properties(marker: Marker) -> Properties:
-    """Return the properties in the text of a marker, or those of a note of that text."""
+def _properties(marker: Marker) -> tuple[Properties, tuple[str, ...]]:
+    """Return the properties that the text of a marker sets and unsets, or those of a note."""
     if marker.type == Marker.TEXT_VIEW_FACING:
-        return Properties(anchored=True, sensor=True, label=marker.text)
-    mapping = mapping_of(marker.text, 'text')
+        return Properties(anchored=True, sensor=True, label=marker.text), ()
+    mapping, unset = without_unset(mapping_of(marker.text, 'text'), Properties)
     for key in mapping:
         word = str(key)
         if word in _FIELDS or property_meant(word, _FIELDS):
@@ -129,7 +132,7 @@ def _properties(marker: Marker) -> Properties:
                 'lifetime as fields',
                 field=word,
             )
-    return Properties.from_mapping(with_shipped_robot(mapping, PROPERTIES))
+    return Properties.from_mapping(with_shipped_robot(mapping, PROPERTIES)), unset
 
 
 def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll:

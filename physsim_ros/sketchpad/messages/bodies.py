@@ -25,7 +25,7 @@ from physsim_ros.model.requests import (
     MoveBodies,
     Spawn,
     Unjoin,
-    unset_in,
+    without_unset,
 )
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
@@ -44,8 +44,8 @@ def _body(value: object, name: str) -> Spawn:
 
 def _changes(value: object, name: str) -> dict[str, Any]:
     """Return changed properties of a body as the fields of `ChangeBody`."""
-    given = dict(fields.mapping(value, name))
-    changes: dict[str, Any] = {}
+    given, unset = without_unset(fields.mapping(value, name), Properties)
+    changes: dict[str, Any] = {'unset': unset}
     if 'color' in given:
         changes['color'] = fields.color(given.pop('color'), 'color')
     if 'at' in given:
@@ -55,10 +55,8 @@ def _changes(value: object, name: str) -> dict[str, Any]:
 
 def _joint_changes(value: object, name: str) -> dict[str, Any]:
     """Return changed properties of a joint as the fields of `Join`."""
-    given = fields.mapping(value, name)
-    unset = unset_in(given)
-    changed = {key: given[key] for key in given if key not in unset}
-    return {'properties': JointProperties.from_mapping(changed), 'unset': unset}
+    given, unset = without_unset(fields.mapping(value, name), JointProperties)
+    return {'properties': JointProperties.from_mapping(given), 'unset': unset}
 
 
 def _velocity(value: object, name: str) -> Twist:

@@ -15,7 +15,7 @@ from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.simulation.request_handler import RequestHandler
+from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
 import rclpy
@@ -520,14 +520,14 @@ def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: Phys
 def submitted(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Give a test the times at which drives are submitted [s]."""
     times: list[float] = []
-    apply = RequestHandler.apply
+    apply = RequestQueue.apply
 
-    def note(handler: RequestHandler, request: Any, *others: Any) -> Any:
+    def note(queue: RequestQueue, request: Any, *others: Any) -> Any:
         if isinstance(request, DriveRobot):
             times.append(flat.time)
-        return apply(handler, request, *others)
+        return apply(queue, request, *others)
 
-    monkeypatch.setattr(RequestHandler, 'apply', note)
+    monkeypatch.setattr(RequestQueue, 'apply', note)
     return times
 
 
