@@ -22,6 +22,7 @@ from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
 from physsim_ros.sketchpad.page_handlers import PAGE
 from physsim_ros.testing import PhysSim
+from physsim_ros.view import Viewer
 import pytest
 from rclpy.parameter import Parameter
 
@@ -550,3 +551,17 @@ def test_the_page_is_small_on_its_way_and_sent_once(browser: Browser) -> None:
     assert len(files) > 30
     # Of the first visit [bytes].
     assert size < 97e3
+
+
+def test_pages_are_told_the_address_of_reruns_page_and_when_it_changes(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = browser.open_page()
+    page.until(lambda: page.of_type('welcome'))
+    assert page.of_type('welcome')[0]['rerun'] == ''
+
+    monkeypatch.setattr(Viewer, 'page_address', 'http://127.0.0.1:9090/')
+    browser.physsim.run(0.1)
+    page.until(lambda: page.of_type('recording'))
+
+    assert page.of_type('recording')[0]['rerun'] == 'http://127.0.0.1:9090/'
