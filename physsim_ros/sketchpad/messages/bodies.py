@@ -14,7 +14,7 @@ from typing import Any
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import pair, Within
-from physsim_ros.model.errors import BadProperty, no_joint
+from physsim_ros.model.errors import no_joint
 from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.requests import (
     ChangeBody,
@@ -35,7 +35,6 @@ from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
-from physsim_ros.sketchpad.touches import MOST_FOLLOWED
 
 
 def _body(value: object, name: str) -> Spawn:
@@ -66,10 +65,7 @@ def _velocity(value: object, name: str) -> Twist:
 
 
 def _followed(value: object, name: str) -> frozenset[str]:
-    names = fields.names(value, name) if value else ()
-    if len(names) > MOST_FOLLOWED:
-        raise BadProperty(f'a page follows at most {MOST_FOLLOWED} bodies', field=name)
-    return frozenset(names)
+    return frozenset(fields.names(value, name) if value else ())
 
 
 # Bodies
