@@ -15,7 +15,7 @@ import json
 import re
 from typing import Any
 
-from physsim_ros.model.colors import Color
+from physsim_ros.model.colors import Color, is_bright
 from physsim_ros.model.names import (
     CROSS_PREFIX,
     HANDS,
@@ -40,8 +40,6 @@ _HAND = (0.9, 0.2, 0.5, 1.0)
 _DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
 # Opening brackets, and characters that are printable in JSON but not in YAML.
 _ESCAPED = re.compile('[{\\[\ufeff\ufffe\uffff]')
-# The least luminance on which a dark line has more contrast than a light one.
-_BRIGHT = 0.35
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,9 +148,7 @@ def _cross(body: Body, key: Key) -> Symbol:
         (x - reach, y + reach),
         (x + reach, y - reach),
     )
-    red, green, blue, _ = body.color
-    # Luminance as of ITU-R BT.601.
-    color = _DARK if 0.299 * red + 0.587 * green + 0.114 * blue > _BRIGHT else _LIGHT
+    color = _DARK if is_bright(body.color) else _LIGHT
     return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, THIN, color)
 
 
