@@ -15,6 +15,7 @@ of that joint. Otherwise the two bodies of one machine would collide.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 import math
 
 import numpy as np
@@ -94,27 +95,16 @@ def copy(name: str, body: Body, pose: Pose) -> Spawn:
     """
     Return the request for a copy of a body, at rest and without a lifetime.
 
+    The namespace of a robot is that of its new name.
+
     :param name: of the new body
     :param body: that is copied
     :param pose: of the new body's origin [m, rad]
     """
-    return Spawn(
-        name=name,
-        shape=body.shape,
-        pose=pose,
-        color=body.color,
-        properties=Properties(
-            mass=body.mass,
-            density=body.density if body.mass is None else None,
-            friction=body.friction,
-            elasticity=body.elasticity,
-            anchored=body.anchored,
-            kinematic=body.kinematic,
-            group=body.group,
-            sensor=body.sensor,
-            label=body.label,
-        ),
-    )
+    properties = Properties.from_mapping(body.entry())
+    if properties.robot is not None:
+        properties = replace(properties, robot=replace(properties.robot, namespace=None))
+    return Spawn(name=name, shape=body.shape, pose=pose, color=body.color, properties=properties)
 
 
 def _dynamic_body(name: str, shape: Shape, pose: Pose, settings: DrawingSettings) -> Spawn:
