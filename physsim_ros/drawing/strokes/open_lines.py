@@ -66,7 +66,7 @@ def forms(features: Features, plain: float) -> Iterator[Form]:
         each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
         for each in features.crossings
     )
-    weight = plain * calm * (1.0 - features.closure) * falls(loops, 0.5, 0.2)
+    weight = plain * calm * (1.0 - features.closure) * falls(loops, 0.5, 0.1)
     if weight >= LEAST:
         yield Form(name=LINE, weight=weight, points=bends_of(points))
 

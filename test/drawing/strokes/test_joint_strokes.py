@@ -13,7 +13,7 @@ from physsim_ros.model.shapes import Box, Disc, Polygon
 from physsim_ros.simulation.world import World
 import pytest
 
-from .ways import carry_out, circle, draw, round_arrow, square, zigzag
+from .ways import carry_out, circle, draw, joined, round_arrow, square, zigzag
 from ...building import DISC, spawn
 
 
@@ -25,8 +25,7 @@ def test_a_line_from_body_to_body_is_a_rod(world: World) -> None:
 
     assert reading.meaning == 'rod'
     assert reading.runner_up == 'wall'
-    (join,) = reading.requests
-    assert isinstance(join, Join)
+    join = joined(reading)
     assert (join.kind, join.a, join.b) == (JointKind.ROD, 'a/0', 'b/0')
     assert join.points[0] == pytest.approx((0.3, 0.1), abs=0.03)
 
@@ -67,8 +66,7 @@ def test_a_zigzag_from_body_to_body_is_a_spring(world: World, teeth: int) -> Non
     reading = draw(world, zigzag((0.0, 3.7), (0.1, 0.4), teeth))
 
     assert reading.meaning == 'spring'
-    (join,) = reading.requests
-    assert isinstance(join, Join)
+    join = joined(reading)
     assert (join.kind, join.a, join.b) == (JointKind.SPRING, 'b/0', 'a/0')
 
 
@@ -89,8 +87,7 @@ def test_a_circle_within_a_body_is_an_axle_to_the_background(world: World) -> No
     reading = draw(world, circle(1.0, 0.0, 0.12))
 
     assert reading.meaning == 'axle'
-    (axle,) = reading.requests
-    assert isinstance(axle, Join)
+    axle = joined(reading)
     assert (axle.kind, axle.b) == (JointKind.AXLE, 'world')
     assert axle.points[0] == pytest.approx((1.0, 0.0), abs=0.01)
     assert 'background' in reading.message
@@ -105,8 +102,7 @@ def test_a_small_circle_over_two_bodies_is_an_axle_in_the_middle_of_the_wheel(
     reading = draw(world, circle(1.25, -0.35, 0.15))
 
     assert reading.meaning == 'axle'
-    (axle,) = reading.requests
-    assert isinstance(axle, Join)
+    axle = joined(reading)
     assert (axle.kind, axle.a, axle.b) == (JointKind.AXLE, 'wheel/0', 'car/0')
     assert axle.points[0] == pytest.approx((1.2, -0.4), abs=1e-12)
     assert 'wheel/0 and car/0' in reading.message

@@ -17,7 +17,7 @@ from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 from physsim_ros.simulation.world import World
 import pytest
 
-from .ways import ANGLE, carry_out, circle, draw, rectangle, SETTINGS, Way
+from .ways import ANGLE, built, carry_out, circle, draw, rectangle, SETTINGS, Way
 from ..single_stroke import interpret_stroke
 from ...building import body_at, spawn
 
@@ -29,9 +29,7 @@ def test_a_circle_in_the_open_is_a_disc(world: World) -> None:
 
     assert reading.meaning == 'disc'
     assert reading.confidence > 0.85
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Disc)
+    request = built(reading, Disc)
     assert request.shape.radius == pytest.approx(0.5, abs=0.01)
     assert request.pose == pytest.approx((3.0, 4.0, 0.0), abs=0.01)
     assert reading.subject == request.name == 'drawn/0'
@@ -42,9 +40,7 @@ def test_a_crooked_rectangle_is_made_level(world: World) -> None:
     reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1))
 
     assert reading.meaning == 'rectangle'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Box)
+    request = built(reading, Box)
     assert request.pose[2] == 0.0
     assert request.shape.width == pytest.approx(3.0, abs=0.05)
     assert request.shape.height == pytest.approx(0.95, abs=0.05)
@@ -72,9 +68,7 @@ def test_raw_geometry_can_be_asked_for(world: World) -> None:
     reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1), beautify=0.0)
 
     assert reading.meaning == 'rectangle'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Polygon)
+    request = built(reading, Polygon)
     placed = {
         (round(x + request.pose[0], 2), round(y + request.pose[1], 2))
         for x, y in request.shape.outline
@@ -86,9 +80,7 @@ def test_a_triangle_is_a_polygon_about_its_centre_of_mass(world: World) -> None:
     reading = draw(world, [(0, 0), (3, 0.05), (0, 2), (0, 0)])
 
     assert reading.meaning == 'polygon'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Polygon)
+    request = built(reading, Polygon)
     assert len(request.shape.outline) == 3
     assert request.shape.form.centroid == pytest.approx((0.0, 0.0), abs=1e-9)
     # The right angle is right.
@@ -110,8 +102,7 @@ def test_what_is_drawn_takes_velocity_and_colour_from_the_settings(world: World)
         world, circle(0, 0, 1), draw_velocity=(1.0, 2.0), draw_color=(1.0, 0.0, 0.0, 1.0)
     )
 
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
+    request = built(reading)
     assert request.properties.velocity == (1.0, 2.0)
     assert request.color == (1.0, 0.0, 0.0, 1.0)
 
@@ -130,9 +121,7 @@ def test_a_line_in_the_open_is_a_level_wall(world: World) -> None:
     reading = draw(world, [(0, 0), (5, 0.2)], wall_thickness=0.05)
 
     assert reading.meaning == 'wall'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Chain)
+    request = built(reading, Chain)
     assert request.properties.anchored
     assert request.shape.thickness == 0.05
     assert request.pose == pytest.approx((2.5, 0.1, 0.0), abs=0.01)
@@ -253,9 +242,7 @@ def test_seven_lines_are_a_polygon(world: World) -> None:
     )
 
     assert reading.meaning == 'polygon'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Polygon)
+    request = built(reading, Polygon)
     assert len(request.shape.outline) == 7
 
 
@@ -270,9 +257,7 @@ def test_every_guess_can_be_built_and_the_first_is_the_reading(world: World) -> 
 
     assert [guess.meaning for guess in reading.guesses] == ['rod', 'wall']
     assert reading.guesses[0].build().requests == reading.requests
-    (wall,) = reading.guesses[1].build().requests
-    assert isinstance(wall, Spawn)
-    assert isinstance(wall.shape, Chain)
+    assert isinstance(reading.guesses[1].build().requests[0], Spawn)
 
 
 def test_below_the_confidence_asked_for_nothing_is_built_and_what_it_might_be_is_said(
