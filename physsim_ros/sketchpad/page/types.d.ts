@@ -45,6 +45,18 @@ export interface Body {
   elasticity: number;
   centroid: Point;
   robot?: Robot;
+  actor?: Actor;
+}
+
+/** What moves a body on its own, as world files have it. */
+export interface Actor {
+  kind: 'path' | 'social_force' | 'orca';
+  /** x, y [m], and of a path yaw [rad]. */
+  points: number[][];
+  /** [m/s] */
+  speed?: number;
+  repeat?: 'once' | 'loop' | 'to_and_fro';
+  start?: {gate?: string, near?: string, distance?: number, time?: number};
 }
 
 export interface Robot {

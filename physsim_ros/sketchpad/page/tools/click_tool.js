@@ -6,6 +6,7 @@
  */
 
 import {onGrid, threeDigits} from '../rounding.js';
+import {t} from '../strings.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -170,8 +171,8 @@ export class ClickTool {
     if (!length) return '';
     const degrees = Math.round(Math.atan2(b[1] - a[1], b[0] - a[0]) * 180 / Math.PI);
     switch (this.id) {
-      case 'circle': return `radius ${threeDigits(length)} m`;
-      case 'circle_diameter': return `diameter ${threeDigits(length)} m`;
+      case 'circle': return t('radius {length} m', {length: threeDigits(length)});
+      case 'circle_diameter': return t('diameter {length} m', {length: threeDigits(length)});
       case 'velocity': return `${threeDigits(length)} m/s, ${degrees}°`;
       case 'gravity': return `${degrees}°`;
       case 'rectangle': if (r && side) {
