@@ -12,8 +12,9 @@ among lines and outlines by soft conditions (logistic functions), each 0.5 at it
 becomes a confidence, the share of guesses of that weight that are right, by Platt scaling (Platt,
 1999): a logistic function of the log odds of the weight against the others.
 
-`python -m tools.evaluation.fit` makes the table, and prints the constants of the confidence, from
-hands of the tuning half of `make evaluate`.
+`python -m tools.evaluation.fit` makes the table, from hands of the tuning half of `make evaluate`.
+The constants of the confidence were fitted to the same half, all kinds and all faults, by maximum
+likelihood; `make evaluate` prints how well they hold.
 """
 
 from __future__ import annotations
