@@ -199,6 +199,13 @@ def test_a_curved_line_from_body_to_body_is_a_rope_as_long_as_it_was_drawn(world
     assert joint.rest_length == pytest.approx(5.52, rel=0.03)
 
 
+def test_a_bent_line_from_body_to_body_is_a_rope(world: World) -> None:
+    spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
+    spawn(world, 'b/0', DISC, (4.0, 0.0, 0.0))
+
+    assert draw(world, [(0.0, 0.0), (2.0, -1.2), (4.0, 0.0)]).meaning == 'rope'
+
+
 @pytest.mark.parametrize('sweep', [4.5, -3.0, 2.4, 5.4])
 def test_a_round_arrow_about_an_axle_is_a_motor_of_its_turn_a_second(
     world: World, sweep: float

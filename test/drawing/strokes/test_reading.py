@@ -220,17 +220,32 @@ def test_two_lines_across_each_other_on_a_body_are_an_x(world: World) -> None:
         assert reading.meaning == 'anchor'
 
 
-def test_a_shaft_and_a_head_are_an_arrow_in_two_strokes_and_in_three(world: World) -> None:
+@pytest.mark.parametrize('barb', [0.7, 1.6, 2.9])
+@pytest.mark.parametrize('gap', [-0.2, 0.0, 0.4])
+def test_a_shaft_and_a_head_are_an_arrow_in_either_order_and_direction(
+    world: World, barb: float, gap: float
+) -> None:
+    """The shaft is 3 m long; it ends before the tip of the head, at it, or beyond it."""
     shaft = np.linspace((0.0, 0.0), (0.0, -3.0), 40)
-    left, right = (np.linspace((0.0, -3.0), (x, -2.4), 15) for x in (-0.4, 0.4))
-    head = np.vstack((left[::-1], right))
+    along, across = barb * math.cos(0.5), barb * math.sin(0.5)
+    left, right = (np.linspace((x, along), (0.0, 0.0), 20) for x in (-across, across))
+    head = np.vstack((left, right[::-1])) - (0.0, 3.0 + gap)
 
-    for strokes in ([shaft, head], [head, shaft], [shaft, left, right], [right, shaft, left]):
+    for strokes in ([shaft, head], [head, shaft], [shaft[::-1], head], [head[::-1], shaft[::-1]]):
         reading = interpret_stroke(joined_strokes(strokes), SceneQuery(world.snapshot()), SETTINGS)
         assert reading.meaning == 'gravity'
         (request,) = reading.requests
         assert isinstance(request, Configure)
         assert request.changes['gravity'] == pytest.approx((0.0, -9.81), abs=1e-9)
+
+
+def test_a_shaft_and_two_barbs_are_an_arrow(world: World) -> None:
+    shaft = np.linspace((0.0, 0.0), (0.0, -3.0), 40)
+    left, right = (np.linspace((0.0, -3.0), (x, -2.4), 15) for x in (-0.4, 0.4))
+
+    for strokes in ([shaft, left, right], [right, shaft, left]):
+        reading = interpret_stroke(joined_strokes(strokes), SceneQuery(world.snapshot()), SETTINGS)
+        assert reading.meaning == 'gravity'
 
 
 def test_seven_lines_are_a_polygon(world: World) -> None:
@@ -274,8 +289,9 @@ def test_below_the_confidence_asked_for_nothing_is_built_and_what_it_might_be_is
     [
         np.column_stack((np.sin(ANGLE), np.sin(2 * ANGLE))),
         np.column_stack((ANGLE * np.cos(2.5 * ANGLE), ANGLE * np.sin(2.5 * ANGLE))),
+        np.column_stack((0.4 * (ANGLE - math.pi) + np.sin(ANGLE), np.cos(ANGLE))),
     ],
-    ids=['an eight', 'a spiral'],
+    ids=['an eight', 'a spiral', 'a pigtail'],
 )
 def test_what_is_no_figure_is_not_recognised(world: World, way: Floats) -> None:
     with pytest.raises(NotRecognised):
