@@ -98,9 +98,7 @@ export class TopBar {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    const zoom = createElement('span', {className: 'zoom', 'aria-hidden': true});
-    const frame = iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)'));
-    frame.append(zoom);
+    const zoom = createElement('span', {className: 'zoom'});
     app.view.overlays.push(() => {
       const share = `${Math.round(100 * app.camera.scale / app.camera.whole)} %`;
       if (zoom.textContent !== share) zoom.textContent = share;
@@ -117,7 +115,7 @@ export class TopBar {
         app.selection.select([]);
         app.panel.show('world');
       }, t('Material of new bodies; gravity')),
-      frame,
+      iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)')), zoom,
       iconButton(t('Light or dark'), 'theme', switchTheme),
       iconButton(t('Help'), 'help', () => showHelp(app), t('Help: keys and gestures (?)')));
     elementOf('looks', HTMLElement).after(this.recording);
