@@ -163,7 +163,8 @@ def _body_state(
         state = replace(state, acting=acting_from(entry['acting'], body, physics_rate))
     if not saved:
         return state, False
-    lead = lead_of(body, wrench, settings.gravity, sub_step_of(physics_rate))
+    sub_step = sub_step_of(physics_rate)
+    lead = lead_of(body, wrench, _pose(entry)[2], settings.gravity, sub_step)
     resumed = _saved_state(state, entry, lead)
     if resumed is not None:
         return resumed, True

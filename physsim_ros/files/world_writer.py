@@ -89,19 +89,16 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
     entry |= {'friction': body.friction, 'elasticity': body.elasticity}
     if not body.anchored:
         entry |= {'velocity': list(state.twist[:2]), 'spin': state.twist[2]}
-    for flag in ('anchored', 'kinematic', 'sensor'):
-        if getattr(body, flag):
-            entry[flag] = True
+    for key in ('anchored', 'kinematic', 'sensor', 'group', 'label'):
+        if getattr(body, key):
+            entry[key] = getattr(body, key)
     if any(body.surface_velocity):
         entry['surface_velocity'] = list(body.surface_velocity)
-    if body.robot is not None:
-        entry['robot'] = body.robot.entry()
-    if body.actor is not None:
-        entry['actor'] = body.actor.entry()
-    if body.group:
-        entry['group'] = body.group
-    if body.label:
-        entry['label'] = body.label
+    for key, role in (('robot', body.robot), ('actor', body.actor)):
+        if role is not None:
+            entry[key] = role.entry()
+    if body.forces:
+        entry['forces'] = [each.entry() for each in body.forces]
     if body.expires is not None:
         entry['lifetime'] = body.expires / physics_rate
     return entry | _motion_entry(state, physics_rate)

@@ -17,7 +17,7 @@ from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownPro
 import pytest
 
 KEYS = ('mass', 'density', 'friction', 'elasticity', 'velocity', 'spin', 'anchored', 'kinematic',
-        'group', 'sensor', 'label')  # fmt: skip
+        'group', 'sensor', 'forces', 'label')  # fmt: skip
 NUMBERS = ('mass', 'density', 'friction', 'elasticity', 'spin')
 FLAGS = ('anchored', 'kinematic', 'sensor')
 RANGES = {
@@ -167,7 +167,7 @@ def test_all_keys_of_the_contract_are_known_and_no_others() -> None:
     values: dict[str, Any] = {
         'mass': 1, 'friction': 1, 'elasticity': 1, 'velocity': [1, 1], 'spin': 1,
         'anchored': False, 'kinematic': True, 'group': 1, 'sensor': True,
-        'label': 'm1',
+        'forces': [], 'label': 'm1',
     }  # fmt: skip
 
     assert set(Properties.from_mapping(values).explicit()) == set(KEYS) - {'density'}
