@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.engine.core import dtype_of, ffi, lib
+from physsim_ros.engine.core import dtype_of, ffi, lib, pointer
 from physsim_ros.engine.layout import address_of, check_layout
 from physsim_ros.model.arrays import Flags, Floats
 import pymunk
@@ -28,27 +28,6 @@ _FUNCTIONS = {
     'point_query': 'cpShapePointQuery',
 }
 _CONTACT, _BEGUN = dtype_of('Contact'), dtype_of('Begun')
-# Arrays of each type that crosses the border; cffi takes five times as long by their names.
-_ARRAYS = {
-    kind: ffi.typeof(f'{kind}[]')
-    for kind in (
-        *(
-            'Body',
-            'Joint',
-            'Part',
-            'Row',
-            'Grip',
-            'AppliedForce',
-            'Robot',
-            'Actor',
-            'Motion',
-            'Pose',
-            'Twist',
-            'cpVect',
-        ),
-        *('double', 'uint8_t', 'int32_t'),
-    )
-}
 check_layout()
 
 
@@ -98,7 +77,7 @@ class CoreWorld:
         self.use_actors(np.zeros(0, dtype_of('Actor')))
         places = np.array(former, np.int32)
         lib.core_use_bodies(
-            self._world, *_pointer_and_count(bodies, 'Body'), _pointer(places, 'int32_t')
+            self._world, *_pointer_and_count(bodies, 'Body'), pointer(places, 'int32_t')
         )
         self._tables['bodies'] = (bodies,)
 
@@ -186,14 +165,14 @@ class CoreWorld:
         count = self._count
         state = np.zeros((count, 6))
         free, unsupported = np.zeros((2, count), np.bool_)
-        flags = _pointer(free, 'uint8_t'), _pointer(unsupported, 'uint8_t')
-        lib.core_read_state(self._world, _pointer(state, 'Motion'), *flags)
+        flags = pointer(free, 'uint8_t'), pointer(unsupported, 'uint8_t')
+        lib.core_read_state(self._world, pointer(state, 'Motion'), *flags)
         return state, free, unsupported
 
     def write_state(self, state: Floats) -> None:
         """Set the poses and velocities of all bodies, (n, 6) float64; no body may sleep."""
         state = np.ascontiguousarray(state)
-        lib.core_write_state(self._world, _pointer(state, 'Motion'))
+        lib.core_write_state(self._world, pointer(state, 'Motion'))
 
     def observe(self) -> tuple[Floats, Floats]:
         """
@@ -202,7 +181,7 @@ class CoreWorld:
         :return: (n, 3) float64 each: x, y [m], yaw [rad]; velocity [m/s], spin [rad/s]
         """
         poses, twists = np.zeros((2, self._count, 3))
-        lib.core_observe(self._world, _pointer(poses, 'Pose'), _pointer(twists, 'Twist'))
+        lib.core_observe(self._world, pointer(poses, 'Pose'), pointer(twists, 'Twist'))
         return poses, twists
 
     # Joints
@@ -210,13 +189,13 @@ class CoreWorld:
     def read_impulses(self) -> Floats:
         """Return (p, 2) float64: impulses from which the next step starts, of all constraints."""
         impulses = np.zeros((self._world.part_count, 2))
-        lib.core_read_impulses(self._world, _pointer(impulses, 'cpVect'))
+        lib.core_read_impulses(self._world, pointer(impulses, 'cpVect'))
         return impulses
 
     def write_impulses(self, impulses: Floats) -> None:
         """Set (p, 2) float64: impulses from which the next step starts, of all constraints."""
         impulses = np.ascontiguousarray(impulses)
-        lib.core_write_impulses(self._world, _pointer(impulses, 'cpVect'))
+        lib.core_write_impulses(self._world, pointer(impulses, 'cpVect'))
 
     def read_joints(self) -> tuple[Floats, Floats, Flags]:
         """
@@ -230,9 +209,9 @@ class CoreWorld:
         pressing = np.zeros(count, np.bool_)
         lib.core_read_joints(
             self._world,
-            _pointer(impulses, 'double'),
-            _pointer(pulls, 'cpVect'),
-            _pointer(pressing, 'uint8_t'),
+            pointer(impulses, 'double'),
+            pointer(pulls, 'cpVect'),
+            pointer(pressing, 'uint8_t'),
         )
         return impulses, pulls, pressing
 
@@ -276,16 +255,11 @@ def _chipmunk() -> Any:
     return functions[0]
 
 
-def _pointer(array: NDArray[Any], kind: str) -> Any:
-    """Return the pointer to the first value of an array, which has to live as long."""
-    return ffi.from_buffer(_ARRAYS[kind], array)
-
-
 def _pointer_and_count(table: Table, kind: str) -> tuple[Any, int]:
-    return _pointer(table, kind), len(table)
+    return pointer(table, kind), len(table)
 
 
-def _copy(pointer: Any, count: int, dtype: np.dtype[np.void]) -> Table:
+def _copy(memory: Any, count: int, dtype: np.dtype[np.void]) -> Table:
     """Return a copy of values in the memory of the core."""
-    memory = ffi.buffer(pointer, count * dtype.itemsize) if count else b''
-    return np.frombuffer(memory, dtype).copy()
+    values = ffi.buffer(memory, count * dtype.itemsize) if count else b''
+    return np.frombuffer(values, dtype).copy()

@@ -5,8 +5,8 @@
 What sensors of robots read: functions of a frame, the sensor and the seed.
 
 Law: the same frame, sensor and seed have the same reading, whoever else senses, in any order and
-after a rewind. No state, no clock, no engine; messages of readings are in `ros`. Start with
-`distance`, then `surroundings` (what rays meet) and `fan` (how).
+after a rewind. No state, no clock, and of the engine only the core, which casts the rays;
+messages of readings are in `ros`. Start with `distance`, then `surroundings` (what rays meet).
 """
 
 from physsim_ros.sensing.distance import read_laser, read_range, scan_points

@@ -16,7 +16,6 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robots.sensors import Laser, RangeFinder
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import rotated_each
-from physsim_ros.sensing.fan import Rays
 from physsim_ros.sensing.mounting import noise_of, placed
 from physsim_ros.sensing.surroundings import Surroundings
 
@@ -36,9 +35,8 @@ def read_laser(surroundings: Surroundings, row: int, laser: Laser, seed: int) ->
     snapshot = surroundings.snapshot
     *origin, yaw = placed(snapshot, row, laser)
     directions = rotated_each(_beams(laser.beams, laser.angle[0], laser.increment), yaw)
-    x, y = np.ascontiguousarray(directions.T)
     least, greatest = laser.range
-    ranges = surroundings.nearest(Rays((origin[0], origin[1]), x, y), greatest, row)
+    ranges = surroundings.nearest((origin[0], origin[1]), directions, greatest, row)
     noise = noise_of(snapshot, row, laser, seed, laser.beams) if laser.noise else None
     return within_range(ranges, least, greatest, laser.noise, noise)
 
@@ -101,8 +99,8 @@ def read_range(surroundings: Surroundings, row: int, finder: RangeFinder, seed: 
     count = finder.rays if finder.cone else 1
     half = finder.cone / 2 if count > 1 else 0.0
     angles = np.linspace(yaw - half, yaw + half, count)
+    directions = np.column_stack((np.cos(angles), np.sin(angles)))
     least, greatest = finder.range
-    rays = Rays((x, y), np.cos(angles), np.sin(angles))
-    nearest = surroundings.nearest(rays, greatest, row).min(keepdims=True)
+    nearest = surroundings.nearest((x, y), directions, greatest, row).min(keepdims=True)
     noise = noise_of(snapshot, row, finder, seed, 1) if finder.noise else None
     return float(within_range(nearest, least, greatest, finder.noise, noise)[0])

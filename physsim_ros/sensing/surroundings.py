@@ -2,31 +2,51 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Surroundings: all edges and discs of a frame that rays can meet, in the world.
+Surroundings: all edges and discs of a frame that rays can meet.
 
-They are placed once for all sensors of a frame, and culled by distance for each. Laws: a robot
-alone and among others reads the same bits; what is met is what the engine collides, but for
-sensors, to its precision.
+A convex piece is its edges, a segment with round ends is two discs and a rectangle. The walls of
+`bounds` are four edges that face inward; all beyond them is wall. Laws: a robot alone and among
+others reads the same bits; what is met is what the engine collides, but for sensors, to its
+precision. The core casts the rays (`engine/core/rays.c`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
+import itertools
+import math
+from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from physsim_ros.model.arrays import Flags, Floats
+from numpy.typing import NDArray
+from physsim_ros.engine.core import dtype_of, lib, pointer
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.shapes import Capsule, Circle, Convex, Form
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point
-from physsim_ros.sensing.fan import Fan, Rays
-from physsim_ros.sensing.outlines import Outlines, outlines_of
 
-# An origin that is outside an edge by less lies on it, and a ray grazes an edge that it comes
-# closer to [m]: a thousandth of the distance at which two points of a shape are one.
-GRAZE = 1e-9
+_PIECE, _EDGE = dtype_of('Piece'), dtype_of('Edge')
+_EVERYWHERE = ((0.0, 0.0), math.inf)
 
-_SEEN: WeakKeyDictionary[Scene, Outlines] = WeakKeyDictionary()
+
+class _Outline(NamedTuple):
+    """
+    What rays meet of some bodies, each in the frame of its body.
+
+    :ivar pieces: (p,) `Piece` of `engine/core/core.h`
+    :ivar edges: (e,) `Edge` of the same
+    """
+
+    pieces: NDArray[np.void]
+    edges: NDArray[np.void]
+
+
+_NOTHING = _Outline(np.empty(0, _PIECE), np.empty(0, _EDGE))
+_BY_FORM: WeakKeyDictionary[Form, _Outline] = WeakKeyDictionary()
+_BY_SCENE: WeakKeyDictionary[Scene, _Outline] = WeakKeyDictionary()
 
 
 class Surroundings:
@@ -39,106 +59,124 @@ class Surroundings:
     def __init__(self, snapshot: Snapshot) -> None:
         self.snapshot = snapshot
 
-    @cached_property
-    def outlines(self) -> Outlines:
-        """Outlines of all bodies but sensors, and walls, in the frames of the bodies."""
-        scene = self.snapshot.scene
-        outlines = _SEEN.get(scene)
-        if outlines is None:
-            rows = [row for row, body in enumerate(scene.bodies) if not body.sensor]
-            outlines = _SEEN[scene] = outlines_of(scene, rows, walls=True)
-        return outlines
-
-    @cached_property
-    def _turns(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """(n + 1,) float64 each: x, y, cosine and sine of yaw of each body, and of walls."""
-        x, y, yaw = np.vstack((self.snapshot.poses, np.zeros((1, 3)))).T
-        return x, y, np.cos(yaw), np.sin(yaw)
-
-    @cached_property
-    def _edges(self) -> tuple[Floats, Floats, Floats, Floats]:
-        """(e,) float64 each: x, y of the beginning of each edge and of its normal, world."""
-        ax, ay, nx, ny = self.outlines.edges.T
-        x, y, cos, sin = (each.take(self.outlines.edge_rows) for each in self._turns)
-        return (
-            x + (cos * ax - sin * ay),
-            y + (sin * ax + cos * ay),
-            cos * nx - sin * ny,
-            sin * nx + cos * ny,
-        )
-
-    @cached_property
-    def _discs(self) -> tuple[Floats, Floats, Floats]:
-        """(d,) float64 each: x, y, radius of each disc, world."""
-        cx, cy, radius = self.outlines.discs.T
-        x, y, cos, sin = (each.take(self.outlines.disc_rows) for each in self._turns)
-        return x + (cos * cx - sin * cy), y + (sin * cx + cos * cy), radius.copy()
-
-    def nearest(self, rays: Rays, reach: float, row: int) -> Floats:
+    def nearest(self, origin: Point, directions: Floats, reach: float, row: int) -> Floats:
         """
         Return (k,) float64: distance along each ray [m]; infinite for nothing within reach.
 
         All are 0 where the origin lies in a body or a wall. Beyond reach a distance may be
         infinite or true.
 
+        :param origin: of all rays [m]
+        :param directions: (k, 2) float64: their unit vectors, counter-clockwise within a turn
         :param reach: greatest distance [m]
         :param row: of the body whose pieces are not met; -1 is none
         """
-        near = self._near(rays.origin, reach, row)
-        fan = Fan(rays)
-        outside = self._meet_edges(fan, rays.origin, reach, near)
-        outside = outside and self._meet_discs(fan, rays.origin, reach, near)
-        return fan.nearest() if outside else np.zeros(len(rays.x))
+        distances = np.empty(len(directions))
+        lib.core_cast_rays(
+            *self._pointers,
+            row,
+            origin,
+            reach,
+            pointer(directions, 'cpVect'),
+            len(directions),
+            pointer(distances, 'double'),
+        )
+        return distances
 
-    def _near(self, origin: Point, reach: float, row: int) -> Flags:
-        """Return (n + 1,) bool: whether each body, and the walls, may be within reach."""
-        x, y = self.snapshot.centers.T
-        reaches = self.outlines.extents + reach
-        near = reaches > 0.0
-        near[:-1] &= (x - origin[0]) ** 2 + (y - origin[1]) ** 2 <= reaches[:-1] ** 2
-        if row >= 0:
-            near[row] = False
-        return near
+    @cached_property
+    def _pointers(self) -> tuple[object, ...]:
+        """Pieces, their count, edges and poses; the last pose is that of the walls."""
+        scene = self.snapshot.scene
+        outline = _BY_SCENE.get(scene)
+        if outline is None:
+            outline = _BY_SCENE[scene] = _outline_of_scene(scene)
+        pieces, edges = pointer(outline.pieces, 'Piece'), pointer(outline.edges, 'Edge')
+        poses = np.concatenate((self.snapshot.poses, np.zeros((1, 3))))
+        return pieces, len(outline.pieces), edges, pointer(poses, 'Pose')
 
-    def _meet_edges(self, fan: Fan, origin: Point, reach: float, near: Flags) -> bool:
-        """Meet the edges that face the origin; return whether it is outside all polygons."""
-        outlines = self.outlines
-        ax, ay, nx, ny = self._edges
-        ax, ay = ax - origin[0], ay - origin[1]
-        # Distance of the origin from the line of each edge, positive outside.
-        height = -(ax * nx + ay * ny)
-        near, front = near[outlines.edge_rows], height > GRAZE
-        first = outlines.first_edges
-        if len(first) and (near[first] & ~np.logical_or.reduceat(front, first)).any():
-            return False
-        at = (front & near & (height <= reach)).nonzero()[0]
-        nx, ny, height = nx.take(at), ny.take(at), -height.take(at)
-        # As seen from outside, an edge runs clockwise.
-        ends = np.array((outlines.following.take(at), at))
-        for part, rays, counts in fan.pairs(ax.take(ends), ay.take(ends)):
-            across = fan.x[rays] * nx[part].repeat(counts)
-            across += fan.y[rays] * ny[part].repeat(counts)
-            fan.meet(rays, height[part].repeat(counts) / across)
-        return True
 
-    def _meet_discs(self, fan: Fan, origin: Point, reach: float, near: Flags) -> bool:
-        """Meet the discs; return whether the origin is outside all."""
-        cx, cy, radius = self._discs
-        cx, cy = cx - origin[0], cy - origin[1]
-        away2 = cx * cx + cy * cy
-        near = near[self.outlines.disc_rows]
-        if (near & (away2 <= (radius + GRAZE) ** 2)).any():
-            return False
-        at = (near & (away2 <= (radius + reach) ** 2)).nonzero()[0]
-        cx, cy, radius = cx.take(at), cy.take(at), radius.take(at)
-        tangent = np.sqrt(away2.take(at) - radius * radius)
-        # From the right tangent to the left one.
-        ends_x = np.array((cx * tangent + cy * radius, cx * tangent - cy * radius))
-        ends_y = np.array((cy * tangent - cx * radius, cy * tangent + cx * radius))
-        for part, rays, counts in fan.pairs(ends_x, ends_y):
-            x, y = fan.x[rays], fan.y[rays]
-            px, py = cx[part].repeat(counts), cy[part].repeat(counts)
-            aside, ahead = x * py - y * px, x * px + y * py
-            half2 = (radius[part] * radius[part]).repeat(counts) - aside * aside
-            fan.meet(rays, ahead - np.sqrt(np.maximum(half2, 0.0)))
-        return True
+def _outline_of_scene(scene: Scene) -> _Outline:
+    parts = [
+        (row, _outline_of_form(body.shape.form))
+        for row, body in enumerate(scene.bodies)
+        if not body.sensor
+    ]
+    if scene.settings.bounds is not None:
+        parts.append((len(scene.bodies), _outline_of_walls(*scene.settings.bounds)))
+    counts = [len(part.pieces) for _, part in parts]
+    # Without their type, NumPy makes one without the padding of the struct.
+    pieces = np.concatenate((_NOTHING.pieces, *(part.pieces for _, part in parts)), dtype=_PIECE)
+    edges = np.concatenate((_NOTHING.edges, *(part.edges for _, part in parts)), dtype=_EDGE)
+    pieces['body'] = np.repeat([row for row, _ in parts], counts)
+    pieces['first_edge'] = np.cumsum(pieces['edge_count']) - pieces['edge_count']
+    return _Outline(pieces, edges)
+
+
+def _outline_of_walls(left: float, bottom: float, right: float, top: float) -> _Outline:
+    """Return four walls: counter-clockwise around what is not the world, so that they face in."""
+    corners = (left, bottom), (left, top), (right, top), (right, bottom)
+    sides = itertools.pairwise((*corners, corners[0]))
+    # The region behind each wall is a piece of its own.
+    return _outline((side, _EVERYWHERE) for side in sides)
+
+
+def _outline_of_form(form: Form) -> _Outline:
+    outline = _BY_FORM.get(form)
+    if outline is None:
+        outline = _BY_FORM[form] = _outline(_simple_pieces(form))
+    return outline
+
+
+_Disc = tuple[Point, float]
+
+
+def _simple_pieces(form: Form) -> Iterator[tuple[tuple[Point, ...], _Disc]]:
+    """Yield polygons, each with a disc around it, and discs alone."""
+    last: _Disc | None = None
+    for piece in form.pieces:
+        match piece:
+            case Circle(center, radius):
+                yield (), (center, radius)
+            case Convex(vertices):
+                yield _closed(vertices)
+            case Capsule(start, end, radius):
+                yield _closed(_sides(start, end, radius))
+                # A chain has one disc where two of its segments meet.
+                if last != (start, radius):
+                    yield (), (start, radius)
+                last = end, radius
+                yield (), last
+
+
+def _sides(start: Point, end: Point, radius: float) -> tuple[Point, ...]:
+    """Return the corners of the rectangle of a capsule."""
+    scale = radius / math.dist(start, end)
+    x, y = (end[1] - start[1]) * scale, (start[0] - end[0]) * scale
+    return tuple(
+        (px + sign * x, py + sign * y)
+        for (px, py), sign in ((start, 1), (end, 1), (end, -1), (start, -1))
+    )
+
+
+def _closed(vertices: tuple[Point, ...]) -> tuple[tuple[Point, ...], _Disc]:
+    """Return a polygon whose last corner is its first one, and a disc around it."""
+    x, y = (math.fsum(each) / len(vertices) for each in zip(*vertices, strict=True))
+    radius = max(math.dist((x, y), vertex) for vertex in vertices)
+    # A little more, so that rounding leaves no corner out.
+    return (*vertices, vertices[0]), ((x, y), radius * (1.0 + 1e-9))
+
+
+def _outline(pieces: Iterator[tuple[tuple[Point, ...], _Disc]]) -> _Outline:
+    listed = [*pieces]
+    edges = [side for corners, _ in listed for side in itertools.pairwise(corners)]
+    return _Outline(
+        np.array(
+            [(0, 0, max(len(corners) - 1, 0), *disc) for corners, disc in listed], dtype=_PIECE
+        ),
+        np.array([(begin, end, _normal(begin, end)) for begin, end in edges], dtype=_EDGE),
+    )
+
+
+def _normal(begin: Point, end: Point) -> Point:
+    length = math.dist(begin, end)
+    return (end[1] - begin[1]) / length, (begin[0] - end[0]) / length

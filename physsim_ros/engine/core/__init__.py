@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The core: all that happens within a step, in C.
+The core: all that happens within a step, and the rays of readings after it, in C.
 
 Its sources are in this folder, one file a stage; `engine/core/core.h` is what they share with
 Python. Not here: what is built once for a scene, which is Python's (`engine`). Start with
@@ -15,11 +15,13 @@ threads run meanwhile.
 
 from __future__ import annotations
 
+from functools import cache
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.resources import files
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 from physsim_ros.engine.core.sources import hash_of_sources
 
 # The call that builds it in a source tree.
@@ -55,6 +57,22 @@ def sub_step_of(physics_rate: float) -> float:
     :param physics_rate: steps a second [Hz]
     """
     return 1.0 / physics_rate / int(lib.SUB_STEPS)
+
+
+def pointer(array: NDArray[Any], kind: str) -> Any:
+    """
+    Return the pointer to the first value of an array, which has to live as long.
+
+    :param array: contiguous
+    :param kind: of its values, as C has it
+    """
+    return ffi.from_buffer(_array_of(kind), array)
+
+
+@cache
+def _array_of(kind: str) -> Any:
+    """Return the type of arrays; cffi takes five times as long by its name."""
+    return ffi.typeof(f'{kind}[]')
 
 
 def dtype_of(struct: str) -> np.dtype[np.void]:

@@ -260,9 +260,9 @@ static Vec walk(World *world, const Surroundings *around, Actor *actor, double d
                                      : walk_by_social_force(world, around, actor, self, desired, dt);
 }
 
-// All of them
+// Commands and velocities of all actors
 
-// Command a robot, unless somebody else does.
+// Command a robot, unless a command of somebody else still holds.
 static void command(const World *world, const Actor *actor, Robot *robot) {
     if (world->step < robot->until || !has_begun(world, actor)) {
         return;

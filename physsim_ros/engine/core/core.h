@@ -32,7 +32,7 @@ typedef struct Motion {
 
 // A body; the last one of the table is the background, which has the walls.
 typedef struct Body {
-    // What Python sets.
+    // These fields are set by Python.
     cpBody *engine;
     uint8_t dynamic;       // forces move it
     uint8_t anchored;      // it does not move at all
@@ -56,12 +56,12 @@ typedef struct Body {
     double floor_friction; // coefficient of friction with the floor; 0 where none acts
     double lever;          // mean distance of the points that bear it on the floor [m]
     cpVect surface;        // velocity of the surface of a conveyor, in the body's axes [m/s]
-    // State that outlives a step.
+    // These fields are state that outlives a step.
     uint8_t free;     // in free flight, so that its velocity leads by `lead`
     uint8_t released; // something that it touched was removed or moved since the last step
     uint8_t thrown;   // its velocity was set since the last step
     Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
-    // What the core keeps for a step.
+    // These fields are set and used within a step.
     uint8_t jointed; // a joint with rows ends on it
     uint8_t slides;  // on a floor that does not carry it along
     Pose begin;      // as the step begins
@@ -92,7 +92,7 @@ typedef struct AppliedForce {
 
 // A robot: its drive, and what its wheels and its odometry have done.
 typedef struct Robot {
-    // What Python sets.
+    // These fields are set by Python.
     int32_t body;
     int32_t wheel_count;
     Twist wheels[4];     // speed of the rim of each wheel, by the velocity of the floor
@@ -101,14 +101,14 @@ typedef struct Robot {
     cpVect center;       // of mass in the frame of the body [m]
     double slip[2];      // drift of the odometry: of the way [√m], and of the heading [rad/√m]
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
-    // State: velocities are as seen from the robot.
+    // These fields are state; velocities are as seen from the robot.
     int64_t until;        // step at which the command ends
     Twist aim;            // velocity that the last command aims at; 0 after its timeout
     Twist rolling;        // velocity that the wheels have
     Twist travel;         // integral of that
     Pose odometry;        // by wheels and gyroscope, from the pose in which it was spawned
     double covariance[6]; // of the odometry: xx, xy, yy [m²], x yaw, y yaw [m rad], yaw yaw [rad²]
-    // What the core keeps for a step.
+    // These fields are set and used within a step.
     Twist mean;       // velocity of the wheels
     Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes
 } Robot;
@@ -148,7 +148,7 @@ typedef struct Orca {
 
 // An actor: a body that moves on its own.
 typedef struct Actor {
-    // What Python sets.
+    // These fields are set by Python.
     int32_t body;
     int32_t kind, repeat;
     int32_t robot;          // number of its robot; -1 if it is none
@@ -165,10 +165,10 @@ typedef struct Actor {
     Pace pace;
     SocialForce social_force;
     Orca orca;
-    // State.
+    // These fields are state that outlives a step.
     int64_t begun;   // step at which it starts, or started
     int64_t reached; // count of the points that it has reached
-    // What the core keeps for a step.
+    // These fields are set and used within a step.
     Twist wish; // velocity of the centre of mass that it goes at, world axes
 } Actor;
 
@@ -265,6 +265,21 @@ typedef struct Begun {
     double time;     // since the frame began [steps]
 } Begun;
 
+// A piece of what rays meet (`rays.c`): a disc, or a convex polygon, whose edges follow one another counter-clockwise.
+// A wall is a polygon of one edge, with all that is behind it.
+typedef struct Piece {
+    int32_t body;                   // its row in the scene
+    int32_t first_edge, edge_count; // no edges: a disc
+    cpVect center;                  // of the disc, or of a circle around the polygon, in the frame of the body [m]
+    double radius;                  // of the same [m]
+} Piece;
+
+// An edge of a piece, in the frame of its body.
+typedef struct Edge {
+    cpVect begin, end; // [m]
+    cpVect normal;     // outward unit vector
+} Edge;
+
 // A world: what Python sets, and what the core keeps between steps.
 typedef struct World {
     cpSpace *space;
@@ -286,7 +301,7 @@ typedef struct World {
     Robot *robots;
     Actor *actors;
     int32_t body_count, joint_count, part_count, row_count, grip_count, force_count, robot_count, actor_count;
-    // What the last steps have left.
+    // These fields are results of the last steps.
     uint8_t has_broken; // a joint
     uint8_t has_lost;   // a body has left the range of numbers
     int64_t swept;      // pairs of bodies whose time of impact has been looked for since the world was made
@@ -335,6 +350,12 @@ void core_take_contacts(World *world);
 void core_clear_contacts(World *world);
 // Continue with the sums of a world of the same bodies.
 void core_copy_contacts(World *world, const World *old);
+
+// Find how far it is from `origin` along each of some directions, counter-clockwise within a turn, to the nearest piece
+// of any body but `own` (-1 is none), by the poses of all bodies. A distance is INFINITY where nothing is within
+// `reach`; beyond it, it may also be true. All are 0 where the origin lies in a piece. [m]
+void core_cast_rays(const Piece *pieces, int32_t piece_count, const Edge *edges, const Pose *poses, int32_t own,
+                    cpVect origin, double reach, const cpVect *directions, int32_t count, double *distances);
 
 #pragma GCC visibility pop
 

@@ -22,9 +22,10 @@
 static const double parting_time = 0.1;
 // Normals of half-planes that differ by less are parallel.
 static const double parallel = 1e-9;
-// Whoever cannot have the desired velocity tries it turned by this to the right [rad], where the authors' own programs
-// add noise: else two who meet head on stop before each other, and many who cross a circle in its middle. With 0.1, 30
-// of radius 0.25 m jam in a circle of 8 m; with 0.3 they come across in 14 s, and 12 in one of 4 m in 6.
+// A pedestrian who cannot have the desired velocity tries it turned by this to the right [rad], where the authors' own
+// programs add noise: without it two who meet head on stop before each other, and many who cross a circle in its
+// middle. With 0.1, 30 of radius 0.25 m jam in a circle of 8 m; with 0.3 they come across in 14 s, and 12 in one of 4 m
+// in 6.
 static const double swerve = 0.3;
 
 // A linear programme: half-planes in a disc of velocities.
@@ -34,8 +35,8 @@ typedef struct Programme {
     double speed; // radius of the disc [m/s]
 } Programme;
 
-// What of the border of a half-plane the ones before it and the disc leave: c n + s d with s in [low, high], where d is
-// n turned by a quarter; false if nothing.
+// Find the part of the border of a half-plane that lies in the disc and in all half-planes before it: the points c n +
+// s d with s in [low, high], where d is n turned by a quarter. Return false if there is none.
 static bool border(const Programme *given, int number, double *low, double *high) {
     HalfPlane own = given->planes[number];
     double square = given->speed * given->speed - own.c * own.c;
