@@ -101,6 +101,8 @@ def copy(name: str, body: Body, pose: Pose) -> Spawn:
             kinematic=body.kinematic,
             group=body.group,
             sensor=body.sensor,
+            surface_velocity=body.surface_velocity,
+            forces=body.forces,
             label=body.label,
         ),
     )

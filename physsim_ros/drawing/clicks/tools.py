@@ -17,7 +17,7 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests, chains
+from physsim_ros.drawing import body_requests, chains, knife
 from physsim_ros.drawing.clicks.click import (
     checked_distance,
     checked_length,
@@ -26,12 +26,15 @@ from physsim_ros.drawing.clicks.click import (
 )
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.model.applied_forces import AppliedForce
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Anchored, BadOutline, NothingThere
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
+    ChangeBody,
     Command,
     Configure,
     Delete,
@@ -43,6 +46,9 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.shapes import MOST_POINTS
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.transform import Point
+
+# Force of an arrow of 1 m [N]: nearly the weight of 1 kg.
+_NEWTONS = 10.0
 
 
 class Tool(StrEnum):
@@ -65,6 +71,8 @@ class Tool(StrEnum):
     CHAIN = 'chain'
     VELOCITY = 'velocity'
     GRAVITY = 'gravity'
+    FORCE = 'force'
+    KNIFE = 'knife'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -179,6 +187,33 @@ def gravity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
     return _finished(Configure(changes={'gravity': turned}))
 
 
+def force(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Add a constant force: its point on a body, then the tip of an arrow, 1 m for 10 N."""
+    name = clicks[0].hit_body(scene)
+    if len(clicks) < 2:
+        return _next_click(f'the force acts on {name}', 'the tip of its arrow, 1 m for 10 N')
+    tail, tip, body = clicks[0].current_point(scene), clicks[1].point, scene.body(name)
+    checked_distance(tail, tip, settings, 'the arrow')
+    form, at = body.shape.form, clicks[0].local
+    # Near the centre of mass, that is meant.
+    is_central = math.dist(at, form.centroid) <= min(settings.snap, form.inner / 2)
+    added = AppliedForce(
+        force=(_NEWTONS * (tip[0] - tail[0]), _NEWTONS * (tip[1] - tail[1])),
+        at=None if is_central else at,
+    )
+    return _finished(ChangeBody(name=name, properties=Properties(forces=(*body.forces, added))))
+
+
+def cut(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Cut bodies with a knife: from one end of a stroke right through them to the other."""
+    if len(clicks) < 2:
+        return _next_click('the cut begins there', 'its other end, beyond the bodies')
+    start, end = _points(clicks)
+    checked_distance(start, end, settings, 'the cut')
+    requests = knife.cut(start, end, scene)
+    return ClickResult(requests=requests, message=knife.message(requests))
+
+
 def request_at(
     request: Callable[..., Request],
     clicks: Sequence[Click],
@@ -238,6 +273,8 @@ TOOLS: dict[Tool, Draw] = {
     Tool.CHAIN: chain,
     Tool.VELOCITY: velocity,
     Tool.GRAVITY: gravity,
+    Tool.FORCE: force,
+    Tool.KNIFE: cut,
 }
 
 
