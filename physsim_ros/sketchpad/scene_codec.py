@@ -106,6 +106,7 @@ def body_entry(body: Body) -> dict[str, Any]:
         'group': body.group,
         'label': body.label,
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
+        **({'forces': [each.entry() for each in body.forces]} if body.forces else {}),
     }
 
 

@@ -9,6 +9,7 @@
  */
 
 import {createElement, elementOf} from './dom.js';
+import {drawApplied} from './force_fields.js';
 import {bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {roundUp, threeDigits} from './rounding.js';
 
@@ -24,7 +25,7 @@ const LEAST_SPEED = 5; // m/s: that there is always room for
 const FEW = 12; // bodies that move, of which all forces are shown where none is selected
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
 /** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
-const NAMES = {weight: 'weight', normal: 'normal force', friction: 'friction', joint: 'joint', air: 'air', sum: 'sum'};
+const NAMES = {weight: 'weight', normal: 'normal force', friction: 'friction', joint: 'joint', applied: 'applied force', air: 'air', sum: 'sum'};
 
 /** How many units are a bar's length: 1, 2 or 5 times a power of ten. */
 class ArrowScale {
@@ -113,7 +114,8 @@ export class Arrows {
     this.#fitSpeeds(room);
     if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
     this.hint.textContent = '';
-    if (this.forces && world.count) this.#drawForces(view, room);
+    if (!this.forces) drawApplied(this.app, view);
+    else if (world.count) this.#drawForces(view, room);
     for (const [unit, scale] of /** @type {[string, ArrowScale][]} */ ([['m/s', this.speeds], ['N s', this.impulses], ['N', this.newtons]])) {
       const bar = this.bars[unit], text = `${scale.unit} ${unit}`;
       if (bar && bar.textContent !== text) bar.textContent = text;

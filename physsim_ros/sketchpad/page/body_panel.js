@@ -2,6 +2,7 @@
 /** What the panel shows of a body, and of several: their numbers, their properties, plots. */
 
 import {createElement, inRow, textButton, textField, textOf} from './dom.js';
+import {forceFields} from './force_fields.js';
 import {sizeOf} from './label_view.js';
 import {sendNote} from './tools/note.js';
 import {isDrawn} from './words.js';
@@ -43,6 +44,7 @@ export function bodyContent(app, name) {
       createElement('label', {}, 'Label', label),
       // A robot is neither.
       ...body.robot ? [] : [createElement('label', {}, 'Anchored', anchored), createElement('label', {}, 'Gate: lets bodies through', gate)],
+      ...forceFields(app, body, change),
       inRow(
         textButton('Copy', () => copy(app, name)),
         textButton('Delete body', () => app.selection.deleteBodies(), 'danger')),

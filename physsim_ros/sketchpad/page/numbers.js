@@ -229,7 +229,7 @@ function tell(element, text) {
  */
 
 /** Kinds of forces, as they are recorded. */
-export const FORCES = {weight: 'Weight', normal: 'Normal force', friction: 'Friction', joint: 'Force of joints', sum: 'Sum of forces'};
+export const FORCES = {weight: 'Weight', normal: 'Normal force', friction: 'Friction', joint: 'Force of joints', applied: 'Applied force', sum: 'Sum of forces'};
 
 /** By key, in the order of the columns. @type {Record<string, Quantity>} */
 export const QUANTITIES = {

@@ -4,7 +4,7 @@
 /** @import {Palette} from './types.js' */
 
 const KEY = 'physsim-theme';
-const NAMES = ['paper', 'minor', 'major', 'faint', 'ink', 'accent', 'force', 'warn', 'weight', 'friction', 'joint', 'air', 'momentum'];
+const NAMES = ['paper', 'minor', 'major', 'faint', 'ink', 'accent', 'force', 'warn', 'weight', 'friction', 'joint', 'air', 'applied', 'momentum'];
 
 /** @returns {Palette} */
 export function readPalette() {

@@ -33,6 +33,8 @@ export const TOOLS = [[
 ], [
   ['velocity', 'Velocity', 'v', 'drag an arrow from a body: 1 m is 1 m/s'],
   ['gravity', 'Gravity', 'u', 'drag an arrow: that way is down'],
+  ['force', 'Force', '1', 'drag an arrow from a point of a body: 1 m is a constant force of 10 N'],
+  ['knife', 'Knife', '2', 'drag right through bodies: they are cut'],
   ['delete', 'Delete', 't', 'remove a body'],
 ], [
   ['ruler', 'Ruler', 'm', 'drag from point to point; tap it to remove it'],

@@ -45,6 +45,16 @@ export interface Body {
   elasticity: number;
   centroid: Point;
   robot?: Robot;
+  forces?: AppliedForce[];
+}
+
+/** A constant force on a body. */
+export interface AppliedForce {
+  /** [N] */
+  force: Point;
+  /** Where it acts, in the frame of the body [m]; its centre of mass, if it is not given. */
+  at?: Point;
+  axes?: 'world' | 'body';
 }
 
 export interface Robot {
@@ -142,7 +152,7 @@ export interface Sample {
 
 /** On the body of a row. */
 export interface Force {
-  kind: 'weight' | 'normal' | 'friction' | 'joint' | 'air' | 'sum';
+  kind: 'weight' | 'normal' | 'friction' | 'joint' | 'applied' | 'air' | 'sum';
   row: number;
   /** [m] */
   at: Point;
@@ -221,6 +231,7 @@ export interface Palette {
   friction: string;
   joint: string;
   air: string;
+  applied: string;
   momentum: string;
 }
 
