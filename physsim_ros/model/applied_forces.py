@@ -48,8 +48,10 @@ class AppliedForce(Checked):
 
     def entry(self) -> dict[str, object]:
         """Return the mapping that it is made from."""
-        lists = {key: list(value) for key, value in self.explicit().items() if key != 'axes'}
-        return lists if self.axes == 'world' else {**lists, 'axes': self.axes}
+        entry: dict[str, object] = {'force': list(self.force)}
+        if self.at is not None:
+            entry['at'] = list(self.at)
+        return entry if self.axes == 'world' else {**entry, 'axes': self.axes}
 
     def arm(self, centroid: Point) -> Point:
         """Return where it acts, as seen from the centre of mass, in the axes of the body [m]."""

@@ -70,3 +70,23 @@ def test_the_knife_cuts_along_a_stroke_and_undo_makes_whole(sheet: Sheet) -> Non
     sheet.wait('Object.keys(physsim.bodies).length === 4')
     sheet.press('Undo')
     sheet.wait('Object.keys(physsim.bodies).length === 3')
+
+
+def test_bodies_are_aligned_and_distributed_and_each_is_undone_at_once(sheet: Sheet) -> None:
+    before = {name: sheet.pose(name) for name in sheet.names()}
+    sheet.press('Lasso')
+    sheet.drag((-6.0, 1.0), (6.0, 1.0), (6.0, 8.0), (-6.0, 8.0), (-6.0, 1.0))
+    sheet.press('Top')
+    sheet.wait('Math.abs(physsim.bodies["ball/0"][1] - 5.5) < 1e-5')
+    assert [sheet.pose(f'block/{number}')[1] for number in (0, 1)] == pytest.approx([5.5, 5.5])
+
+    sheet.press('Across')
+    sheet.wait('Math.abs(physsim.bodies["block/1"][0] - 0.25) < 1e-5')
+    # Gaps of 2.75 m from -5 to 4.5 m, with the outermost in place.
+    xs = [sheet.pose(name)[0] for name in ('block/0', 'ball/0')]
+    assert xs == pytest.approx([before[name][0] for name in ('block/0', 'ball/0')])
+
+    sheet.press('Undo')
+    sheet.press('Undo')
+    sheet.wait('Math.abs(physsim.bodies["ball/0"][1] - 2) < 1e-5')
+    assert {name: sheet.pose(name) for name in sheet.names()} == before

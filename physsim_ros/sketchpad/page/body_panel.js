@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What the panel shows of a body, and of several: their numbers, their properties, plots. */
 
+import {arrangeButtons} from './align.js';
 import {createElement, inRow, textButton, textField, textOf} from './dom.js';
 import {forceFields} from './force_fields.js';
 import {sizeOf} from './label_view.js';
@@ -70,7 +71,8 @@ export function severalContent(app, names) {
     inRow(textButton('Copy beside', () => {
       const [left, , right] = app.world.boundsOfAll(names);
       app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
-    }), textButton('Plot them', () => app.plotWindow.open(names)), textButton('Delete bodies', () => app.selection.deleteBodies(), 'danger'))]};
+    }), textButton('Plot them', () => app.plotWindow.open(names)), textButton('Delete bodies', () => app.selection.deleteBodies(), 'danger')),
+    ...arrangeButtons(app, names)]};
 }
 
 /**
