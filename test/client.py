@@ -12,6 +12,9 @@ from typing import Any, NamedTuple
 from diagnostic_msgs.msg import DiagnosticStatus
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.testing import PhysSim
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.msg import SetParametersResult
+from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from std_srvs.srv import Trigger
@@ -99,6 +102,17 @@ class Client:
         """Call one of the world's services of type Trigger, and return its response."""
         return self.request(Trigger, service, Trigger.Request())
 
+    def set_parameters(self, *parameters: ParameterMessage) -> list[SetParametersResult]:
+        """Set parameters of the world by its service, and return the results."""
+        request = SetParameters.Request(parameters=parameters)
+        return list(self.request(SetParameters, '~/set_parameters', request).results)
+
+    def set_together(self, *parameters: ParameterMessage) -> SetParametersResult:
+        """Set parameters of the world together or not at all, and return the result."""
+        request = SetParametersAtomically.Request(parameters=parameters)
+        service = '~/set_parameters_atomically'
+        return self.request(SetParametersAtomically, service, request).result
+
     def request(self, kind: Any, service: str, request: Any) -> Any:
         """Call a service of the world's node, and return its response."""
         client = self.node.create_client(kind, service.replace('~', '/physsim'))
@@ -109,7 +123,33 @@ class Client:
         return future.result()
 
 
+def message_of(name: str, content: object) -> ParameterMessage:
+    """Return a parameter as a message has it."""
+    return Parameter(name, value=content).to_parameter_msg()
+
+
 def set_parameter(physsim: PhysSim, name: str, value: object) -> None:
     """Set a parameter of the node of a world."""
-    (result,) = physsim.node.set_parameters([Parameter(name, value=value)])
+    kind = Parameter.Type.DOUBLE_ARRAY if value == [] else None
+    (result,) = physsim.node.set_parameters([Parameter(name, kind, value)])
     assert result.successful, result.reason
+
+
+def parameter(physsim: PhysSim, name: str) -> Any:
+    """Return the value of a parameter of the node of a world."""
+    value = physsim.node.get_parameter(name).value
+    return value if isinstance(value, int | float | str) else list(value)
+
+
+def succeeded(response: Trigger.Response) -> str:
+    """Return the message of a service that has succeeded."""
+    assert response.success, response.message
+    assert response.message
+    return str(response.message)
+
+
+def failed(response: Trigger.Response) -> str:
+    """Return the message of a service that was refused."""
+    assert not response.success, response.message
+    assert response.message
+    return str(response.message)

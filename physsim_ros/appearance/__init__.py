@@ -13,20 +13,12 @@ of each kind.
 
 from physsim_ros.appearance.joint_colors import (
     full_scale_force,
-    JointColors,
     nice_number,
     PULL,
     PUSH,
     SLATE,
 )
-from physsim_ros.appearance.joint_glyphs import (
-    is_rigid,
-    joint_strips,
-    JointLines,
-    segment_corners,
-    Strip,
-    symbol_sizes,
-)
+from physsim_ros.appearance.joint_lines import JointGlyphs, segment_corners, Symbol
 from physsim_ros.appearance.laser_scans import LaserScans
 from physsim_ros.appearance.picture import picture_of
 
@@ -34,15 +26,11 @@ __all__ = [
     'PULL',
     'PUSH',
     'SLATE',
-    'JointColors',
-    'JointLines',
+    'JointGlyphs',
     'LaserScans',
-    'Strip',
+    'Symbol',
     'full_scale_force',
-    'is_rigid',
-    'joint_strips',
     'nice_number',
     'picture_of',
     'segment_corners',
-    'symbol_sizes',
 ]

@@ -5,15 +5,15 @@
 Drawing: the clicks and freehand strokes of a person become requests.
 
 Not here: ROS messages and parameters (`ros`), drawing files (`files`), the execution of requests
-(`simulation`). Start with `session`; `clicks` has the tools, `strokes` the recognition. Other
-folders import the names below.
+(`simulation`). Start with `session`; `tools` has the tools of clicks, `strokes` the recognition.
+Other folders import the names below.
 """
 
-from physsim_ros.drawing.clicks.tools import Tool
+from physsim_ros.drawing.click import Tool
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.session import DrawingSession, submit_reading
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import Reading
+from physsim_ros.drawing.strokes.reading import Reading
 
 __all__ = [
     'DrawingSession',

@@ -18,7 +18,7 @@ import numpy as np
 from physsim_ros.drawing import body_requests
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.polyline import path_length, point_of, spaced
+from physsim_ros.drawing.strokes.geometry import path_length, point_of, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadProperty, BadSize
 from physsim_ros.model.joints import JointKind

@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.drawing import body_requests
-from physsim_ros.drawing.clicks.gesture import Gesture
-from physsim_ros.drawing.clicks.tools import ClickResult, Tool
+from physsim_ros.drawing.body_requests import requests_with_waiting_joints
+from physsim_ros.drawing.click import ClickResult, Tool
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.figure import (
@@ -28,27 +28,15 @@ from physsim_ros.drawing.strokes.figure import (
     marks_inside,
     MOST_STROKES,
 )
-from physsim_ros.drawing.strokes.interpretation import (
-    Guess,
-    not_recognised,
-    Reading,
-    reading_of,
-)
 from physsim_ros.drawing.strokes.meanings import Outcome
+from physsim_ros.drawing.strokes.reading import Guess, not_recognised, Reading, reading_of
 from physsim_ros.drawing.strokes.stroke import resample_stroke
-from physsim_ros.drawing.waiting_joints import requests_with_waiting_joints
+from physsim_ros.drawing.tools import Gesture
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Malformed, no_body, NotRecognised
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
-from physsim_ros.model.snapshot import (
-    Answer,
-    Line,
-    NO_PREVIEW,
-    Preview,
-    request_count,
-    Snapshot,
-)
+from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, request_count, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation

@@ -251,6 +251,11 @@ def same_in_engine(a: Body, b: Body) -> bool:
     return a == replace(b, **ours)
 
 
-def acting_after(old: RigidBody, body: Body) -> ActorState:
-    """Return the state of an actor after a change of its body; a new actor waits for its start."""
-    return old.acting if body.actor == old.body.actor else WAITING
+def states_after(old: RigidBody, body: Body) -> tuple[RobotState, ActorState]:
+    """
+    Return the states of robot and actor after a change of their body.
+
+    A body that is no robot any more has none; a new actor waits for its start.
+    """
+    driven = SPAWNED if body.robot is None else old.driven
+    return driven, old.acting if body.actor == old.body.actor else WAITING

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import acting_after, RigidBody, same_in_engine
+from physsim_ros.engine.body import RigidBody, same_in_engine, states_after
 from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
@@ -194,7 +194,7 @@ class Space:
         if same_in_engine(old.body, body):
             self._drop_table()
             self.changes += body != old.body
-            old.acting = acting_after(old, body)
+            old.driven, old.acting = states_after(old, body)
             old.body = body
             if pose != old.pose:
                 self.set_pose(old, pose)
@@ -210,7 +210,7 @@ class Space:
         self.joints.attach(body.name)
         if not body.dynamic:
             self._drop_grips_on(body.name)
-        rigid.driven, rigid.acting = old.driven, acting_after(old, body)
+        rigid.driven, rigid.acting = states_after(old, body)
         self._release(touching)
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)

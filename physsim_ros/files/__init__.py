@@ -35,13 +35,12 @@ from physsim_ros.files.world_file import (
     worlds_in,
 )
 from physsim_ros.files.world_reader import robot_spawn, spawn_from, state_from
-from physsim_ros.files.world_schema import PARAMETERS, PROPERTIES, SETTINGS
+from physsim_ros.files.world_schema import PROPERTIES, SETTINGS
 from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_mapping
 
 __all__ = [
     'MOST_BYTES',
-    'PARAMETERS',
     'PROPERTIES',
     'SETTINGS',
     'BadDrawing',

@@ -2,123 +2,45 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What the node alone writes of a body and of a world: states of robots and actors, impulses.
+The exact state of a body in a world file: `motion`, `wrench`, `driven`, `acting`.
 
-A robot has its state under the key `driven` of its body, an actor under `acting`, a world the
-impulses of its contacts under `memory`.
-
-Law: impulses are loaded as they were saved, to the bit, from arrays as compressed base64 text.
-They are not loaded where shapes have been added or removed since, and refused where a text is not
-that of an array.
+Laws: numbers are loaded as they were saved, to the bit. The motion counts where nobody has edited
+pose or velocity since. An entry that the node has not written is refused.
 """
 
-from __future__ import annotations
-
-import base64
-import binascii
-from dataclasses import fields
-from typing import Any
-import zlib
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+import operator
+from typing import Annotated, Any, TypeVar
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
-from physsim_ros.engine.boundary import wall_count
-from physsim_ros.files.world_schema import count_from
+from physsim_ros.engine.body import lead_of, offset_of
+from physsim_ros.engine.body_table import LOST
+from physsim_ros.engine.core import sub_step_of
+from physsim_ros.files.world_schema import ROUNDING
 from physsim_ros.model.actors import ActorState, WAITING
-from physsim_ros.model.checkpoint import ImpulseCache, WorldState
+from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.checks import check_finite, LONGEST, number, pair, shown, Whole, Within
-from physsim_ros.model.declarations import known_mapping
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.requests import Command
 from physsim_ros.model.robot_states import Covariance, NEVER, RobotState, SPAWNED
 from physsim_ros.model.robots import Robot
-from physsim_ros.model.scene import Body, Scene
-from physsim_ros.model.transform import Pose
+from physsim_ros.model.transform import local_to_world, NO_WRENCH, ORIGIN, Point, Pose, REST
+from physsim_ros.simulation.world import steps_in
+from physsim_ros.simulation.world.body_requests import check_command
 
-_POSES = ('aim', 'wheels', 'travel', 'odometry')
-# Greatest number in them, as of a motion [m, rad, m/s, rad/s].
+# Greatest number of a robot's state, as of a motion [m, rad, m/s, rad/s].
 _GREATEST = 1e12
-_MOST_REACHED = 2**53
 _LENGTH = Within(0.0, _GREATEST)
-# Squares and products of them.
+# Squares and products of such numbers.
 _VARIANCE = Within(-(_GREATEST**2), _GREATEST**2)
+# Greatest number of points that an actor has reached, and of steps that a wrench acts.
+_MOST_REACHED, _MOST_STEPS = 2**53, 10**14
 
 
-def driven_entry(driven: RobotState, physics_rate: float) -> dict[str, object]:
-    """Return the entry of the state of a robot."""
-    entry: dict[str, object] = {key: list(getattr(driven, key)) for key in _POSES}
-    seconds = None if driven.until == NEVER else driven.until / physics_rate
-    return {**entry, 'covariance': list(driven.covariance), 'seconds': seconds}
-
-
-def driven_from(entry: object, body: Body, physics_rate: float) -> RobotState:
-    """
-    Return the state of a robot from its entry.
-
-    :param body: of the robot
-    :param physics_rate: of the world [Hz]
-    :raises Refusal: the body is no robot, or the entry is not what `driven_entry` has returned
-    """
-    values = known_mapping(entry, 'driven', [*_POSES, 'covariance', 'path', 'seconds'])
-    if body.robot is None:
-        raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
-    seconds = values.get('seconds')
-    until = NEVER
-    if seconds is not None:
-        until = round(Within(0.0, LONGEST, 's')(seconds, 'seconds') * physics_rate)
-    poses = [_three(values.get(key, [0.0, 0.0, 0.0]), key) for key in _POSES]
-    aim, wheels, travel, odometry = poses
-    if 'covariance' in values:
-        covariance = _covariance(values['covariance'])
-    else:
-        covariance = _covariance_of_path(values.get('path', [0.0, 0.0]), body.robot)
-    return RobotState(aim, until, wheels, travel, odometry, covariance)
-
-
-def acting_entry(acting: ActorState, physics_rate: float) -> dict[str, object]:
-    """Return the entry of the state of an actor: for how long it has moved [s], points reached."""
-    seconds = None if acting.begun == NEVER else -acting.begun / physics_rate
-    return {'seconds': seconds, 'reached': acting.reached}
-
-
-def acting_from(entry: object, body: Body, physics_rate: float) -> ActorState:
-    """
-    Return the state of an actor from its entry.
-
-    :param body: of the actor
-    :param physics_rate: of the world [Hz]
-    :raises Refusal: the body is no actor, or the entry is not what `acting_entry` has returned
-    """
-    values = known_mapping(entry, 'acting', ['seconds', 'reached'])
-    if body.actor is None:
-        raise BadProperty(f'{body.name} is not an actor', field='acting')
-    reached = Whole(0, _MOST_REACHED)(values.get('reached', 0), 'reached')
-    seconds = values.get('seconds')
-    if seconds is None:
-        return WAITING._replace(reached=reached)
-    moved = Within(-LONGEST, LONGEST, 's')(seconds, 'seconds')
-    return ActorState(-round(moved * physics_rate), reached)
-
-
-def _covariance(value: object) -> Covariance:
-    if not isinstance(value, list) or len(value) != len(SPAWNED.covariance):
-        raise BadProperty(
-            f'covariance must be a list of six numbers, not {shown(value)}', field='covariance'
-        )
-    xx, xy, yy, x_yaw, y_yaw, yaw_yaw = (_VARIANCE(each, 'covariance') for each in value)
-    if min(xx, yy, yaw_yaw) < 0.0:
-        raise BadProperty('a variance is not negative', field='covariance')
-    return xx, xy, yy, x_yaw, y_yaw, yaw_yaw
-
-
-def _covariance_of_path(value: object, robot: Robot) -> Covariance:
-    """Return the covariance by the way and the turns in a file that has no covariance."""
-    way, turned = (_LENGTH(each, 'path') for each in pair(value, 'path'))
-    ahead, heading = (deviation**2 for deviation in robot.odometry.slip)
-    return ahead * way, 0.0, ahead * way, 0.0, 0.0, heading * (way + turned)
-
-
-def _three(value: object, name: str) -> Pose:
-    if not isinstance(value, list):
+def _pose(value: object, name: str) -> Pose:
+    if not isinstance(value, list | tuple):
         raise BadProperty(
             f'{name} must be a list of three numbers, not {shown(value)}', field=name
         )
@@ -130,100 +52,189 @@ def _three(value: object, name: str) -> Pose:
     return x, y, turn
 
 
-# Greatest size of an array [bytes], far more than any world needs: a few lines of compressed text
-# can expand to all the memory.
-MOST_BYTES = 64 * 2**20
-_KEYS = [each.name for each in fields(ImpulseCache)]
+def _covariance(value: object, name: str) -> Covariance:
+    if not isinstance(value, list | tuple) or len(value) != len(SPAWNED.covariance):
+        raise BadProperty(f'{name} must be a list of six numbers, not {shown(value)}', field=name)
+    xx, xy, yy, x_yaw, y_yaw, yaw_yaw = (_VARIANCE(each, name) for each in value)
+    if min(xx, yy, yaw_yaw) < 0.0:
+        raise BadProperty('a variance is not negative', field=name)
+    return xx, xy, yy, x_yaw, y_yaw, yaw_yaw
 
 
-def cache_entry(cache: ImpulseCache) -> dict[str, object]:
-    """Return the entry of an impulse cache: numbers, and packed arrays."""
-    values = {key: getattr(cache, key) for key in _KEYS}
-    for key in ('totals', 'pushes'):
-        if not len(values[key]):
-            del values[key]
-    return {
-        key: pack(value) if isinstance(value, np.ndarray) else value
-        for key, value in values.items()
-    }
+def _path(value: object, name: str) -> Point:
+    way, turned = pair(value, name)
+    return _LENGTH(way, name), _LENGTH(turned, name)
 
 
-def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
-    """
-    Return the impulse cache of an entry; None if it does not fit the bodies.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Wrench(Checked):
+    """The wrench on a body; `Command` has its range."""
 
-    :param state: the bodies and settings of the file
-    :raises Refusal: the entry is not what `cache_entry` has returned
-    """
-    values = known_mapping(entry, 'memory', _KEYS)
-    walls, following = (count_from(values.get(key), key) for key in ('walls', 'following'))
-    ids = unpack(values.get('ids'), 'ids', np.int64)
-    pairs = unpack(values.get('pairs'), 'pairs', np.int64, 2)
-    hashes = unpack(values.get('hashes'), 'hashes', np.uint64)
-    impulses = unpack(values.get('impulses'), 'impulses', np.float64, 2)
-    joints = unpack(values.get('joints'), 'joints', np.float64, 2)
-    # Older files have none of these.
-    totals, pushes = (
-        unpack(values[key], key, np.float64, width) if key in values else np.empty((0, width))
-        for key, width in (('totals', 2), ('pushes', 3))
+    force: Annotated[Point, pair, 'at the centre of mass [N]']
+    torque: Annotated[float, number, '[N m]']
+    seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until its end'] = None
+    steps: Annotated[int | None, Whole(0, _MOST_STEPS), 'until its end, in earlier versions'] = (
+        None
     )
-    # No other bound: the heaviest and fastest bodies make impulses of any size.
-    sound = all(bool(np.isfinite(each).all()) for each in (impulses, joints, totals, pushes))
-    if not (len(pairs) == len(hashes) == len(impulses) and sound):
-        raise BadProperty('memory is not what was saved', field='memory')
-    scene = Scene(bodies=tuple(each.body for each in state.bodies), settings=state.settings)
-    on_floor = np.count_nonzero(scene.floor_friction)
-    if len(ids) != len(state.bodies) or len(pushes) not in (0, on_floor):
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Driven(Checked):
+    """The state of a robot, as of `RobotState`."""
+
+    aim: Annotated[Pose, _pose, 'commanded velocity'] = ORIGIN
+    wheels: Annotated[Pose, _pose, 'velocity of the wheels'] = ORIGIN
+    travel: Annotated[Pose, _pose, 'way of the wheels'] = ORIGIN
+    odometry: Annotated[Pose, _pose, 'pose by odometry'] = ORIGIN
+    covariance: Annotated[Covariance | None, _covariance, 'of that pose'] = None
+    path: Annotated[Point, _path, 'way and turns, in earlier versions without covariance'] = (
+        0.0,
+        0.0,
+    )
+    seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until the command ends'] = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Acting(Checked):
+    """The state of an actor, as of `ActorState`."""
+
+    seconds: Annotated[float | None, Within(-LONGEST, LONGEST, 's'), 'since it started'] = None
+    reached: Annotated[int, Whole(0, _MOST_REACHED), 'number of points'] = 0
+
+
+_Saved = TypeVar('_Saved', bound=Checked)
+
+
+def _saved(kind: type[_Saved], value: object, name: str) -> _Saved:
+    """Return the value of an entry, in which null means that something has no end."""
+    if isinstance(value, dict):
+        value = {key: each for key, each in value.items() if each is not None}
+    return kind.from_value(value, name)
+
+
+def state_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
+    """Return what the node alone writes of a body."""
+    entry: dict[str, object] = {}
+    if state.wrench != NO_WRENCH:
+        steps = state.wrench_steps
+        entry['wrench'] = {
+            'force': list(state.wrench[:2]),
+            'torque': state.wrench[2],
+            'seconds': None if steps is None else steps / physics_rate,
+        }
+    if state.driven is not None:
+        driven = state.driven._asdict()
+        until = driven.pop('until')
+        seconds = None if until == NEVER else until / physics_rate
+        entry['driven'] = {key: list(each) for key, each in driven.items()} | {'seconds': seconds}
+    if state.acting is not None:
+        begun, reached = state.acting
+        seconds = None if begun == NEVER else -begun / physics_rate
+        entry['acting'] = {'seconds': seconds, 'reached': reached}
+    if state.motion is not None:
+        entry['motion'] = [*state.motion[:6], state.motion.free]
+    return entry
+
+
+def with_saved_state(state: BodyState, entry: Mapping[Any, Any], physics_rate: float) -> BodyState:
+    """
+    Return a body with the wrench of its entry, and the state of its robot or actor.
+
+    :param entry: the body in the file
+    :param physics_rate: of the world [Hz]
+    :raises Refusal: the body has no such role, or a value is not what `state_entry` has returned
+    """
+    body = state.body
+    if 'wrench' in entry:
+        wrench = _saved(_Wrench, entry['wrench'], 'wrench')
+        fx, fy, torque = *wrench.force, wrench.torque
+        check_command(body, Command(names=(body.name,), wrenches=np.array(((fx, fy, torque),))))
+        # Files of earlier versions have steps, of the rate at which they were saved. A wrench that
+        # ends at the step at which it was saved acts no more.
+        steps = wrench.steps
+        if wrench.seconds is not None:
+            steps = steps_in(wrench.seconds, physics_rate) if wrench.seconds > 0.0 else 0
+        if (fx, fy, torque) != NO_WRENCH:
+            state = replace(state, wrench=(fx, fy, torque), wrench_steps=steps)
+    if 'driven' in entry:
+        driven = _saved(_Driven, entry['driven'], 'driven')
+        if body.robot is None:
+            raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
+        state = replace(state, driven=_robot_state(driven, body.robot, physics_rate))
+    if 'acting' in entry:
+        acting = _saved(_Acting, entry['acting'], 'acting')
+        if body.actor is None:
+            raise BadProperty(f'{body.name} is not an actor', field='acting')
+        seconds = acting.seconds
+        begun = WAITING.begun if seconds is None else -round(seconds * physics_rate)
+        state = replace(state, acting=ActorState(begun, acting.reached))
+    return state
+
+
+def _robot_state(driven: _Driven, robot: Robot, physics_rate: float) -> RobotState:
+    until = NEVER if driven.seconds is None else round(driven.seconds * physics_rate)
+    covariance = driven.covariance
+    if covariance is None:
+        way, turned = driven.path
+        ahead, heading = (deviation**2 for deviation in robot.odometry.slip)
+        covariance = ahead * way, 0.0, ahead * way, 0.0, 0.0, heading * (way + turned)
+    return RobotState(driven.aim, until, driven.wheels, driven.travel, driven.odometry, covariance)
+
+
+def with_saved_motion(
+    state: BodyState,
+    entry: Mapping[Any, Any],
+    pose: Pose,
+    gravity: Point,
+    physics_rate: float,
+) -> BodyState | None:
+    """
+    Return a body with the pose, twist and motion of its entry.
+
+    :param entry: the body in the file
+    :param pose: of that entry
+    :param gravity: of the world [m/s²]
+    :param physics_rate: of the world [Hz]
+    :return: None where pose or velocity were edited since
+    :raises Refusal: the motion is not what `state_entry` has returned
+    """
+    motion = _motion(entry['motion'])
+    velocity = pair(entry.get('velocity', [0.0, 0.0]), 'velocity')
+    twist = (*velocity, number(entry.get('spin', 0.0), 'spin'))
+    if state.body.anchored and any(twist):
         return None
-    # The shapes of a body, and the walls, have consecutive numbers; each number occurs once.
-    counts = [len(each.body.shape.form.pieces) for each in state.bodies]
-    runs = [*zip(ids.tolist(), counts, strict=True), (following, 0)]
-    if state.settings.bounds is not None:
-        runs.append((walls, wall_count(state.settings)))
-    end = 0
-    for first, count in sorted(runs):
-        if first < end:
-            return None
-        end = first + count
-    return ImpulseCache(
-        ids=ids,
-        walls=walls,
-        following=following,
-        pairs=pairs,
-        hashes=hashes,
-        impulses=impulses,
-        joints=joints,
-        totals=totals,
-        pushes=pushes,
+    # In free flight the engine's velocity is half a sub-step ahead of the reported one.
+    sub_step = sub_step_of(physics_rate)
+    lead = lead_of(state.body, state.wrench, pose[2], gravity, sub_step)
+    engine_twist = map(operator.add, twist, lead if motion.free else REST)
+    state = replace(state, pose=pose, twist=twist, motion=motion)
+    if not _is_motion(motion, (*_engine_pose(state), *engine_twist)):
+        return None
+    if max(map(abs, motion[:6])) > LOST:
+        raise BadProperty('motion is out of range', field='motion')
+    return state
+
+
+def is_where_saved(state: BodyState, entry: Mapping[Any, Any]) -> bool:
+    """Return whether a body is at the pose of the motion of its entry."""
+    return _is_motion(_motion(entry['motion']), _engine_pose(state))
+
+
+def _motion(values: object) -> Motion:
+    if not isinstance(values, list) or len(values) != 7 or not isinstance(values[6], bool):
+        raise BadProperty('motion must be six numbers and true or false', field='motion')
+    x, y, yaw, vx, vy, spin = (number(each, 'motion') for each in values[:6])
+    return Motion(x, y, yaw, vx, vy, spin, values[6])
+
+
+def _is_motion(motion: Motion, written: tuple[float, ...]) -> bool:
+    """Tell whether numbers are those of a motion; `is_same` takes ten times as long for so few."""
+    return all(
+        abs(one - other) <= ROUNDING + ROUNDING * abs(other)
+        for one, other in zip(motion, written, strict=False)
     )
 
 
-def pack(array: NDArray[Any]) -> str:
-    """Return the numbers of an array as text, little-endian, without type and shape."""
-    little = array.astype(array.dtype.newbyteorder('<'))
-    return base64.b64encode(zlib.compress(little.tobytes())).decode()
-
-
-def unpack(text: object, name: str, dtype: DTypeLike, width: int = 1) -> NDArray[Any]:
-    """
-    Return the (n,) or (n, width) array of a text.
-
-    :param name: of the field, for the refusal
-    :param dtype: of the numbers
-    :param width: numbers in a row
-    :raises BadProperty: the text is not that of such an array
-    """
-    kind = np.dtype(dtype)
-    if not isinstance(text, str):
-        raise BadProperty(f'{name} is not what was saved: it is not text', field=name)
-    try:
-        packed = base64.b64decode(text.encode('ascii'), validate=True)
-        inflater = zlib.decompressobj()
-        data = inflater.decompress(packed, MOST_BYTES)
-        array = np.frombuffer(data, dtype=kind.newbyteorder('<')).astype(kind)
-        array = array if width == 1 else array.reshape(-1, width)
-    except (ValueError, binascii.Error, zlib.error) as error:
-        raise BadProperty(f'{name} is not what was saved: {error}', field=name) from error
-    if not inflater.eof:
-        raise BadProperty(f'{name} is not what was saved: it has no end', field=name)
-    return array
+def _engine_pose(state: BodyState) -> Pose:
+    """Return the pose of the engine's body, whose origin is the centre of mass."""
+    return *local_to_world(offset_of(state.body), state.pose), state.pose[2]

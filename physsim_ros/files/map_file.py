@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 import io
 from pathlib import Path
-from typing import Any
+from typing import Any, TYPE_CHECKING
 import warnings
 
 import numpy as np
@@ -29,7 +29,9 @@ from physsim_ros.model.checks import number, shown, Within
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.transform import Pose
-from PIL import Image, UnidentifiedImageError
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 # Greatest size of the YAML file [bytes].
 _MOST_TEXT = 2**16
@@ -137,6 +139,8 @@ def _origin(value: object) -> Pose:
 
 def _occupied(path: Path, *, negate: bool, threshold: float) -> Flags:
     """Return (rows, columns) bool: the occupied cells of an image, the lowest row first."""
+    from PIL import Image, UnidentifiedImageError  # noqa: PLC0415 - few worlds have a map
+
     try:
         data = read_bytes(path, _MOST_BYTES)
         with warnings.catch_warnings():

@@ -11,7 +11,7 @@ file.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 import re
 
@@ -19,7 +19,7 @@ from physsim_ros.files.map_file import with_map_walls
 from physsim_ros.files.regular_file import make_directory, read_file, write_file
 from physsim_ros.files.resources import files_by_name, is_plain, shipped, user_directory
 from physsim_ros.files.world_reader import state_from
-from physsim_ros.files.world_schema import FORMAT
+from physsim_ros.files.world_schema import FORMAT, LIMITS
 from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_entries
 from physsim_ros.model.checkpoint import WorldState
@@ -122,6 +122,7 @@ def load_world(
     settings: WorldSettings | None = None,
     physics_rate: float = 240.0,
     progress: Callable[[int, int], object] | None = None,
+    parameters: Collection[str] = LIMITS,
 ) -> WorldState:
     """
     Read a world.
@@ -130,6 +131,7 @@ def load_world(
     :param settings: those that the file does not set; None is the default ones
     :param physics_rate: of the world that continues from it [Hz]
     :param progress: called with the number of bodies that are read, and of all
+    :param parameters: names that a node has for what is no setting of a world
     :raises BadWorldFile: it cannot be read, or its content is refused; the message names the body
         or joint and the reason
     :raises WorldFull: it has too many bodies
@@ -144,7 +146,7 @@ def load_world(
         content = load_entries(text, field=path.name)
         if 'map' in content:
             content = with_map_walls(content, path.parent, settings.max_bodies)
-        return state_from(content, settings, physics_rate, progress)
+        return state_from(content, settings, physics_rate, progress, parameters)
     except OSError as error:
         raise _unreadable(path.name, error) from error
     except Malformed as error:

@@ -11,44 +11,38 @@ velocity.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
-import operator
 from typing import Any
 
-import numpy as np
-from physsim_ros.engine.body import lead_of, offset_of
-from physsim_ros.engine.body_table import LOST
-from physsim_ros.engine.core import sub_step_of
-from physsim_ros.files.engine_state import acting_from, cache_from, driven_from
+from physsim_ros.files.engine_state import is_where_saved, with_saved_motion, with_saved_state
+from physsim_ros.files.impulse_cache import cache_from
 from physsim_ros.files.joint_reader import joints_from
 from physsim_ros.files.resources import with_shipped_robot
 from physsim_ros.files.world_schema import (
     BODY_KEYS,
-    count_from,
     entries_of,
     FORMAT,
+    LIMITS,
     naming,
-    PARAMETERS,
     PROPERTIES,
-    ROUNDING,
     SETTINGS,
     WORLD_KEYS,
 )
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checkpoint import BodyState, Motion, WorldState
-from physsim_ros.model.checks import LONGEST, number, pair, Within
+from physsim_ros.model.checkpoint import BodyState, WorldState
+from physsim_ros.model.checks import number, pair
 from physsim_ros.model.colors import Color, color_from
-from physsim_ros.model.declarations import check_key, known_mapping
+from physsim_ros.model.declarations import check_key
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.requests import Command, Spawn
+from physsim_ros.model.requests import Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
-from physsim_ros.model.transform import local_to_world, NO_WRENCH, Pose, REST, Twist
+from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
-from physsim_ros.simulation.world.body_requests import check_command, check_namespaces
+from physsim_ros.simulation.world.body_requests import check_namespaces
 from physsim_ros.simulation.world.capacity import check_limit
 from physsim_ros.simulation.world.live_space import check_start
 
@@ -61,6 +55,7 @@ def state_from(
     settings: WorldSettings,
     physics_rate: float,
     progress: Callable[[int, int], object] | None = None,
+    parameters: Collection[str] = LIMITS,
 ) -> WorldState:
     """
     Return the state of a world file.
@@ -69,10 +64,11 @@ def state_from(
     :param settings: those that the file does not set
     :param physics_rate: of the world that continues from it [Hz]
     :param progress: called with the number of bodies that are read, and of all
+    :param parameters: names that a node has for what is no setting of a world
     :raises Refusal: a key or value; of a body or a joint, `bad_world_file` with its name
     """
     for key in content:
-        if key in PARAMETERS:
+        if key in parameters and key not in WORLD_KEYS:
             raise UnknownProperty(
                 f'{key} is a parameter of the node; a world file cannot set it', field=key
             )
@@ -86,7 +82,7 @@ def state_from(
     changes = {key: content[key] for key in SETTINGS if key in content}
     changes |= {key: None for key in ('bounds', 'datum') if changes.get(key) == []}
     settings = replace(settings, **changes)
-    lesson = Lesson.from_entry(content['lesson']) if 'lesson' in content else None
+    lesson = _lesson(content['lesson']) if 'lesson' in content else None
     entries = entries_of(content.get('bodies'), 'bodies')
     bodies, unmoved = _body_states(entries, settings, physics_rate, progress)
     check_namespaces(state.body for state in bodies)
@@ -98,6 +94,16 @@ def state_from(
     if not joints:
         return unjoined
     return replace(unjoined, joints=joints_from(unjoined, joints, unmoved, physics_rate))
+
+
+def _lesson(value: object) -> Lesson:
+    try:
+        return Lesson.from_value(value, 'lesson')
+    except BadProperty as refusal:
+        if isinstance(value, dict) and refusal.field not in value:
+            # Of what is missing, the line is that of the lesson.
+            raise BadProperty(str(refusal), field='lesson') from refusal
+        raise
 
 
 def _body_states(
@@ -146,32 +152,17 @@ def _body_state(
     spawn = spawn_from(at_rest if saved else entry)
     expires = steps_in(spawn.lifetime, physics_rate) if spawn.lifetime > 0 else None
     body, twist = new_body(spawn, settings, expires)
-    wrench, wrench_steps = NO_WRENCH, None
-    if 'wrench' in entry:
-        command = _wrench(spawn.name, entry['wrench'])
-        check_command(body, command)
-        if command.wrenches.any():
-            fx, fy, torque = command.wrenches[0].tolist()
-            wrench = fx, fy, torque
-            wrench_steps = _wrench_steps(entry['wrench'], physics_rate)
-    state = BodyState(
-        body=body, pose=spawn.pose, twist=twist, wrench=wrench, wrench_steps=wrench_steps
-    )
-    if 'driven' in entry:
-        state = replace(state, driven=driven_from(entry['driven'], body, physics_rate))
-    if 'acting' in entry:
-        state = replace(state, acting=acting_from(entry['acting'], body, physics_rate))
+    state = BodyState(body=body, pose=spawn.pose, twist=twist)
+    state = with_saved_state(state, entry, physics_rate)
     if not saved:
         return state, False
-    sub_step = sub_step_of(physics_rate)
-    lead = lead_of(body, wrench, _pose(entry)[2], settings.gravity, sub_step)
-    resumed = _saved_state(state, entry, lead)
+    resumed = with_saved_motion(state, entry, _pose(entry), settings.gravity, physics_rate)
     if resumed is not None:
         return resumed, True
     spawn = spawn_from(entry)
     _, twist = new_body(spawn, settings, expires)
     state = replace(state, pose=spawn.pose, twist=twist)
-    return state, _is_motion(_motion(entry), _engine_pose(state, _pose(entry)))
+    return state, is_where_saved(state, entry)
 
 
 def spawn_from(entry: Mapping[Any, Any]) -> Spawn:
@@ -216,7 +207,7 @@ def _shape(entry: Mapping[Any, Any]) -> Shape:
     named = [key for key in SHAPES if key in entry]
     if len(named) != 1:
         raise BadProperty(f'a body has one of {", ".join(SHAPES)}', field='shape')
-    return SHAPES[named[0]].from_entry(entry[named[0]])
+    return SHAPES[named[0]].from_value(entry[named[0]], named[0])
 
 
 def _pose(entry: Mapping[Any, Any]) -> Pose:
@@ -233,69 +224,3 @@ def _color(value: object) -> Color:
         raise BadProperty('color must be a string or [r, g, b, a]', field='color')
     red, green, blue, alpha = (number(each, 'color') for each in value)
     return red, green, blue, alpha
-
-
-def _wrench(name: str, value: object) -> Command:
-    wrench = known_mapping(value, 'wrench', ['force', 'torque', 'seconds', 'steps'])
-    force, torque = pair(wrench.get('force'), 'force'), number(wrench.get('torque'), 'torque')
-    return Command(names=(name,), wrenches=np.array(((*force, torque),)))
-
-
-def _wrench_steps(wrench: Mapping[Any, Any], physics_rate: float) -> int | None:
-    """Return the number of steps for which a wrench acts; None is for ever."""
-    seconds, steps = wrench.get('seconds'), wrench.get('steps')
-    if seconds is not None:
-        seconds = Within(0.0, LONGEST, 's')(seconds, 'seconds')
-        # One that ends at the step at which it was saved acts no more.
-        return steps_in(seconds, physics_rate) if seconds > 0.0 else 0
-    # Older files have steps, of the rate at which they were saved.
-    if steps is None or count_from(steps, 'steps') <= LONGEST * physics_rate:
-        return steps
-    raise BadProperty(f'steps are more than {LONGEST:g} s', field='steps')
-
-
-def _saved_state(state: BodyState, entry: Mapping[Any, Any], lead: Twist) -> BodyState | None:
-    """
-    Return a body with the pose, twist and motion of its entry.
-
-    :param entry: the body in the file
-    :param lead: half-step lead of the body in free flight [m/s, m/s, rad/s]
-    :return: None where pose or velocity were edited since
-    """
-    motion, pose = _motion(entry), _pose(entry)
-    velocity = pair(entry.get('velocity', [0.0, 0.0]), 'velocity')
-    twist = (*velocity, number(entry.get('spin', 0.0), 'spin'))
-    # In free flight the engine's velocity is half a sub-step ahead of the reported one.
-    ahead = lead if motion.free else REST
-    if state.body.anchored and any(twist):
-        return None
-    if not _is_motion(motion, (*_engine_pose(state, pose), *map(operator.add, twist, ahead))):
-        return None
-    if max(map(abs, motion[:6])) > LOST:
-        raise BadProperty('motion is out of range', field='motion')
-    return replace(state, pose=pose, twist=twist, motion=motion)
-
-
-def _is_motion(motion: Motion, written: tuple[float, ...]) -> bool:
-    """Tell whether numbers are those of a motion; `is_same` takes ten times as long for so few."""
-    return all(
-        abs(one - other) <= ROUNDING + ROUNDING * abs(other)
-        for one, other in zip(motion, written, strict=False)
-    )
-
-
-def _motion(entry: Mapping[Any, Any]) -> Motion:
-    values = entry['motion']
-    if not isinstance(values, list) or len(values) != 7 or not isinstance(values[6], bool):
-        raise BadProperty('motion must be six numbers and true or false', field='motion')
-    x, y, yaw, vx, vy, spin = (number(each, 'motion') for each in values[:6])
-    return Motion(x, y, yaw, vx, vy, spin, values[6])
-
-
-def _engine_pose(state: BodyState, pose: Pose) -> Pose:
-    """
-    Return the pose of the engine's body, whose origin is the centre of mass.
-
-    :param pose: of the body's own origin in the world [m, rad]
-    """
-    return *local_to_world(offset_of(state.body), pose), pose[2]

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -19,67 +18,22 @@ from physsim_ros.files.yaml12 import Located
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import shown
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Refusal
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.settings import LIMIT, WorldSettings
 from physsim_ros.model.shapes import SHAPES
 from physsim_ros.model.transform import Point
 
 FORMAT = 1
 # Limits protect the node: files do not change them.
-LIMITS = ('max_bodies', 'max_shapes', 'max_overlaps', 'max_joints')
-SETTINGS = [each.name for each in fields(WorldSettings) if each.name not in LIMITS]
-PROPERTIES = [each.name for each in fields(Properties)]
+LIMITS = [name for name, each in WorldSettings.FIELDS.items() if LIMIT in each.notes]
+SETTINGS = [name for name in WorldSettings.FIELDS if name not in LIMITS]
+PROPERTIES = [*Properties.FIELDS]
 WORLD_KEYS = ['format', 'lesson', 'map', 'bodies', 'joints', 'memory', *SETTINGS]
 BODY_KEYS = [
-    'name',
-    *SHAPES,
-    'at',
-    'color',
-    'lifetime',
-    *PROPERTIES,
-    'motion',
-    'wrench',
-    'driven',
-    'acting',
+    *('name', *SHAPES, 'at', 'color', 'lifetime', *PROPERTIES),
+    *('motion', 'wrench', 'driven', 'acting'),
 ]
 # Keys of a joint that the text of a marker does not have.
 OWN_JOINT_KEYS = ['name', 'points', 'seat']
-# Parameters of the node that are no settings of a world.
-PARAMETERS = frozenset(
-    {
-        'beautify',
-        'draw_color',
-        'draw_velocity',
-        'fast_speed',
-        'frame_id',
-        'history',
-        'history_memory',
-        'lockstep',
-        'map_resolution',
-        *LIMITS,
-        'physics_rate',
-        'publish_clock',
-        'publish_rate',
-        'publish_tf',
-        'robot_tf',
-        'robots_in_past',
-        'record_file',
-        'regroup',
-        'sketch_confidence',
-        'sketchpad',
-        'sketchpad_address',
-        'sketchpad_frozen',
-        'sketchpad_locked',
-        'sketchpad_port',
-        'snap',
-        'speed',
-        'tool',
-        'viewer',
-        'viewer_url',
-        'wall_thickness',
-        'world_dir',
-        'world_file',
-    }
-)
 # Tolerance between a saved number and the same number recomputed [m, rad, relative]: more than
 # rounding means that somebody has edited the file.
 ROUNDING = 1e-9
@@ -126,15 +80,3 @@ def is_same(
 ) -> bool:
     """Return whether numbers differ by no more than rounding."""
     return bool(np.allclose(saved, written, rtol=ROUNDING, atol=ROUNDING))
-
-
-def count_from(value: object, name: str) -> int:
-    """
-    Return a whole number that is not negative.
-
-    :param name: of the field, for the refusal
-    :raises BadProperty: it is none
-    """
-    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 2**62:
-        raise BadProperty(f'{name} must be a whole number, not negative', field=name)
-    return value

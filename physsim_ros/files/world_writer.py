@@ -11,19 +11,24 @@ all texts are quoted; a number has a point before its exponent, as readers of YA
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import fields, MISSING
 import json
 import math
 import re
 
-from physsim_ros.files.engine_state import acting_entry, cache_entry, driven_entry
-from physsim_ros.files.world_schema import FORMAT, SETTINGS
+from physsim_ros.files.engine_state import state_entry
+from physsim_ros.files.impulse_cache import cache_entry
+from physsim_ros.files.world_schema import FORMAT, PROPERTIES, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.colors import Color, color_from
+from physsim_ros.model.declarations import entry_of
 from physsim_ros.model.errors import WorldFull
-from physsim_ros.model.scene import Joint
-from physsim_ros.model.transform import NO_WRENCH, Pose
+from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world.joint_requests import drawn_points
 
+# Of the fields of a body, for those that are left out.
+_DEFAULTS = {each.name: each.default for each in fields(Body)}
 # Quoted texts, and whole numbers with an exponent.
 _TEXT_OR_POWER = re.compile(r'("(?:[^"\\]|\\.)*")|(?<![\d.])(\d+)(?=e)')
 # Characters that are printable in JSON but not in YAML.
@@ -53,7 +58,7 @@ def _lines(state: WorldState, physics_rate: float) -> Iterator[str]:
     yield f'format: {FORMAT}\n'
     for key in SETTINGS:
         value = getattr(state.settings, key)
-        yield f'{key}: {_flow([] if value is None else value)}\n'
+        yield f'{key}: {_flow([] if value is None else entry_of(value))}\n'
     if state.lesson is not None:
         yield f'lesson: {_flow(state.lesson.entry())}\n'
     yield 'bodies:\n' if state.bodies else 'bodies: []\n'
@@ -84,43 +89,26 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         body.shape.KEY: body.shape.entry(),
         'at': list(state.pose),
         'color': _color_entry(body.color),
+        **_properties_entry(state),
     }
-    entry |= {'density': body.density} if body.mass is None else {'mass': body.mass}
-    entry |= {'friction': body.friction, 'elasticity': body.elasticity}
-    if not body.anchored:
-        entry |= {'velocity': list(state.twist[:2]), 'spin': state.twist[2]}
-    for key in ('anchored', 'kinematic', 'sensor', 'group', 'label'):
-        if getattr(body, key):
-            entry[key] = getattr(body, key)
-    if any(body.surface_velocity):
-        entry['surface_velocity'] = list(body.surface_velocity)
-    for key, role in (('robot', body.robot), ('actor', body.actor)):
-        if role is not None:
-            entry[key] = role.entry()
-    if body.forces:
-        entry['forces'] = [each.entry() for each in body.forces]
     if body.expires is not None:
         entry['lifetime'] = body.expires / physics_rate
-    return entry | _motion_entry(state, physics_rate)
+    return entry | state_entry(state, physics_rate)
 
 
-def _motion_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
-    """Return what the node alone writes of a body: wrench, state of a robot, motion."""
-    entry: dict[str, object] = {}
-    if state.wrench != NO_WRENCH:
-        steps = state.wrench_steps
-        entry['wrench'] = {
-            'force': list(state.wrench[:2]),
-            'torque': state.wrench[2],
-            'seconds': None if steps is None else steps / physics_rate,
-        }
-    if state.driven is not None:
-        entry['driven'] = driven_entry(state.driven, physics_rate)
-    if state.acting is not None:
-        entry['acting'] = acting_entry(state.acting, physics_rate)
-    if state.motion is not None:
-        entry['motion'] = [*state.motion[:6], state.motion.free]
-    return entry
+def _properties_entry(state: BodyState) -> dict[str, object]:
+    """Return the properties of a body that are not those of any body."""
+    body = state.body
+    values = {name: getattr(body, name) for name in _DEFAULTS}
+    if body.mass is not None:
+        del values['density']
+    if not body.anchored:
+        values |= {'velocity': state.twist[:2], 'spin': state.twist[2]}
+    return {
+        name: entry_of(values[name])
+        for name in PROPERTIES
+        if name in values and values[name] != _DEFAULTS.get(name, MISSING)
+    }
 
 
 def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:

@@ -13,13 +13,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, replace
-from typing import Any, SupportsFloat
+from typing import Any, cast, SupportsFloat
 
 from gymnasium import Env
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance import picture_of
 from physsim_ros.gym.task import Action, Observation, Task
+from physsim_ros.model.checks import OfClass
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import SavedMoment, Simulation
 
@@ -42,6 +43,15 @@ class SavedEpisode:
     moment: SavedMoment
     steps: int
     random: Mapping[str, Any]
+
+
+def check_episode(saved: object) -> SavedEpisode:
+    """
+    Return a saved episode.
+
+    :raises Malformed: it is none
+    """
+    return cast('SavedEpisode', OfClass(SavedEpisode)(saved, 'saved'))
 
 
 class RobotEnv(Env[Observation, Action]):
@@ -93,7 +103,8 @@ class RobotEnv(Env[Observation, Action]):
         world = self.task.world
         settings = replace(world.settings, seed=of_episode)
         self.robot.simulation.begin(replace(world, settings=settings))
-        self.task.begin(self.robot, np.random.default_rng(of_episode))
+        if self.task.begin is not None:
+            self.task.begin(self.robot, np.random.default_rng(of_episode))
         self._steps = 0
         return self.task.observe(self.robot), {'seed': of_episode}
 
@@ -126,7 +137,12 @@ class RobotEnv(Env[Observation, Action]):
         )
 
     def restore(self, saved: SavedEpisode) -> Observation:
-        """Continue from a saved moment; return what is observed then."""
+        """
+        Continue from a saved moment; return what is observed then.
+
+        :raises Malformed: it is no saved episode
+        """
+        check_episode(saved)
         self.robot.simulation.restore(saved.moment)
         self._steps = saved.steps
         self.np_random.bit_generator.state = saved.random

@@ -8,17 +8,16 @@ All is given by functions of the robot. A function that is defined in a module, 
 makes a task pickle, and an episode the same whenever it is repeated.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from typing import Annotated, Any, TypeAlias
 
 from gymnasium.spaces import Box, Space
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import LONGEST, Within
+from physsim_ros.model.declarations import Checked
 from physsim_ros.simulation.robot import Robot
 
 # Actions and observations of an agent: values of its spaces.
@@ -26,7 +25,6 @@ Action: TypeAlias = Any
 Observation: TypeAlias = Any
 
 # Ranges of the times of a task.
-_TIMES = {'period': Within(1e-4, 1.0, 's'), 'longest': Within(1e-4, LONGEST, 's')}
 
 
 def drive(robot: Robot, action: NDArray[np.float32]) -> None:
@@ -60,12 +58,8 @@ def _never(_: Robot) -> bool:
     return False
 
 
-def _stay(_: Robot, __: np.random.Generator) -> None:
-    """Leave the world as it is."""
-
-
 @dataclass(frozen=True, kw_only=True)
-class Task:
+class Task(Checked):
     """
     What an agent is to do with a robot.
 
@@ -73,14 +67,12 @@ class Task:
     :param reward: of a robot after a step, for the action of that step
     :param robot: name of its body
     :param begin: changes the world at the beginning of an episode, by random numbers of its seed,
-        as by `robot.place`
+        as by `robot.place`; None leaves it as it is
     :param act: has the robot do an action until the next step
     :param action_space: of the actions
     :param observe: what the agent sees
     :param observation_space: of that; None is that of `observe_scan`
     :param is_over: whether an episode has ended, well or badly (Gymnasium: terminated)
-    :param period: simulation time of a step [s]
-    :param longest: simulation time after which an episode is cut off [s] (Gymnasium: truncated)
     :param physics_rate: steps a second of the world [Hz], a multiple of 1 / period
     :raises BadProperty: a time is out of range
     """
@@ -88,19 +80,19 @@ class Task:
     world: WorldState
     reward: Callable[[Robot, Action], float]
     robot: str = 'robot/0'
-    begin: Callable[[Robot, np.random.Generator], object] = _stay
+    begin: Callable[[Robot, np.random.Generator], object] | None = None
     act: Callable[[Robot, Action], object] = drive
     action_space: Space[Any] = field(default_factory=_shares)
     observe: Callable[[Robot], Observation] = observe_scan
     observation_space: Space[Any] | None = None
     is_over: Callable[[Robot], bool] = _never
-    period: float = 0.1
-    longest: float = 60.0
+    period: Annotated[float, Within(1e-4, 1.0, 's'), 'simulation time of a step'] = 0.1
+    longest: Annotated[
+        float,
+        Within(1e-4, LONGEST, 's'),
+        'simulation time after which an episode is cut off (Gymnasium: truncated)',
+    ] = 60.0
     physics_rate: float = 240.0
-
-    def __post_init__(self) -> None:
-        for name, check in _TIMES.items():
-            object.__setattr__(self, name, check(getattr(self, name), name))
 
     def observed(self, robot: Robot) -> Space[Any]:
         """

@@ -4,13 +4,12 @@
 """
 Maps: occupancy grids of worlds, and walls of occupancy grids.
 
-A grid becomes as few anchored boxes as there can be (`walls`, `rectangle_partition`); the anchored
-bodies of a world become a grid (`occupancy_grid`). Files of maps are read in `files`, messages in
-`ros`. Start with `occupancy_grid`.
+The anchored bodies of a world become a grid; a grid becomes as few anchored boxes as there can be
+(`rectangle_partition`). Files of maps are read in `files`, messages in `ros`. Start with
+`occupancy_grid`.
 """
 
-from physsim_ros.maps.occupancy_grid import anchored_grid, MOST_CELLS, OccupancyGrid
+from physsim_ros.maps.occupancy_grid import anchored_grid, MOST_CELLS, OccupancyGrid, walls_of
 from physsim_ros.maps.rectangle_partition import rectangles_of
-from physsim_ros.maps.walls import walls_of
 
 __all__ = ['MOST_CELLS', 'OccupancyGrid', 'anchored_grid', 'rectangles_of', 'walls_of']

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Occupancy grids: square cells that are occupied or not (`nav_msgs/OccupancyGrid`); world maps.
+Occupancy grids: square cells that are occupied or not (`nav_msgs/OccupancyGrid`).
+
+The anchored bodies of a world become a grid; a grid becomes walls, as few boxes as there can be.
 
 Law: a cell is occupied where its centre lies in an anchored body that is no sensor, or beyond
 `bounds`. Cells lie along the axes of the world, at multiples of their size.
@@ -15,13 +17,19 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
+from physsim_ros.maps.rectangle_partition import rectangles_of
 from physsim_ros.model.arrays import Flags
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_pose
+from physsim_ros.model.colors import Color
 from physsim_ros.model.errors import BadSize, Malformed, WorldFull
-from physsim_ros.model.shapes import contains, LARGEST, piece_box, SMALLEST
+from physsim_ros.model.requests import Spawn
+from physsim_ros.model.shapes import Box, contains, LARGEST, piece_box, SMALLEST
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import Pose, rotated_each
+from physsim_ros.model.transform import local_to_world, Pose, rotated_each
 
+# Slate, on white and on black.
+_COLOR: Color = (0x5A / 255, 0x64 / 255, 0x70 / 255, 1.0)
 # Greatest number of cells: 4,000 by 4,000, of 5 cm a hall of 200 m; some 2 s and 1 GB at most.
 MOST_CELLS = 16_000_000
 
@@ -128,3 +136,28 @@ def _bands(first: int, last: int, width: int) -> Iterator[slice]:
     height = max(_MOST_AT_ONCE // max(width, 1), 1)
     for row in range(first, last, height):
         yield slice(row, min(row + height, last))
+
+
+def walls_of(grid: OccupancyGrid, namespace: str, most: int) -> tuple[Spawn, ...]:
+    """
+    Return the requests for anchored boxes that are the occupied cells.
+
+    :param grid: with the cells
+    :param namespace: of the boxes, which are `<namespace>/0` and so on
+    :param most: greatest number of boxes
+    :raises WorldFull: there are more
+    """
+    walls = []
+    rectangles = rectangles_of(grid.occupied, most) * grid.resolution
+    for number, (bottom, left, top, right) in enumerate(rectangles.tolist()):
+        middle = (left + right) / 2, (bottom + top) / 2
+        walls.append(
+            Spawn(
+                name=f'{namespace}/{number}',
+                shape=Box(width=right - left, height=top - bottom),
+                pose=(*local_to_world(middle, grid.origin), grid.origin[2]),
+                color=_COLOR,
+                properties=Properties(anchored=True),
+            )
+        )
+    return tuple(walls)

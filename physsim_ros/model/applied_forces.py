@@ -46,13 +46,6 @@ class AppliedForce(Checked):
         'of a thruster',
     ] = 'world'
 
-    def entry(self) -> dict[str, object]:
-        """Return the mapping that it is made from."""
-        entry: dict[str, object] = {'force': list(self.force)}
-        if self.at is not None:
-            entry['at'] = list(self.at)
-        return entry if self.axes == 'world' else {**entry, 'axes': self.axes}
-
     def arm(self, centroid: Point) -> Point:
         """Return where it acts, as seen from the centre of mass, in the axes of the body [m]."""
         x, y = centroid if self.at is None else self.at

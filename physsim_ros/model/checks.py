@@ -258,8 +258,8 @@ class OneOf:
 
         :raises BadProperty: it is none of them
         """
-        if value not in self.words:
-            near = nearest_name(str(value), self.words)
+        if not isinstance(value, str) or value not in self.words:
+            near = nearest_name(shown(value).strip("'"), self.words)
             raise BadProperty(f'{name} must be one of {self.span}{near}', field=name)
         return str(value)
 

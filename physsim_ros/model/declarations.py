@@ -64,11 +64,13 @@ class Checked:
 
     None is not checked where it is the default.
 
+    :cvar KIND: word for the class among others of its base; '' for a class that is alone
     :cvar FIELDS: declarations of the fields, by name
     :raises Refusal: a check raised it
     """
 
     __slots__ = ()
+    KIND: ClassVar[str] = ''
     FIELDS: ClassVar[Mapping[str, Declaration]] = {}
     # Name, check, and whether None is not checked, of each field that has a check.
     _CHECKS: ClassVar[tuple[tuple[str, Check, bool], ...]] = ()
@@ -101,6 +103,12 @@ class Checked:
         """Return the fields that are set, by name, in their order."""
         pairs = ((name, getattr(self, name)) for name in self.FIELDS)
         return {name: value for name, value in pairs if value is not None}
+
+    def entry(self) -> Any:
+        """Return the mapping that `from_mapping` makes it of, without what has no value."""
+        values = {name: entry_of(value) for name, value in self.explicit().items()}
+        kind = {'kind': self.KIND} if self.KIND else {}
+        return kind | {name: value for name, value in values.items() if value not in ([], {})}
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
@@ -143,6 +151,13 @@ class Checked:
             check_key(key, cls.FIELDS)
             if value is None:
                 raise BadProperty(f'{key} has no value', field=str(key))
+
+
+def entry_of(value: Any) -> Any:
+    """Return a value as YAML and JSON have it."""
+    if isinstance(value, Checked):
+        return value.entry()
+    return [entry_of(each) for each in value] if isinstance(value, tuple) else value
 
 
 def _declarations(cls: type[Checked]) -> Iterator[Declaration]:
@@ -228,7 +243,7 @@ class OfKind(Generic[_Value]):
         if kind is None:
             raise BadProperty(f'{name} has no kind, which is one of {words}', field='kind')
         if not isinstance(kind, str) or kind not in self.kinds:
-            near = nearest_name(str(kind), self.kinds)
+            near = nearest_name(shown(kind).strip("'"), self.kinds)
             raise BadProperty(
                 f'there is no kind of {self.noun} {shown(kind)}{near}; there are {words}',
                 field='kind',

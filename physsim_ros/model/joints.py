@@ -177,8 +177,10 @@ def kind_from(value: object) -> JointKind:
     kinds = ', '.join(JointKind)
     if value is None:
         raise BadProperty(f'a joint needs a kind: {kinds}', field='kind')
-    meant = name_meant(str(value), {kind: kind.schema.words for kind in JointKind})
-    hint = f"; use '{meant}'" if meant else nearest_name(str(value).lower(), JointKind)
+    # Whatever aliases of YAML unfold to.
+    word = shown(value).strip("'")
+    meant = name_meant(word, {kind: kind.schema.words for kind in JointKind})
+    hint = f"; use '{meant}'" if meant else nearest_name(word.lower(), JointKind)
     raise BadProperty(
         f'there is no kind of joint {shown(value)}{hint}; there are {kinds}', field='kind'
     )

@@ -7,12 +7,12 @@ A lesson: a task of mechanics that belongs to a world.
 Its question is answered by one figure, which is measured in the world.
 """
 
-from dataclasses import dataclass, fields
-from typing import Annotated, Any, Self
+from dataclasses import dataclass
+from typing import Annotated, Any
 
 from physsim_ros.model.checks import HEAVIEST, number, shown, Whole, Within
-from physsim_ros.model.declarations import Checked, known_mapping
-from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.declarations import Checked
+from physsim_ros.model.errors import BadProperty
 
 # Greatest length of a text [characters]: a page of a book.
 LONGEST_TEXT = 2000
@@ -59,20 +59,3 @@ class Lesson(Checked):
         float, Within(0.0, HEAVIEST), 'greatest error of a measured value, in that unit'
     ]
     answer: Annotated[str, _text(LONGEST_TEXT), 'the law behind the figure']
-
-    @classmethod
-    def from_entry(cls, value: object) -> Self:
-        """
-        Return the lesson of a world file's entry.
-
-        :raises Refusal: a key is unknown or missing, or a value is out of range
-        """
-        entry = known_mapping(value, 'lesson', cls.FIELDS)
-        for name in cls.FIELDS:
-            if name not in entry:
-                raise Malformed(f'a lesson needs {name}', field='lesson')
-        return cls(**entry)
-
-    def entry(self) -> dict[str, object]:
-        """Return the entry of a world file."""
-        return {each.name: getattr(self, each.name) for each in fields(self)}

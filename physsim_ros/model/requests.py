@@ -56,6 +56,9 @@ def _no_rows() -> Floats:
     return _NO_ROWS
 
 
+_UNSET = 'names of the properties that get their defaults again'
+
+
 # Checks of fields that only requests have.
 
 
@@ -76,6 +79,13 @@ def _names(value: object, name: str) -> tuple[str, ...]:
         raise Malformed('no body is named', field=name)
     if len(set(names)) != len(names):
         raise Malformed('a body is named twice', field=name)
+    return names
+
+
+def _unset(value: object, name: str) -> tuple[str, ...]:
+    names = _texts(value, name)
+    for each in names:
+        check_key(each, Properties.FIELDS)
     return names
 
 
@@ -115,7 +125,7 @@ class Spawn(Checked):
     Add a body, or change the body of that name in place.
 
     A change replaces the shape, the pose, the colour unless it is None, the lifetime unless it is
-    0, and the properties that are set. Everything else is kept, velocity included.
+    0, and the properties that are set or unset. Everything else is kept, velocity included.
 
     :raises Malformed: a number is not finite, or the name is empty or too long
     :raises BadProperty: a pose, colour or lifetime is out of range
@@ -136,12 +146,13 @@ class Spawn(Checked):
     properties: Annotated[Properties, OfClass(Properties), 'material, velocity and role'] = field(
         default_factory=Properties
     )
+    unset: Annotated[tuple[str, ...], _unset, _UNSET] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChangeBody(Checked):
     """
-    Change the properties of a body that are named here; everything else is kept.
+    Change the properties of a body that are set or unset here; everything else is kept.
 
     :raises Malformed: a number is not finite, or an array has the wrong length
     :raises BadProperty: a pose or colour is out of range
@@ -151,6 +162,7 @@ class ChangeBody(Checked):
     properties: Annotated[Properties, OfClass(Properties), 'that are set'] = field(
         default_factory=Properties
     )
+    unset: Annotated[tuple[str, ...], _unset, _UNSET] = ()
     color: Annotated[
         Color | None, check_color, 'red, green, blue, alpha, each 0 .. 1; None keeps it'
     ] = None
@@ -357,9 +369,7 @@ class Join(Checked):
     properties: Annotated[JointProperties, OfClass(JointProperties), 'of the kind'] = field(
         default_factory=JointProperties
     )
-    unset: Annotated[
-        tuple[str, ...], _texts, 'names of the properties that get their defaults again'
-    ] = ()
+    unset: Annotated[tuple[str, ...], _texts, _UNSET] = ()
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -421,10 +431,8 @@ def join_from(
     :param frame: '' for the world, or a body's name
     :raises Refusal: a key is unknown, or a value is out of range
     """
-    unset = unset_in(mapping)
-    kind, a, b, properties = joined_from(
-        {key: mapping[key] for key in mapping if key not in unset}
-    )
+    given, unset = without_unset(mapping, JointProperties)
+    kind, a, b, properties = joined_from(given)
     return Join(
         name=name,
         kind=kind,
@@ -437,9 +445,16 @@ def join_from(
     )
 
 
-def unset_in(mapping: Mapping[Any, Any]) -> tuple[str, ...]:
-    """Return the properties that are null in a YAML mapping."""
-    return tuple(name for name in JointProperties.FIELDS if mapping.get(name, name) is None)
+def without_unset(
+    mapping: Mapping[Any, Any], kind: type[Checked]
+) -> tuple[dict[Any, Any], tuple[str, ...]]:
+    """
+    Return a YAML mapping without the properties that are null, and their names.
+
+    :param kind: of the properties
+    """
+    unset = tuple(name for name in kind.FIELDS if mapping.get(name, name) is None)
+    return {key: mapping[key] for key in mapping if key not in unset}, unset
 
 
 def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:

@@ -24,47 +24,36 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape
+from physsim_ros.model.transform import Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Body:
     """
-    A body without its pose and velocity.
+    A body without its pose and velocity, its properties as `Properties` declares them.
 
     :param name: unique in its world
     :param shape: geometry in the body's frame
     :param color: red, green, blue, alpha, each 0 .. 1
-    :param mass: [kg]; None is density times area
     :param density: [kg/m²]; of a body with a mass, that by its area
-    :param friction: coefficient
-    :param elasticity: coefficient of restitution
-    :param anchored: fixed to the background
-    :param kinematic: moves at its commanded velocity, unaffected by contacts and joints
-    :param group: bodies of the same non-zero group do not collide with each other
-    :param sensor: its contacts are reported and have no effect
+    :param mass: [kg]; None is density times area
     :param expires: step at whose end the body is removed; None is never
-    :param surface_velocity: of the surface of a conveyor, which is a sensor, in the body's axes
-        [m/s]
-    :param robot: what makes it a robot; None is no robot
-    :param actor: what moves it on its own; None is nothing
-    :param forces: constant forces that act on it where it is dynamic
-    :param label: text that is shown at its centre of mass, in lines; '' is none
     """
 
     name: str
     shape: Shape
     color: Color
-    mass: float | None
+    mass: float | None = None
     density: float
     friction: float
     elasticity: float
-    anchored: bool
-    kinematic: bool
-    group: int
-    sensor: bool
-    expires: int | None
+    anchored: bool = False
+    kinematic: bool = False
+    group: int = 0
+    sensor: bool = False
+    expires: int | None = None
     # Not part of the text, so that digests of worlds without floor and labels are those of ever.
-    surface_velocity: tuple[float, float] = field(default=(0.0, 0.0), repr=False)
+    surface_velocity: Point = field(default=(0.0, 0.0), repr=False)
     robot: Robot | None = field(default=None, repr=False)
     label: str = field(default='', repr=False)
     actor: Actor | None = field(default=None, repr=False)

@@ -24,6 +24,8 @@ MOST_HANDS = 64
 # Greatest number of topics of all robots [1]: those of 500 TurtleBots. Fast DDS takes a second to
 # make them, and 15 s for 2,000 TurtleBots.
 MOST_ROBOT_TOPICS = 4000
+# A note of a setting that protects the node, and that no world file changes.
+LIMIT = 'limit'
 # Greatest number of samples of a stroke: a minute of a pen at 160 Hz.
 MOST_SAMPLES = 10_000
 
@@ -103,23 +105,26 @@ class WorldSettings(Checked):
         float, Within(0.0, 1000.0), 'greatest force of a hand, in weights of the body'
     ] = 10.0
     max_bodies: Annotated[
-        int, Whole(0, 1_000_000), 'most bodies; a request beyond it is refused'
+        int, Whole(0, 1_000_000), 'most bodies; a request beyond it is refused', LIMIT
     ] = 20000
     max_shapes: Annotated[
         int,
         Whole(0, 1_000_000),
         'most convex pieces of all bodies; a request beyond it is refused',
+        LIMIT,
     ] = 50000
     # 10,000,000 contacts take a minute a step.
     max_overlaps: Annotated[
         int,
         Whole(0, 10_000_000),
         'most pairs of pieces that overlap at once; a request beyond it is refused',
+        LIMIT,
     ] = 20000
     max_joints: Annotated[
         int,
         Whole(0, 1_000_000),
         f'most joints, of which {MOST_JOINTS_ON_BODY} on one body; a joint beyond it is refused',
+        LIMIT,
     ] = 20000
 
 

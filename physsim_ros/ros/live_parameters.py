@@ -10,7 +10,7 @@ after each frame the parameters equal the settings of the world, whichever of th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -35,13 +35,13 @@ class LiveParameters:
     :param values: of the parameters, by name; updated when one is set
     :param simulation: whose settings, speed and history they are
     :param session: whose settings and tool they are
-    :param effects: called when a parameter has been set, by its name
-    :param prepare: called with the value that a parameter is to have, by its name, if no other
-        check refuses it; raises a Refusal where the value cannot have its effect
-    :param on_change: called when any parameter has been set
     :param boundary: of the node
 
     :ivar name: of the output
+    :ivar values: of the parameters, by name
+    :ivar effects: called when a parameter has been set, by its name
+    :ivar prepare: called with the value that a parameter is to have, by its name, if no other
+        check refuses it; raises a Refusal where the value cannot have its effect
     """
 
     name = 'parameters'
@@ -52,19 +52,18 @@ class LiveParameters:
         values: dict[str, Any],
         simulation: Simulation,
         session: DrawingSession,
-        *,
-        effects: Mapping[str, Callable[[], None]],
-        prepare: Mapping[str, Callable[[Any], object]],
-        on_change: Callable[[], None],
         boundary: ErrorBoundary,
     ) -> None:
+        self.values = values
+        self.effects: dict[str, Callable[[], object]] = {
+            'speed': self._run_at_speed,
+            'history': lambda: simulation.limit_history(values['history']),
+            'history_memory': lambda: simulation.limit_memory(values['history_memory']),
+        }
+        self.prepare: dict[str, Callable[[Any], object]] = {}
         self._node = node
-        self._values = values
         self._simulation = simulation
         self._session = session
-        self._effects = effects
-        self._prepare = prepare
-        self._on_change = on_change
         self._boundary = boundary
         # The settings of the world that the parameters have; None where they may differ.
         self._mirrored: WorldSettings | None = parameters.world_settings(values)
@@ -82,7 +81,7 @@ class LiveParameters:
             self._mirrored = settings
             if settings != mirrored:
                 self._node.set_parameters(parameters.world_parameters(settings))
-        if self._simulation.speed != self._values['speed']:
+        if self._simulation.speed != self.values['speed']:
             self._node.set_parameters([Parameter('speed', value=self._simulation.speed)])
 
     def _check(self, changed: list[Parameter]) -> SetParametersResult:
@@ -103,8 +102,8 @@ class LiveParameters:
             parameters.check(parameter)
         replace(self._simulation.settings, **parameters.world_changes(changed))
         values = {parameter.name: parameter.value for parameter in changed}
-        parameters.drawing_settings(self._values | values)
-        for name, prepare in self._prepare.items():
+        parameters.drawing_settings(self.values | values)
+        for name, prepare in self.prepare.items():
             if name in values:
                 prepare(values[name])
 
@@ -114,23 +113,19 @@ class LiveParameters:
 
     def _apply(self, changed: list[Parameter]) -> None:
         for parameter in changed:
-            self._values[parameter.name] = parameter.value
+            self.values[parameter.name] = parameter.value
         changes = parameters.world_changes(changed)
         settings = self._simulation.settings
         if replace(settings, **changes) != settings:
             self._simulation.perform(Configure(changes=changes))
             # Requests that waited before may have changed other settings.
             self._mirrored = None
-        self._session.settings = parameters.drawing_settings(self._values)
-        self._session.tool = Tool(self._values['tool'])
+        self._session.settings = parameters.drawing_settings(self.values)
+        self._session.tool = Tool(self.values['tool'])
         names = {parameter.name for parameter in changed}
-        if 'speed' in names:
-            self._simulation.speed = self._values['speed']
-        if 'history' in names:
-            self._simulation.limit_history(self._values['history'])
-        if 'history_memory' in names:
-            self._simulation.limit_memory(self._values['history_memory'])
-        for name, effect in self._effects.items():
+        for name, effect in self.effects.items():
             if name in names:
                 effect()
-        self._on_change()
+
+    def _run_at_speed(self) -> None:
+        self._simulation.speed = self.values['speed']

@@ -10,9 +10,7 @@ happens then by the simulation.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from contextlib import ExitStack
-from functools import partial
 from pathlib import Path
 import sys
 import time
@@ -21,14 +19,14 @@ from typing import Any
 from physsim_ros.drawing import DrawingSession, Tool
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
-from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.texts import counted
 from physsim_ros.ros import parameters
-from physsim_ros.ros.diagnostics_publisher import DiagnosticsPublisher
+from physsim_ros.ros.diagnostics import Diagnostics
 from physsim_ros.ros.drawing_topics import DrawingTopics
 from physsim_ros.ros.frame_loop import FrameLoop
 from physsim_ros.ros.live_parameters import LiveParameters
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.pages import Pages
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
@@ -37,11 +35,8 @@ from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import create_services, Service, ServiceCalls
 from physsim_ros.ros.robots import Fleet
 from physsim_ros.ros.simulation_services import create_simulation_services
-from physsim_ros.ros.time_control import TimeControl
 from physsim_ros.ros.world_files import WorldFiles
-from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import locks_of, WorldControl
 from rclpy.context import Context
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.parameter import Parameter
@@ -67,8 +62,8 @@ class PhysSimNode(NodeWithoutQosEvents):
     :ivar fleet: the topics of robots
     :ivar loop: applies requests, advances time, shows frames
     :ivar requests: the topics of requests
-    :ivar message_delay: time that messages wait before they are handled [s]
-    :ivar on_quit: ends the program, where a service may; None where it has other worlds as well
+    :ivar control: what services, topics and pages do besides single requests
+    :ivar diagnostics: publishes `/diagnostics`
     """
 
     def __init__(
@@ -106,32 +101,16 @@ class PhysSimNode(NodeWithoutQosEvents):
 
         :raises PhysSimError: a parameter or the world file is refused
         """
-        self.message_delay = 0.0
-        self.on_quit: Callable[[], object] | None = None
-        self._is_quitting = False
         self._values = parameters.declare(self)
         # rclpy 7.1 has no public name for the values that it was started with.
         parameters.check_names(self._parameter_overrides, self, sys.argv)
         self._create_world()
-        self._create_loop()
+        self._create_outputs()
         self._create_doors()
-        self._live_parameters = LiveParameters(
-            self,
-            self._values,
-            self.simulation,
-            self._session,
-            effects={'sketchpad': self._pages.update, 'viewer': self._open_viewer},
-            prepare={
-                'sketchpad': self._pages.open_for,
-                'sketchpad_locked': lambda value: locks_of(parameters.listed_names(value)),
-            },
-            on_change=self.outputs.publish_preview,
-            boundary=self.boundary,
-        )
-        self._live_parameters.mirror_settings()
-        self.outputs.all.insert(0, self._live_parameters)
-        self._pages.open_for(self._values['sketchpad'])
-        self._pages.update()
+        self._live.effects['tool'] = self.outputs.publish_preview
+        self._live.effects['viewer'] = self._open_viewer
+        self._live.mirror_settings()
+        self._pages = Pages(self, self.outputs, self.control, self.loop, self._live)
 
     def _create_world(self) -> None:
         """Create the simulation, which begins with the world file, and the drawing session."""
@@ -153,84 +132,43 @@ class PhysSimNode(NodeWithoutQosEvents):
             with self.boundary.reading('world_file'):
                 self.world_files.begin_with()
 
-    def _create_loop(self) -> None:
+    def _create_outputs(self) -> None:
         """Create the outputs and the loop that shows them frames."""
-        values, boundary = self._values, self.boundary
-        self.outputs = Outputs(self, values, self._session, self.simulation, boundary)
+        values, boundary, simulation = self._values, self.boundary, self.simulation
+        self.outputs = Outputs(self, values, self._session, simulation, boundary)
         self._closing.callback(self.outputs.close)
         expected = self._expected_commands
-        self.fleet = Fleet(self, values, self.simulation.requests, boundary, expected=expected)
+        self.fleet = Fleet(self, values, simulation.requests, boundary, expected=expected)
+        self._live = LiveParameters(self, values, simulation, self._session, boundary)
+        self.outputs.all.insert(0, self._live)
         self.outputs.all.append(self.fleet)
         self.outputs.topics.timeline.publish(may_wait=False)
-        self.loop = FrameLoop(self.simulation, self.outputs, self.fleet)
+        self.loop = FrameLoop(simulation, self.outputs, self.fleet)
 
     def _create_doors(self) -> None:
-        """Create topics and services of requests, and the control of pages."""
-        simulation, outputs, loop, values = self.simulation, self.outputs, self.loop, self._values
-        frame_id, requests = values['frame_id'], simulation.requests
-        self.requests = topics = RequestTopics(self, requests, self.boundary, frame_id)
-        self._diagnostics = DiagnosticsPublisher(self, simulation, outputs, topics, self.boundary)
+        """Create topics and services of requests."""
+        simulation, outputs, loop = self.simulation, self.outputs, self.loop
+        boundary, frame_id = self.boundary, self._values['frame_id']
+        self.requests = topics = RequestTopics(self, simulation.requests, boundary, frame_id)
+        self.diagnostics = Diagnostics(self, simulation, outputs, topics, boundary)
         drawing = DrawingTopics(
             topics, simulation, self._session, frame_id=frame_id, loop=loop, outputs=outputs
         )
-        control = TimeControl(self, simulation, values, loop, outputs.statistics)
-        control.subscribe(topics)
-        self._actions = {
-            **{name: Service(action) for name, action in control.actions.items()},
-            'undo': Service(simulation.undo, Wait.BEHIND_REQUESTS),
-            'redo': Service(simulation.redo, Wait.BEHIND_REQUESTS),
-            'reset': Service(simulation.reset, Wait.BEHIND_REQUESTS),
-            'instead': Service(drawing.read_instead),
-            'clear': Service(lambda: simulation.perform(DeleteAll()), Wait.FOR_SEEK),
-            'load_world': Service(lambda: self.world_files.load(confined=True), Wait.FOR_SEEK),
-            'save_world': Service(self.world_files.save, Wait.FOR_SEEK),
-        }
-        calls = ServiceCalls(requests, loop.submit_call, self.boundary)
-        create_services(self, self._actions, calls, on_success=self._note_change)
-        self._parameter_services = ParameterServices(self, calls)
-        world = WorldControl(
-            boundary=self.boundary,
-            simulation=simulation,
-            values=values,
-            set_parameter=partial(parameters.set_value, self),
-            world_dir=self.world_files.directory,
-            drawing_settings=lambda: parameters.drawing_settings(values),
-            current_snapshot=loop.current_snapshot,
-            submit_call=loop.submit_call,
-            services=self._actions,
-            note_change=self._note_change,
-            perform_on=self._perform_on,
-            set_speed=control.set_speed,
-            seek=control.seek,
-            locked_bodies=lambda: parameters.listed_names(values['sketchpad_locked']),
-            end_program=self._end_program,
+        self.control = control = NodeControl(
+            self,
+            simulation,
+            loop=loop,
+            outputs=outputs,
+            world_files=self.world_files,
+            live=self._live,
+            boundary=boundary,
         )
-        create_simulation_services(self, world, calls)
-        self._pages = Pages(self, outputs, world, loop)
-
-    def _perform_on(self, service: str, world: str) -> str:
-        """
-        Perform a service on the world file of a name; where that is refused, nothing has changed.
-
-        :raises PhysSimError: it is refused
-        """
-        before = self._values['world_file']
-        parameters.set_value(self, 'world_file', world)
-        try:
-            return self._actions[service].perform()
-        except PhysSimError:
-            parameters.set_value(self, 'world_file', before)
-            raise
-
-    def _note_change(self) -> None:
-        """Have the parameters mirror the world, and a short seek be done at once."""
-        self._live_parameters.mirror_settings()
-        self.loop.finish_short_seek()
-
-    def _end_program(self) -> bool:
-        """Have a later tick end the program; return whether it may."""
-        self._is_quitting = self.on_quit is not None
-        return self._is_quitting
+        control.services['instead'] = Service(drawing.read_instead)
+        control.subscribe(topics)
+        calls = ServiceCalls(simulation.requests, loop.submit_call, boundary)
+        create_services(self, control.services, calls, on_success=control.note_change)
+        self._parameter_services = ParameterServices(self, calls)
+        create_simulation_services(self, control, calls)
 
     def start(self) -> None:
         """Start the viewer and the diagnostics; `tick` advances time from now on."""
@@ -296,11 +234,9 @@ class PhysSimNode(NodeWithoutQosEvents):
 
         :param now_ns: steady time, monotonic [ns]
         """
-        if self._is_quitting and self.on_quit is not None:
-            self._is_quitting = False
-            self.on_quit()
+        self.control.quit_if_asked()
         if self.loop.started:
-            self._diagnostics.publish_due(now_ns, message_delay=self.message_delay)
+            self.diagnostics.publish_due(now_ns)
         self.loop.tick(now_ns)
 
     def advance_frame(self) -> None:

@@ -15,21 +15,24 @@ from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 import time
-from typing import Any
+from typing import Any, TYPE_CHECKING
 
 from physsim_ros.drawing import DrawingSession
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.ros.publishers.frame_statistics import FrameStatistics
 from physsim_ros.ros.publishers.publishers import Output, Publishers
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import Sketchpad
 from physsim_ros.view import FrameContext, Viewer, ViewerMode
 from rclpy.node import Node
+
+if TYPE_CHECKING:
+    from physsim_ros.sketchpad import Sketchpad
 
 # Least time from one logged refusal to the next [s]. The throttling of rclpy (7.1.6) inspects the
 # call stack for each message, logged or not, which takes 0.5 ms.
 _WARNING_PERIOD = 1.0
+# Time constant of the smoothed real-time factor, in wall time [s]: legible to a person.
+_SMOOTHING = 1.0
 
 
 class Outputs:
@@ -66,8 +69,7 @@ class Outputs:
         self.frame: Frame | None = None
         self.records_contacts = False
         self._log = _Log(node)
-        self._pictures = self.viewer, _Page(self)
-        self.all: list[Output] = [self._log, *self.topics.outputs, *self._pictures]
+        self.all: list[Output] = [self._log, *self.topics.outputs, self.viewer]
         self._values = values
         self._session = session
         self._boundary = boundary
@@ -102,7 +104,10 @@ class Outputs:
             return
         if self.frame.preview != self._session.preview:
             # Only the preview has changed: an unfinished gesture was dropped.
-            self.show(replace(self.frame, answers=(), moved=False), self._pictures)
+            pictures: list[Output] = [self.viewer]
+            if self.sketchpad is not None:
+                pictures.append(self.sketchpad)
+            self.show(replace(self.frame, answers=(), moved=False), pictures)
         for stream in self.topics.streams:
             with self._boundary.output(stream.name):
                 stream.show_late(self.frame)
@@ -132,9 +137,17 @@ class Outputs:
         """Open the viewer of parameter `viewer`, in place of the one before."""
         self.viewer.open_viewer(ViewerMode(self._values['viewer']), self._values['viewer_url'])
 
+    def open_sketchpad(self, sketchpad: Sketchpad) -> None:
+        """Show frames on a sketchpad, the last one at once."""
+        self.sketchpad = sketchpad
+        self.all.append(sketchpad)
+        if self.frame is not None:
+            sketchpad.show(replace(self.frame, answers=()))
+
     def close_sketchpad(self) -> None:
         """Close the sketchpad, if it is served."""
         if self.sketchpad is not None:
+            self.all.remove(self.sketchpad)
             self.sketchpad.close()
             self.sketchpad = None
 
@@ -185,22 +198,68 @@ class _Log:
             self._node.get_logger().info(answer.message)
 
 
-class _Page:
+class FrameStatistics:
     """
-    The page, while it is served.
+    The cost of frames and the real-time factor; it reads no clock.
 
-    :param outputs: with the sketchpad
+    :ivar real_time_factor: smoothed [1]; None before the first frame
+    :ivar frames: number of frames in this second
     """
 
-    name = 'page'
+    def __init__(self) -> None:
+        self.real_time_factor: float | None = None
+        self._last: tuple[int, int] | None = None
+        self.begin_second()
 
-    def __init__(self, outputs: Outputs) -> None:
-        self._outputs = outputs
+    def begin_second(self) -> None:
+        """Begin the counts of a second anew."""
+        self.frames = 0
+        self._step_ns = self._frame_ns = 0
+        # Time between frames of this second: steady, and simulated [ns].
+        self._elapsed_ns = self._simulated_ns = 0
 
-    def show(self, frame: Frame) -> None:
-        """Show a frame on the page."""
-        if self._outputs.sketchpad is not None:
-            self._outputs.sketchpad.show(frame)
+    @property
+    def factor(self) -> float:
+        """Return the real-time factor of this second [1]."""
+        return self._simulated_ns / self._elapsed_ns if self._elapsed_ns else 0.0
+
+    @property
+    def step_cost(self) -> float:
+        """Return the mean cost of the steps of a frame in this second [s]."""
+        return self._step_ns / max(1, self.frames) * 1e-9
+
+    @property
+    def frame_cost(self) -> float:
+        """Return the mean cost of a frame in this second, steps and publishing [s]."""
+        return self._frame_ns / max(1, self.frames) * 1e-9
+
+    def add(self, *, now_ns: int, stamp: int, step_ns: int, frame_ns: int) -> None:
+        """
+        Add a frame.
+
+        :param now_ns: steady time of the frame [ns]
+        :param stamp: simulation time of the frame [ns]
+        :param step_ns: cost of its steps [ns]
+        :param frame_ns: cost of its steps and of publishing [ns]
+        """
+        self.frames += 1
+        self._step_ns += step_ns
+        self._frame_ns += frame_ns
+        known = self.real_time_factor = self.real_time_factor or 0.0
+        if self._last is not None and now_ns > self._last[0]:
+            elapsed, simulated = now_ns - self._last[0], stamp - self._last[1]
+            self._elapsed_ns += elapsed
+            self._simulated_ns += simulated
+            # The first factor is not smoothed.
+            share = min(1.0, elapsed * 1e-9 / _SMOOTHING) if known else 1.0
+            self.real_time_factor = known + share * (simulated / elapsed - known)
+        self._last = (now_ns, stamp)
+
+    def reset_pace(self) -> None:
+        """Reset the real-time factor: the world is paused, or time has jumped."""
+        self._last = None
+        if self.real_time_factor is not None:
+            self.real_time_factor = 0.0
 
 
 @lru_cache(maxsize=1)

@@ -9,13 +9,14 @@ Law: a value of the parameter that cannot have its effect is refused before it i
 
 from __future__ import annotations
 
-from dataclasses import replace
 import sys
 
 from physsim_ros.model.errors import BadProperty, PhysSimError
+from physsim_ros.ros import parameters
 from physsim_ros.ros.frame_loop import FrameLoop
+from physsim_ros.ros.live_parameters import LiveParameters
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.outputs import Outputs
-from physsim_ros.sketchpad import Role, Sketchpad, WorldControl
 from rclpy.node import Node
 
 
@@ -27,19 +28,27 @@ class Pages:
     :param outputs: of the node; they have the sketchpad while it is served
     :param control: the actions of the node that pages use
     :param loop: of the node; once it has started, its ticks handle the messages
+    :param live: the parameters of the node; those of the page are checked and take effect here
+    :raises BadProperty: the page is to be served, and cannot listen
     """
 
     def __init__(
         self,
         node: Node,
         outputs: Outputs,
-        control: WorldControl,
+        control: NodeControl,
         loop: FrameLoop,
+        live: LiveParameters,
     ) -> None:
         self._node = node
         self._outputs = outputs
         self._control = control
         self._loop = loop
+        live.prepare['sketchpad'] = self.open_for
+        live.prepare['sketchpad_locked'] = self.check_locks
+        live.effects['sketchpad'] = self.update
+        self.open_for(control.values['sketchpad'])
+        self.update()
 
     def open_for(self, value: str) -> None:
         """
@@ -49,22 +58,33 @@ class Pages:
         """
         if value != 'serve' or self._outputs.sketchpad is not None:
             return
+        # A node without a page starts without a web server, in a tenth less time.
+        from physsim_ros.sketchpad import Sketchpad  # noqa: PLC0415 - see above
+
         values = self._control.values
         try:
             sketchpad = Sketchpad(
                 self._control,
-                recording_address=lambda: self._outputs.viewer.page_address,
                 address=values['sketchpad_address'],
                 port=values['sketchpad_port'],
                 wake=self._wake,
             )
         except PhysSimError as error:
             raise BadProperty(str(error), field='sketchpad') from error
-        self._outputs.sketchpad = sketchpad
-        if self._outputs.frame is not None:
-            sketchpad.show(replace(self._outputs.frame, answers=()))
+        self._outputs.open_sketchpad(sketchpad)
         if self._loop.started:
             self.print_addresses()
+
+    @staticmethod
+    def check_locks(value: str) -> None:
+        """
+        Check the value of `sketchpad_locked`.
+
+        :raises BadProperty: it has too many patterns
+        """
+        from physsim_ros.sketchpad import locks_of  # noqa: PLC0415 - see `open_for`
+
+        locks_of(parameters.listed_names(value))
 
     def update(self) -> None:
         """Close the sketchpad, or show the world on it, as its parameter says."""
@@ -78,6 +98,8 @@ class Pages:
         """Print the addresses of the page, for the person at the terminal."""
         if (sketchpad := self._outputs.sketchpad) is None:
             return
+        from physsim_ros.sketchpad import Role  # noqa: PLC0415 - see `open_for`
+
         with self._control.boundary.output('sketchpad'):
             sys.stdout.write(
                 '\n'

@@ -14,6 +14,7 @@ from physsim_ros.files import find_world, hides_shipped, load_world, save_world,
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.texts import counted
+from physsim_ros.ros.parameters import SPECS
 from physsim_ros.simulation.simulation import Simulation
 
 # Time between two reports of progress [s].
@@ -98,5 +99,6 @@ class WorldFiles:
             settings=simulation.settings,
             physics_rate=simulation.physics_rate,
             progress=report,
+            parameters=SPECS,
         )
         return state, path

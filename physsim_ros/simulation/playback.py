@@ -7,18 +7,16 @@ Playback: the moment that is shown, forward and back, and the steps that are due
 Laws: a rewind or a seek shows a cached frame while the world is at another step. The world goes to
 the step that is shown before a request is applied, a step is made or the world is read, and while
 playback is paused. After a jump to another course the state of the world is shown, not a cached
-frame. Where contacts are reported, the frame of a paused world has those of its last steps. No
-clock is read here. Steps are never skipped: where the machine is too slow, simulation time slows
-down, and the late frames are counted.
+frame. Where contacts are reported, the frame of a paused world has those of its last steps.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-import math
+from collections.abc import Callable, Iterator
 
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
+from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.past import CachedFrame, Moment, Past
 from physsim_ros.simulation.world import World
 
@@ -80,7 +78,7 @@ class Playback:
     @property
     def is_there(self) -> bool:
         """Return whether the world is at the moment that is shown, without a replay."""
-        return self._shown is None and not self._past.cursor.is_seeking
+        return self._shown is None and not self._past.cursor.is_working
 
     @property
     def step(self) -> int:
@@ -157,6 +155,7 @@ class Playback:
         self._seek_step(self._past.steps_in(stamp * 1e-9))
 
     def _seek_step(self, step: int) -> None:
+        self._past.cursor.finish_amendment()
         self._show_requests()
         frame = self._past.frames.cached_frame(step)
         if frame is None:
@@ -176,9 +175,13 @@ class Playback:
             step, self._shown = self._shown.snapshot.step, None
             self._past.cursor.seek(step, with_contacts=False)
 
-    def continue_seek(self) -> bool:
-        """Replay a part of a seek whose goal is shown; return whether it is still under way."""
-        return self._shown is None and self._past.cursor.continue_seek()
+    def continue_work(self) -> bool:
+        """
+        Carry out a part of a seek or an amendment; return whether it is still under way.
+
+        Nothing is done while a cached frame is shown in place of the goal.
+        """
+        return self._shown is None and self._past.cursor.continue_work()
 
     def note_jump(self) -> None:
         """Show the moment of the cursor, which is another than the one that was shown."""
@@ -203,17 +206,22 @@ class Playback:
         self.frames_due += 1
         return round(step * 1e9 / self._past.physics_rate)
 
-    def play(self, steps: int) -> Iterator[None]:
-        """Advance by steps; yield at each multiple of the publish period."""
+    def play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
+        """
+        Advance by steps, or to the first multiple of the publish period at which time is up.
+
+        :param is_overdue: whether time is up
+        """
         self.seek_shown()
-        self._lacks_contacts = False
+        self._lacks_contacts, self.changed = False, True
         cursor = self._past.cursor
         while steps > 0:
             some = min(steps, self.steps_to_period)
             cursor.advance(some)
             cursor.build_ahead(some)
             steps -= some
-            yield
+            if is_overdue():
+                return
 
     def rewind(self, steps: int) -> bool:
         """
@@ -237,79 +245,3 @@ class Playback:
         """
         fine = not self.speed.is_integer()
         return self._past.frames.replay_ahead(self.step, steps, fine=fine)
-
-
-# Frames by which simulation time may be late before it slows down: a tenth of a second at 60 Hz,
-# longer than a garbage collection, and hardly seen.
-MOST_BEHIND = 6
-
-
-class Clock:
-    """
-    Turns a steady time into steps.
-
-    :param physics_rate: steps a second at speed 1 [Hz]
-    :param frame_steps: steps in a publish period
-    :param speed: simulation seconds a second
-    """
-
-    def __init__(self, *, physics_rate: float, frame_steps: int, speed: float = 1.0) -> None:
-        self._physics_rate = physics_rate
-        self._frame_steps = frame_steps
-        self._speed = float(speed)
-        # Steady time [ns] and step from which steps are counted.
-        self._anchor: tuple[int, float] | None = None
-        # Count of frames that were due and could not be made in time.
-        self.late_frames = 0
-
-    @property
-    def speed(self) -> float:
-        """Return simulation seconds a second; 0 is paused."""
-        return self._speed
-
-    @speed.setter
-    def speed(self, speed: float) -> None:
-        self._speed = float(speed)
-        self._anchor = None
-
-    def restart(self) -> None:
-        """Forget what is due: count from the next call on."""
-        self._anchor = None
-
-    def due(self, now_ns: int, step: int) -> int:
-        """
-        Return the number of steps of the next frame, negative in a rewind; 0 if none is due yet.
-
-        At whole speeds a frame ends on a multiple of the publish period, and a timer's jitter of
-        less than half a period changes nothing.
-
-        :param now_ns: steady time, never going back [ns]
-        :param step: the world's step
-        """
-        if self._speed < 0.0:
-            # A rewind is playback on the mirrored time line.
-            return -self._due(now_ns, -step, -self._speed)
-        return self._due(now_ns, step, self._speed) if self._speed > 0.0 else 0
-
-    def _due(self, now_ns: int, step: int, speed: float) -> int:
-        if self._anchor is None:
-            self._anchor = (now_ns, step)
-        quota = self._frame_steps * speed
-        anchor_ns, anchor_step = self._anchor
-        target = anchor_step + (now_ns - anchor_ns) * 1e-9 * self._physics_rate * speed
-        # At the slowest speeds a frame is a fraction of a step, and is not late before that step.
-        frame = max(quota, 1.0)
-        behind = (target - step) / frame
-        if behind > MOST_BEHIND:
-            self.late_frames += math.floor(behind) - 1
-            target, behind = step + frame, 1.0
-            self._anchor = (now_ns, target)
-        if not speed.is_integer():
-            return max(0, min(math.floor(target), step + math.ceil(quota)) - step)
-        if behind < 0.5:
-            return 0
-        end = int((step + quota) // self._frame_steps) * self._frame_steps
-        if step % self._frame_steps:
-            # Back to multiples of the period after a fractional speed, and count from there.
-            self._anchor = (now_ns, end)
-        return max(0, end - step)

@@ -2,212 +2,86 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The queue of requests that wait for the next frame, and its entries.
+The queue of requests: they wait for the next frame, and are applied there in their order.
 
-Laws: entries are taken in the order of their arrival, and each is answered once. A move of a hand
-replaces the waiting move of that hand, unless a request of another kind came between them; so does
-a seek the waiting seek. Requests beyond a limit, in count and in memory, are refused; answers
-beyond twice that count are only counted.
+Laws: entries are applied in the order of their arrival, and each is answered once, but moves of
+hands and drives only if refused. A move of a hand replaces the waiting move of that hand, unless a
+request of another kind came between them; so does a seek the waiting seek. Requests that read or
+change the world wait for the end of a seek; all entries wait for the end of an amendment. Requests
+beyond a limit, in count and in memory, are refused; answers beyond twice that count are counted.
 """
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
-from enum import Enum
+from dataclasses import replace
 
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import (
-    ChangeBody,
-    Command,
-    Delete,
     DriveRobot,
-    Join,
+    HandRequest,
     KeepHand,
     MoveHand,
     Request,
-    Spawn,
-    Unjoin,
 )
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past import request_size
+from physsim_ros.simulation.entries import (
+    Amend,
+    Call,
+    Entry,
+    Seek,
+    size_of,
+    subject_of,
+    TakeBack,
+    Unread,
+    Wait,
+)
+from physsim_ros.simulation.hands import Hands
+from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.playback import Playback
+
+__all__ = ['Amend', 'RequestQueue', 'TakeBack', 'Unread', 'Wait']
 
 # Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000
 # bodies. Up to twice that number of answers are told one by one.
 MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
-# Memory of a marker as rclpy decodes it [bytes].
-_UNREAD = 2500
-
-
-@dataclass(frozen=True, slots=True)
-class Seek:
-    """
-    Go to a simulation time.
-
-    :param stamp: of it [ns]
-    """
-
-    stamp: int
-
-
-@dataclass(frozen=True, slots=True)
-class Amend:
-    """
-    Replace the requests of earlier gestures by others, in one gesture.
-
-    The world is simulated again from there up to this moment. Each new request is answered.
-
-    :param gestures: their numbers: `RequestQueue.gesture` after each was submitted
-    :param requests: that replace them
-    """
-
-    gestures: tuple[int, ...]
-    requests: tuple[Request, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Unread:
-    """
-    A request in a message that is converted when its turn comes, as of an array of thousands.
-
-    :param subject: name of the body or joint that it names
-    :param convert: returns the request; raises a Refusal
-    """
-
-    subject: str
-    convert: Callable[[], Request]
-
-
-class Wait(Enum):
-    """
-    The time at which a call is carried out.
-
-    :cvar NONE: at once: it does not depend on requests
-    :cvar BEHIND_REQUESTS: after the requests that wait; also during a seek, which it replaces
-    :cvar FOR_SEEK: after the requests and the end of a seek: it reads or replaces the world
-    """
-
-    NONE = 'none'
-    BEHIND_REQUESTS = 'behind requests'
-    FOR_SEEK = 'for seek'
-
-
-@dataclass(frozen=True, slots=True)
-class Call:
-    """
-    Call a function that reads or replaces the world.
-
-    :param call: the function; it returns answers
-    :param wait: the time at which it is called
-    """
-
-    call: Callable[[], Iterable[Answer]]
-    wait: Wait
-
-
-@dataclass(slots=True)
-class Waiting:
-    """
-    An entry of the queue.
-
-    :param request: to be applied; or an amendment, a seek, a call, the refusal of a message that
-        is no request, an answer without a request
-    :param topic: its source
-    :param subject: name of the body or joint that it names, or ''
-    :param gesture: number of its gesture; requests of one gesture are undone together
-    :param field: the only field of the message, which a refusal names; '' if it has several
-    :param asker: key of the message that asks, which the answer names; '' for none
-    :param size: memory of the request [bytes]
-    :param author: name of the person who did it; '' is nobody
-    """
-
-    request: Request | Unread | Amend | Seek | Call | Refusal | Answer
-    topic: str
-    subject: str
-    gesture: int
-    field: str = ''
-    asker: str = ''
-    size: int = 0
-    author: str = ''
-
-    @property
-    def is_for_world(self) -> bool:
-        """Return whether it is applied to the world, and so waits for the end of a seek."""
-        match self.request:
-            case Call(wait=wait):
-                return wait is Wait.FOR_SEEK
-            case Seek() | Refusal() | Answer():
-                return False
-        return True
-
-
-def size_of(request: Request | Unread | Amend) -> int:
-    """Return the memory that a request takes [bytes]."""
-    if isinstance(request, Unread):
-        return _UNREAD
-    if isinstance(request, Amend):
-        return sum(map(size_of, request.requests))
-    return request_size(request)
-
-
-def subject_of(request: Request | Unread | Amend) -> str:
-    """Return the one body or joint that a request names, or ''."""
-    match request:
-        case (
-            Spawn(name=name)
-            | ChangeBody(name=name)
-            | Delete(name=name)
-            | Join(name=name)
-            | Unjoin(name=name)
-            | DriveRobot(name=name)
-            | Command(names=(name,))
-            | Unread(subject=name)
-        ):
-            return name
-    return ''
 
 
 class RequestQueue:
     """
-    The entries that wait.
+    The entries that wait, and what applies them at the moment that is shown.
+
+    :param past: of the world
+    :param playback: the moment that is shown
 
     :ivar gesture: number of the last gesture
+    :ivar hands: that drag bodies
+    :ivar answers: that wait for the next frame
     """
 
-    def __init__(self) -> None:
+    def __init__(self, past: Past, playback: Playback) -> None:
         self.gesture = 0
-        self._waiting: deque[Waiting] = deque()
+        self.hands = Hands(past, playback)
+        self.answers: list[Answer] = []
+        self._past = past
+        self._playback = playback
+        self._waiting: deque[Entry] = deque()
         # Memory of the requests that wait [bytes].
         self._size = 0
-        self._is_taken = False
-        # Gesture of the last request that was taken.
-        self._taken = 0
+        self._is_applying = False
+        # Gesture of the last request that was applied.
+        self._applied = 0
         # The waiting move of each hand, and the waiting seek, which a later one replaces.
-        self._moves: dict[str, Waiting] = {}
-        self._seek: Waiting | None = None
+        self._moves: dict[str, Entry] = {}
+        self._seek: Entry | None = None
         # Number of answers that the last entry stands for.
         self._untold = 0
 
+    # Submitting
+
     def __len__(self) -> int:
         return len(self._waiting)
-
-    @property
-    def has_requests(self) -> bool:
-        """Return whether an entry waits that is applied to the world."""
-        return any(each.is_for_world for each in self._waiting)
-
-    @property
-    def is_in_gesture(self) -> bool:
-        """
-        Return whether the next request belongs to the gesture of the last one that was taken.
-
-        Commands of robots join a gesture for an undo alone.
-        """
-        following = next((each for each in self._waiting if each.is_for_world), None)
-        if following is None or isinstance(following.request, DriveRobot):
-            return False
-        return following.gesture == self._taken
 
     def begin_gesture(self) -> int:
         """Return the number of a new gesture."""
@@ -216,7 +90,7 @@ class RequestQueue:
 
     def submit(
         self,
-        request: Request | Unread | Amend,
+        request: Request | Unread | Amend | TakeBack,
         *,
         topic: str,
         joined: bool = False,
@@ -242,16 +116,16 @@ class RequestQueue:
         if gesture is None:
             gesture = self.gesture if joined else self.begin_gesture()
         subject = subject_of(request)
-        waiting = Waiting(request, topic, subject, gesture, field, asker, size, author)
+        entry = Entry(request, topic, subject, gesture, field, asker, size, author)
         if busy := self._busy(size):
-            self._add_answer(replace(waiting, request=busy, size=0))
+            self._add_answer(replace(entry, request=busy, size=0))
             return
-        self._waiting.append(waiting)
+        self._waiting.append(entry)
         self._size += size
         self._seek = None
         match request:
             case MoveHand(hand=hand):
-                self._moves[hand] = waiting
+                self._moves[hand] = entry
             case KeepHand():
                 pass
             case _:
@@ -270,7 +144,7 @@ class RequestQueue:
             message = f'superseded by a seek to {stamp * 1e-9:.3f} s'
             self._seek.request = Answer(topic=self._seek.topic, message=message)
         self._moves.clear()
-        self._seek = Waiting(Seek(stamp), topic, '', self.gesture)
+        self._seek = Entry(Seek(stamp), topic, '', self.gesture)
         self._waiting.append(self._seek)
 
     def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
@@ -289,7 +163,7 @@ class RequestQueue:
         self._moves.clear()
         self._seek = None
         # Its answers have their own topics.
-        self._waiting.append(Waiting(Call(call, wait), '', '', self.begin_gesture()))
+        self._waiting.append(Entry(Call(call, wait), '', '', self.begin_gesture()))
 
     def refuse(
         self,
@@ -307,11 +181,11 @@ class RequestQueue:
         :param subject: name of the body or joint that the message names, or ''
         """
         gesture = self.gesture if joined else self.begin_gesture()
-        self._add_answer(Waiting(refusal, topic, subject, gesture, field, asker))
+        self._add_answer(Entry(refusal, topic, subject, gesture, field, asker))
 
     def tell(self, answer: Answer) -> None:
         """Add an answer without a request, in the order of entries."""
-        self._add_answer(Waiting(answer, answer.topic, answer.subject, self.gesture))
+        self._add_answer(Entry(answer, answer.topic, answer.subject, self.gesture))
 
     def _busy(self, size: int = 0) -> Busy | None:
         """Return a refusal if a request of a size [bytes] exceeds the limits."""
@@ -319,46 +193,171 @@ class RequestQueue:
             return None
         return Busy(f'{len(self)} requests wait; this one was one too many')
 
-    def _add_answer(self, waiting: Waiting) -> None:
+    def _add_answer(self, entry: Entry) -> None:
         """Add an answer or a refusal; where too many wait, the last entry counts them."""
         self._untold = self._untold + 1 if len(self) >= 2 * MOST_WAITING else 0
         if self._untold > 1:
             self._waiting.pop()
         if self._untold:
-            waiting.request = Busy(f'{self._untold} more answers are not told, too many wait')
-        self._waiting.append(waiting)
+            entry.request = Busy(f'{self._untold} more answers are not told, too many wait')
+        self._waiting.append(entry)
 
-    def take(
-        self,
-        is_there: Callable[[], bool] = lambda: True,
-        is_spent: Callable[[], bool] = lambda: False,
-    ) -> Iterator[Waiting]:
+    # Applying
+
+    @property
+    def has_requests(self) -> bool:
+        """Return whether an entry waits that is applied to the world."""
+        return any(each.is_for_world for each in self._waiting)
+
+    @property
+    def is_in_gesture(self) -> bool:
         """
-        Remove and yield the entries in order.
+        Return whether the next request belongs to the gesture of the last one that was applied.
 
-        Not re-entrant: a call among them that takes entries too gets none, since they come after
-        it.
+        Commands of robots join a gesture for an undo alone.
+        """
+        following = next((each for each in self._waiting if each.is_for_world), None)
+        if following is None or isinstance(following.request, DriveRobot):
+            return False
+        return following.gesture == self._applied
 
-        :param is_there: whether the world can take a request; else the next one for the world and
-            all entries after it wait
+    def apply_waiting(self) -> None:
+        """Apply all entries, and finish the seeks and amendments that others wait for."""
+        self.apply_up_to_seek()
+        while self._waiting and not self._is_applying:
+            self._playback.seek_shown()
+            self._past.cursor.finish_work()
+            self.apply_up_to_seek()
+        self._past.cursor.finish_amendment()
+
+    def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> None:
+        """
+        Apply the entries up to a seek or an amendment; those after it wait for its end.
+
         :param is_spent: whether there is no time for a further entry; asked after each
         """
-        if self._is_taken:
+        for entry in self._take(is_spent):
+            try:
+                match entry.request:
+                    case Answer() as answer:
+                        self.answers.append(answer)
+                    case Refusal() as refusal:
+                        self._playback.changed = True
+                        self._answer(refusal, entry)
+                    case Call(call=call):
+                        self.answers += call()
+                    case Amend() | TakeBack() as change:
+                        self._playback.seek_shown()
+                        self._past.cursor.work(self._amend(change, entry))
+                    case Seek(stamp=stamp):
+                        self._answer(Answer(message=self.seek(stamp)), entry)
+                    case request:
+                        self._playback.changed = True
+                        if isinstance(request, Unread):
+                            request = request.convert()
+                        answer = self.apply(request, entry.gesture, entry.author)
+                        # Moves and drives come at the rate of frames.
+                        if not isinstance(request, DriveRobot | MoveHand | KeepHand):
+                            self._answer(answer, entry)
+            except Refusal as refusal:
+                self._answer(refusal, entry)
+
+    def _take(self, is_spent: Callable[[], bool]) -> Iterator[Entry]:
+        """
+        Remove and yield the entries that need not wait.
+
+        A call among them that has entries applied, too, finds none: they come after it.
+        """
+        if self._is_applying:
             return
-        self._is_taken = True
+        self._is_applying = True
         try:
-            while self._waiting and (not self._waiting[0].is_for_world or is_there()):
-                waiting = self._waiting.popleft()
-                self._size -= waiting.size
-                match waiting.request:
-                    case MoveHand(hand=hand) if self._moves.get(hand) is waiting:
+            while self._waiting and self._is_ready(self._waiting[0]):
+                entry = self._waiting.popleft()
+                self._size -= entry.size
+                match entry.request:
+                    case MoveHand(hand=hand) if self._moves.get(hand) is entry:
                         del self._moves[hand]
-                    case Seek() if self._seek is waiting:
+                    case Seek() if self._seek is entry:
                         self._seek = None
-                if waiting.is_for_world:
-                    self._taken = waiting.gesture
-                yield waiting
+                if entry.is_for_world:
+                    self._applied = entry.gesture
+                yield entry
                 if is_spent():
                     return
         finally:
-            self._is_taken = False
+            self._is_applying = False
+
+    def _is_ready(self, entry: Entry) -> bool:
+        """Return whether an entry need not wait for a seek or an amendment."""
+        if entry.is_for_world:
+            return self._playback.is_there
+        return entry.is_answer or not self._past.cursor.is_amending
+
+    def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
+        """Change the past in parts, and collect the answers."""
+        results: list[Answer | Refusal]
+        try:
+            with self._past.boundary.reading(entry.topic):
+                if isinstance(change, Amend):
+                    results = yield from self._past.amend(
+                        change.gestures, change.requests, entry.author
+                    )
+                else:
+                    phrase = yield from self._past.take_back(entry.author)
+                    results = [Answer(message=f'undid {phrase}')]
+        except Refusal as refusal:
+            results = [refusal]
+        self._playback.note_jump()
+        for result in results:
+            self._answer(result, entry)
+
+    def _answer(self, result: Answer | Refusal, entry: Entry) -> None:
+        """Collect the answer to a request that waited."""
+        if isinstance(result, Refusal):
+            result = Answer.refused(result, topic='', subject=entry.subject, field=entry.field)
+        self.answers.append(replace(result, topic=entry.topic, asker=entry.asker))
+
+    def apply(self, request: Request, gesture: int, author: str = '') -> Answer:
+        """
+        Apply a request now.
+
+        :param gesture: its gesture; requests of a drag have that of the grab
+        :param author: name of the person who did it; '' is nobody
+        :raises Refusal: and nothing is changed
+        """
+        cursor, before = self._past.cursor, self._past.cursor.moment
+        if isinstance(request, HandRequest):
+            answer = self.hands.apply(request, gesture, author)
+        else:
+            self._playback.seek_shown()
+            answer = self._past.apply(request, gesture, author)
+        if cursor.moment != before:
+            # On a new course, grips of the past have no hand.
+            self.release_grips()
+        return answer
+
+    def seek(self, stamp: int) -> str:
+        """
+        Go to a simulation time [ns] now, and return a message about it.
+
+        :raises OutOfHistory: the time is no longer kept, or in the future
+        """
+        self._playback.seek(stamp)
+        self.hands.clear()
+        return f'at {self._playback.time}'
+
+    def release_grips(self) -> None:
+        """Remove the grips of hands that are gone, unless their release lies ahead."""
+        self.answers += self.hands.release_grips(self.gesture)
+
+    def take_answers(self) -> tuple[Answer, ...]:
+        """Return the answers that wait, and drop them."""
+        answers = tuple(self.answers)
+        self.answers.clear()
+        return answers
+
+    def report_oldest(self, more: str = '') -> None:
+        """Add the event that the moment that is shown is the oldest."""
+        message = f'{self._playback.time} is the oldest that is kept{more}'
+        self.answers.append(Answer(topic='history', message=message))

@@ -2,19 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The simulation, the front of the core: requests and steady time go in, frames come out.
+The simulation, the front of the core: a world, its frames, and what people do with its time.
 
-Laws: requests are applied in the order of their arrival and only between frames, in a paused world
-too; a request in the past begins another course. Every request is answered, with the first frame
-after it; a frame without a step shows what requests have changed.
+Laws: a request in the past begins another course. What moves the world to another moment or
+replaces it comes after the requests that wait; a refusal changes nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Generator, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-import math
 from numbers import Integral
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -23,22 +21,17 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
 from physsim_ros.model.requests import DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Contacts, Frame, Snapshot
+from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
+from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
-from physsim_ros.simulation.playback import Playback
-from physsim_ros.simulation.request_handler import RequestHandler
-from physsim_ros.simulation.request_queue import RequestQueue
-from physsim_ros.simulation.world import forces_now, World
-from physsim_ros.simulation.world.body_requests import is_driving
+from physsim_ros.simulation.world import forces_now
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
 # Check of the rates: the range that the node's parameters have.
 _RATE = Within(1.0, 1e4, 'Hz')
-# Frames in one call: the one that is due, and one to make up for a late one.
-_FRAMES_A_CALL = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -60,7 +53,7 @@ class SavedMoment:
     held: tuple[DriveRobot, ...]
 
 
-class Simulation:
+class Simulation(FrameMaker):
     """
     A world and its time.
 
@@ -74,11 +67,6 @@ class Simulation:
     :param boundary: of the requests; None lets unexpected errors pass
     :raises BadProperty: a rate or the memory is out of range, or publish_rate does not divide
         physics_rate
-
-    :ivar requests: queue of the requests that wait for the next frame
-    :ivar past: the lines of events, cached frames, and their budget of memory
-    :ivar playback: the moment that is shown
-    :ivar held: the commands with which robots drive on, by the names of their bodies
     """
 
     def __init__(
@@ -102,51 +90,23 @@ class Simulation:
                 f'{physics_rate:g} Hz',
                 field='publish_rate',
             )
-        self.frame_steps = round(steps)
-        self.physics_rate = physics_rate
-        self.past = Past(
+        past = Past(
             physics_rate=physics_rate,
-            frame_steps=self.frame_steps,
+            frame_steps=round(steps),
             settings=settings or WorldSettings(),
             length=history,
             checkpoints=checkpoints,
             memory=history_memory,
             boundary=boundary or ErrorBoundary(),
         )
-        self.playback = Playback(self.past, speed=speed)
-        self.requests = RequestQueue()
-        self._handler = RequestHandler(self.past, self.playback, self.requests)
-        self._view: View | None = None
-        self.held: dict[str, DriveRobot] = {}
+        super().__init__(past, speed)
 
     # Reading
-
-    @property
-    def world(self) -> World:
-        """Return the world at the moment that is shown."""
-        return self.playback.world
-
-    @property
-    def step(self) -> int:
-        """Return the step that is shown."""
-        return self.playback.step
 
     @property
     def settings(self) -> WorldSettings:
         """Return the settings of the world at the moment that is shown."""
         return self.playback.settings
-
-    @property
-    def speed(self) -> float:
-        """Return simulation seconds a second; 0 is paused, negative goes back."""
-        return self.playback.speed
-
-    @speed.setter
-    def speed(self, speed: float) -> None:
-        if speed < 0.0:
-            self._handler.hands.clear()
-            self.let_go()
-        self.playback.speed = speed
 
     @property
     def status(self) -> TimelineStatus:
@@ -165,7 +125,7 @@ class Simulation:
         self.playback.changed = True
         if not self.past.cursor.keep_within(self.past.steps_in(seconds)):
             self.playback.note_jump()
-            self._handler.report_oldest()
+            self.requests.report_oldest()
 
     def limit_memory(self, megabytes: float) -> None:
         """
@@ -187,25 +147,6 @@ class Simulation:
             self.past.reports_contacts = reports_contacts
             self.playback.note_reporting(reports_contacts)
 
-    @property
-    def view(self) -> View:
-        """
-        Return the frame of now as sensors see it.
-
-        A frame is made when it is first read after steps or requests, so that steps whose frame
-        nobody reads make none.
-        """
-        if self._view is None or self.playback.changed:
-            shown = self._view and self._view.snapshot.step
-            self._observe_frame(moved=shown != self.step)
-        assert self._view is not None  # noqa: S101 - `_observe_frame` makes it
-        return self._view
-
-    @property
-    def frame(self) -> Frame:
-        """Return the frame of now, which is made when it is first read."""
-        return self.view.frame
-
     # Requests
 
     def perform(self, request: Request, gesture: int | None = None) -> str:
@@ -215,9 +156,9 @@ class Simulation:
         :param gesture: its gesture; None is a new one
         :raises Refusal: and nothing is changed
         """
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
-        message = self._handler.apply(request, gesture).message
+        message = self.requests.apply(request, gesture).message
         self.playback.changed = True
         return message
 
@@ -228,7 +169,7 @@ class Simulation:
 
     def _note_beginning(self) -> None:
         """Note that the world is another one, which nobody holds or drives."""
-        self._handler.hands.clear()
+        self.requests.hands.clear()
         self.let_go()
         self.playback.note_jump()
 
@@ -245,7 +186,7 @@ class Simulation:
         to its next impact: the engine solves contacts in the order in which it found them, which
         is not in a state.
         """
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         return self.world.save()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
@@ -272,11 +213,11 @@ class Simulation:
 
         :raises InPast: the past is shown
         """
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         if self.frame.past:
             raise InPast('the past is shown; go to its end first', field='history')
-        self._handler.hands.clear()
-        self._handler.release_grips()
+        self.requests.hands.clear()
+        self.requests.release_grips()
         frame = self.frame
         checkpoint = self.past.cursor.add_keyframe()
         return SavedMoment(
@@ -303,7 +244,7 @@ class Simulation:
         :raises BadProperty: the seed is out of range
         """
         with self._jump():
-            self._handler.hands.clear()
+            self.requests.hands.clear()
             self.let_go()
             done = self.past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
@@ -312,7 +253,7 @@ class Simulation:
         """
         Go back to before the last gesture that changed the world; return a message about it.
 
-        :raises OutOfHistory: there is none in the history
+        :raises OutOfHistory: there is none that is kept
         """
         with self._jump():
             undone = self.past.undo()
@@ -326,7 +267,7 @@ class Simulation:
         :raises Refusal: there is none, or it does not stand alone; nothing is changed
         """
         with self._jump():
-            return f'undid {self.past.take_back(author)}'
+            return f'undid {_result(self.past.take_back(author))}'
 
     def redo(self) -> str:
         """
@@ -347,7 +288,7 @@ class Simulation:
         """
         with self._jump():
             if self.past.return_to_course(number):
-                self._handler.hands.clear()
+                self.requests.hands.clear()
         return f'on course {number}, at {self.playback.time}'
 
     def seek(self, stamp: int) -> str:
@@ -359,199 +300,24 @@ class Simulation:
         """
         if not isinstance(stamp, Integral):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         self.let_go()
-        return self._handler.seek(stamp)
-
-    def let_go(self) -> None:
-        """End what `Robot.drive` has robots do; their last commands end with their timeouts."""
-        self.held.clear()
-
-    # Time
-
-    def apply_waiting(self) -> None:
-        """Apply the requests that wait, at whose seeks the world goes at once."""
-        self._handler.apply_waiting()
-
-    def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
-        """
-        Apply the requests up to a seek.
-
-        :param is_spent: whether there is no time for a further one
-        :return: whether no seek is under way, and no request waits
-        """
-        self._handler.apply_up_to_seek(is_spent)
-        return self.playback.is_there and not self.requests.has_requests
-
-    def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
-        """
-        Replay up to the goal of a seek whose frame is not cached; until then no step is due.
-
-        :param is_overdue: whether the replay is to continue in another call
-        :return: whether the goal is reached
-        """
-        while self.playback.continue_seek():
-            if is_overdue():
-                # The time of this replay is not made up for.
-                self.playback.clock.restart()
-                return False
-        return True
-
-    def apply_requests(self) -> Frame | None:
-        """Apply the requests that wait, without a step; return a frame if anything changed."""
-        self._handler.apply_waiting()
-        return self._observe_frame(moved=False) if self.playback.changed else None
-
-    def take_answers(self) -> tuple[Answer, ...]:
-        """Return the answers that no frame has taken, and drop them."""
-        return self._handler.take_answers()
-
-    def advance_frame(self) -> Frame:
-        """Apply the requests that wait, and advance by one publish period, at any speed."""
-        self._advance_period()
-        return self._observe_frame(moved=True)
-
-    def run(self, seconds: float) -> None:
-        """
-        Advance by simulated seconds, to the nearest publish period, at any speed.
-
-        No frame is made but the last one, when it is read; its contacts are those of all steps
-        since the one that was read before.
-
-        :raises BadProperty: they are below 0, or not finite
-        """
-        periods = seconds * self.physics_rate / self.frame_steps
-        if not 0.0 <= periods < math.inf:
-            raise BadProperty(f'seconds must be finite and >= 0, not {seconds:g}', field='seconds')
-        for _ in range(round(periods)):
-            self._advance_period()
-
-    def _advance_period(self) -> None:
-        """Apply the requests that wait, and advance by one publish period."""
-        self._hold_drives()
-        self._handler.apply_waiting()
-        self._handler.release_grips()
-        self.playback.clock.restart()
-        self._play(self.playback.steps_to_period)
-
-    def advance(
-        self,
-        now_ns: int,
-        *,
-        is_overdue: Callable[[], bool] = lambda: False,
-        is_spent: Callable[[], bool] = lambda: False,
-    ) -> tuple[Frame, ...]:
-        """
-        Apply the requests that wait, and advance, or rewind, by the steps that are due.
-
-        Where the time for requests is spent within a gesture, as in an array of thousands of
-        bodies, time stands until a later call has applied the rest of the gesture.
-
-        :param now_ns: steady time, never going back [ns]
-        :param is_overdue: whether the call has taken too long; a frame that advances then ends at
-            the next publish period, however many steps are due, so that requests do not wait
-        :param is_spent: whether there is no time for a further request in this call
-        :return: the frames, in the order in which they are shown; empty where nothing is due and
-            nothing has changed
-        """
-        playback = self.playback
-        if playback.is_world_due or self.requests.has_requests:
-            playback.seek_shown()
-        if not self.finish_seek(is_overdue):
-            return ()
-        if playback.speed > 0.0:
-            self._hold_drives()
-        self._handler.apply_up_to_seek(is_spent)
-        if not self.finish_seek(is_overdue):
-            return ()
-        if self.requests.is_in_gesture or (playback.frames_due and self.requests.has_requests):
-            playback.clock.restart()
-            return ()
-        if playback.frames_due:
-            playback.frames_due -= 1
-            return (self.advance_frame(),)
-        self._handler.hands.note_time(now_ns, paused=playback.speed == 0)
-        if playback.speed > 0:
-            self._handler.release_grips()
-        frames = tuple(self._due_frames(now_ns, is_overdue))
-        if not frames and playback.changed:
-            return (self._observe_frame(moved=False),)
-        return frames
-
-    def _due_frames(self, now_ns: int, is_overdue: Callable[[], bool]) -> Iterator[Frame]:
-        """Yield the frames that are due at a steady time [ns], and make them."""
-        playback = self.playback
-        for _ in range(_FRAMES_A_CALL):
-            steps = playback.clock.due(now_ns, playback.step)
-            if steps == 0:
-                return
-            if steps > 0:
-                self._play(steps, is_overdue)
-                yield self._observe_frame(moved=True)
-            elif frame := self._rewind_frame(-steps, is_overdue):
-                yield frame
-            else:
-                return
-            if playback.speed == 0 or is_overdue():
-                return
-
-    def _play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
-        """Advance by steps, whose frame is not made yet."""
-        for _ in self.playback.play(steps):
-            if is_overdue():
-                break
-        self.playback.changed = True
-
-    def _hold_drives(self) -> None:
-        """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
-        for drive in self.held.values():
-            if not is_driving(self.world, drive, self.frame_steps):
-                # In the gesture before, with which it is undone: nobody undoes a tick.
-                self._handler.apply(drive, self.requests.gesture)
-
-    def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
-        """Return the frame some steps back; None while its replay goes on."""
-        before = self.playback.step
-        while not self.playback.rewind(steps):
-            if is_overdue():
-                # The time of this replay is not made up for.
-                self.playback.clock.restart()
-                return None
-        for _ in self.playback.replay_ahead(steps):
-            if is_overdue():
-                break
-        if self.playback.step <= self.past.tree.oldest:
-            self.playback.speed = 0.0
-            self._handler.report_oldest('; paused')
-        return self._observe_frame(moved=self.playback.step < before)
-
-    def _observe_frame(self, *, moved: bool) -> Frame:
-        """Return the frame that is shown, with all answers; fit the past into its budget."""
-        snapshot, contacts = self.playback.observe_frame(moved=moved)
-        self.past.fit_memory(self.playback.moment)
-        self._handler.answers += self.past.reports
-        self.past.reports.clear()
-        self.playback.changed = False
-        frame = Frame(
-            snapshot=snapshot,
-            contacts=contacts if self.past.reports_contacts else None,
-            answers=self._handler.take_answers(),
-            speed=self.playback.speed,
-            moved=moved,
-            past=snapshot.step < self.past.tree.head,
-            course=self.past.tree.course,
-        )
-        before, last = None, self._view
-        if last is not None:
-            before = last.snapshot if last.snapshot.step != snapshot.step else last.before
-        self._view = View(frame, before)
-        return frame
+        return self.requests.seek(stamp)
 
     @contextmanager
     def _jump(self) -> Iterator[None]:
         """Have the block move the cursor, from the moment that is shown after all requests."""
-        self._handler.apply_waiting()
+        self.requests.apply_waiting()
         self.playback.frames_due = 0
         self.playback.seek_shown()
         yield
         self.playback.note_jump()
+
+
+def _result(parts: Generator[None, None, str]) -> str:
+    """Carry out all parts of work, and return its result."""
+    while True:
+        try:
+            next(parts)
+        except StopIteration as end:
+            return str(end.value)

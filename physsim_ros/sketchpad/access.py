@@ -13,7 +13,6 @@ tokens are not kept. The key of a person is signed for this run alone, and gives
 
 from __future__ import annotations
 
-from enum import Enum
 import hmac
 from ipaddress import ip_address
 import os
@@ -24,6 +23,7 @@ import stat
 from urllib.parse import urlsplit
 
 from physsim_ros.files import make_directory, user_directory, write_file
+from physsim_ros.sketchpad.rights import Role
 from tornado.web import create_signed_value, decode_signed_value
 
 # Random bytes of a token: too many to be guessed.
@@ -40,19 +40,6 @@ _POLICY = (
 # signs.
 _KEY_BYTES = 32
 _KEY_FILE = 'cookie_key'
-
-
-class Role(Enum):
-    """The rights of a page."""
-
-    DRAW = 'draw'
-    VIEW = 'view'
-    TEACH = 'teach'
-
-    @property
-    def draws(self) -> bool:
-        """Whether its pages change the world."""
-        return self is not Role.VIEW
 
 
 class Access:

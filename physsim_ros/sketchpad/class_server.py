@@ -24,21 +24,12 @@ from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
-from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
-from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
+from physsim_ros.sketchpad.listening import BoundedServer
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_handlers import (
-    CookieCheck,
-    Login,
-    Missing,
-    PAGE,
-    Page,
-    PageFiles,
-    QrCode,
-)
+from physsim_ros.sketchpad.page_handlers import Site
+from physsim_ros.sketchpad.rights import Role
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
-from tornado.web import Application
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
 
 # Size of a request [bytes].
@@ -104,32 +95,21 @@ class ClassServer:
     """
 
     def __init__(self, worlds: Sequence[World], *, address: str, port: int) -> None:
-        self._sockets = listening_sockets(address, port)
-        self._port = self._sockets[0].getsockname()[1]
-        self._host = reachable_host(address)
-        self._access = Access(address, self._port)
+        self._site = Site(address, port)
         seats = Seats(worlds)
-        self._application = Application(
+        self._application = self._site.application(
+            'class.html',
             [
-                ('/', Page, {'file': 'class.html'}),
-                ('/login', Login),
-                ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
-                ('/session', CookieCheck),
                 (r'/ws/(\d+)', _Watch, {'seats': seats}),
                 ('/seats', _SeatList, {'seats': seats, 'address': partial(self.url, Role.DRAW)}),
                 ('/join', _Join, {'seats': seats}),
-                ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
             ],
-            access=self._access,
-            boundary=ErrorBoundary(lambda text: sys.stderr.write(f'{text}\n')),
-            compress_response=True,
-            default_handler_class=Missing,
-            log_function=lambda _: None,
+            ErrorBoundary(lambda text: sys.stderr.write(f'{text}\n')),
         )
 
     def url(self, role: Role) -> str:
         """Return the address of the class with its token."""
-        return f'http://{self._host}:{self._port}/login?token={self._access.tokens[role]}'
+        return self._site.url(role)
 
     def run(self, is_over: Callable[[], bool]) -> None:
         """Serve until it is over."""
@@ -137,7 +117,7 @@ class ClassServer:
 
     async def _serve(self, is_over: Callable[[], bool]) -> None:
         server = BoundedServer(self._application, max_body_size=_MOST_BYTES)
-        server.add_sockets(self._sockets)
+        server.add_sockets(self._site.sockets)
         # It is asked, since a signal handler of a thread sets it.
         while not is_over():  # noqa: ASYNC110
             await asyncio.sleep(_CHECK_PERIOD)

@@ -16,7 +16,6 @@ import time
 
 from physsim_ros.appearance import LaserScans
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.sketchpad.cursors import Cursors
 from physsim_ros.sketchpad.frame_codec import encode_frame, Show
 from physsim_ros.sketchpad.open_pages import OpenPage, OpenPages
 from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
@@ -36,13 +35,11 @@ class FrameFeed:
     :param loop: of the server's thread
 
     :ivar pages: that are open
-    :ivar cursors: of the people at them
     :ivar newest: frame, and ghost beside it
     """
 
     def __init__(self, loop: AbstractEventLoop) -> None:
-        self.pages = OpenPages()
-        self.cursors = Cursors(loop, self.pages)
+        self.pages = OpenPages(loop)
         self._loop = loop
         self.newest: tuple[Frame, Snapshot | None] | None = None
         self._codec = SceneCodec()
@@ -57,14 +54,13 @@ class FrameFeed:
         self._ghost_frame = b''
         self._scene_due = 0.0
 
-    def add_page(self, socket: WebSocketHandler, address: str, person: int | None) -> OpenPage:
+    def add_page(self, socket: WebSocketHandler, person: int | None) -> OpenPage:
         """
         Begin to send frames to the page of a socket, from the next one on.
 
-        :param address: of the machine that it is open on
         :param person: number of the person at it; None for a new one
         """
-        page = self.pages.add(socket, address, person, self.update_page)
+        page = self.pages.add(socket, person, self.update_page)
         # The newest may be old: while no page was open, no frame has come.
         page.frame = self._number
         return page

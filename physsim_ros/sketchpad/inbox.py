@@ -14,11 +14,11 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from threading import Lock
-from typing import Any
+from typing import Any, NamedTuple
 
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.message import Message
+from physsim_ros.sketchpad.rights import Role
 
 # Waiting messages of one page: a second of a moving hand at 60 Hz.
 CAPACITY = 64
@@ -48,32 +48,18 @@ class Closed:
     """A page has been closed."""
 
 
-class Upload:
+class Upload(NamedTuple):
     """
     Replace the world by that of a file.
 
-    The content can be taken once: by the world's thread, which then replaces the world, or by the
-    server's thread, which then has waited too long.
-
-    :param content: of the world file
-    :param role: of who uploads it
-    :param reply: receives the answer, on the world's thread
+    :ivar content: of the world file
+    :ivar role: of who uploads it
+    :ivar reply: receives the answer, on the world's thread
     """
 
-    def __init__(
-        self, content: Mapping[Any, Any], role: Role, reply: Callable[[Answer], None]
-    ) -> None:
-        self.role = role
-        self.reply = reply
-        # A deque's `pop` is atomic.
-        self._content = deque((content,))
-
-    def take(self) -> Mapping[Any, Any] | None:
-        """Return the content at the first call, None at the second."""
-        try:
-            return self._content.pop()
-        except IndexError:
-            return None
+    content: Mapping[Any, Any]
+    role: Role
+    reply: Callable[[Answer], None]
 
 
 Entry = Message | Opened | Closed | Upload

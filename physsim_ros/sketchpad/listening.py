@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-import asyncio
-from contextlib import suppress
 import errno
 from ipaddress import ip_address
 import resource
@@ -15,29 +13,14 @@ from typing import Any
 
 from physsim_ros.model.errors import PhysSimError
 from tornado.httpserver import HTTPServer
-from tornado.iostream import IOStream, StreamClosedError, UnsatisfiableReadError
+from tornado.iostream import IOStream
 from tornado.netutil import bind_sockets
 
 # Connections at once, pages included, and their greatest share of the files that a process may
 # have open.
 MOST_CONNECTIONS, _SHARE_OF_FILES = 256, 0.25
-# Further connections that are answered with a refusal at once, and the time for each [s]; all
-# others are closed without an answer.
-MOST_REFUSED, _REFUSING = 16, 2.0
-_SENTENCE = 'too many connections; close some, and try again\n'
-_REFUSAL = (
-    'HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\n'
-    'Content-Type: text/plain; charset=utf-8\r\n'
-    f'Content-Length: {len(_SENTENCE)}\r\n\r\n{_SENTENCE}'
-).encode()
-# Size of the lines before the body of a request [bytes].
-_MOST_HEADER = 2**16
 # Time until a connection without a request, or a request without the rest of it, is closed [s].
-LIMITS = {
-    'idle_connection_timeout': 10.0,
-    'body_timeout': 10.0,
-    'max_header_size': _MOST_HEADER,
-}
+LIMITS = {'idle_connection_timeout': 10.0, 'body_timeout': 10.0}
 # Ports that are tried after the given one.
 _MORE_PORTS = 20
 
@@ -49,41 +32,18 @@ def most_connections() -> int:
 
 
 class BoundedServer(HTTPServer):
-    """A server that refuses connections beyond a number, and closes those that stand idle."""
+    """A server that closes connections beyond a number, and those that stand idle."""
 
     def initialize(self, *arguments: Any, **options: Any) -> None:
         """Begin without a connection, as `HTTPServer` does."""
         super().initialize(*arguments, **(LIMITS | options))
-        self._refused: set[asyncio.Task[None]] = set()
 
     def handle_stream(self, stream: IOStream, address: Any) -> None:
         """Serve a connection, if there are not too many."""
         if len(self._connections) < most_connections():
             super().handle_stream(stream, address)
-        elif len(self._refused) < MOST_REFUSED:
-            task = asyncio.create_task(_refuse(stream))
-            self._refused.add(task)
-            task.add_done_callback(self._refused.discard)
         else:
             stream.close()
-
-    async def close_all_connections(self) -> None:
-        """Close all connections, those that are being refused too."""
-        for task in self._refused:
-            task.cancel()
-        await super().close_all_connections()
-
-
-async def _refuse(stream: IOStream) -> None:
-    """Answer the request of a connection with a refusal, and close it."""
-    try:
-        with suppress(StreamClosedError, UnsatisfiableReadError, TimeoutError):
-            async with asyncio.timeout(_REFUSING):
-                # A connection with unread bytes would be reset, and the answer with it.
-                await stream.read_until(b'\r\n\r\n', max_bytes=_MOST_HEADER)
-                await stream.write(_REFUSAL)
-    finally:
-        stream.close()
 
 
 def listening_sockets(address: str, port: int) -> list[socket.socket]:

@@ -22,8 +22,7 @@ from physsim_ros.model.declarations import check_key
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.sketchpad.access import Role
-from physsim_ros.sketchpad.rights import check_right, Right
+from physsim_ros.sketchpad.rights import check_right, Right, Role
 
 # Levels of nested lists and mappings; a stroke has three, a body five.
 DEEPEST = 8

@@ -5,26 +5,27 @@
 The open pages on the server's thread, and the messages to one page or to all.
 
 Laws: a page that does not read is skipped, never waited for; a page gets every answer to its own
-messages, and of those to others the first ones of each frame. Addresses share the number of pages
-fairly (max-min fairness): where it is spent, an address gets one more page as long as it has fewer
-than another address is left with.
+messages, and of those to others the first ones of each frame.
 """
 
 from __future__ import annotations
 
-from asyncio import Future
+from asyncio import AbstractEventLoop, Future
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.transform import Point
 from physsim_ros.sketchpad.frame_codec import Show
-from physsim_ros.sketchpad.guarded import POLICY_VIOLATION, REPLACED, TOO_BIG
+from physsim_ros.sketchpad.guarded import REPLACED, TOO_BIG
 from physsim_ros.sketchpad.message import answer_content, asker_of
 from physsim_ros.sketchpad.scene_codec import compact
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 # Pages at once.
 MOST_PAGES = 64
+# Time in which moves of cursors are collected [s].
+CURSOR_PERIOD = 0.1
 # Answers of a frame, from its first on, that go to pages which did not ask; the rest is counted.
 MOST_ANSWERS_TO_OTHERS = 20
 # Unread messages of a page that is not closed yet [bytes]: tens of thousands of answers. The
@@ -39,7 +40,6 @@ class OpenPage:
     :param socket: of the page
     :param number: of the page, never used again
     :param person: number of the person at it: that of the first page of this person
-    :param address: of the machine that it is open on
     :param on_read: called with the page when it has read all that it was sent
 
     :ivar show: the parts of a frame that it gets
@@ -56,12 +56,10 @@ class OpenPage:
         socket: WebSocketHandler,
         number: int,
         person: int,
-        address: str,
         on_read: Callable[[OpenPage], None],
     ) -> None:
         self.number = number
         self.person = person
-        self.address = address
         self.show = Show.POSES
         self.robot = ''
         self.epoch = self.ghost_epoch = self.frame = 0
@@ -117,13 +115,18 @@ class OpenPages:
     """
     The open pages by their numbers.
 
+    :param loop: of the server's thread
+
     :ivar wants_contacts: whether a page shows contacts; read by the world's thread
     """
 
-    def __init__(self) -> None:
+    def __init__(self, loop: AbstractEventLoop) -> None:
         self.wants_contacts = False
+        self._loop = loop
         self._pages: dict[int, OpenPage] = {}
         self._last_number = 0
+        # Where cursors have moved to that were not sent yet [m], by page.
+        self._cursors: dict[int, Point] = {}
 
     def __len__(self) -> int:
         return len(self._pages)
@@ -132,38 +135,22 @@ class OpenPages:
         # A page that does not read is closed, and removed, while it is sent something.
         return iter(list(self._pages.values()))
 
-    def has_room(self, address: str) -> bool:
-        """Return whether an address may have one more page, if need be in place of another."""
-        return len(self) < MOST_PAGES or self._surplus(address) is not None
-
-    def _surplus(self, address: str) -> OpenPage | None:
-        """Return the newest page of the address with the most, if it has two more than this."""
-        counts = Counter(page.address for page in self)
-        crowded, count = counts.most_common(1)[0]
-        if count < counts[address] + 2:
-            return None
-        return [page for page in self if page.address == crowded][-1]
-
     def add(
         self,
         socket: WebSocketHandler,
-        address: str,
         person: int | None,
         on_read: Callable[[OpenPage], None],
     ) -> OpenPage:
         """
-        Add the page of a socket, in place of the one of its person, or if need be of another.
+        Add the page of a socket, in place of the one of its person.
 
-        :param address: for which there is room
         :param person: number of the person at it; None for a new one
         """
         for page in self:
             if page.person == person:
                 page.close(REPLACED, 'this page is open again')
-        if len(self) >= MOST_PAGES and (surplus := self._surplus(address)) is not None:
-            surplus.close(POLICY_VIOLATION, 'too many pages of one address')
         self._last_number += 1
-        page = OpenPage(socket, self._last_number, person or self._last_number, address, on_read)
+        page = OpenPage(socket, self._last_number, person or self._last_number, on_read)
         self._pages[page.number] = page
         return page
 
@@ -184,6 +171,22 @@ class OpenPages:
         """
         for page in self if number is None else filter(None, [self._pages.get(number)]):
             page.send(text)
+
+    def move_cursor(self, number: int, point: Point) -> None:
+        """
+        Note where the cursor of a page is, and send it to all after a while; no world knows of it.
+
+        :param point: of the world [m]
+        """
+        if not self._cursors:
+            self._loop.call_later(CURSOR_PERIOD, self._send_cursors)
+        self._cursors[number] = point
+
+    def _send_cursors(self) -> None:
+        """Send one message with all cursors that have moved, however many."""
+        moved, self._cursors = self._cursors, {}
+        cursors = [[number, *point] for number, point in moved.items()]
+        self.send(compact({'type': 'cursors', 'cursors': cursors}))
 
     def send_answers(self, answers: Sequence[Answer]) -> None:
         """Send each answer of a frame to the page that asked, and the first ones to all others."""

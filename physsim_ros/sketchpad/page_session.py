@@ -23,13 +23,12 @@ from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
 from physsim_ros.simulation.request_queue import Wait
-from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
-from physsim_ros.sketchpad.body_past import BodyPasts
-from physsim_ros.sketchpad.locks import check_locked
+from physsim_ros.sketchpad.contacts import touches_content
+from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, Content, KINDS, Message, Origin
-from physsim_ros.sketchpad.rights import check_right
-from physsim_ros.sketchpad.touches import touches_content
+from physsim_ros.sketchpad.past import BodyPasts
+from physsim_ros.sketchpad.rights import check_locked, check_right, Role
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
@@ -46,16 +45,16 @@ class PageSession:
     The session of one page.
 
     :param number: of the page
-    :param person: number of the person at it
-    :param role: its rights
+    :param opened: who is at it, with which rights
     :param world: that it draws in
-    :param send: sends a message to the page
+    :param send: sends a message to the page of a number, or to all
     :param pasts: of bodies, for all pages
     :param own_worlds: of the user
     :param autosave: of the world
     :param list_worlds: sends the list of worlds to the page of a number, or to all
-    :param tell_all: sends a message to all pages
 
+    :ivar role: its rights
+    :ivar watches: whether a teacher watches a class with it, and is nobody in this world
     :ivar person: name of the person at it, who makes its requests
     :ivar unnamed: name of that person before one is chosen
     :ivar drawing: its strokes and clicks
@@ -71,28 +70,27 @@ class PageSession:
     def __init__(
         self,
         number: int,
-        person: int,
-        role: Role,
+        opened: Opened,
         world: WorldControl,
         *,
-        send: Callable[[Content], None],
+        send: Callable[[Content, int | None], None],
         pasts: BodyPasts,
         own_worlds: OwnWorlds,
         autosave: Autosave,
-        list_worlds: Callable[..., None],
-        tell_all: Callable[[Content], None],
+        list_worlds: Callable[[int | None], None],
     ) -> None:
         self.number = number
-        self.role = role
-        self.person = self.unnamed = TEACHER if role is Role.TEACH else f'{UNNAMED}{person}'
+        self.role = opened.role
+        self.watches = opened.watches
+        teaches = self.role is Role.TEACH
+        self.person = self.unnamed = TEACHER if teaches else f'{UNNAMED}{opened.person}'
         self.world = world
-        self.send = send
+        self._send = send
         self.pasts = pasts
         self.own_worlds = own_worlds
         self.autosave = autosave
         self.list_worlds = list_worlds
-        self.tell_all = tell_all
-        self.drawing = DrawingSession(world.drawing_settings(), clock=time.thread_time)
+        self.drawing = DrawingSession(world.drawing_settings, clock=time.thread_time)
         self.hand = f'page {number}'
         self.driven = '', 0
         self.answered: dict[str, Any] = {}
@@ -106,7 +104,7 @@ class PageSession:
 
     def handle(self, message: Message) -> None:
         """Carry out a message."""
-        self.drawing.settings = self.world.drawing_settings()
+        self.drawing.settings = self.world.drawing_settings
         kind = KINDS[message.kind]
         origin = Origin(self.number, message.request, kind.topic)
         try:
@@ -203,6 +201,14 @@ class PageSession:
         return replace(spawn, color=self.color or spawn.color, properties=properties)
 
     # Answers
+
+    def send(self, content: Content) -> None:
+        """Send the page a message."""
+        self._send(content, self.number)
+
+    def send_all(self, content: Content) -> None:
+        """Send all pages a message."""
+        self._send(content, None)
 
     def refuse(self, origin: Origin, refusal: Refusal) -> None:
         """Queue the refusal of a message."""

@@ -14,15 +14,14 @@ from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
-from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.guarded import GuardedSocket
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened
 from physsim_ros.sketchpad.message import answer_content, message, Optional
 from physsim_ros.sketchpad.messages import fields, read_message
-from physsim_ros.sketchpad.open_pages import OpenPage
-from physsim_ros.sketchpad.rights import Right
+from physsim_ros.sketchpad.open_pages import MOST_PAGES, OpenPage
+from physsim_ros.sketchpad.rights import Right, Role
 from physsim_ros.sketchpad.scene_codec import compact
 
 # Time from one frame to the next of a teacher's page that watches a class [s].
@@ -47,13 +46,8 @@ class PageSocket(GuardedSocket):
     @property
     def too_many(self) -> str:
         """Return why one more page is refused; '' where there is room for it."""
-        room = self._feed.pages.has_room(self.address)
-        return '' if room else 'there are as many pages open as there may be'
-
-    @property
-    def address(self) -> str:
-        """Return the address of the machine that the page is open on."""
-        return str(self.request.remote_ip)
+        full = len(self._feed.pages) >= MOST_PAGES
+        return 'there are as many pages open as there may be' if full else ''
 
     def open(self) -> None:  # noqa: A003 - tornado's name
         """Begin to send frames to the page, and tell the world's thread."""
@@ -62,7 +56,7 @@ class PageSocket(GuardedSocket):
             self.role = Role.VIEW
         # One that connects again sends the key of its person.
         key = self.request.arguments.get('person', [b''])[-1]
-        self._page = self._feed.add_page(self, self.address, self.access.person_of(key))
+        self._page = self._feed.add_page(self, self.access.person_of(key))
         person = self._page.person
         watches = self.role is Role.TEACH and 'watch' in self.request.arguments
         self._page.period = WATCH_PERIOD if watches else 0.0
@@ -86,7 +80,7 @@ class PageSocket(GuardedSocket):
         elif checked.kind == 'show':
             self._feed.show_parts(self._page, *_show(**checked.arguments))
         elif checked.kind == 'here':
-            self._feed.cursors.move(self._page.number, _here(**checked.arguments))
+            self._feed.pages.move_cursor(self._page.number, _here(**checked.arguments))
         elif not self._inbox.put(self._page.number, checked):
             self._refuse(request, Busy('the world is too busy; nothing was done'))
 

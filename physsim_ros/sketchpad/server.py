@@ -10,7 +10,6 @@ Laws: the world's thread never waits for a page; answers are not dropped.
 from __future__ import annotations
 
 import asyncio
-from collections import deque
 from collections.abc import Callable
 from functools import partial
 import threading
@@ -19,33 +18,18 @@ from typing import Any
 from physsim_ros.files import OwnWorlds, shipped_pictures
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
-from physsim_ros.sketchpad.access import Access, Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.frame_feed import FrameFeed
+from physsim_ros.sketchpad.gallery import gallery_content
 from physsim_ros.sketchpad.guarded import LEFT
 from physsim_ros.sketchpad.inbox import Inbox
-from physsim_ros.sketchpad.listening import BoundedServer, listening_sockets, reachable_host
+from physsim_ros.sketchpad.listening import BoundedServer
 from physsim_ros.sketchpad.message import Content
-from physsim_ros.sketchpad.page_handlers import (
-    CookieCheck,
-    Files,
-    Login,
-    Missing,
-    PAGE,
-    Page,
-    PageFiles,
-    QrCode,
-)
+from physsim_ros.sketchpad.page_handlers import Files, Site
 from physsim_ros.sketchpad.page_socket import PageSocket
+from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.scene_codec import compact
-from physsim_ros.sketchpad.world_handlers import (
-    Download,
-    gallery_content,
-    Picture,
-    Unsaved,
-    UploadWorld,
-)
-from tornado.web import Application
+from physsim_ros.sketchpad.world_handlers import Download, Picture, Unsaved, UploadWorld
 
 # Size of a message of a page, and of an uploaded world [bytes].
 MOST_BYTES = 2**20
@@ -66,8 +50,6 @@ class Server:
     :param inbox: receives the messages of the pages
     :param boundary: of the node
     :raises PhysSimError: it cannot listen there
-
-    :ivar port: that it listens on
     """
 
     def __init__(
@@ -81,21 +63,14 @@ class Server:
         boundary: ErrorBoundary,
     ) -> None:
         self._boundary = boundary
-        self._address = address
         self._own_worlds = own_worlds
-        self._sockets = listening_sockets(address, port)
-        self.port: int = self._sockets[0].getsockname()[1]
-        self._access = Access(address, self.port)
+        self._site = Site(address, port)
         self._loop = asyncio.new_event_loop()
         self._feed = FrameFeed(self._loop)
-        self._application = Application(
+        self._application = self._site.application(
+            'index.html',
             [
-                ('/', Page, {'file': 'index.html'}),
-                ('/login', Login),
-                ('/session', CookieCheck),
-                ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
                 ('/ws', PageSocket, {'feed': self._feed, 'inbox': inbox}),
-                ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
                 ('/gallery/(.*)', Files, {'path': str(shipped_pictures())}),
                 ('/world', UploadWorld, {'inbox': inbox}),
                 (r'/world/([^/]+)\.yaml', Download, {'own_worlds': own_worlds}),
@@ -106,19 +81,11 @@ class Server:
                     {'own_worlds': own_worlds, 'on_change': self.list_worlds},
                 ),
             ],
-            access=self._access,
-            boundary=boundary,
-            compress_response=True,
-            default_handler_class=Missing,
+            boundary,
             websocket_max_message_size=MOST_BYTES,
             websocket_ping_interval=PING_PERIOD,
             websocket_ping_timeout=PING_PERIOD,
-            # Answers with an error concern those who asked.
-            log_function=lambda _: None,
         )
-        # Calls of the world's thread for the server's thread.
-        self._outbox: deque[Callable[[], None]] = deque()
-        self._scheduled = False
         self._ended = asyncio.Event()
         self._thread = threading.Thread(target=self._run, name='sketchpad', daemon=True)
         self._thread.start()
@@ -130,8 +97,7 @@ class Server:
 
     def url(self, role: Role) -> str:
         """Return the address of a page with its token."""
-        host = reachable_host(self._address)
-        return f'http://{host}:{self.port}/login?token={self._access.tokens[role]}'
+        return self._site.url(role)
 
     def show(self, frame: Frame, ghost: Snapshot | None, timeline: Content | None = None) -> None:
         """
@@ -170,13 +136,9 @@ class Server:
         self._thread.join(_CLOSING)
 
     def _post(self, call: Callable[[], None]) -> None:
-        """Have the server's thread make a call in its turn, and then send the newest frame."""
-        if not self._thread.is_alive():
-            return
-        self._outbox.append(call)
-        if not self._scheduled:
-            self._scheduled = True
-            self._loop.call_soon_threadsafe(self._flush)
+        """Have the server's thread make a call, in the order in which they come."""
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._carry_out, call)
 
     # The server's thread
 
@@ -202,27 +164,25 @@ class Server:
             max_body_size=MOST_BYTES,
             max_buffer_size=2 * MOST_BYTES,
         )
-        server.add_sockets(self._sockets)
+        server.add_sockets(self._site.sockets)
         await self._ended.wait()
         server.stop()
         for page in self._feed.pages:
             page.close(1001, 'the world has ended')
         await server.close_all_connections()
 
-    def _flush(self) -> None:
-        """Make the calls that the world's thread has left here, and send the newest frame."""
-        self._scheduled = False
-        while self._outbox:
-            with self._boundary.output('page'):
-                self._outbox.popleft()()
-        self._feed.send_frame()
+    def _carry_out(self, call: Callable[[], None]) -> None:
+        with self._boundary.output('page'):
+            call()
 
     def _show(self, frame: Frame, ghost: Snapshot | None, timeline: Content | None) -> None:
-        """Send what belongs to a frame; the frame, if no newer one waits, is sent after it."""
+        """Send what belongs to a frame, and then the frame, if no newer one has come."""
         self._feed.pages.send_answers(frame.answers)
         if timeline is not None:
             self._send(timeline)
         self._feed.newest = frame, ghost
+        # Behind the calls that have come meanwhile.
+        self._loop.call_soon(self._feed.send_frame)
 
     def _send(self, content: Content, page: int | None = None) -> None:
         text = compact(content() if callable(content) else content)

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
 import time
 from typing import Any
 
@@ -22,18 +21,15 @@ from physsim_ros.model.errors import Busy, Frozen
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import Wait
-from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
-from physsim_ros.sketchpad.body_past import BodyPasts
+from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
-from physsim_ros.sketchpad.last_contacts import LastContacts
-from physsim_ros.sketchpad.locks import check_locked
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession
-from physsim_ros.sketchpad.rights import check_right, Right
+from physsim_ros.sketchpad.past import BodyPasts, timeline_content, TimelineReport
+from physsim_ros.sketchpad.rights import check_locked, check_right, Right, Role
 from physsim_ros.sketchpad.server import Server
-from physsim_ros.sketchpad.timeline_report import timeline_content, TimelineReport
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes
@@ -48,10 +44,13 @@ class Sketchpad:
     :param world: that the pages draw in
     :param address: to listen on
     :param port: to listen on, or the first free one after it
-    :param recording_address: of the viewer's web page on this machine; '' while there is none
     :param wake: called on the server's thread when a message has come
     :raises PhysSimError: it cannot listen there
+
+    :ivar name: of the output
     """
+
+    name = 'page'
 
     def __init__(
         self,
@@ -59,13 +58,11 @@ class Sketchpad:
         *,
         address: str,
         port: int,
-        recording_address: Callable[[], str],
         wake: Callable[[], None],
     ) -> None:
         self._world = world
         self._boundary = world.boundary
         self._simulation = world.simulation
-        self._recording_address = recording_address
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts(world.simulation.forces_now)
@@ -81,11 +78,9 @@ class Sketchpad:
         )
         self._pasts = BodyPasts(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
-        # Numbers of the pages with which a teacher watches a class.
-        self._watching: set[int] = set()
         # The last one; None before the first.
         self._frame: Frame | None = None
-        self._sent_recording = self._recording_address()
+        self._sent_recording = world.recording_address
         self._sent_class: dict[str, Any] = {}
 
     def url(self, role: Role = Role.DRAW) -> str:
@@ -121,7 +116,6 @@ class Sketchpad:
             case Opened():
                 self._open(page, entry)
             case Closed():
-                self._watching.discard(page)
                 if (session := self._sessions.pop(page, None)) is not None:
                     session.close()
             case Upload():
@@ -166,8 +160,8 @@ class Sketchpad:
             # Where too many requests wait, the world is saved later.
             with suppress(Busy):
                 self._world.submit_call(self._save_unsaved, Wait.FOR_SEEK)
-        if self._recording_address() != self._sent_recording:
-            self._sent_recording = self._recording_address()
+        if self._world.recording_address != self._sent_recording:
+            self._sent_recording = self._world.recording_address
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
     def _send_class(self) -> None:
@@ -181,14 +175,14 @@ class Sketchpad:
                 'raised': session.raised,
             }
             for number, session in self._sessions.items()
-            if session.role.draws and number not in self._watching
+            if session.role.draws and not session.watches
         ]
         content = {
             'type': 'class',
             'frozen': self._world.is_frozen,
-            'locked': self._world.locked_bodies(),
+            'locked': self._world.locked_bodies,
             'people': people,
-            'watched': bool(self._watching),
+            'watched': any(session.watches for session in self._sessions.values()),
         }
         if self._sessions and content != self._sent_class:
             self._sent_class = content
@@ -214,11 +208,8 @@ class Sketchpad:
         origin, simulation = Origin(UPLOADERS, '', '~/load_world'), self._simulation
 
         def load() -> str:
-            content = upload.take()
-            if content is None:
-                raise Busy('an upload has waited too long; nothing was done')
             settings, rate = simulation.settings, simulation.physics_rate
-            return simulation.load(state_from(content, settings, rate))
+            return simulation.load(state_from(upload.content, settings, rate))
 
         def answers() -> list[Answer]:
             answer = answer_of(origin, load, self._boundary)
@@ -236,24 +227,19 @@ class Sketchpad:
     def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""
         role = opened.role
-        if opened.watches:
-            self._watching.add(number)
-        send = partial(self._server.send, page=number)
         self._sessions[number] = PageSession(
             number,
-            opened.person,
-            role,
+            opened,
             self._world,
-            send=send,
+            send=self._server.send,
             pasts=self._pasts,
             own_worlds=self._own_worlds,
             autosave=self._autosave,
             list_worlds=self._server.list_worlds,
-            tell_all=self._server.send,
         )
         simulation, settings = self._simulation, self._simulation.settings
-        drawing = self._world.drawing_settings()
-        send(
+        drawing = self._world.drawing_settings
+        self._server.send(
             {
                 'type': 'welcome',
                 'client': str(number),
@@ -262,7 +248,7 @@ class Sketchpad:
                 'physics_rate': simulation.physics_rate,
                 'frame_id': self._world.values['frame_id'],
                 'rate': self._world.values['publish_rate'],
-                'rerun': self._recording_address(),
+                'rerun': self._world.recording_address,
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,
                 'unsaved': self._autosave.unsaved_at if role.draws else 0.0,
@@ -275,7 +261,8 @@ class Sketchpad:
                     'draw_color': drawing.draw_color,
                     'snap': drawing.snap,
                 },
-            }
+            },
+            number,
         )
         # To all: what is not sent again is what all pages have got.
         self._server.send(timeline_content(self._timeline.read_status(time.monotonic())))

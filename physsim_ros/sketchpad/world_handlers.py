@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The worlds that pages offer: their list, their pictures, and their files over HTTP.
+The files of worlds over HTTP: downloads and uploads, pictures, the unsaved world.
 
 Law: nothing but the files of own and shipped worlds can be read.
 """
@@ -12,9 +12,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from contextlib import suppress
-from itertools import islice
 from pathlib import Path
-from typing import Any
 from urllib.parse import quote
 
 from physsim_ros.files import (
@@ -25,79 +23,20 @@ from physsim_ros.files import (
     OwnWorlds,
     read_bytes,
     read_parts,
-    shipped_pictures,
-    shipped_worlds,
-    title_of,
-    worlds_in,
     write_file,
 )
-from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.sketchpad.access import Role
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.guarded import Guarded, TYPES
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
-from physsim_ros.sketchpad.lesson_list import lesson_list
+from physsim_ros.sketchpad.rights import Role
 
 # Uploads at once.
 MOST_UPLOADS = 4
-# Time until the world begins to read an upload [s].
-TIMEOUT = 60.0
 # Size of the picture of a world [bytes].
 MOST_PICTURE = 200_000
 _PNG = b'\x89PNG\r\n\x1a\n'
-# Worlds of the user that are listed, at most.
-MOST_WORLDS = 500
-# Shipped worlds, the simplest first; the others come after these.
-BY_DIFFICULTY = (
-    'demo',
-    'dominoes',
-    'pendulums',
-    'incline',
-    'newtons_cradle',
-    'galton',
-    'car',
-    'catapult',
-    'gear_train',
-    'bridge',
-)
-
-
-def gallery_content(own_worlds: OwnWorlds, boundary: ErrorBoundary) -> dict[str, Any]:
-    """Return the message of all worlds and lessons, the shipped ones and the user's own."""
-    known = worlds_in(shipped_worlds())
-    names = sorted(known, key=lambda name: (*BY_DIFFICULTY, name).index(name))
-    shipped = [_shipped(known[name]) for name in names]
-    files = islice(worlds_in(own_worlds.directory).values(), MOST_WORLDS)
-    own = [_own(path, own_worlds) for path in files]
-    # A world of the user comes before the shipped one of its name.
-    worlds = {entry['name']: entry for entry in shipped + own}
-    return {
-        'type': 'worlds',
-        'worlds': list(worlds.values()),
-        'lessons': lesson_list(own_worlds.directory, boundary),
-    }
-
-
-def _shipped(path: Path) -> dict[str, Any]:
-    picture = (shipped_pictures() / f'{path.stem}.png').is_file()
-    return {
-        'name': path.stem,
-        'title': title_of(path),
-        'picture': f'/gallery/{path.stem}.png' if picture else '',
-        'shipped': True,
-    }
-
-
-def _own(path: Path, own_worlds: OwnWorlds) -> dict[str, Any]:
-    # The title is the name: a comment of the user's file is private.
-    name, picture = path.stem, ''
-    # A script may have chosen a name that a page refuses.
-    with suppress(Refusal, OSError):
-        changed = own_worlds.picture(name).stat().st_mtime_ns
-        picture = f'/picture/{quote(name)}?{changed}'
-    return {'name': name, 'title': name, 'picture': picture, 'shipped': False}
 
 
 class _OfWorlds(Guarded):
@@ -238,9 +177,6 @@ class UploadWorld(Guarded):
             with suppress(RuntimeError):
                 loop.call_soon_threadsafe(reply.set_result, answer)
 
-        upload = Upload(content, self.role or Role.VIEW, take_reply)
-        if self._inbox.put(UPLOADERS, upload):
-            await asyncio.wait([reply], timeout=TIMEOUT)
-        if not reply.done() and upload.take() is not None:
-            self.refuse(503, 'the world is too busy; nothing was done')
+        # Of so few uploads none is refused.
+        self._inbox.put(UPLOADERS, Upload(content, self.role or Role.VIEW, take_reply))
         return await reply

@@ -9,9 +9,8 @@ Python. Not here: how they are spread, which `concurrent.futures` and Dask do. S
 `experiment`. docs/learning.md has an example.
 """
 
-from physsim_ros.sweeps.experiment import Case, Experiment, Run
+from physsim_ros.sweeps.experiment import Case, cases_of, Experiment, Run, sweep
 from physsim_ros.sweeps.report import picture_of_runs, save_failures, table_of_runs
-from physsim_ros.sweeps.sweep import cases_of, sweep
 
 __all__ = [
     'Case',

@@ -2,26 +2,28 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-An experiment: a controller drives a robot of a world until it fails, or the time is over.
+An experiment: a controller drives a robot of a world until it fails, or the time is over; a sweep.
 
 Law: a run depends on the experiment and its case alone, to the bit, in whatever process. It
 pickles, as an experiment and a case do whose functions are defined in a module.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from inspect import Parameter, signature
+import itertools
 from pathlib import Path
 import traceback
-from typing import Any
+from typing import Annotated, Any, Protocol
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import LONGEST, Within
-from physsim_ros.model.errors import StepFailed
+from physsim_ros.model.declarations import Checked
+from physsim_ros.model.errors import BadProperty, StepFailed, UnknownProperty
 from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.texts import nearest_name
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
 
@@ -29,11 +31,8 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 # Past that a run keeps beyond the moment to which a failed one returns [s].
 _MARGIN = 0.5
 # Ranges of the times of an experiment; the past of a run is kept whole up to an hour.
-_TIMES = {
-    'seconds': Within(1e-4, LONGEST, 's'),
-    'period': Within(1e-4, 1.0, 's'),
-    'before': Within(0.0, 3600.0, 's'),
-}
+# Of parameters that may be given by keyword.
+_NAMED = (Parameter.POSITIONAL_OR_KEYWORD, Parameter.KEYWORD_ONLY)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,17 +77,13 @@ class Run:
         return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
 
-def _stay(_: Robot, __: np.random.Generator) -> None:
-    """Leave the world as it is."""
-
-
 def has_bumped(robot: Robot) -> str:
     """Return a failure where a robot has touched something."""
     return 'crashed' if robot.bumped else ''
 
 
 @dataclass(frozen=True, kw_only=True)
-class Experiment:
+class Experiment(Checked):
     """
     A controller in a world.
 
@@ -96,31 +91,54 @@ class Experiment:
     :param controller: makes the controller of a case, of its parameters by keyword; that is called
         with the robot once in a period, and has it drive
     :param robot: name of its body
-    :param begin: changes the world at the beginning, by random numbers of the seed
+    :param begin: changes the world at the beginning, by random numbers of the seed; None does not
     :param failure: why a robot has failed since the last period, or ''
     :param score: of the robot at the end of a run; None is none
-    :param seconds: simulation time after which a run ends well [s]
-    :param period: of the controller, simulation time [s]
     :param physics_rate: steps a second of the world [Hz], a multiple of 1 / period
-    :param before: simulation time from the world that is kept of a failed run to its failure [s];
-        while it is shorter than the timeout of the drive, the robot runs on into it by itself
     :raises BadProperty: a time is out of range
     """
 
     world: WorldState
     controller: Callable[..., Callable[[Robot], object]]
     robot: str = 'robot/0'
-    begin: Callable[[Robot, np.random.Generator], object] = _stay
+    begin: Callable[[Robot, np.random.Generator], object] | None = None
     failure: Callable[[Robot], str] = has_bumped
     score: Callable[[Robot], float] | None = None
-    seconds: float = 60.0
-    period: float = 0.1
+    seconds: Annotated[
+        float, Within(1e-4, LONGEST, 's'), 'simulation time after which a run ends well'
+    ] = 60.0
+    period: Annotated[float, Within(1e-4, 1.0, 's'), 'of the controller, simulation time'] = 0.1
     physics_rate: float = 240.0
-    before: float = 0.4
+    before: Annotated[
+        float,
+        Within(0.0, 3600.0, 's'),
+        'simulation time from the world that is kept of a failed run to its failure; while it is '
+        'shorter than the timeout of the drive, the robot runs on into it by itself',
+    ] = 0.4
 
-    def __post_init__(self) -> None:
-        for name, check in _TIMES.items():
-            object.__setattr__(self, name, check(getattr(self, name), name))
+    def check(self, case: Case) -> None:
+        """
+        Refuse a case whose parameters are not those of the controller.
+
+        :raises UnknownProperty: the controller has no such parameter; the nearest one is named
+        :raises BadProperty: one that the controller needs is missing
+        """
+        try:
+            known = signature(self.controller).parameters.values()
+        except (TypeError, ValueError):
+            # Of what is written in C.
+            return
+        named = {each.name: each.default for each in known if each.kind in _NAMED}
+        if all(each.kind is not Parameter.VAR_KEYWORD for each in known):
+            for name in case.parameters:
+                if name not in named:
+                    near = nearest_name(name, named) or f'; it has {", ".join(named) or "none"}'
+                    raise UnknownProperty(
+                        f'the controller has no parameter {name!r}{near}', field=name
+                    )
+        for name, default in named.items():
+            if default is Parameter.empty and name not in case.parameters:
+                raise BadProperty(f'the controller needs the parameter {name}', field=name)
 
     def run(self, case: Case) -> Run:
         """
@@ -128,8 +146,9 @@ class Experiment:
 
         An error of `begin` or of the controller is the failure of its run, and ends no other one.
 
-        :raises Refusal: the world cannot be simulated, or has no such robot
+        :raises Refusal: the world cannot be simulated, or has no such robot; and as `check`
         """
+        self.check(case)
         simulation = Simulation(
             physics_rate=self.physics_rate,
             publish_rate=1.0 / self.period,
@@ -141,7 +160,8 @@ class Experiment:
         robot = Robot(simulation, self.robot)
         way, failure, score = [robot.truth().pose[:2]], '', float('nan')
         try:
-            self.begin(robot, np.random.default_rng(case.seed))
+            if self.begin is not None:
+                self.begin(robot, np.random.default_rng(case.seed))
             way = [robot.truth().pose[:2]]
             control = self.controller(**case.parameters)
             for _ in range(round(self.seconds / self.period)):
@@ -188,3 +208,41 @@ def _world_at(simulation: Simulation, seconds: float) -> WorldState:
         name = snapshot.scene.names[row]
         simulation.perform(DriveRobot(name=name, velocity=(ahead, aside, turn)))
     return simulation.save()
+
+
+class Map(Protocol):
+    """As `map` of Python, that of an executor of `concurrent.futures`, and others."""
+
+    def __call__(self, run: Callable[[Case], Run], cases: Sequence[Case], /) -> Iterable[Run]:
+        """Return the results of a function for each case, in the order of the cases."""
+
+
+def cases_of(seeds: Iterable[int], **parameters: Sequence[Any]) -> list[Case]:
+    """
+    Return a case for each seed and each combination of parameters.
+
+    :param seeds: of the noise
+    :param parameters: values of each parameter, by its name
+    """
+    seeds = list(seeds)
+    combinations: Iterable[Mapping[str, Any]] = (
+        dict(zip(parameters, values, strict=True))
+        for values in itertools.product(*parameters.values())
+    )
+    return [Case(seed=seed, parameters=each) for each in combinations for seed in seeds]
+
+
+def sweep(experiment: Experiment, cases: Iterable[Case], spread: Map = map) -> list[Run]:
+    """
+    Run all cases, and return what came of them, in their order.
+
+    :param experiment: that is run
+    :param cases: of it, as by `cases_of`
+    :param spread: `map` runs one after the other; `map` of a process pool executor on all
+        processors; for those of a Dask cluster see docs/learning.md
+    :raises Refusal: before the first run, as `Experiment.check`; and as `Experiment.run`
+    """
+    cases = list(cases)
+    for case in cases:
+        experiment.check(case)
+    return list(spread(experiment.run, cases))

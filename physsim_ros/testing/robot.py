@@ -73,7 +73,7 @@ class Robot:
             raise UnknownName(
                 f'{self.name} has no sensor {sensor!r}{nearest_name(sensor, sensors)}'
             )
-        return topics.reading(view, row, sensors[sensor])
+        return topics.reading(sensors[sensor], view, row)
 
     def odom(self) -> Odometry:
         """
@@ -81,8 +81,8 @@ class Robot:
 
         :raises UnknownName: the robot is not there
         """
-        topics, view, _ = self._now()
-        return topics.odometry(view, [*self._node.fleet.robots].index(self.name))
+        topics, view, row = self._now()
+        return topics.odometry(view, row, [*self._node.fleet.robots].index(self.name))
 
     def truth(self) -> Odometry:
         """
@@ -142,7 +142,7 @@ def robot_marker(
         )
     entry = shipped_robot(str(changes['from']))
     key = next(key for key in SHAPES if key in entry)
-    kind, scale, points = geometry_of(SHAPES[key].from_entry(entry[key]))
+    kind, scale, points = geometry_of(SHAPES[key].from_value(entry[key], key))
     if namespace is not None:
         changes['namespace'] = namespace
     text = {key: entry[key] for key in ('mass', 'density') if key in entry} | {'robot': changes}

@@ -14,8 +14,7 @@ from typing import Any, Self, Unpack
 from geometry_msgs.msg import PointStamped
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.testing.client import RequestClient
-from physsim_ros.testing.executor import SettlingExecutor
+from physsim_ros.testing.client import RequestClient, SettlingExecutor
 from physsim_ros.testing.observed_world import ObservedWorld
 from physsim_ros.testing.parameters import Parameters
 from physsim_ros.testing.robot import Robot, robot_marker

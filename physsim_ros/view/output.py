@@ -18,6 +18,7 @@ import time
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.simulation.past import frame_size
 from physsim_ros.view.endpoints import Endpoint
 from physsim_ros.view.stream import FrameContext
 
@@ -111,7 +112,7 @@ class Output:
         with self._lock:
             self._context = context
             self._frames.append(frame)
-            self._bytes += _size(frame)
+            self._bytes += frame_size(frame.snapshot, frame.contacts)
             while self._bytes > WAITING_BYTES or (self.has_ended and self._frames):
                 self._answers += self._take().answers
                 self._dropped += 1
@@ -202,7 +203,7 @@ class Output:
     def _take(self) -> Frame:
         """Return the oldest frame; the caller holds the lock."""
         frame = self._frames.popleft()
-        self._bytes -= _size(frame)
+        self._bytes -= frame_size(frame.snapshot, frame.contacts)
         return frame
 
     def _note_progress(self) -> None:
@@ -217,9 +218,3 @@ class Output:
         known, self._reason = self.failure, reason
         if not known:
             self._report(self._endpoint.lost_answer(reason))
-
-
-def _size(frame: Frame) -> int:
-    """Return the approximate size of a frame in the queue [bytes]."""
-    contacts = 0 if frame.contacts is None else frame.contacts.nbytes
-    return frame.snapshot.nbytes + contacts + 1000

@@ -5,7 +5,7 @@
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import (
+from physsim_ros.drawing.strokes.reading import (
     guess_meanings,
     is_likely,
     not_recognised,

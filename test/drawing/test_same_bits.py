@@ -22,7 +22,7 @@ import numpy as np
 from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import guess_meanings, MOST_GUESSES, reading_of
+from physsim_ros.drawing.strokes.reading import guess_meanings, MOST_GUESSES, reading_of
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal

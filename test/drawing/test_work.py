@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, scene_query
-from physsim_ros.drawing.strokes import figure, snapping
+from physsim_ros.drawing.strokes import bodies_under, figure
 from physsim_ros.drawing.strokes.figure import Figure, MOST_STROKES, MOST_TIME
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
@@ -74,8 +74,8 @@ def test_a_stroke_over_twice_as_many_walls_is_twice_the_work(
 
     note('contains_each', lambda form, x: len(form.pieces) * len(x))
     note('contain_each', lambda forms, _: sum(len(form.pieces) for form in forms))
-    nearest = snapping._surface  # noqa: SLF001 - once for each pair of bodies, it took seconds
-    monkeypatch.setattr(snapping, '_surface', surface)
+    nearest = bodies_under._surface  # noqa: SLF001 - once for each pair of bodies, it took seconds
+    monkeypatch.setattr(bodies_under, '_surface', surface)
 
     def work(count: int) -> int:
         session, snapshot = DrawingSession(DrawingSettings()), crowd(count, wall, anchored=True)

@@ -5,12 +5,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
-from physsim_ros.files.engine_state import driven_entry, driven_from
+from physsim_ros.files.engine_state import state_entry, with_saved_state
+from physsim_ros.model.checkpoint import BodyState
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.robot_states import SPAWNED
-from physsim_ros.model.scene import Body
+from physsim_ros.model.robot_states import RobotState, SPAWNED
 import pytest
 
 from ..sensing.worlds import add_robot, plane
@@ -19,22 +20,29 @@ COVARIANCE = (1e-3, -2e-4, 2e-3, 3e-5, 4e-5, 5e-4)
 
 
 @pytest.fixture
-def robot() -> Body:
-    """Give a test the body of a robot."""
+def robot() -> BodyState:
+    """Give a test a robot."""
     world = plane()
     row = add_robot(world, robot={'drive': {'kind': 'omni'}, 'odometry': {'slip': [0.1, 0.2]}})
-    return world.snapshot().scene.bodies[row]
+    return world.save().bodies[row]
 
 
-def test_what_was_saved_is_read(robot: Body) -> None:
+def driven(robot: BodyState, entry: object) -> RobotState:
+    """Return the state of a robot by the entry of its state."""
+    state = with_saved_state(robot, {'driven': entry}, 240.0).driven
+    assert state is not None
+    return state
+
+
+def test_what_was_saved_is_read(robot: BodyState) -> None:
     state = SPAWNED._replace(covariance=COVARIANCE, odometry=(1.0, 2.0, 0.5))
-    assert driven_from(driven_entry(state, 240.0), robot, 240.0) == state
+    assert driven(robot, state_entry(replace(robot, driven=state), 240.0)['driven']) == state
 
 
-def test_a_file_without_a_covariance_has_the_variances_of_its_path(robot: Body) -> None:
-    state = driven_from({'path': [3.0, 2.0], 'seconds': 0.0}, robot, 240.0)
+def test_a_file_without_a_covariance_has_the_variances_of_its_path(robot: BodyState) -> None:
+    state = driven(robot, {'path': [3.0, 2.0], 'seconds': 0.0})
     assert state.covariance == pytest.approx((0.03, 0.0, 0.03, 0.0, 0.0, 0.04 * 5.0))
-    assert driven_from({}, robot, 240.0).covariance == SPAWNED.covariance
+    assert driven(robot, {}).covariance == SPAWNED.covariance
 
 
 @pytest.mark.parametrize(
@@ -47,7 +55,7 @@ def test_a_file_without_a_covariance_has_the_variances_of_its_path(robot: Body) 
         [*COVARIANCE[:5], 1e99],
     ],
 )
-def test_a_covariance_that_cannot_be_is_refused(robot: Body, wrong: Any) -> None:
+def test_a_covariance_that_cannot_be_is_refused(robot: BodyState, wrong: Any) -> None:
     with pytest.raises(Refusal) as caught:
-        driven_from({'covariance': wrong}, robot, 240.0)
+        driven(robot, {'covariance': wrong})
     assert caught.value.field == 'covariance'

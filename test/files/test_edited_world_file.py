@@ -12,7 +12,7 @@ import zlib
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
-from physsim_ros.files.engine_state import pack
+from physsim_ros.files.impulse_cache import pack
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.requests import Command, Restore

@@ -60,7 +60,7 @@ def test_shipped_lessons_are_found_by_their_names(folder: Path) -> None:
         ({'title': '"  "'}, 'w.yaml, line 4, title: bad_property', '1 to 80 characters'),
         ({'hint': 'x' * 2001}, 'w.yaml, line 6, hint: bad_property', '1 to 2000 characters'),
         ({'number': '0'}, 'w.yaml, line 3, number: bad_property', 'whole number'),
-        ({'answer': ''}, 'w.yaml, line 2, lesson: malformed', 'a lesson needs answer'),
+        ({'answer': ''}, 'w.yaml, line 2, lesson: bad_property', 'answer is missing'),
         ({'questoin': 'Why?'}, 'w.yaml, line 12: unknown_property', 'question'),
     ],
 )

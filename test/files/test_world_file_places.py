@@ -8,7 +8,6 @@ import os
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from physsim_ros.files import (
     find_world,
     hides_shipped,
@@ -19,7 +18,7 @@ from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.simulation.world import World
 import pytest
 
-from .world_files import assert_round_trip, load, restored, save, write
+from .world_files import assert_round_trip, load, save, write
 from ..building import DISC, G, spawn
 
 # Places of files
@@ -62,17 +61,6 @@ def test_a_path_is_below_the_world_directory(folder: Path) -> None:
     for name in ('sub/x.yaml', 'sub/../sub/x.yaml', './sub/x.yaml', str(path)):
         found = find_world(name, world_dir=folder, confined=True)
         assert found.resolve() == path.resolve()
-
-
-def test_the_shipped_demo_loads_and_runs(folder: Path) -> None:
-    path = find_world('demo', world_dir=folder, confined=True)
-
-    world = restored(load(path))
-
-    assert len(world) >= 20
-    world.step(240)
-    assert np.isfinite(world.snapshot().poses).all()
-    assert_round_trip(world, folder)
 
 
 @pytest.mark.parametrize('path', sorted(shipped_worlds().glob('*.yaml')),
@@ -173,15 +161,8 @@ def test_only_visible_yaml_files_are_read_and_written(name: str, folder: Path) -
         (folder / directory).mkdir()
     (folder / 'hidden.yaml').symlink_to('.secret.yaml')
     (folder / 'hiding').symlink_to('.ssh')
-    for place in (
-        '.bashrc',
-        '.w.yaml',
-        '.ssh/w.yaml',
-        'sub/.w.yaml',
-        'w.yml',
-        '.secret.yaml',
-        'w\n.yaml',
-    ):
+    hidden = '.bashrc', '.w.yaml', '.ssh/w.yaml', 'sub/.w.yaml', 'w.yml', '.secret.yaml'
+    for place in (*hidden, 'w\n.yaml'):
         write(folder, 'format: 1', place)
     before = {path: path.is_file() and path.read_text() for path in folder.rglob('*')}
 
@@ -305,33 +286,13 @@ def test_a_failing_write_leaves_the_old_file_and_nothing_else(
     def fail(*_: object, **__: object) -> None:
         raise OSError(28, 'No space left on device')
 
-    monkeypatch.setattr(module, function, fail)
-    with pytest.raises(BadWorldFile) as refused:
-        save(world, folder)
-    monkeypatch.undo()
+    with monkeypatch.context() as broken:
+        broken.setattr(module, function, fail)
+        with pytest.raises(BadWorldFile, match='No space left'):
+            save(world, folder)
 
-    assert 'No space left' in str(refused.value)
     assert list(folder.iterdir()) == [path]
     assert path.read_text() == old
-
-
-def test_a_bug_in_the_middle_of_a_write_leaves_the_old_file(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    world = World()
-    path = save(world, folder)
-    old = path.read_text()
-
-    def fail(*_: object, **__: object) -> None:
-        raise ZeroDivisionError
-
-    monkeypatch.setattr('physsim_ros.files.world_file.text_of', fail)
-    spawn(world, 'a/0', DISC)
-    with pytest.raises(ZeroDivisionError):
-        save(world, folder)
-
-    assert path.read_text() == old
-    assert list(folder.iterdir()) == [path]
 
 
 def test_saving_replaces_what_was_there(folder: Path) -> None:

@@ -17,7 +17,7 @@ from gymnasium.utils.env_checker import check_env
 import numpy as np
 from physsim_ros import Robot, robot_spawn, Simulation
 from physsim_ros.gym import RobotEnv, Task
-from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
+from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownBody
 import pytest
 
 from .tasks import reward, task
@@ -191,3 +191,12 @@ def test_gymnasium_is_imported_by_who_asks_for_it_alone() -> None:
     )
     done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, check=True)
     assert done.stdout == '[]\n'
+
+
+def test_what_is_no_saved_episode_is_refused() -> None:
+    env = RobotEnv(task())
+    env.reset(seed=1)
+    before = env.robot.truth()
+    with pytest.raises(Malformed, match='saved must be of class SavedEpisode, not None'):
+        env.restore(None)  # type: ignore[arg-type]
+    assert env.robot.truth() == before

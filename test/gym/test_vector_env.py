@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 from physsim_ros.gym import RobotEnv, RobotVectorEnv
-from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.errors import BadProperty, Malformed
 import pytest
 
 from .tasks import task
@@ -57,6 +57,20 @@ def test_saved_worlds_continue_to_the_bit_ended_ones_too() -> None:
     assert told[0] == told[1]
     with pytest.raises(ValueError, match='zip'):
         many.restore(saved[:-1])
+    with pytest.raises(Malformed, match='saved must be of class SavedEpisode, not None'):
+        many.restore([*saved[:-1], (None, False)])
+
+
+def test_worlds_tell_the_seeds_of_the_episodes_that_begin() -> None:
+    many = RobotVectorEnv(task(longest=0.2, begin=None), COUNT)
+    _, infos = many.reset(seed=[1, 2, 1])
+    first = infos['seed'].tolist()
+    assert first[0] == first[2] != first[1]
+    told = [many.step(actions(step))[3:] for step in range(3)]
+    assert [cuts.tolist() for cuts, _ in told] == [[False] * 3, [True] * 3, [False] * 3]
+    assert [{*infos} for _, infos in told] == [set(), set(), {'seed', '_seed'}]
+    assert told[2][1]['_seed'].all()
+    assert many.metadata['autoreset_mode'].name == 'NEXT_STEP'
 
 
 @pytest.mark.parametrize('count', [0, -1, 2.5, 10**9])

@@ -120,3 +120,10 @@ def bar_among_discs(spin):
 def energy(snapshot):
     """Return all the energy there is [J]."""
     return snapshot.kinetic_energy + snapshot.potential_energy + snapshot.elastic_energy
+
+
+def angular_momentum(snapshot):
+    """Return that of all bodies about the origin, spin included [kg m²/s]."""
+    mass, moment = snapshot.scene.inertia.T
+    path = cross(snapshot.centers.T, snapshot.twists[:, :2].T)
+    return float((mass * path + moment * snapshot.twists[:, 2]).sum())

@@ -12,6 +12,7 @@ from physsim_ros.model.shapes import Box, Chain, Disc
 import pytest
 
 from .scenes import (
+    angular_momentum,
     corners,
     cross,
     depth_in_box,
@@ -285,17 +286,10 @@ def test_boxes_that_meet_obliquely_get_the_impulse_of_the_formula(
             report.check(6, f'{what}, speed of spin', off, 0.0, tolerance, 'm/s')
         off = math.dist(after.momentum, start.momentum)
         report.check(6, 'oblique boxes, momentum', off, 0.0, 1e-12, 'kg m/s')
-        off = _angular_momentum(after) - _angular_momentum(start)
+        off = angular_momentum(after) - angular_momentum(start)
         report.check(6, 'oblique boxes, angular momentum', off, 0.0, 1e-5, 'kg m²/s')
     sticking = sum(coupling > 0 for coupling in couplings)
     assert (0 < sticking < len(OBLIQUE)) == (friction > 0)
-
-
-def _angular_momentum(snapshot):
-    """Return it about the origin, spin included [kg m²/s]."""
-    mass, moment = snapshot.scene.inertia.T
-    path = cross(snapshot.centers.T, snapshot.twists[:, :2].T)
-    return float((mass * path + moment * snapshot.twists[:, 2]).sum())
 
 
 @pytest.mark.parametrize('elasticity', ELASTICITIES)

@@ -6,7 +6,7 @@
 import math
 
 from physsim_ros.model.checks import check_finite, number, pair, point_list
-from physsim_ros.model.declarations import check_key, known_mapping
+from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 import pytest
 
@@ -28,12 +28,6 @@ def test_a_count_of_finite_numbers_is_checked() -> None:
         with pytest.raises(Malformed) as refused:
             check_finite(values, 2, 'p')
         assert refused.value.field == 'p'
-
-
-def test_a_known_key_is_let_through() -> None:
-    check_key('b', ['a', 'b'])
-    with pytest.raises(UnknownProperty):
-        check_key('c', ['a', 'b'])
 
 
 def test_a_mapping_has_known_keys_only() -> None:

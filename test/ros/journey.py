@@ -8,36 +8,19 @@ from __future__ import annotations
 from hashlib import blake2b
 import random
 import struct
-from typing import Any
 
 from physsim_ros.testing import box, command, delete, disc, PhysSim, point, polygon
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
-from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
 from ..building import ELL
-from ..client import Client, Event, set_parameter
+from ..client import Client, Event, set_parameter, succeeded
 
 # A frame at speed 1 [ns]; stamps are whole nanoseconds.
 PERIOD = 1e9 / 60.0
 STEP = 1e9 / 240.0
 SECOND = 1_000_000_000
-
-
-def parameter(physsim: PhysSim, name: str) -> Any:
-    value = physsim.node.get_parameter(name).value
-    return value if isinstance(value, (int, float, str)) else list(value)
-
-
-def succeeded(response: Trigger.Response) -> str:
-    assert response.success, response.message
-    return str(response.message)
-
-
-def failed(response: Trigger.Response) -> str:
-    assert not response.success, response.message
-    return str(response.message)
 
 
 def frame_of(message: MultiDOFJointState) -> tuple[int, str]:
@@ -158,7 +141,3 @@ class Journey:
         known = [frame for frame in frames if frame[0] in self.first]
         assert len(known) >= at_least
         assert [frame for frame in known if self.first[frame[0]] != frame[1]] == []
-
-
-def seconds(stamp: float) -> float:
-    return stamp * 1e-9

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from geometry_msgs.msg import Pose, Quaternion, Transform
+from geometry_msgs.msg import Quaternion
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import (
     BadOutline,
@@ -29,21 +29,17 @@ from physsim_ros.model.requests import (
     Release,
     Spawn,
 )
-from physsim_ros.model.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Polygon, Triangles
+from physsim_ros.model.shapes import Box, MOST_POINTS
 from physsim_ros.ros.requests.conversions import (
     body_request,
     command_request,
     name_of,
     point_request,
 )
-from physsim_ros.ros.requests.decoding import command_from
-from physsim_ros.testing import box, command, delete, delete_all, marker, point, polygon
+from physsim_ros.testing import box, command, delete, delete_all, marker, point
 import pytest
-from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
-
-from ..building import ELL
 
 NAN, INF = math.nan, math.inf
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
@@ -62,8 +58,7 @@ def yaw_of(x: float, y: float, z: float, w: float) -> float:
 
 
 def command_request_of(message: MultiDOFJointState) -> Command:
-    decoded = command_from(serialize_message(message))
-    return command_request(decoded, frame_id='map')
+    return command_request(message, frame_id='map')
 
 
 def refusal_of(message: Marker) -> Refusal:
@@ -89,13 +84,6 @@ def test_the_world_frame_has_two_spellings(frame: str, meant: str) -> None:
     assert command_request_of(command('a/0', frame=frame)).frame == meant
 
 
-@pytest.mark.parametrize('namespace', ['physsim:bounds', 'anchor:a', 'joint:j', 'lines:j'])
-def test_what_the_picture_draws_itself_is_no_body(namespace: str) -> None:
-    message = box(f'{namespace}/0')
-    refusal = refusal_of(message)
-    assert (refusal.code, refusal.field) == ('malformed', 'name')
-
-
 def test_stamps_and_z_are_ignored() -> None:
     plain, odd = box(at=(1, 2, 0.3)), box(at=(1, 2, 0.3))
     odd.header.stamp.sec = 1_700_000_000
@@ -114,12 +102,6 @@ def test_a_deletion_needs_nothing_but_the_name() -> None:
     message = marker(99, 'a/0', action=Marker.DELETE, scale=(NAN, -1.0), text='{')
     message.pose.orientation = Quaternion(x=1.0)
     assert body_request(message, frame_id='map') == Delete(name='a/0')
-
-
-@pytest.mark.parametrize('action', [1, 4, -1, 2**31 - 1])
-def test_any_other_action_is_refused(action: int) -> None:
-    refusal = refusal_of(marker(Marker.CUBE, action=action))
-    assert (type(refusal), refusal.field) == (BadProperty, 'action')
 
 
 @pytest.mark.parametrize('namespace', ['a\nb', 'a\0b', 'x' * 1001, '\ud800'])
@@ -150,10 +132,6 @@ def test_a_rotation_of_any_length_is_normalised(scale: float) -> None:
     assert yaw_of(0.0, 0.0, z, w) == pytest.approx(0.7, abs=1e-3 if scale < 1e-300 else 1e-15)
 
 
-def test_a_rotation_and_its_negative_are_the_same() -> None:
-    assert yaw_of(0.0, 0.0, -math.sin(0.35), -math.cos(0.35)) == pytest.approx(0.7)
-
-
 @pytest.mark.parametrize('axis', ['x', 'y'])
 @pytest.mark.parametrize('yaw', [0.0, 2.5])
 def test_a_tilt_of_less_than_a_milliradian_counts_as_none(axis: str, yaw: float) -> None:
@@ -175,34 +153,6 @@ def test_a_tilt_of_less_than_a_milliradian_counts_as_none(axis: str, yaw: float)
         assert caught.value.field == 'pose.orientation'
 
 
-@pytest.mark.parametrize('upside_down', [(1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)])
-def test_a_body_that_is_upside_down_is_refused(upside_down: Any) -> None:
-    with pytest.raises(NotPlanar):
-        yaw_of(*upside_down)
-
-
-@pytest.mark.parametrize('field', ['x', 'y', 'z', 'w'])
-@pytest.mark.parametrize('number', [NAN, INF, -INF])
-def test_a_rotation_that_is_not_finite_is_refused(field: str, number: float) -> None:
-    message = box()
-    setattr(message.pose.orientation, field, number)
-    refusal = refusal_of(message)
-    assert (type(refusal), refusal.field) == (Malformed, 'pose.orientation')
-
-
-@pytest.mark.parametrize('number', [NAN, INF, -INF])
-@pytest.mark.parametrize('axis', ['x', 'y'])
-def test_a_position_that_is_not_finite_is_refused(axis: str, number: float) -> None:
-    message = box()
-    setattr(message.pose.position, axis, number)
-    assert isinstance(refusal_of(message), Malformed)
-    message = point(0, 0)
-    setattr(message.point, axis, number)
-    for kind in (Anchor, Release, Pin, Axle):
-        with pytest.raises(Malformed):
-            point_request(kind, message, frame_id='map')
-
-
 # Colour, lifetime
 
 
@@ -212,40 +162,12 @@ def test_a_colour_of_alpha_0_asks_for_one() -> None:
     assert spawn_of(box(color=(0.0, 0.0, 0.0, 0.5))).color == (0.0, 0.0, 0.0, 0.5)
 
 
-@pytest.mark.parametrize(
-    ('color', 'error'),
-    [
-        ((1.5, 0.0, 0.0, 1.0), BadProperty),
-        ((0.0, -0.5, 0.0, 1.0), BadProperty),
-        ((0.0, 0.0, 0.0, 2.0), BadProperty),
-        ((0.0, 0.0, 0.0, -1.0), BadProperty),
-        ((NAN, 0.0, 0.0, 1.0), Malformed),
-        ((0.0, 0.0, INF, 1.0), Malformed),
-        ((0.0, 0.0, 0.0, NAN), Malformed),
-    ],
-)
-def test_a_channel_outside_0_to_1_is_refused(color: Any, error: type) -> None:
-    refusal = refusal_of(box(color=color))
-    assert (type(refusal), refusal.field) == (error, 'color')
-
-
 def test_a_lifetime_is_in_seconds() -> None:
     assert spawn_of(box(lifetime=2.25)).lifetime == 2.25
     assert spawn_of(box()).lifetime == 0.0
 
 
-def test_a_negative_lifetime_is_refused() -> None:
-    refusal = refusal_of(box(lifetime=-1.5))
-    assert (type(refusal), refusal.field) == (BadProperty, 'lifetime')
-
-
 # Shapes
-
-
-def test_a_cube_is_a_box_and_a_sphere_or_cylinder_a_disc() -> None:
-    assert spawn_of(box(size=(3.0, 2.0))).shape == Box(width=3.0, height=2.0)
-    for kind in (Marker.SPHERE, Marker.CYLINDER):
-        assert spawn_of(marker(kind, scale=(3.0, 3.0))).shape == Disc(radius=1.5)
 
 
 def test_a_text_is_a_note_whose_box_has_room_for_it() -> None:
@@ -261,120 +183,6 @@ def test_a_text_is_a_note_whose_box_has_room_for_it() -> None:
     assert 9 * 0.15 < note.shape.width < 9 * 0.45
     assert 0.6 < note.shape.height < 1.8
     assert again.shape.width == pytest.approx(2 * note.shape.width)
-
-
-@pytest.mark.parametrize('kind', [Marker.SPHERE, Marker.CYLINDER, Marker.SPHERE_LIST])
-def test_an_oval_is_refused(kind: int) -> None:
-    refusal = refusal_of(marker(kind, scale=(1.0, 1.0000001), points=[(0, 0)]))
-    assert (type(refusal), refusal.field) == (BadSize, 'scale.y')
-
-
-def test_a_line_strip_that_ends_where_it_began_is_solid() -> None:
-    shape = spawn_of(polygon(outline=ELL.outline)).shape
-    assert isinstance(shape, Polygon)
-    assert shape.outline == ELL.outline
-    # m²
-    assert shape.form.area == pytest.approx(3.0)
-
-
-def test_a_line_strip_that_does_not_is_a_chain() -> None:
-    message = marker(Marker.LINE_STRIP, points=ELL.outline, scale=(0.2, 9.0, 9.0))
-    assert spawn_of(message).shape == Chain(points=ELL.outline, thickness=0.2)
-
-
-def test_the_thickness_of_a_solid_outline_does_not_count() -> None:
-    message = marker(
-        Marker.LINE_STRIP, points=(*ELL.outline, ELL.outline[0]), scale=(0.0, 0.0, 0.0)
-    )
-    assert isinstance(spawn_of(message).shape, Polygon)
-
-
-def test_two_points_there_and_back_enclose_nothing() -> None:
-    refusal = refusal_of(polygon(outline=[(0, 0), (1, 0), (0, 0)]))
-    assert (type(refusal), refusal.field) == (BadOutline, 'points')
-
-
-def test_one_line_there_is_a_chain() -> None:
-    message = marker(Marker.LINE_STRIP, points=[(0, 0), (1, 0)], scale=(0.1, 0.0))
-    assert spawn_of(message).shape == Chain(points=((0.0, 0.0), (1.0, 0.0)), thickness=0.1)
-
-
-def test_triangles_come_by_threes_and_are_scaled() -> None:
-    corners = [(0, 0), (1, 0), (0, 1)]
-    message = marker(Marker.TRIANGLE_LIST, points=corners, scale=(2.0, 3.0, 1.0))
-    assert spawn_of(message).shape == Triangles(vertices=((0, 0), (2, 0), (0, 3)))
-    message = marker(Marker.TRIANGLE_LIST, points=corners, scale=(0.0, 0.0, 0.0))
-    assert spawn_of(message).shape == Triangles(vertices=((0, 0), (1, 0), (0, 1)))
-
-
-def test_lists_are_one_compound_body() -> None:
-    centers = ((0.0, 0.0), (2.0, 1.0))
-    message = marker(Marker.CUBE_LIST, points=centers, scale=(1.0, 0.5))
-    expected = Compound(element=Box(width=1.0, height=0.5), centers=centers)
-    assert spawn_of(message).shape == expected
-    message = marker(Marker.SPHERE_LIST, points=centers, scale=(1.0, 1.0))
-    assert spawn_of(message).shape == Compound(element=Disc(radius=0.5), centers=centers)
-
-
-@pytest.mark.parametrize('kind', [0, 5, 8, 10, 12, -1, 99])
-def test_a_type_that_is_no_body_is_refused(kind: int) -> None:
-    refusal = refusal_of(marker(kind, points=SQUARE))
-    assert (type(refusal), refusal.field) == (UnknownShape, 'type')
-
-
-@pytest.mark.parametrize(
-    ('kind', 'scale', 'error', 'field'),
-    [
-        (Marker.CUBE, (0.0, 1.0), BadSize, 'scale.x'),
-        (Marker.CUBE, (1.0, -1.0), BadSize, 'scale.y'),
-        (Marker.CUBE, (1e6, 1.0), BadSize, 'scale.x'),
-        (Marker.CUBE, (1e-4, 1.0), BadSize, 'scale.x'),
-        (Marker.CUBE, (NAN, 1.0), Malformed, 'scale.x'),
-        (Marker.CUBE, (1.0, INF), Malformed, 'scale.y'),
-        (Marker.CYLINDER, (0.0, 0.0), BadSize, 'scale.x'),
-        (Marker.SPHERE, (-1.0, -1.0), BadSize, 'scale.x'),
-        (Marker.SPHERE, (NAN, NAN), Malformed, 'scale.x'),
-        (Marker.SPHERE, (1.0, NAN), Malformed, 'scale.y'),
-        (Marker.LINE_STRIP, (0.0, 0.0), BadSize, 'scale.x'),
-        (Marker.LINE_STRIP, (INF, 0.0), Malformed, 'scale.x'),
-        (Marker.CUBE_LIST, (1.0, 0.0), BadSize, 'scale.y'),
-        (Marker.SPHERE_LIST, (0.0, 0.0), BadSize, 'scale.x'),
-        (Marker.TRIANGLE_LIST, (-1.0, 1.0), BadSize, 'scale'),
-        (Marker.TRIANGLE_LIST, (NAN, 1.0), Malformed, 'scale'),
-        (Marker.TRIANGLE_LIST, (1.0, INF), Malformed, 'scale'),
-    ],
-)
-def test_a_bad_scale_is_refused_by_its_name(
-    kind: int, scale: tuple[float, float], error: type, field: str
-) -> None:
-    refusal = refusal_of(marker(kind, scale=scale, points=[(0, 0), (1, 0), (0, 1)]))
-    assert (type(refusal), refusal.field) == (error, field)
-
-
-@pytest.mark.parametrize(
-    ('kind', 'points', 'error'),
-    [
-        (Marker.LINE_STRIP, [], BadOutline),
-        (Marker.LINE_STRIP, [(0, 0)], BadOutline),
-        (Marker.LINE_STRIP, [(0, 0), (0, 0)], BadOutline),
-        (Marker.LINE_STRIP, [(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)], BadOutline),
-        (Marker.LINE_STRIP, [(0, 0), (1, 0), (2, 0), (0, 0)], BadOutline),
-        (Marker.LINE_STRIP, [(0, 0), (NAN, 0), (1, 1)], Malformed),
-        (Marker.LINE_STRIP, [(0, 0), (1, INF), (1, 1), (0, 0)], Malformed),
-        (Marker.TRIANGLE_LIST, [], BadOutline),
-        (Marker.TRIANGLE_LIST, [(0, 0), (1, 0)], BadOutline),
-        (Marker.TRIANGLE_LIST, [(0, 0), (1, 0), (0, 1), (1, 1)], BadOutline),
-        (Marker.TRIANGLE_LIST, [(0, 0), (1, 0), (2, 0)], BadOutline),
-        (Marker.TRIANGLE_LIST, [(0, 0), (1, 0), (0, NAN)], Malformed),
-        (Marker.CUBE_LIST, [], BadOutline),
-        (Marker.SPHERE_LIST, [], BadOutline),
-        (Marker.SPHERE_LIST, [(NAN, 0)], Malformed),
-        (Marker.CUBE_LIST, [(1e6, 0)], BadSize),
-    ],
-)
-def test_bad_points_are_refused(kind: int, points: Any, error: type) -> None:
-    refusal = refusal_of(marker(kind, points=points))
-    assert (type(refusal), refusal.field) == (error, 'points')
 
 
 @pytest.mark.parametrize(
@@ -437,8 +245,66 @@ def test_a_command_that_does_not_fit_is_malformed(message: Any, field: str) -> N
     assert caught.value.field == field
 
 
-def test_messages_as_they_are_made_are_understood() -> None:
-    # Every field at its default: a marker's pose is the identity, and its scale is nothing.
-    assert isinstance(refusal_of(Marker(type=Marker.CUBE)), BadSize)
-    assert Marker().pose == Pose()
-    assert Transform().rotation.w == 1.0
+# Refusals
+
+
+LINE, CORNERS, CUBES = Marker.LINE_STRIP, Marker.TRIANGLE_LIST, Marker.CUBE_LIST
+
+
+def marker_of(
+    kind: int, *points: tuple[float, float], scale: tuple[float, ...] = (1, 1)
+) -> Marker:
+    return marker(kind, scale=scale, points=points or [(0, 0), (1, 0), (0, 1)])
+
+
+@pytest.mark.parametrize(
+    ('message', 'error', 'field'),
+    [
+        (Marker(type=Marker.CUBE), BadSize, 'scale.x'),
+        *((marker(Marker.CUBE, action=each), BadProperty, 'action') for each in (1, 4, -1)),
+        *((marker_of(kind), UnknownShape, 'type') for kind in (0, 5, 8, 10, 12, -1, 99)),
+        *((box(at=at), Malformed, 'pose') for at in ((NAN, 0.0), (0.0, -INF))),
+        (box(color=(1.5, 0.0, 0.0, 1.0)), BadProperty, 'color'),
+        (box(color=(0.0, 0.0, 0.0, -1.0)), BadProperty, 'color'),
+        (box(color=(0.0, 0.0, INF, 1.0)), Malformed, 'color'),
+        (box(lifetime=-1.5), BadProperty, 'lifetime'),
+        (marker_of(Marker.CUBE, scale=(1.0, -1.0)), BadSize, 'scale.y'),
+        (marker_of(Marker.CUBE, scale=(1e6, 1.0)), BadSize, 'scale.x'),
+        (marker_of(Marker.CUBE, scale=(1.0, INF)), Malformed, 'scale.y'),
+        (marker_of(Marker.CYLINDER, scale=(0.0, 0.0)), BadSize, 'scale.x'),
+        (marker_of(Marker.CYLINDER, scale=(1.0, 1.0000001)), BadSize, 'scale.y'),
+        (marker_of(Marker.SPHERE, scale=(1.0, NAN)), Malformed, 'scale.y'),
+        (marker_of(Marker.SPHERE_LIST, scale=(1.0, 1.1)), BadSize, 'scale.y'),
+        (marker_of(LINE, scale=(0.0, 0.0)), BadSize, 'scale.x'),
+        (marker_of(CUBES, scale=(1.0, 0.0)), BadSize, 'scale.y'),
+        (marker_of(CORNERS, scale=(-1.0, 1.0)), BadSize, 'scale'),
+        (marker_of(CORNERS, scale=(1.0, INF)), Malformed, 'scale'),
+        (marker_of(LINE, (0, 0), (0, 0)), BadOutline, 'points'),
+        (marker_of(LINE, (0, 0), (1, 0), (0, 0)), BadOutline, 'points'),
+        (marker_of(LINE, (0, 0), (1, 1), (1, 0), (0, 1), (0, 0)), BadOutline, 'points'),
+        (marker_of(LINE, (0, 0), (NAN, 0), (1, 1)), Malformed, 'points'),
+        (marker_of(CORNERS, (0, 0), (1, 0)), BadOutline, 'points'),
+        (marker_of(CORNERS, (0, 0), (1, 0), (2, 0)), BadOutline, 'points'),
+        (marker(CUBES, scale=(1.0, 1.0)), BadOutline, 'points'),
+        (marker_of(CUBES, (1e6, 0)), BadSize, 'points'),
+        (marker_of(Marker.SPHERE_LIST, (NAN, 0)), Malformed, 'points'),
+    ],
+)
+def test_a_marker_that_is_no_body_is_refused_by_its_field(
+    message: Marker, error: type[Refusal], field: str
+) -> None:
+    refusal = refusal_of(message)
+    assert (type(refusal), refusal.field) == (error, field)
+
+
+@pytest.mark.parametrize('number', [NAN, INF, -INF])
+def test_a_rotation_or_point_that_is_not_finite_is_refused(number: float) -> None:
+    for field in 'xyzw':
+        message = box()
+        setattr(message.pose.orientation, field, number)
+        refusal = refusal_of(message)
+        assert (type(refusal), refusal.field) == (Malformed, 'pose.orientation')
+    for kind in (Anchor, Release, Pin, Axle):
+        for at in ((number, 0.0), (0.0, number)):
+            with pytest.raises(Malformed):
+                point_request(kind, point(*at), frame_id='map')

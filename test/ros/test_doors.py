@@ -9,7 +9,6 @@ The doors of pages are in `test/sketchpad/test_doors.py`.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticArray
@@ -31,7 +30,7 @@ from physsim_ros.simulation.world import world
 from physsim_ros.testing import box, disc, PhysSim
 from physsim_ros.view import Viewer
 import pytest
-from rcl_interfaces.srv import GetParameters, SetParameters
+from rcl_interfaces.srv import GetParameters
 from rclpy.parameter import Parameter
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
@@ -39,7 +38,7 @@ from std_msgs.msg import Float64
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker, MarkerArray
 from visualization_msgs.srv import GetInteractiveMarkers
 
-from ..client import Client, Event
+from ..client import Client, Event, message_of
 
 TOPICS = {
     '~/spawn': Marker,
@@ -78,33 +77,34 @@ def fail(*_: object, **__: object) -> Any:
     raise ZeroDivisionError('by zero')
 
 
-@pytest.fixture
-def errors(physsim: PhysSim) -> list[BaseException]:
-    """Give a test the errors that would end it."""
-    errors: list[BaseException] = []
-    physsim.node.boundary.on_error = errors.append
-    return errors
+class Doors:
+    """The world of a test, of which a part fails from some moment on."""
 
+    def __init__(self, client: Client, monkeypatch: pytest.MonkeyPatch, read_log: Any) -> None:
+        self.client = client
+        self.physsim = client.physsim
+        self.node = client.physsim.node
+        self._monkeypatch = monkeypatch
+        self._read_log = read_log
+        # Those that would end the test.
+        self.errors: list[BaseException] = []
+        self.node.boundary.on_error = self.errors.append
 
-@pytest.fixture
-def goes_on(
-    physsim: PhysSim,
-    client: Client,
-    errors: list[BaseException],
-    capfd: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-) -> Callable[[], Event]:
-    """Give a test a check that an error was told, and that the world goes on without it."""
+    def fail(self, owner: object, name: str) -> None:
+        """Have a part raise an error that nobody expects."""
+        self._monkeypatch.setattr(owner, name, fail)
 
-    def check() -> Event:
+    def goes_on(self) -> Event:
+        """Check that the error was told, and that the world goes on; return its event."""
+        physsim, errors = self.physsim, self.errors
         assert {type(each) for each in errors} == {ZeroDivisionError}
-        monkeypatch.undo()
-        physsim.node.outputs.report_answers(physsim.node.boundary.take_events())
-        physsim.node.apply_requests()
+        self._monkeypatch.undo()
+        self.node.outputs.report_answers(self.node.boundary.take_events())
+        self.node.apply_requests()
         physsim.settle()
-        failed = [event for event in client.events if event.code == 'failed']
+        failed = [event for event in self.client.events if event.code == 'failed']
         assert 'failure 1 in the log' in failed[0].message
-        log = capfd.readouterr().err
+        log = self._read_log()
         assert 'failure 1, ' in log
         assert 'ZeroDivisionError: by zero' in log
         before, count = physsim.time, len(errors)
@@ -114,7 +114,13 @@ def goes_on(
         assert len(errors) == count
         return failed[0]
 
-    return check
+
+@pytest.fixture
+def doors(
+    client: Client, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> Doors:
+    """Give a test a world and what makes its parts fail."""
+    return Doors(client, monkeypatch, lambda: capfd.readouterr().err)
 
 
 # What comes in
@@ -126,136 +132,95 @@ def test_all_topics_are_tried(physsim: PhysSim) -> None:
 
 
 @pytest.mark.parametrize('topic', TOPICS)
-def test_a_message(
-    physsim: PhysSim,
-    client: Client,
-    goes_on: Callable[[], Event],
-    monkeypatch: pytest.MonkeyPatch,
-    topic: str,
-) -> None:
-    monkeypatch.setattr(physsim.node.requests, '_decoded', fail)
-    client.publish(topic, TOPICS[topic]())
-    client.spin_until(lambda: physsim.node.boundary.failures)
-    assert goes_on().name == topic
+def test_a_message(doors: Doors, topic: str) -> None:
+    doors.fail(doors.node.requests, '_decoded')
+    doors.client.publish(topic, TOPICS[topic]())
+    doors.client.spin_until(lambda: doors.node.boundary.failures)
+    assert doors.goes_on().name == topic
 
 
 @pytest.mark.parametrize('service', SERVICES)
-def test_a_service(
-    physsim: PhysSim,
-    client: Client,
-    goes_on: Callable[[], Event],
-    monkeypatch: pytest.MonkeyPatch,
-    service: str,
-) -> None:
-    physsim.node.simulation.speed = 0.0
-    monkeypatch.setattr(*SERVICES[service], fail)
-    response = client.call(f'~/{service}')
+def test_a_service(doors: Doors, service: str) -> None:
+    doors.node.simulation.speed = 0.0
+    doors.fail(*SERVICES[service])
+    response = doors.client.call(f'~/{service}')
     assert not response.success
     assert response.message.startswith('failed: an unexpected error; failure 1 in the log')
-    assert goes_on().name == f'~/{service}'
+    assert doors.goes_on().name == f'~/{service}'
 
 
-def test_a_service_of_rviz(
-    physsim: PhysSim,
-    client: Client,
-    goes_on: Callable[[], Event],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    physsim.spawn(disc('a/0'))
-    monkeypatch.setattr(interactive_markers, 'geometry_of', fail)
-    response = client.request(
+def test_a_service_of_rviz(doors: Doors) -> None:
+    doors.physsim.spawn(disc('a/0'))
+    doors.fail(interactive_markers, 'geometry_of')
+    response = doors.client.request(
         GetInteractiveMarkers,
         '~/drag/get_interactive_markers',
         GetInteractiveMarkers.Request(),
     )
     assert len(response.markers) == 0
-    goes_on()
+    doors.goes_on()
 
 
-def test_a_parameter_that_is_read(
-    physsim: PhysSim,
-    client: Client,
-    goes_on: Callable[[], Event],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(physsim.node, 'get_parameters', fail)
-    monkeypatch.setattr(physsim.node, 'get_parameter', fail)
-    response = client.request(
+def test_a_parameter_that_is_read(doors: Doors) -> None:
+    doors.fail(doors.node, 'get_parameters')
+    doors.fail(doors.node, 'get_parameter')
+    response = doors.client.request(
         GetParameters, '~/get_parameters', GetParameters.Request(names=['speed'])
     )
     assert len(response.values) == 0
-    goes_on()
+    doors.goes_on()
 
 
-def test_a_parameter_that_is_set(
-    physsim: PhysSim,
-    client: Client,
-    goes_on: Callable[[], Event],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(parameters, 'drawing_settings', fail)
-    message = Parameter('snap', value=0.5).to_parameter_msg()
-    response = client.request(
-        SetParameters, '~/set_parameters', SetParameters.Request(parameters=[message])
-    )
-    (result,) = response.results
+def test_a_parameter_that_is_set(doors: Doors) -> None:
+    doors.fail(parameters, 'drawing_settings')
+    (result,) = doors.client.set_parameters(message_of('snap', 0.5))
     assert not result.successful
     assert result.reason.startswith('failed: an unexpected error')
-    assert goes_on().name == '~/set_parameters'
-    assert physsim.node.get_parameter('snap').value == 0.15
+    assert doors.goes_on().name == '~/set_parameters'
+    assert doors.node.get_parameter('snap').value == 0.15
 
 
-def test_the_effect_of_a_parameter(
-    physsim: PhysSim, goes_on: Callable[[], Event], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(physsim.node.simulation, 'limit_history', fail)
-    physsim.node.set_parameters([Parameter('history', value=60.0)])
-    assert goes_on().name == 'parameters'
+def test_the_effect_of_a_parameter(doors: Doors) -> None:
+    doors.fail(doors.node.simulation, 'limit_history')
+    doors.node.set_parameters([Parameter('history', value=60.0)])
+    assert doors.goes_on().name == 'parameters'
 
 
 def test_a_request_of_which_half_is_done_changes_nothing(
-    physsim: PhysSim,
-    client: Client,
-    errors: list[BaseException],
-    monkeypatch: pytest.MonkeyPatch,
+    doors: Doors, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    physsim.spawn(box('floor/0', size=(9.0, 1.0), text='{anchored: true}'))
-    physsim.spawn(disc('a/0', at=(0.0, 3.0)))
-    physsim.run(1.0)
-    before, spawn = physsim.digest(), world.HANDLERS[Spawn]
+    doors.physsim.spawn(box('floor/0', size=(9.0, 1.0), text='{anchored: true}'))
+    doors.physsim.spawn(disc('a/0', at=(0.0, 3.0)))
+    doors.physsim.run(1.0)
+    before, spawn = doors.physsim.digest(), world.HANDLERS[Spawn]
 
     def fail_at_the_end(*args: Any) -> None:
         spawn(*args)
         fail()
 
     monkeypatch.setitem(world.HANDLERS, Spawn, fail_at_the_end)
-    (event,) = client.ask('~/spawn', disc('b/0', at=(0.0, 6.0)))
+    (event,) = doors.client.ask('~/spawn', disc('b/0', at=(0.0, 6.0)))
     assert (event.code, event.hardware_id) == ('failed', 'b/0')
-    assert physsim.names == ('floor/0', 'a/0')
-    assert physsim.digest() == before
+    assert doors.physsim.names == ('floor/0', 'a/0')
+    assert doors.physsim.digest() == before
     monkeypatch.undo()
-    physsim.run(1.0)
-    after = physsim.digest()
+    doors.physsim.run(1.0)
+    after = doors.physsim.digest()
     # As the same world without that request goes on.
-    physsim.rewind(1.0)
-    assert physsim.digest() == before
-    physsim.run(1.0)
-    assert physsim.digest() == after
-    assert len(errors) == 1
+    doors.physsim.rewind(1.0)
+    assert doors.physsim.digest() == before
+    doors.physsim.run(1.0)
+    assert doors.physsim.digest() == after
+    assert len(doors.errors) == 1
 
 
-def test_a_command_of_a_robot(
-    physsim: PhysSim,
-    client: Client,
-    goes_on: Callable[[], Event],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    physsim.spawn(disc('tb/0', text='{robot: turtlebot3_burger}'))
-    publisher = client.node.create_publisher(Twist, '/tb_0/cmd_vel', 10)
-    monkeypatch.setattr(Commands, 'take', fail)
+def test_a_command_of_a_robot(doors: Doors) -> None:
+    doors.physsim.spawn(disc('tb/0', text='{robot: turtlebot3_burger}'))
+    publisher = doors.client.node.create_publisher(Twist, '/tb_0/cmd_vel', 10)
+    doors.fail(Commands, 'take')
     publisher.publish(Twist())
-    physsim.step()
-    assert goes_on().name == '/tb_0/cmd_vel'
+    doors.physsim.step()
+    assert doors.goes_on().name == '/tb_0/cmd_vel'
 
 
 # What goes out
@@ -273,36 +238,28 @@ OUTPUTS: dict[str, tuple[object, str]] = {
 
 
 @pytest.mark.parametrize('output', OUTPUTS)
-def test_an_output(
-    physsim: PhysSim,
-    client: Client,
-    goes_on: Callable[[], Event],
-    monkeypatch: pytest.MonkeyPatch,
-    output: str,
-) -> None:
-    physsim.spawn(box('tb/0', text='{robot: turtlebot3_burger}'))
-    client.listen(PoseArray, '~/poses')
-    client.listen(Odometry, '/tb_0/odom')
-    monkeypatch.setattr(*OUTPUTS[output], fail)
-    monkeypatch.setattr(physsim.node._session, 'preview', Preview(label='a disc'))  # noqa: SLF001
-    physsim.node.outputs.publish_preview()
-    physsim.node.outputs.report_answers((Answer(topic='viewer', message='it'),))
-    physsim.step(3)
-    assert goes_on().name == output
+def test_an_output(doors: Doors, output: str) -> None:
+    doors.physsim.spawn(box('tb/0', text='{robot: turtlebot3_burger}'))
+    doors.client.listen(PoseArray, '~/poses')
+    doors.client.listen(Odometry, '/tb_0/odom')
+    doors.fail(*OUTPUTS[output])
+    doors.node._session.preview = Preview(label='a disc')  # noqa: SLF001
+    doors.node.outputs.publish_preview()
+    doors.node.outputs.report_answers((Answer(topic='viewer', message='it'),))
+    doors.physsim.step(3)
+    assert doors.goes_on().name == output
 
 
-def test_diagnostics_count_the_errors(
-    physsim: PhysSim, client: Client, errors: list[BaseException], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    received = client.listen(DiagnosticArray, '/diagnostics')
-    monkeypatch.setattr(PosesEncoder, 'encode', fail)
-    client.listen(PoseArray, '~/poses')
-    physsim.step(3)
+def test_diagnostics_count_the_errors(doors: Doors, monkeypatch: pytest.MonkeyPatch) -> None:
+    received = doors.client.listen(DiagnosticArray, '/diagnostics')
+    doors.fail(PosesEncoder, 'encode')
+    doors.client.listen(PoseArray, '~/poses')
+    doors.physsim.step(3)
     monkeypatch.undo()
-    assert len(errors) == 3
-    physsim.node.start()
-    physsim.node.tick(0)
-    client.spin_until(lambda: received)
+    assert len(doors.errors) == 3
+    doors.node.start()
+    doors.node.tick(0)
+    doors.client.spin_until(lambda: received)
     (status,) = received[0].status
     values = {pair.key: pair.value for pair in status.values}
     assert values['unexpected errors'] == '3'
@@ -310,14 +267,12 @@ def test_diagnostics_count_the_errors(
     assert float(values['longest message [ms]'].split()[0]) >= 0.0
 
 
-def test_diagnostics_themselves(
-    physsim: PhysSim, goes_on: Callable[[], Event], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    physsim.step()
-    physsim.node.start()
-    monkeypatch.setattr(physsim.node, 'count_nodes', fail)
-    physsim.node.tick(0)
-    assert goes_on().name == '/diagnostics'
+def test_diagnostics_themselves(doors: Doors) -> None:
+    doors.physsim.step()
+    doors.node.start()
+    doors.fail(doors.node, 'count_nodes')
+    doors.node.tick(0)
+    assert doors.goes_on().name == '/diagnostics'
 
 
 # In a test

@@ -30,12 +30,10 @@ from physsim_ros.ros.encoders.markers import MarkersEncoder
 from physsim_ros.ros.encoders.streams import ContactsEncoder, PosesEncoder, StatesEncoder
 from physsim_ros.ros.publishers.status_publishers import encode_event
 from physsim_ros.ros.requests import conversions
-from physsim_ros.ros.requests.decoding import command_from, CommandMessage
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, disc
 from physsim_ros.testing.messages import rotation
 import pytest
-from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker
@@ -159,7 +157,7 @@ def joints(draw: Any) -> Marker:
 
 
 @st.composite
-def commands(draw: Any) -> CommandMessage:
+def commands(draw: Any) -> MultiDOFJointState:
     """Return a command whose numbers, and sometimes names and lengths, are odd."""
     names = draw(st.lists(st.sampled_from(NAMES), min_size=1, max_size=2, unique=True))
     fits = st.lists if draw(st.booleans()) else None
@@ -179,14 +177,13 @@ def commands(draw: Any) -> CommandMessage:
     number = numbers if odd else st.floats(-5.0, 5.0)
     vector = st.builds(Vector3, x=number, y=number, z=number)
     turn = quaternions if odd else turns
-    message = MultiDOFJointState(
+    return MultiDOFJointState(
         header=draw(headers) if odd else Header(),
         joint_names=names,
         transforms=some(st.builds(Transform, translation=vector, rotation=turn)),
         twist=some(st.builds(Twist, linear=vector, angular=vector)),
         wrench=some(st.builds(Wrench, force=vector, torque=vector)),
     )
-    return command_from(serialize_message(message))
 
 
 points = st.one_of(

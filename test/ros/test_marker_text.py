@@ -51,6 +51,14 @@ def test_text_names_every_property() -> None:
     assert properties_of('anchored: true\nfriction: 0').anchored is True
 
 
+@pytest.mark.parametrize('text', ['{actor: null, mass: 2}', 'actor:\nmass: 2'])
+def test_a_property_that_is_null_is_unset(text: str) -> None:
+    request = body_request(box(text=text), frame_id='map')
+
+    assert isinstance(request, Spawn)
+    assert (request.unset, request.properties) == (('actor',), Properties(mass=2.0))
+
+
 @pytest.mark.parametrize(
     ('text', 'value'),
     [
@@ -69,65 +77,34 @@ def test_numbers_are_those_of_yaml_1_2(text: str, value: float) -> None:
     assert properties_of(f'{{density: {text}}}').density == value
 
 
-@pytest.mark.parametrize('number', ['.nan', '.NaN', '.inf', '-.inf', '1e999', '[.inf, 0]'])
-def test_a_number_that_is_not_finite_is_refused(number: str) -> None:
-    key = 'velocity' if number.startswith('[') else 'density'
-    refusal = refusal_of(f'{{{key}: {number}}}')
-    assert (type(refusal), refusal.field) == (Malformed, key)
-
-
+# What a property may be is tested in `test/model`; here is what YAML makes of a text.
 @pytest.mark.parametrize(
-    ('text', 'field'),
+    ('text', 'code', 'field'),
     [
-        ('{density: heavy}', 'density'),
-        ('{density: "2"}', 'density'),
-        ('{density: true}', 'density'),
-        ('{density: 0}', 'density'),
-        ('{density: -1}', 'density'),
-        ('{mass: 0}', 'mass'),
-        ('{density: ~}', 'density'),
-        ('{density: }', 'density'),
-        ('{mass: [1]}', 'mass'),
-        ('{mass: {a: 1}}', 'mass'),
-        ('{friction: -0.1}', 'friction'),
-        ('{friction: 10.1}', 'friction'),
-        ('{elasticity: 1.1}', 'elasticity'),
-        ('{elasticity: -1}', 'elasticity'),
-        ('{velocity: 3}', 'velocity'),
-        ('{velocity: [a, b]}', 'velocity'),
-        ('{velocity: [1e9, 0]}', 'velocity'),
-        ('{spin: [1]}', 'spin'),
-        ('{spin: 1e9}', 'spin'),
-        ('{anchored: 1}', 'anchored'),
-        ('{anchored: yes}', 'anchored'),
-        ('{anchored: "true"}', 'anchored'),
-        ('{kinematic: no}', 'kinematic'),
-        ('{sensor: 0.0}', 'sensor'),
-        ('{label: 1}', 'label'),
-        ('{label: "\\t"}', 'label'),
-        ('{forces: {force: [1, 0]}}', 'forces'),
-        ('{forces: [{force: 1}]}', 'force'),
-        ('{forces: [{at: [0, 0]}]}', 'force'),
-        ('{forces: [{force: [1, 0], axes: wind}]}', 'axes'),
-        ('{group: 1.0}', 'group'),
-        ('{group: true}', 'group'),
-        ('{group: 4294967296}', 'group'),
-        ('{mass: 1, density: 1}', 'mass'),
-        ('{mass: 2001-01-01}', 'mass'),
-        ('{mass: 1_000}', 'mass'),
-        ('{mass: 0x10}', 'mass'),
-        ('{mass: 1:30}', 'mass'),
+        ('{density: heavy}', 'bad_property', 'density'),
+        ('{density: 1e999}', 'malformed', 'density'),
+        ('{density: .NaN}', 'malformed', 'density'),
+        ('{velocity: [.inf, 0]}', 'malformed', 'velocity'),
+        ('{velocity: [1]}', 'malformed', 'velocity'),
+        ('{anchored: yes}', 'bad_property', 'anchored'),
+        ('{kinematic: no}', 'bad_property', 'kinematic'),
+        ('{forces: {force: [1, 0]}}', 'bad_property', 'forces'),
+        ('{forces: [{at: [0, 0]}]}', 'bad_property', 'force'),
+        ('{group: 1.0}', 'bad_property', 'group'),
+        ('{mass: 1, density: 1}', 'bad_property', 'mass'),
+        ('{mass: 2001-01-01}', 'bad_property', 'mass'),
+        ('{mass: 1_000}', 'bad_property', 'mass'),
+        ('{mass: 0x10}', 'bad_property', 'mass'),
+        ('{mass: 1:30}', 'bad_property', 'mass'),
+        ('{friction: 0.1, friction: 0.9}', 'malformed', 'text'),
+        ('{1: 1}', 'unknown_property', '1'),
+        ('{[a]: 1}', 'malformed', 'text'),
     ],
 )
-def test_a_bad_value_is_refused_by_its_key(text: str, field: str) -> None:
+def test_a_bad_value_is_refused_by_its_key(text: str, code: str, field: str) -> None:
     refusal = refusal_of(text)
-    assert (type(refusal), refusal.field) == (BadProperty, field)
-
-
-@pytest.mark.parametrize('text', ['{velocity: []}', '{velocity: [1]}', '{velocity: [1, 2, 3]}'])
-def test_a_velocity_of_the_wrong_length_is_refused(text: str) -> None:
-    refusal = refusal_of(text)
-    assert (type(refusal), refusal.field) == (Malformed, 'velocity')
+    assert (refusal.code, refusal.field) == (code, field)
+    assert len(str(refusal)) < 300
 
 
 @pytest.mark.parametrize(
@@ -147,11 +124,6 @@ def test_an_unknown_key_is_refused_and_the_nearest_known_one_named(key: str, nea
     refusal = refusal_of(f'{{{key}: 1}}')
     assert (type(refusal), refusal.field) == (UnknownProperty, key)
     assert nearest in str(refusal)
-
-
-@pytest.mark.parametrize('key', ['1', '1.5', 'true', '~', '[a]', '""'])
-def test_a_key_that_is_no_word_is_refused(key: str) -> None:
-    assert isinstance(refusal_of(f'{{{key}: 1}}'), UnknownProperty | Malformed)
 
 
 @pytest.mark.parametrize(
@@ -196,12 +168,6 @@ def test_text_that_is_no_mapping_is_refused(text: str) -> None:
     assert (refusal.code, refusal.field) == ('malformed', 'text')
 
 
-def test_a_key_that_comes_twice_is_refused() -> None:
-    refusal = refusal_of('{friction: 0.1, friction: 0.9}')
-    assert (refusal.code, refusal.field) == ('malformed', 'text')
-    assert 'friction' in str(refusal)
-
-
 def test_text_that_is_too_long_is_refused_unread() -> None:
     fits = '{friction: 0.25}'.ljust(LONGEST_TEXT)
     assert properties_of(fits).friction == 0.25
@@ -239,21 +205,3 @@ def test_text_that_holds_itself_is_refused(text: str) -> None:
 def test_deeply_nested_text_is_refused(text: str) -> None:
     refusal = refusal_of(text)
     assert isinstance(refusal, Malformed | UnknownProperty)
-
-
-def test_what_a_refusal_says_stays_short_and_on_one_line() -> None:
-    long = 'x' * 4000
-    for text in (
-        f'{{? {long} : 1}}',
-        f'{{mass: {long}}}',
-        f'{{velocity: [{long}, 1]}}',
-        f'"{long}',
-        f'{{group: {"9" * 4000}}}',
-        f'{{mass: {"9" * 4000}}}',
-        f'{{mass: "{long}"}}',
-        f'{{? {long} : 1, ? {long} : 1}}',
-    ):
-        refusal = refusal_of(text)
-        assert len(str(refusal)) < 300
-        assert '\n' not in str(refusal)
-        assert len(refusal.field) < 300

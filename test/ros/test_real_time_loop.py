@@ -25,6 +25,7 @@ class Machine:
     def __init__(self, *, tick: int, message: int) -> None:
         self.now = 0
         self.message_delay = 0.0
+        self.diagnostics = self
         self.ticks: list[int] = []
         self.handled: list[int] = []
         self.waiting: deque[Callable[[], object]] = deque()

@@ -15,26 +15,10 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from ..client import Client, Event, set_parameter
+from ..client import Client, Event, failed, parameter, set_parameter, succeeded
 
 # One frame at speed 1 [ns]
 PERIOD = 1e9 / 60.0
-
-
-def parameter(physsim: PhysSim, name: str) -> object:
-    return physsim.node.get_parameter(name).value
-
-
-def succeeded(response: Trigger.Response) -> str:
-    assert response.success, response.message
-    assert response.message
-    return str(response.message)
-
-
-def failed(response: Trigger.Response) -> str:
-    assert not response.success
-    assert response.message
-    return str(response.message)
 
 
 class Wall:

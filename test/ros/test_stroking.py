@@ -6,11 +6,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 import math
 
 from geometry_msgs.msg import PoseStamped
 from nav_msgs.msg import Path
+from physsim_ros.model.errors import Malformed
+from physsim_ros.model.settings import MOST_SAMPLES
+from physsim_ros.ros.requests.conversions import stroke_samples
 from physsim_ros.testing import disc, PhysSim
 import pytest
 from rclpy.parameter import Parameter
@@ -21,12 +23,19 @@ from ..client import Client, KEPT
 Points = Sequence[tuple[float, float]]
 
 
-def stroke(points: Points, frame: str = '') -> Path:
+def stroke(
+    *points: Sequence[float], frame: str = '', frames: Sequence[str] = (), begin: int = 0
+) -> Path:
+    """Return a path, its points x, y and, where there are three, time [s]."""
     message = Path()
     message.header.frame_id = frame
-    for x, y in points:
+    for number, point in enumerate(points):
         sample = PoseStamped()
-        sample.pose.position.x, sample.pose.position.y = float(x), float(y)
+        x, y, seconds = (*map(float, point), 0.0)[:3]
+        sample.pose.position.x, sample.pose.position.y, sample.pose.position.z = x, y, 7.0
+        stamp = begin + round(seconds * 1e9)
+        sample.header.stamp.sec, sample.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+        sample.header.frame_id = frames[number] if frames else ''
         message.poses.append(sample)
     return message
 
@@ -36,18 +45,10 @@ def circle(x: float, y: float, radius: float, count: int = 60) -> Points:
     return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
 
 
-def line(start: tuple[float, float], end: tuple[float, float], count: int = 60) -> Points:
-    shares = [number / count for number in range(count + 1)]
-    return [
-        (start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1]))
-        for share in shares
-    ]
-
-
 def test_a_stroke_becomes_a_body_and_is_told_with_its_confidence(
     client: Client,
 ) -> None:
-    told, spawned = client.ask('~/stroke', stroke(circle(3.0, 2.0, 1.5)))
+    told, spawned = client.ask('~/stroke', stroke(*circle(3.0, 2.0, 1.5)))
 
     assert (told.level, told.name, told.code) == (0, '~/stroke', 'ok')
     assert told.hardware_id == 'drawn/0'
@@ -61,7 +62,7 @@ def test_a_stroke_becomes_a_body_and_is_told_with_its_confidence(
 
 def test_a_reading_is_shown_until_the_next_or_until_a_tool_is_taken(client: Client) -> None:
     pictures = client.listen(MarkerArray, '~/preview', KEPT)
-    client.ask('~/stroke', stroke(circle(3.0, 2.0, 1.5)))
+    client.ask('~/stroke', stroke(*circle(3.0, 2.0, 1.5)))
     clearing, outline, label = pictures[-1].markers
     assert clearing.action == Marker.DELETEALL
     assert outline.type == Marker.LINE_STRIP
@@ -73,16 +74,9 @@ def test_a_reading_is_shown_until_the_next_or_until_a_tool_is_taken(client: Clie
 
 def test_a_stroke_may_be_drawn_in_the_frame_of_a_body(client: Client) -> None:
     client.physsim.spawn(disc('a/0', at=(10.0, 5.0, math.pi / 2)))
-    events = client.ask('~/stroke', stroke(circle(3.0, 0.0, 1.0), 'a/0'))
+    events = client.ask('~/stroke', stroke(*circle(3.0, 0.0, 1.0), frame='a/0'))
     assert [event.code for event in events] == ['ok', 'ok']
     assert client.physsim.pose('drawn/0')[:2] == pytest.approx((10.0, 8.0), abs=0.01)
-
-
-def test_a_stroke_sees_what_was_asked_just_before(client: Client) -> None:
-    client.publish('~/spawn', disc('a/0', diameter=4.0))
-    client.publish('~/stroke', stroke(line((-1.0, 6.0), (1.0, 6.0))))
-    events = client.ask('~/stroke', stroke(circle(0.0, 0.0, 1.0)))
-    assert events[0].name == '~/spawn'
 
 
 @pytest.mark.parametrize(
@@ -100,7 +94,7 @@ def test_what_is_no_stroke_is_refused_with_a_code_and_changes_nothing(
     client.physsim.spawn(disc('a/0'))
     before = client.physsim.digest()
 
-    (event,) = client.ask('~/stroke', stroke(points))
+    (event,) = client.ask('~/stroke', stroke(*points))
 
     assert (event.level, event.name) == (2, '~/stroke')
     assert event.code in ([code] if code else ['bad_size', 'not_recognised', 'bad_property'])
@@ -110,7 +104,7 @@ def test_what_is_no_stroke_is_refused_with_a_code_and_changes_nothing(
 
 
 def test_an_unknown_frame_is_refused(client: Client) -> None:
-    (event,) = client.ask('~/stroke', stroke(circle(0, 0, 1), 'nobody/0'))
+    (event,) = client.ask('~/stroke', stroke(*circle(0, 0, 1), frame='nobody/0'))
     assert (event.code, event.field) == ('unknown_frame', 'header.frame_id')
 
 
@@ -120,7 +114,7 @@ def test_below_the_confidence_that_is_asked_for_nothing_is_built(
     pictures = client.listen(MarkerArray, '~/preview', KEPT)
     physsim.node.set_parameters([Parameter('sketch_confidence', value=1.0)])
     before = physsim.digest()
-    (event,) = client.ask('~/stroke', stroke(circle(0, 0, 1)))
+    (event,) = client.ask('~/stroke', stroke(*circle(0, 0, 1)))
     assert event.code == 'not_recognised'
     assert 'disc' in event.message
     assert event.values['reading'] == 'disc'
@@ -129,19 +123,44 @@ def test_below_the_confidence_that_is_asked_for_nothing_is_built(
     assert pictures[-1].markers[-1].text == 'not recognised'
 
 
-def test_what_a_stroke_does_to_several_bodies_is_undone_at_once(
-    client: Client, physsim: PhysSim
-) -> None:
-    for number in range(3):
-        physsim.spawn(disc(f'a/{number}', at=(number, 0.0), text='{anchored: true}'))
-    there = physsim.names
-    swings = [(x / 4 - 0.7, (-1) ** x * 0.7) for x in range(17)]
-    scribble = [each for pair in pairwise(swings) for each in line(*pair, 12)]
-    told, *deleted = client.ask('~/stroke', stroke(scribble))
-    assert told.values['reading'] == 'deletion'
-    assert told.values['requests'] == str(len(deleted)) == '3'
-    assert physsim.names == ()
+# Samples
 
-    physsim.node.simulation.undo()
 
-    assert physsim.names == there
+@pytest.mark.parametrize('frame', ['', 'w', 'world', 'Würfel/12', 'a' * 1000])
+@pytest.mark.parametrize('count', [0, 1, 2, 7])
+def test_every_sample_is_read_whatever_its_frame_is_called(frame: str, count: int) -> None:
+    points = [(1.5 * number, -number / 3) for number in range(count)]
+    found, samples, _ = stroke_samples(stroke(*points, frame=frame, frames=[frame] * count))
+    assert samples.shape == (count, 3)
+    assert list(map(tuple, samples[:, :2].tolist())) == points
+    assert found == frame
+
+
+@pytest.mark.parametrize('frames', [['', '', ''], ['map', '', 'map']])
+@pytest.mark.parametrize('frame', ['', 'map'])
+def test_a_frame_may_be_said_or_left_out(frame: str, frames: list[str]) -> None:
+    found, *_ = stroke_samples(stroke((0, 0), (1, 1), (2, 2), frame=frame, frames=frames))
+    assert found == ('map' if frame or any(frames) else '')
+
+
+def test_poses_of_different_frames_are_no_stroke() -> None:
+    message = stroke((0, 0), (1, 1), frame='a/0', frames=['a/0', 'b/0'])
+    with pytest.raises(Malformed, match='one frame') as refused:
+        stroke_samples(message)
+    assert refused.value.field == 'header.frame_id'
+
+
+@pytest.mark.parametrize('begin', [0, 10**18 + 999_999_999])
+def test_times_count_from_the_first_sample(begin: int) -> None:
+    points = ((0, 0, 0), (1, 0, 0.25), (2, 0, 0.125), (3, 0, 1.75))
+    _, samples, _ = stroke_samples(stroke(*points, begin=begin))
+    assert samples[:, 2].tolist() == [0.0, 0.25, 0.125, 1.75]
+
+
+def test_as_many_samples_as_a_stroke_may_have_are_read_and_one_more_is_refused() -> None:
+    points = [(0.001 * number, 0.0) for number in range(MOST_SAMPLES + 1)]
+    _, samples, _ = stroke_samples(stroke(*points[:-1]))
+    assert len(samples) == MOST_SAMPLES
+    with pytest.raises(Malformed, match=str(MOST_SAMPLES + 1)) as refused:
+        stroke_samples(stroke(*points))
+    assert refused.value.field == 'poses'

@@ -1,39 +1,38 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Time goes back and on over ROS, and all that is shown again is so to the bit."""
+"""Time goes back and on over ROS: all that is shown again is so to the bit, and can be undone."""
 
 from __future__ import annotations
 
 from itertools import pairwise
+import math
+from pathlib import Path
 from typing import Any
 
 from physsim_ros.testing import disc, PhysSim, Refused
 import pytest
 from rclpy.node import Node
 from std_msgs.msg import Float64
+from visualization_msgs.msg import MarkerArray
 
-from .journey import (
-    Journey,
-    parameter,
-    PERIOD,
-    SECOND,
-    seconds,
-    succeeded,
-)
-from ..client import set_parameter
+from .journey import clock_of, Journey, PERIOD, SECOND, STEP
+from ..client import failed, parameter, set_parameter, succeeded
 
 # Back, and on again
 
 
 @pytest.mark.parametrize(
     ('ask', 'speed', 'known'),
-    [('~/fast_rewind', -4.0, 90), (-0.5, -0.5, 40)],
+    [('~/fast_rewind', -3.0, 90), (-0.5, -0.5, 40), ('~/fast_forward', 3.0, 90)],
 )
-def test_what_is_shown_going_back_is_what_was_shown_first(
+def test_what_is_shown_again_is_what_was_shown_first(
     journey: Journey, ask: str | float, speed: float, known: int
 ) -> None:
     journey.live(200)
+    set_parameter(journey.physsim, 'fast_speed', 3.0)
+    if speed > 0.0:
+        journey.seek(0.0)
     if isinstance(ask, str):
         succeeded(journey.client.call(ask))
     else:
@@ -41,31 +40,19 @@ def test_what_is_shown_going_back_is_what_was_shown_first(
 
     journey.tick()
     before = len(journey.clocks)
-    frames = journey.tick(round(known / max(1.0, -speed)))
+    frames = journey.tick(round(known / max(1.0, abs(speed))))
 
     assert parameter(journey.physsim, 'speed') == speed
     stamps = [stamp for stamp, _ in frames]
-    back = [before - after for before, after in pairwise(stamps)]
+    on = [after - before for before, after in pairwise(stamps)]
     # To a nanosecond or two; half a speed is two steps a frame.
-    assert back == pytest.approx([-speed * PERIOD] * len(back), abs=2.0)
+    assert on == pytest.approx([speed * PERIOD] * len(on), abs=2.0)
     clocks = [each.clock.sec * SECOND + each.clock.nanosec for each in journey.clocks[before:]]
     assert clocks == stamps
-    journey.compare(frames, round(0.5 * known / max(1.0, -speed)) - 2)
+    journey.compare(frames, round(0.5 * known / max(1.0, abs(speed))) - 2)
 
 
-def test_fast_forward_has_the_speed_that_is_set_and_the_same_bits(journey: Journey) -> None:
-    journey.live(120)
-    journey.seek(0.0)
-    set_parameter(journey.physsim, 'fast_speed', 3.0)
-
-    succeeded(journey.client.call('~/fast_forward'))
-    journey.tick()
-    frames = journey.tick(30)
-
-    assert parameter(journey.physsim, 'speed') == 3.0
-    on = [after - before for (before, _), (after, _) in pairwise(frames)]
-    assert on == pytest.approx([3 * PERIOD] * len(on), abs=2.0)
-    journey.compare(frames, 29)
+# Back, and on again
 
 
 # Parameters follow the time
@@ -108,38 +95,7 @@ def test_parameters_are_what_they_were_then(journey: Journey) -> None:
     )
 
 
-def test_parameters_that_are_not_the_worlds_stay(journey: Journey) -> None:
-    journey.live(30)
-    for name, value in {'fast_speed': 7.0, 'history': 300.0, 'world_file': 'demo'}.items():
-        set_parameter(journey.physsim, name, value)
-
-    journey.seek(0.0)
-    journey.tick()
-
-    assert parameter(journey.physsim, 'fast_speed') == 7.0
-    assert parameter(journey.physsim, 'history') == 300.0
-    assert parameter(journey.physsim, 'world_file') == 'demo'
-
-
 # In other people's tests
-
-
-def test_seek_in_a_test_goes_to_a_time_and_on_from_there(physsim: PhysSim) -> None:
-    physsim.load('demo')
-    physsim.run(1.0)
-    at_one = physsim.digest()
-    physsim.run(2.0)
-    at_three = physsim.digest()
-
-    physsim.seek(1.0)
-    assert physsim.time == 1.0
-    assert physsim.digest() == at_one
-    physsim.run(2.0)
-    assert physsim.digest() == at_three
-    physsim.seek(0.0)
-
-    physsim.until(lambda: physsim.time >= 3.0)
-    assert physsim.digest() == at_three
 
 
 def test_seek_in_a_test_raises_what_is_refused(physsim: PhysSim) -> None:
@@ -165,8 +121,230 @@ def test_after_a_seek_other_nodes_have_the_time_and_the_parameters_of_then(
 
     physsim.seek(0.5)
 
-    assert seconds(robot.get_clock().now().nanoseconds) == pytest.approx(0.5)
+    assert robot.get_clock().now().nanoseconds * 1e-9 == pytest.approx(0.5)
     assert parameter(physsim, 'gravity') == [0.0, -9.81]
     physsim.run(1.0)
-    assert seconds(robot.get_clock().now().nanoseconds) == pytest.approx(1.5)
+    assert robot.get_clock().now().nanoseconds * 1e-9 == pytest.approx(1.5)
     assert parameter(physsim, 'gravity') == [0.0, 0.0]
+
+
+# Seek
+
+
+def test_a_seek_while_time_runs_lets_it_run_on(journey: Journey) -> None:
+    journey.live(100)
+    succeeded(journey.client.call('~/play'))
+    journey.tick(3)
+
+    journey.seek(0.5 * SECOND)
+    frames = journey.tick(20)
+
+    assert frames[0][0] == pytest.approx(0.5 * SECOND, abs=2)
+    assert frames[-1][0] == pytest.approx(0.5 * SECOND + 19 * PERIOD, abs=2 * PERIOD)
+    assert parameter(journey.physsim, 'speed') == 1.0
+    journey.compare(frames, 18)
+
+
+# Just before the oldest step, just after the newest, and as far off as a clock tells.
+@pytest.mark.parametrize('off', [-3_000_000, 3_000_000, 2_000_000_000 * 10**9])
+def test_a_seek_out_of_history_is_refused_and_changes_nothing(journey: Journey, off: int) -> None:
+    journey.live(60)
+    before, speed = journey.physsim.digest(), parameter(journey.physsim, 'speed')
+    journey.shown()
+
+    answer = journey.seek(off if off < 0 else journey.end + off)
+
+    assert answer.level == 2
+    assert (answer.code, answer.field) == ('out_of_history', 'clock')
+    assert journey.physsim.digest() == before
+    assert parameter(journey.physsim, 'speed') == speed
+    assert journey.tick(3) == []
+
+
+@pytest.mark.parametrize(
+    ('topic', 'message'),
+    [
+        ('~/seek', clock_of(0)),
+        ('~/speed', Float64(data=math.nan)),
+    ],
+)
+def test_what_was_asked_before_is_answered_before(
+    journey: Journey, topic: str, message: Any
+) -> None:
+    journey.live(60)
+    # Both ways are known before anything is asked.
+    journey.client.ask('~/spawn', disc('a/0'))
+    journey.client.ask(topic, message)
+    told = len(journey.client.events)
+
+    journey.client.publish('~/spawn', disc('b/0'))
+    journey.physsim.settle()
+    journey.client.ask(topic, message)
+
+    names = [event.name for event in journey.client.events[told:] if event.name[:2] == '~/']
+    assert names == ['~/spawn', topic]
+
+
+# Something else in the past
+
+
+def test_a_parameter_set_in_the_past_begins_a_branch(journey: Journey) -> None:
+    journey.live(60)
+    journey.seek(0.5 * SECOND)
+    journey.client.events.clear()
+
+    set_parameter(journey.physsim, 'gravity', [0.0, 3.0])
+    journey.tick()
+
+    assert [event.name for event in journey.client.events] == ['branch']
+    assert journey.seek(journey.end).code == 'out_of_history'
+
+
+def test_looking_and_changing_pace_in_the_past_begins_none(journey: Journey) -> None:
+    journey.live(60)
+    journey.seek(0.5 * SECOND)
+    journey.client.events.clear()
+
+    for service in ('play', 'pause', 'step', 'fast_forward', 'rewind', 'pause'):
+        succeeded(journey.client.call(f'~/{service}'))
+        journey.tick(2)
+    gravity = parameter(journey.physsim, 'gravity')
+    set_parameter(journey.physsim, 'gravity', gravity)
+
+    journey.tick()
+    assert {event.name for event in journey.client.events} == {
+        f'~/{service}' for service in ('play', 'pause', 'step', 'fast_forward', 'rewind')
+    }
+    assert journey.seek(journey.end).code == 'ok'
+
+
+# History
+
+
+def test_history_is_how_far_back_it_goes(journey: Journey) -> None:
+    journey.live(200)
+    last = round(journey.end / STEP)
+    set_parameter(journey.physsim, 'history', 1.0)
+
+    for stamp in (journey.end - SECOND - 1.1 * STEP, 0.0):
+        assert journey.seek(stamp).code == 'out_of_history'
+    journey.shown()
+    succeeded(journey.client.call('~/rewind'))
+    frames = journey.tick(80)
+
+    journey.compare(frames, 58)
+    assert round(frames[-1][0] / STEP) == last - 240
+    assert journey.client.events[-1].name == 'history'
+    assert parameter(journey.physsim, 'speed') == 0.0
+
+
+# Undo, redo, reset
+
+
+def test_undo_goes_back_to_the_moment_before_the_last_request(journey: Journey) -> None:
+    journey.live(60)
+    physsim, before = journey.physsim, journey.physsim.digest()
+    names, time = physsim.names, physsim.time
+    physsim.spawn(disc('new/0', at=(0.0, 9.0)))
+    journey.run(30)
+
+    message = succeeded(journey.client.call('~/undo'))
+
+    assert 'new/0' in message
+    assert f'{time:.3f}' in message
+    assert physsim.names == names
+    assert physsim.time == time
+    assert physsim.digest() == before
+
+
+def test_an_array_is_undone_whole(journey: Journey) -> None:
+    journey.live(30)
+    physsim, before = journey.physsim, journey.physsim.digest()
+    physsim.spawn(MarkerArray(markers=[disc(f'new/{each}', at=(each, 9)) for each in range(3)]))
+    after = physsim.digest()
+
+    message = succeeded(journey.client.call('~/undo'))
+
+    assert physsim.digest() == before, message
+    succeeded(journey.client.call('~/redo'))
+    assert physsim.digest() == after
+
+
+def test_undo_and_redo_of_nothing_are_refused_and_change_nothing(journey: Journey) -> None:
+    journey.physsim.step(10)
+    before = journey.physsim.digest()
+
+    for service in ('~/undo', '~/redo'):
+        assert failed(journey.client.call(service)).startswith('out_of_history: ')
+
+    assert journey.physsim.digest() == before
+    assert journey.physsim.time == pytest.approx(10 / 60)
+
+
+@pytest.mark.parametrize('what', ['clear', 'load_world', 'gravity'])
+def test_whatever_changes_the_world_is_undone_and_redone(journey: Journey, what: str) -> None:
+    journey.live(45)
+    physsim = journey.physsim
+    physsim.spawn(disc('it/0', at=(0.0, 9.0)))
+    set_parameter(physsim, 'world_file', 'demo')
+    journey.run(5)
+    before, gravity = physsim.digest(), parameter(physsim, 'gravity')
+    match what:
+        case 'clear' | 'load_world':
+            succeeded(journey.client.call(f'~/{what}'))
+        case 'gravity':
+            set_parameter(physsim, 'gravity', [7.0, 7.0])
+    journey.run(10)
+    after = physsim.digest()
+    assert after != before
+
+    succeeded(journey.client.call('~/undo'))
+    assert physsim.digest() == before
+    assert parameter(physsim, 'gravity') == gravity
+    succeeded(journey.client.call('~/redo'))
+
+    assert physsim.digest() == after
+
+
+def test_a_reset_is_undone_and_redone(journey: Journey) -> None:
+    journey.live(100)
+    physsim = journey.physsim
+    set_parameter(physsim, 'gravity', [1.0, 2.0])
+    journey.run(10)
+    before, time = physsim.digest(), physsim.time
+
+    succeeded(journey.client.call('~/reset'))
+    assert (physsim.time, physsim.names) == (0.0, ())
+    assert parameter(physsim, 'gravity') == [0.0, -9.81]
+    succeeded(journey.client.call('~/undo'))
+
+    assert (physsim.digest(), physsim.time) == (before, time)
+    assert parameter(physsim, 'gravity') == [1.0, 2.0]
+    # Its past is there again.
+    journey.shown()
+    journey.seek(SECOND)
+    journey.compare(journey.shown(), 1)
+    journey.seek(journey.end)
+    succeeded(journey.client.call('~/redo'))
+    assert (physsim.time, physsim.names) == (0.0, ())
+
+
+@pytest.mark.parametrize(
+    'service', ['play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'save_world']
+)
+def test_a_service_does_nothing_twice(journey: Journey, tmp_path: Path, service: str) -> None:
+    journey.live(60)
+    set_parameter(journey.physsim, 'world_file', 'mine')
+
+    messages, digests, speeds = [], [], []
+    for _ in range(2):
+        messages.append(succeeded(journey.client.call(f'~/{service}')))
+        digests.append(journey.physsim.digest())
+        speeds.append(parameter(journey.physsim, 'speed'))
+        files = [path.read_bytes() for path in tmp_path.iterdir()]
+
+    assert messages[0] == messages[1]
+    assert digests[0] == digests[1]
+    assert speeds[0] == speeds[1]
+    assert len(files) == (service == 'save_world')
+    assert journey.seek(journey.end).code == 'ok'

@@ -8,18 +8,15 @@ from __future__ import annotations
 from typing import Any
 
 from nav_msgs.msg import Path
-from physsim_ros.ros.requests import decoding
+from physsim_ros.ros.requests import request_topics
 from physsim_ros.testing import disc, PhysSim
 import pytest
-from rcl_interfaces.msg import Parameter as ParameterMessage
-from rcl_interfaces.msg import ParameterType, ParameterValue
-from rcl_interfaces.srv import SetParameters, SetParametersAtomically
 from rclpy.serialization import serialize_message
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import Float64
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ..client import Client, Event
+from ..client import Client, Event, message_of
 
 
 def told(client: Client) -> list[Event]:
@@ -72,19 +69,11 @@ def test_undo_and_redo_are_told_once(physsim: PhysSim, client: Client) -> None:
         assert [event.message for event in told(client)] == [response.message]
 
 
-def double(name: str, value: float) -> ParameterMessage:
-    kind = ParameterType.PARAMETER_DOUBLE
-    return ParameterMessage(name=name, value=ParameterValue(type=kind, double_value=value))
-
-
 def test_what_parameters_changed_or_refused_is_told(physsim: PhysSim, client: Client) -> None:
     long = 'p' * 100_000
-    asked = [double('speed', 2.0), double('speed', 1e9), double(long, 1.0), double('a\x1b', 1.0)]
-    asked.append(double('gravty', 1.0))
-    response = client.request(
-        SetParameters, '~/set_parameters', SetParameters.Request(parameters=asked)
-    )
-    assert [result.successful for result in response.results] == [True, False, False, False, False]
+    asked = [('speed', 2.0), ('speed', 1e9), (long, 1.0), ('a\x1b', 1.0), ('gravty', 1.0)]
+    results = client.set_parameters(*(message_of(*each) for each in asked))
+    assert [result.successful for result in results] == [True, False, False, False, False]
     events = told(client)
     assert [event.code for event in events] == [
         'ok',
@@ -93,20 +82,15 @@ def test_what_parameters_changed_or_refused_is_told(physsim: PhysSim, client: Cl
         'unknown_property',
         'unknown_property',
     ]
-    assert events[0].message == response.results[0].reason == 'speed is 2.0'
-    assert response.results[1].reason.endswith(events[1].message)
+    assert events[0].message == results[0].reason == 'speed is 2.0'
+    assert results[1].reason.endswith(events[1].message)
     assert events[1].field == 'speed'
     assert events[4].message == "there is no parameter 'gravty'; nearest is 'gravity'"
-    for event, result in zip(events, response.results, strict=True):
+    for event, result in zip(events, results, strict=True):
         assert event.message.isprintable()
         assert event.field.isprintable()
         assert max(len(event.message), len(event.field), len(result.reason)) < 1000
-    response = client.request(
-        SetParametersAtomically,
-        '~/set_parameters_atomically',
-        SetParametersAtomically.Request(parameters=[double('speed', 1.0), double('snap', -1.0)]),
-    )
-    assert not response.result.successful
+    assert not client.set_together(message_of('speed', 1.0), message_of('snap', -1.0)).successful
     assert [event.code for event in told(client)] == ['bad_property', 'bad_property']
     assert physsim.node.simulation.speed == 2.0
 
@@ -140,10 +124,10 @@ def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
 @pytest.mark.parametrize(
     ('kind', 'most'),
     [
-        (Marker, decoding.MOST_BYTES_OF_ONE),
-        (MarkerArray, decoding.MOST_BYTES[MarkerArray]),
-        (MultiDOFJointState, decoding.MOST_BYTES[MultiDOFJointState]),
-        (Path, decoding.MOST_BYTES[Path]),
+        (Marker, request_topics.MOST_BYTES_OF_ONE),
+        (MarkerArray, request_topics.MOST_BYTES[MarkerArray]),
+        (MultiDOFJointState, request_topics.MOST_BYTES[MultiDOFJointState]),
+        (Path, request_topics.MOST_BYTES[Path]),
     ],
 )
 def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
@@ -154,7 +138,9 @@ def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
     told(client)
     before = physsim.digest()
     decoded = list[bytes]()
-    monkeypatch.setattr(decoding, 'deserialize_message', lambda data, _: decoded.append(data))
+    monkeypatch.setattr(
+        request_topics, 'deserialize_message', lambda data, _: decoded.append(data)
+    )
     client._publishers[topic].publish(bytes(most + 1))  # noqa: SLF001 - it is sent as it is
     physsim.settle()
     (event,) = told(client)

@@ -5,13 +5,18 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
-from physsim_ros.model.requests import (
-    Request,
-)
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import Request, Spawn
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc, Shape
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
+import pytest
 
 # Steps in a frame.
 FRAME = 4
@@ -65,3 +70,29 @@ class Driven:
 
 def told(frames: list[Frame], topic: str) -> list[Answer]:
     return [answer for frame in frames for answer in frame.answers if answer.topic == topic]
+
+
+def seen_from_above() -> World:
+    """Return a world in which robots and people move on a floor."""
+    settings = WorldSettings(gravity=(0.0, 0.0), floor_friction=0.5, seed=3)
+    return World(settings=settings)
+
+
+def body_request(name: str, x: float = 0.0, shape: Shape | None = None, **said: Any) -> Spawn:
+    """Return the request for a body at a place on the x axis, by default a disc."""
+    shape = shape or Disc(radius=0.1)
+    return Spawn(name=name, shape=shape, pose=(x, 0.0, 0.0), properties=Properties(**said))
+
+
+def put(world: World, name: str, x: float = 0.0, **said: Any) -> None:
+    """Spawn a body of `body_request`."""
+    world.apply(body_request(name, x, **said))
+
+
+def assert_refused(world: World, request: Request, refusal: type[Refusal], field: str) -> None:
+    """Assert that a request is refused by the name of a field, and changes nothing."""
+    before = world.digest()
+    with pytest.raises(refusal) as caught:
+        world.apply(request)
+    assert caught.value.field == field
+    assert world.digest() == before

@@ -31,12 +31,12 @@ from physsim_ros.files import load_mapping, state_from, text_of
 from physsim_ros.files.world_schema import LIMITS
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
+from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Grab, HandRequest, LetGo, MoveHand, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.simulation.past import Past
-from physsim_ros.simulation.request_queue import Amend
+from physsim_ros.simulation.request_queue import Amend, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 
 from .random_history import history_of, Operation, SETTINGS, shipped_world
@@ -200,10 +200,13 @@ class Player:
         return round(step * 1e9 / self.rate)
 
     def _call_overdue(self, calls: int) -> None:
+        for frame in self._frames_overdue(calls):
+            self.look(frame)
+
+    def _frames_overdue(self, calls: int) -> Iterator[Frame]:
         for _ in range(calls):
             self.now += round(1e9 * self.frame_steps / self.rate)
-            for frame in self.sim.advance(self.now, is_overdue=lambda: True):
-                self.look(frame)
+            yield from self.sim.advance(self.now, is_overdue=lambda: True)
 
     def undo(self) -> None:
         before, words = self._position(), self.sim.status.undo
@@ -241,36 +244,54 @@ class Player:
         self.line = line
         self._arrive(line.moment)
 
-    def take_back(self, author: str) -> None:
-        """Take back what a person has done last; what others have done since is done again."""
+    def take_back(self, author: str, calls: int) -> None:
+        """
+        Take back what a person has done last; what others have done since is done again.
+
+        :param calls: that have too little time for more than a part of it
+        """
         before = self._position()
         theirs = [each.gesture for each in before.made if each.author == author]
-        try:
-            self.sim.take_back(author)
-        except InPast:
-            self._check(before.moment != (before.head, len(before.made)), 'the past is not shown')
-        except OutOfHistory:
-            self._check(self.dropped or not theirs, f'nothing by {author} is taken back')
-        except NotAlone:
-            self._arrive(before.moment)
-        else:
-            later = self._cut(before, theirs[-1])
-            self._arrive(before.moment)
-            self._check_done_again(later)
-            self.undone = [(before, None)]
+        self.sim.requests.submit(TakeBack(), topic='~/fuzz', asker='me', author=author)
+        made = [*self._frames_overdue(calls), self.sim.apply_requests()]
+        frames = [frame for frame in made if frame is not None]
+        answers = [answer for frame in frames for answer in frame.answers]
+        match next(each.code for each in answers if each.asker == 'me'):
+            case 'in_past':
+                self._check(before.moment != (before.head, len(before.made)), 'it is the end')
+            case 'out_of_history':
+                self._check(self.dropped or not theirs, f'nothing by {author} is taken back')
+            case 'not_alone':
+                self._look_and_arrive(frames, before.moment)
+            case code:
+                self._check(not code, f'taking back is refused: {code}')
+                later = self._cut(before, theirs[-1])
+                self._look_and_arrive(frames, before.moment)
+                self._check_done_again(later)
+                self.undone = [(before, None)]
 
-    def amend(self, back: int, requests: Sequence[Request]) -> None:
-        """Have other requests instead of those of an earlier gesture, up to this moment."""
+    def _look_and_arrive(self, frames: Sequence[Frame], moment: tuple[int, int]) -> None:
+        for frame in frames:
+            self.look(frame)
+        self._arrive(moment)
+
+    def amend(self, back: int, requests: Sequence[Request], calls: int) -> None:
+        """
+        Have other requests instead of those of an earlier gesture, up to this moment.
+
+        :param calls: that have too little time for more than a part of it
+        """
         before = self._position()
         gestures = list(dict.fromkeys(each.gesture for each in before.made[: before.moment[1]]))
         if self.dropped or not gestures:
             return
         gesture = gestures[-min(back, len(gestures))]
         self.sim.requests.submit(Amend((gesture,), tuple(requests)), topic='~/fuzz')
-        frame = self.sim.apply_requests()
+        frames = [*self._frames_overdue(calls), self.sim.apply_requests()]
         later = self._cut(before, gesture)
         self.submitted += requests
-        self.look(frame)
+        for frame in frames:
+            self.look(frame)
         self._check_done_again(later)
         self.undone.clear()
 
@@ -526,7 +547,7 @@ class Player:
                 cursor.advance(1)
                 yield state, made[:count], cursor.world.snapshot()
             if count < len(made):
-                cursor.apply(made[count].request, count)
+                past.apply(made[count].request, count)
                 yield state, made[: count + 1], cursor.world.snapshot()
 
     def digest(self) -> str:

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import Refusal
+from physsim_ros.model.errors import Refusal, UnknownProperty
 from physsim_ros.model.requests import ChangeBody, DeleteBodies, MoveBodies, Request
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
@@ -41,6 +41,60 @@ def test_only_what_is_named_changes() -> None:
     )
     assert world.snapshot().poses == pytest.approx(snapshot.poses, abs=1e-12)
     assert world.snapshot().twists == pytest.approx(snapshot.twists, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    ('name', 'value', 'default'),
+    [
+        ('friction', 0.25, 0.75),
+        ('elasticity', 0.25, 0.125),
+        ('density', 7.0, 3.0),
+        ('kinematic', True, False),
+        ('anchored', True, False),
+        ('group', 5, 0),
+        ('sensor', True, False),
+        ('label', 'm', ''),
+        ('robot', {'drive': {'kind': 'omni'}}, None),
+    ],
+)
+def test_a_property_that_is_unset_has_its_default_again(
+    name: str, value: object, default: object
+) -> None:
+    world = World(settings=replace(NOWHERE, friction=0.75, elasticity=0.125, density=3.0))
+    spawn(world, 'a/0', DISC)
+    before = body(world, 'a/0')
+    changed(world, **{name: value})
+
+    world.apply(ChangeBody(name='a/0', unset=(name,)))
+
+    assert getattr(body(world, 'a/0'), name) == default
+    assert body(world, 'a/0') == before
+
+
+def test_a_mass_that_is_unset_leaves_the_default_density() -> None:
+    world = World(settings=replace(NOWHERE, density=3.0))
+    spawn(world, 'a/0', DISC, mass=20.0)
+    spawn(world, 'a/1', DISC, density=5.0)
+
+    for name in ('a/0', 'a/1'):
+        world.apply(ChangeBody(name=name, unset=('mass',)))
+
+    assert [(each.mass, each.density) for each in world.scene.bodies] == [(None, 3.0), (None, 5.0)]
+
+
+def test_a_velocity_that_is_unset_is_none() -> None:
+    world = World(settings=NOWHERE)
+    spawn(world, 'a/0', DISC, velocity=(1.0, 2.0), spin=3.0)
+
+    world.apply(ChangeBody(name='a/0', unset=('velocity',)))
+    assert twist(world, 'a/0') == pytest.approx((0.0, 0.0, 3.0))
+    world.apply(ChangeBody(name='a/0', unset=('spin',)))
+    assert not twist(world, 'a/0').any()
+
+
+def test_a_property_that_there_is_not_cannot_be_unset() -> None:
+    with pytest.raises(UnknownProperty, match="nearest is 'friction'"):
+        ChangeBody(name='a/0', unset=('frictoin',))
 
 
 def test_pose_velocity_and_role_change_too() -> None:

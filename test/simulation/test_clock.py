@@ -5,7 +5,7 @@
 
 import random
 
-from physsim_ros.simulation.playback import Clock, MOST_BEHIND
+from physsim_ros.simulation.clock import Clock, MOST_BEHIND
 import pytest
 
 SECOND = 1_000_000_000
@@ -40,16 +40,6 @@ class Run:
 
 def test_nothing_is_due_at_first() -> None:
     assert Run(1.0).at(0.0) == 0
-
-
-def test_a_frame_is_due_each_period() -> None:
-    run = Run(1.0)
-    run.at(0.0)
-
-    run.periods(60)
-
-    assert run.frames == list(range(FRAME, 240 + FRAME, FRAME))
-    assert run.clock.late_frames == 0
 
 
 @pytest.mark.parametrize('speed', [1.0, 2, 4.0, 16.0, 64.0])
@@ -99,16 +89,6 @@ def test_fractional_speeds_keep_time_to_a_step(speed: float) -> None:
     assert run.clock.late_frames == 0
 
 
-def test_a_slow_speed_makes_one_step_now_and_then() -> None:
-    run = Run(0.1)
-    run.at(0.0)
-
-    due = [run.at(number / 60.0) for number in range(1, 11)]
-
-    assert sum(due) in (3, 4)
-    assert set(due) == {0, 1}
-
-
 def test_a_paused_world_takes_no_steps_and_goes_on_without_a_jump() -> None:
     run = Run(1.0)
     run.at(0.0)
@@ -152,17 +132,6 @@ def test_a_whole_speed_goes_on_to_a_multiple_and_stays_there(step: int) -> None:
     assert run.frames == list(range(FRAME, 100 * FRAME + 1, FRAME))
 
 
-def test_setting_the_same_speed_again_starts_the_time_line_anew() -> None:
-    run = Run(1.0)
-    run.at(0.0)
-    run.at(0.9 / 60)
-
-    run.clock.speed = 1.0
-
-    assert run.at(1.0 / 60) == 0
-    assert run.at(2.0 / 60) == FRAME
-
-
 def test_a_restart_forgets_what_was_due() -> None:
     run = Run(1.0)
     run.at(0.0)
@@ -171,19 +140,6 @@ def test_a_restart_forgets_what_was_due() -> None:
 
     assert run.at(0.05) == 0
     assert run.at(0.05 + 1 / 60) == FRAME
-    assert run.clock.late_frames == 0
-
-
-def test_a_hiccup_is_made_up_for_frame_by_frame() -> None:
-    run = Run(1.0)
-    run.at(0.0)
-    # Five periods without a call, then two calls a period, as a simulation does.
-    for number in range(6, 12):
-        run.at(number / 60.0)
-        run.at(number / 60.0)
-
-    assert run.step == 11 * FRAME
-    assert run.frames == list(range(FRAME, 11 * FRAME + 1, FRAME))
     assert run.clock.late_frames == 0
 
 
@@ -238,13 +194,6 @@ def test_a_machine_that_is_too_slow_for_good_gives_all_steps_later() -> None:
     # Steps are all there, one frame after the other; half of the frames could not be made.
     assert run.frames == list(range(FRAME, 500 * FRAME + 1, FRAME))
     assert run.clock.late_frames == pytest.approx(500, abs=MOST_BEHIND + 1)
-
-
-def test_speed_can_be_read_back() -> None:
-    clock = Clock(physics_rate=240.0, frame_steps=FRAME)
-    assert clock.speed == 1.0
-    clock.speed = 2.5
-    assert clock.speed == 2.5
 
 
 # Going back

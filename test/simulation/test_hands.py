@@ -196,7 +196,7 @@ def test_hands_whose_bodies_are_gone_are_dropped_when_another_grabs() -> None:
     sim.requests.submit(Grab(hand='l', point=(0.0, 0.0)), topic=TOPIC)
     sim.apply_requests()
 
-    hands = sim._handler.hands  # noqa: SLF001 - only its memory shows it
+    hands = sim.requests.hands
     assert [hand for hand in ('h', 'k', 'l') if hand in hands] == ['l']
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from physsim_ros.model.requests import (
     Configure,
     Grab,
+    HandRequest,
     LetGo,
     MoveHand,
     Spawn,
@@ -25,6 +26,20 @@ from ..building import BOX, DISC, NOWHERE, spawning
 PERIOD = 1e9 / 60
 TOPIC = '~/drag/feedback'
 FLOOR = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+
+
+def use(sim: Simulation, *requests: HandRequest) -> None:
+    """Submit requests of hands."""
+    for request in requests:
+        sim.requests.submit(request, topic=TOPIC)
+
+
+def holding() -> Simulation:
+    """Return a world in which a hand is about to grab the only body."""
+    sim = Simulation(settings=NOWHERE)
+    sim.perform(spawning('a/0', DISC))
+    use(sim, Grab(hand='h', point=(0.0, 0.0)))
+    return sim
 
 
 def drag(sim: Simulation, *, frames: int = 120) -> None:
@@ -68,7 +83,7 @@ def test_only_the_grab_and_its_end_are_answered() -> None:
         *(MoveHand(hand='h', point=(x / 10, 0.0)) for x in range(10)),
         LetGo(hand='h'),
     ):
-        sim.requests.submit(request, topic=TOPIC)
+        use(sim, request)
         frames.append(sim.advance_frame())
 
     assert [answer.message for frame in frames for answer in frame.answers] == [
@@ -78,11 +93,9 @@ def test_only_the_grab_and_its_end_are_answered() -> None:
 
 
 def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim = holding()
     for number in range(1001):
-        sim.requests.submit(MoveHand(hand='h', point=(number / 1000, 0.0)), topic=TOPIC)
+        use(sim, MoveHand(hand='h', point=(number / 1000, 0.0)))
     frame = sim.advance_frame()
 
     assert frame.snapshot.grips[0].target == (1.0, 0.0)
@@ -96,27 +109,25 @@ def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
 def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
-    for request in (
+    use(
+        sim,
         Grab(hand='h', point=(0.0, 0.0)),
         MoveHand(hand='h', point=(0.1, 0.0)),
         LetGo(hand='h'),
         Grab(hand='h', point=(0.0, 0.1)),
         MoveHand(hand='h', point=(0.0, 0.2)),
-    ):
-        sim.requests.submit(request, topic=TOPIC)
+    )
 
     (grip,) = sim.advance_frame().snapshot.grips
     assert (grip.anchor, grip.target) == ((0.0, 0.1), (0.0, 0.2))
 
 
 def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim = holding()
     answers = []
     for number in range(400):
         if number == 60:
-            sim.requests.submit(MoveHand(hand='h', point=(0.5, 0.0)), topic=TOPIC)
+            use(sim, MoveHand(hand='h', point=(0.5, 0.0)))
         for frame in sim.advance(round(number * PERIOD)):
             answers += [(number, answer.message) for answer in frame.answers]
 
@@ -129,9 +140,7 @@ def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
 
 
 def test_a_pause_is_no_silence() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim = holding()
     sim.advance(0)
     sim.speed = 0.0
     for seconds in range(1, 60):
@@ -145,15 +154,14 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
     sim.advance_frame()
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    use(sim, Grab(hand='h', point=(0.0, 0.0)))
     for _ in range(60):
         sim.advance_frame()
     end = sim.world.stamp
     sim.seek(10**9 // 2)
     before = sim.world.digest()
 
-    sim.requests.submit(MoveHand(hand='h', point=(7.0, 0.0)), topic=TOPIC)
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
+    use(sim, MoveHand(hand='h', point=(7.0, 0.0)), LetGo(hand='h'))
     frame = sim.apply_requests()
 
     assert frame is not None
@@ -166,9 +174,7 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
 
 
 def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim = holding()
     for _ in range(60):
         sim.advance_frame()
     sim.seek(10**9 // 2)
@@ -179,14 +185,11 @@ def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
 
 @pytest.mark.parametrize('action', ['reset', 'undo'])
 def test_a_hand_lives_through_a_change_of_course(action: str) -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    sim = holding()
     sim.advance_frame()
     getattr(sim, action)()
 
-    for request in (MoveHand(hand='h', point=(7.0, 0.0)), LetGo(hand='h')):
-        sim.requests.submit(request, topic=TOPIC)
+    use(sim, MoveHand(hand='h', point=(7.0, 0.0)), LetGo(hand='h'))
     frame = sim.advance_frame()
 
     assert [answer.message for answer in frame.answers][-1] == 'h holds no body'
@@ -205,13 +208,11 @@ def paused(*spawns: Spawn) -> Simulation:
 
 def test_in_a_paused_world_the_body_is_placed_and_turned() -> None:
     sim = paused(spawning('a/0', BOX, (0.0, 3.0, 0.0), velocity=(1.0, 2.0)))
-    sim.requests.submit(Grab(hand='h', point=(0.4, 3.0)), topic=TOPIC)
-    sim.requests.submit(MoveHand(hand='h', point=(5.4, 4.0)), topic=TOPIC)
+    use(sim, Grab(hand='h', point=(0.4, 3.0)), MoveHand(hand='h', point=(5.4, 4.0)))
     (frame,) = sim.advance(0)
     assert frame.snapshot.poses[0] == pytest.approx([5.0, 4.0, 0.0])
 
-    sim.requests.submit(MoveHand(hand='h', point=(5.4, 4.0), yaw=math.pi / 2), topic=TOPIC)
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
+    use(sim, MoveHand(hand='h', point=(5.4, 4.0), yaw=math.pi / 2), LetGo(hand='h'))
     (frame,) = sim.advance(1)
 
     assert frame.snapshot.poses[0] == pytest.approx([5.4, 3.6, math.pi / 2])
@@ -223,11 +224,11 @@ def test_placing_is_one_gesture_and_the_same_bits_again() -> None:
     sim = paused(FLOOR, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
     sim.advance_frame()
     before = sim.world.digest()
-    sim.requests.submit(Grab(hand='h', point=(0.0, 1.5)), topic=TOPIC)
+    use(sim, Grab(hand='h', point=(0.0, 1.5)))
     for number in range(10):
-        sim.requests.submit(MoveHand(hand='h', point=(number / 5, 1.5)), topic=TOPIC)
+        use(sim, MoveHand(hand='h', point=(number / 5, 1.5)))
         sim.advance(number)
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
+    use(sim, LetGo(hand='h'))
     for _ in range(60):
         sim.advance_frame()
     last, end = sim.world.digest(), sim.world.stamp
@@ -243,7 +244,7 @@ def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> 
     wall = spawning('wall/0', BOX, anchored=True)
     sim = paused(spawning('a/0', DISC), wall)
     for number, (hand, point) in enumerate((('g', (0.0, 0.0)), ('h', (0.45, 0.45)))):
-        sim.requests.submit(Grab(hand=hand, point=point), topic=TOPIC)
+        use(sim, Grab(hand=hand, point=point))
         sim.requests.submit(
             MoveHand(hand=hand, point=(point[0] + 3.0, point[1] + number)), topic=TOPIC
         )
@@ -255,12 +256,12 @@ def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> 
 
 def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None:
     sim = paused(spawning('a/0', DISC, (0.0, 3.0, 0.0)))
-    sim.requests.submit(Grab(hand='h', point=(0.0, 3.0)), topic=TOPIC)
+    use(sim, Grab(hand='h', point=(0.0, 3.0)))
     sim.advance(0)
     sim.speed = 1.0
     for number in range(60):
         sim.advance(round(number * PERIOD))
-    sim.requests.submit(MoveHand(hand='h', point=(1.0, 3.0)), topic=TOPIC)
+    use(sim, MoveHand(hand='h', point=(1.0, 3.0)))
     for number in range(60, 120):
         sim.advance(round(number * PERIOD))
 
@@ -272,11 +273,11 @@ def test_a_body_is_not_placed_where_too_much_would_overlap() -> None:
     sim = Simulation(speed=0.0, settings=WorldSettings(max_overlaps=60))
     for number in range(2):
         sim.perform(spawning(f'a/{number}', heap, (9.0 * number, 0.0, 0.0)))
-    sim.requests.submit(Grab(hand='h', point=(9.0, 0.0)), topic=TOPIC)
+    use(sim, Grab(hand='h', point=(9.0, 0.0)))
     sim.advance(0)
     before = sim.world.digest()
 
-    sim.requests.submit(MoveHand(hand='h', point=(0.0, 0.0)), topic=TOPIC)
+    use(sim, MoveHand(hand='h', point=(0.0, 0.0)))
     (frame,) = sim.advance(1)
 
     assert [answer.code for answer in frame.answers] == ['world_full']

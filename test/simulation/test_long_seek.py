@@ -6,11 +6,12 @@
 from __future__ import annotations
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.requests import DeleteAll
+from physsim_ros.model.requests import DeleteAll, MoveBodies
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import Amend, Wait
+from physsim_ros.simulation.request_queue import Amend, TakeBack, Wait
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import World
 import pytest
 
 from ..building import DISC, spawning
@@ -197,9 +198,9 @@ def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_tim
         assert (ticks, frame.snapshot.step) == (1, step)
         # On the way to the moment before, another one is sought.
         assert not simulation.advance(now + SECOND // 2, is_overdue=lambda: True)
-        assert cursor.continue_seek()
+        assert cursor.continue_work()
     ticks = 0
-    while cursor.continue_seek():
+    while cursor.continue_work():
         assert not simulation.advance(4 * SECOND + ticks, is_overdue=lambda: True)
         ticks += 1
     assert 10 < ticks < 200
@@ -257,3 +258,97 @@ def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit() -> Non
     ticks, _ = ticks_to_a_frame(simulation, 0)
     assert ticks > 30
     assert simulation.world.digest() == digest
+
+
+def class_of(seconds: int) -> Simulation:
+    """Return a paused world in which Anna and Ben have added a disc each, some time ago."""
+    simulation = Simulation(settings=FLOOR)
+    for number, author in enumerate(('Anna', 'Ben')):
+        request = spawning(f'{author}/0', DISC, (number, 2.0 * number + 1.0, 0.0))
+        simulation.requests.submit(request, topic='', author=author)
+        simulation.advance_frame()
+    simulation.run(float(seconds))
+    simulation.speed = 0.0
+    return simulation
+
+
+@pytest.fixture
+def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return a list to which each call of the engine adds its number of steps."""
+    made: list[int] = []
+    step = World.step
+
+    def counted(world: World, count: int) -> tuple[str, ...]:
+        made.append(count)
+        return step(world, count)
+
+    monkeypatch.setattr(World, 'step', counted)
+    return made
+
+
+def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were_done(
+    steps: list[int],
+) -> None:
+    simulation, other = class_of(seconds=8), class_of(seconds=8)
+    other.take_back('Anna')
+    step = simulation.step
+    queue = simulation.requests
+    queue.submit(TakeBack(), topic='~/undo', author='Anna', asker='anna')
+    queue.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
+    for tick in range(400):
+        steps.clear()
+        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert sum(steps) <= simulation.frame_steps
+        status = simulation.status
+        assert (status.now, status.newest, status.state) == (step / 240, step / 240, 'paused')
+        assert not simulation.take_answers()
+    _, frame = ticks_to_a_frame(simulation, 400 * SECOND)
+    told = [(each.topic, each.message, each.asker) for each in frame.answers]
+    assert told[0] == ('~/undo', 'undid spawn Anna/0', 'anna')
+    while len(queue):
+        simulation.apply_requests()
+    assert simulation.step == step
+    other.perform(spawning('late/0', DISC, (5.0, 1.0, 0.0)))
+    assert simulation.world.digest() == other.world.digest()
+
+
+def test_a_refused_amendment_goes_back_bit_by_bit(steps: list[int]) -> None:
+    simulation = class_of(seconds=2)
+    simulation.perform(MoveBodies(names=('Anna/0',), by=(1.0, 0.0)))
+    simulation.run(2.0)
+    before = simulation.world.digest()
+    simulation.requests.submit(TakeBack(), topic='~/undo', author='Anna')
+    for tick in range(1000):
+        steps.clear()
+        frames = simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert sum(steps) <= simulation.frame_steps
+        if frames:
+            break
+    assert [answer.code for answer in frames[0].answers] == ['not_alone']
+    assert simulation.world.digest() == before
+
+
+@pytest.mark.parametrize('way', ['seek', 'undo', 'queued', 'begin', 'reader'])
+def test_an_amendment_under_way_is_finished_before_anything_else_moves(way: str) -> None:
+    simulation = class_of(seconds=2)
+    simulation.requests.submit(TakeBack(), topic='~/undo', author='Anna')
+    for tick in range(20):
+        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+    assert simulation.past.cursor.is_amending
+    match way:
+        case 'seek':
+            simulation.seek(SECOND)
+        case 'undo':
+            simulation.undo()
+        case 'queued':
+            simulation.requests.submit_seek(SECOND, topic='~/seek')
+            assert not simulation.advance(SECOND, is_overdue=lambda: True)
+            assert simulation.past.cursor.is_amending
+        case 'begin':
+            simulation.begin(WorldState(settings=FLOOR))
+        case 'reader':
+            assert simulation.world.scene.names == ('Ben/0',)
+    while len(simulation.requests):
+        simulation.apply_requests()
+    told = simulation.take_answers() or simulation.frame.answers
+    assert 'undid spawn Anna/0' in [answer.message for answer in told]

@@ -3,12 +3,15 @@
 
 """The queue is bounded, each request is answered, and of seeks in a row the last is made."""
 
-from physsim_ros.model.errors import Busy, Malformed
+from typing import Any
+
+from physsim_ros.model.errors import Malformed
 from physsim_ros.model.requests import Delete, KeepHand, MoveHand, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation import request_queue
-from physsim_ros.simulation.request_queue import Call, RequestQueue, Seek, size_of, Wait
+from physsim_ros.simulation.entries import size_of
+from physsim_ros.simulation.request_queue import RequestQueue, Wait
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -97,8 +100,24 @@ def test_what_is_too_much_is_refused_and_the_rest_is_carried_out(
         assert len(sim.world) == 5
 
 
-def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out() -> None:
-    queue = RequestQueue()
+@pytest.fixture
+def applied(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
+    """Return a list of the requests and the stamps of seeks that are applied from now on."""
+    applied: list[Any] = []
+
+    def note(_: RequestQueue, what: Any, *__: Any) -> Any:
+        applied.append(what)
+        return f'at {what}' if isinstance(what, int) else Answer(topic='')
+
+    monkeypatch.setattr(RequestQueue, 'apply', note)
+    monkeypatch.setattr(RequestQueue, 'seek', note)
+    return applied
+
+
+def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out(
+    applied: list[Any],
+) -> None:
+    queue = Simulation().requests
     move, other = MoveHand(hand='h', point=(1.0, 1.0)), MoveHand(hand='h', point=(9.0, 9.0))
     queue.submit(move, topic='~/drag/feedback')
     queue.submit_seek(1, topic='~/seek')
@@ -106,41 +125,47 @@ def test_what_lies_between_two_seeks_decides_whether_the_first_is_carried_out() 
     queue.submit_seek(2, topic='~/seek')
     queue.submit(move, topic='~/drag/feedback')
     queue.submit(other, topic='~/drag/feedback')
-    queue.submit_call(list, Wait.FOR_SEEK)
+    queue.submit_call(lambda: applied.append('call') or [], Wait.FOR_SEEK)
     queue.submit(move, topic='~/drag/feedback')
     queue.submit_seek(3, topic='~/seek')
 
-    requests = [each.request for each in queue.take() if not isinstance(each.request, Answer)]
+    queue.apply_waiting()
 
-    assert requests == [move, Seek(2), other, Call(list, Wait.FOR_SEEK), move, Seek(3)]
+    assert applied == [move, 2, other, 'call', move, 3]
 
 
-def test_a_move_of_a_hand_overtakes_nothing_but_moves() -> None:
-    queue = RequestQueue()
+def test_a_move_of_a_hand_overtakes_nothing_but_moves(applied: list[Any]) -> None:
+    queue = Simulation().requests
     first, second = (MoveHand(hand='h', point=(x, 1.0)) for x in (1.0, 2.0))
     third, other = MoveHand(hand='h', point=(3.0, 1.0)), MoveHand(hand='i', point=(9.0, 9.0))
     delete, keep = Delete(name='a/0'), KeepHand(hand='h')
     for request in (first, other, keep, second, delete, third):
         queue.submit(request, topic='~/drag/feedback')
 
-    assert [each.request for each in queue.take()] == [second, other, keep, delete, third]
+    queue.apply_waiting()
+
+    assert applied == [second, other, keep, delete, third]
 
 
-def test_answers_that_are_too_many_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_answers_that_are_too_many_are_counted(
+    monkeypatch: pytest.MonkeyPatch, applied: list[Any]
+) -> None:
     monkeypatch.setattr(request_queue, 'MOST_WAITING', 5)
-    queue = RequestQueue()
+    queue = Simulation().requests
     queue.submit(SPAWN, topic='~/spawn')
     for stamp in range(100):
         queue.refuse(Malformed('no'), topic='~/spawn', subject='')
         queue.submit_seek(stamp, topic='~/seek')
 
-    waiting = [each.request for each in queue.take()]
+    queue.apply_waiting()
+    answers = queue.take_answers()
 
     # Up to twice the bound; seeks beyond it are refused, too.
-    assert len(waiting) == 11
-    assert [each.stamp for each in waiting if isinstance(each, Seek)] == [1]
-    assert isinstance(waiting[-1], Busy)
-    assert str(waiting[-1]).startswith('191 more')
+    assert len(answers) == 11
+    assert applied == [SPAWN, 1]
+    assert answers[-1].code == 'busy'
+    assert answers[-1].message.startswith('191 more')
     # The next are told again.
     queue.refuse(Malformed('no'), topic='~/spawn', subject='')
-    assert [type(each.request) for each in queue.take()] == [Malformed]
+    queue.apply_waiting()
+    assert [each.code for each in queue.take_answers()] == ['malformed']

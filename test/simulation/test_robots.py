@@ -17,39 +17,15 @@ from physsim_ros.model.requests import (
     DriveRobot,
     Join,
     Restore,
-    Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc
-from physsim_ros.simulation.world import World
+from physsim_ros.model.shapes import Box
 import pytest
 
-SETTINGS = WorldSettings(gravity=(0.0, 0.0), floor_friction=0.5, seed=3)
+from .driven import assert_refused, body_request, put, seen_from_above
+
 DRIVE = {'kind': 'differential', 'timeout': 0.5}
 SLIPPING = {'drive': DRIVE, 'odometry': {'slip': [0.02, 0.03]}}
-
-
-def _world():
-    return World(settings=SETTINGS)
-
-
-def _spawn(world, name, x=0.0, **properties):
-    spawn = Spawn(
-        name=name,
-        shape=Disc(radius=0.1),
-        pose=(x, 0.0, 0.0),
-        properties=Properties(**properties),
-    )
-    return world.apply(spawn)
-
-
-def _refused(world, request, refusal, field):
-    """Tell that a request is refused by the name of the field, and nothing is changed."""
-    before = world.digest()
-    with pytest.raises(refusal) as caught:
-        world.apply(request)
-    assert caught.value.field == field
-    assert world.digest() == before
 
 
 @pytest.mark.parametrize(
@@ -61,45 +37,45 @@ def _refused(world, request, refusal, field):
     ],
 )
 def test_a_robot_is_neither_anchored_nor_kinematic_nor_a_sensor(properties, field):
-    world = _world()
-    made = Properties(robot={'drive': DRIVE}, **properties)
-    _refused(world, Spawn(name='a/0', shape=Disc(radius=0.1), properties=made), BadProperty, field)
-    _spawn(world, 'b/0', robot={'drive': DRIVE})
+    world = seen_from_above()
+    assert_refused(
+        world, body_request('a/0', robot={'drive': DRIVE}, **properties), BadProperty, field
+    )
+    put(world, 'b/0', robot={'drive': DRIVE})
     changed = ChangeBody(name='b/0', properties=Properties(**properties))
-    _refused(world, changed, BadProperty, field)
-    _spawn(world, 'c/0', x=1.0, **properties)
+    assert_refused(world, changed, BadProperty, field)
+    put(world, 'c/0', x=1.0, **properties)
     becomes = ChangeBody(name='c/0', properties=Properties(robot={'drive': DRIVE}))
-    _refused(world, becomes, BadProperty, field)
+    assert_refused(world, becomes, BadProperty, field)
 
 
 def test_a_robot_is_not_anchored_by_a_click():
-    world = _world()
-    _spawn(world, 'a/0', robot={'drive': DRIVE})
+    world = seen_from_above()
+    put(world, 'a/0', robot={'drive': DRIVE})
 
-    _refused(world, Anchor(point=(0.0, 0.0)), BadProperty, 'point')
+    assert_refused(world, Anchor(point=(0.0, 0.0)), BadProperty, 'point')
 
 
 def test_a_robot_has_no_joints():
-    world = _world()
-    _spawn(world, 'a/0', robot={'drive': DRIVE})
-    _spawn(world, 'b/0', x=1.0)
+    world = seen_from_above()
+    put(world, 'a/0', robot={'drive': DRIVE})
+    put(world, 'b/0', x=1.0)
     points = ((0.0, 0.0), (1.0, 0.0))
     join = Join(name='rod/0', kind=JointKind.ROD, a='a/0', b='b/0', points=points)
-    _refused(world, join, BadProperty, 'a')
-    _spawn(world, 'c/0', x=2.0)
+    assert_refused(world, join, BadProperty, 'a')
+    put(world, 'c/0', x=2.0)
     points = ((1.0, 0.0), (2.0, 0.0))
     world.apply(Join(name='rod/0', kind=JointKind.ROD, a='b/0', b='c/0', points=points))
 
     becomes = ChangeBody(name='b/0', properties=Properties(robot={'drive': DRIVE}))
-    _refused(world, becomes, BadProperty, 'robot')
+    assert_refused(world, becomes, BadProperty, 'robot')
 
 
 def test_two_robots_have_two_namespaces():
-    world = _world()
-    _spawn(world, 'a/0', robot={'drive': DRIVE})
-    taken = Properties(robot={'drive': DRIVE, 'namespace': 'a_0'})
-    spawn = Spawn(name='b/0', shape=Disc(radius=0.1), pose=(1.0, 0.0, 0.0), properties=taken)
-    _refused(world, spawn, Exists, 'namespace')
+    world = seen_from_above()
+    put(world, 'a/0', robot={'drive': DRIVE})
+    spawn = body_request('b/0', 1.0, robot={'drive': DRIVE, 'namespace': 'a_0'})
+    assert_refused(world, spawn, Exists, 'namespace')
 
     world.apply(Delete(name='a/0'))
     world.apply(spawn)
@@ -116,27 +92,25 @@ def test_two_robots_have_two_namespaces():
     ],
 )
 def test_two_robots_have_no_name_in_common(namespace, sensor, other, name):
-    world = _world()
+    world = seen_from_above()
     sensors = [{'kind': 'imu', 'name': sensor}]
-    _spawn(world, 'a/0', robot={'drive': DRIVE, 'namespace': namespace, 'sensors': sensors})
-    nested = Properties(robot={'drive': DRIVE, 'namespace': other})
-    spawn = Spawn(name='b/0', shape=Disc(radius=0.1), pose=(1.0, 0.0, 0.0), properties=nested)
-    _refused(world, spawn, Exists, 'namespace')
+    put(world, 'a/0', robot={'drive': DRIVE, 'namespace': namespace, 'sensors': sensors})
+    spawn = body_request('b/0', 1.0, robot={'drive': DRIVE, 'namespace': other})
+    assert_refused(world, spawn, Exists, 'namespace')
     with pytest.raises(Exists, match=f'one topic or frame, /{name};'):
         world.apply(spawn)
 
     # A namespace within another one is none of its names.
-    _spawn(world, 'c/0', 2.0, robot={'drive': DRIVE, 'namespace': f'{other}/y'})
+    put(world, 'c/0', 2.0, robot={'drive': DRIVE, 'namespace': f'{other}/y'})
 
 
 @pytest.mark.parametrize('name', ['7/0', 'a/-1', 'ä/0'])
 def test_a_name_that_is_no_namespace_needs_one(name):
-    world = _world()
-    made = Properties(robot={'drive': DRIVE})
-    spawn = Spawn(name=name, shape=Disc(radius=0.1), properties=made)
-    _refused(world, spawn, BadProperty, 'namespace')
+    world = seen_from_above()
+    spawn = body_request(name, robot={'drive': DRIVE})
+    assert_refused(world, spawn, BadProperty, 'namespace')
 
-    _spawn(world, name, robot={'drive': DRIVE, 'namespace': 'r'})
+    put(world, name, robot={'drive': DRIVE, 'namespace': 'r'})
 
 
 @pytest.mark.parametrize('velocity', [(math.nan, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 1.0)])
@@ -153,24 +127,24 @@ def test_a_command_that_is_too_fast_for_anything_is_refused():
 
 
 def test_only_robots_are_driven():
-    world = _world()
-    _spawn(world, 'a/0')
-    _refused(world, DriveRobot(name='b/0', velocity=(1.0, 0.0, 0.0)), UnknownBody, 'name')
-    _refused(world, DriveRobot(name='a/0', velocity=(1.0, 0.0, 0.0)), BadProperty, 'name')
+    world = seen_from_above()
+    put(world, 'a/0')
+    assert_refused(world, DriveRobot(name='b/0', velocity=(1.0, 0.0, 0.0)), UnknownBody, 'name')
+    assert_refused(world, DriveRobot(name='a/0', velocity=(1.0, 0.0, 0.0)), BadProperty, 'name')
 
 
 def test_only_a_sensor_is_a_conveyor():
-    world = _world()
-    made = Properties(surface_velocity=(1.0, 0.0), anchored=True)
-    spawn = Spawn(name='belt/0', shape=Box(width=1.0, height=1.0), properties=made)
+    world = seen_from_above()
+    belt = Box(width=1.0, height=1.0)
+    spawn = body_request('belt/0', shape=belt, surface_velocity=(1.0, 0.0), anchored=True)
 
-    _refused(world, spawn, BadProperty, 'surface_velocity')
+    assert_refused(world, spawn, BadProperty, 'surface_velocity')
 
 
 def test_a_robot_keeps_its_state_when_it_is_changed_and_loses_it_when_it_is_removed():
-    world = _world()
-    _spawn(world, 'a/0', robot={'drive': DRIVE})
-    _spawn(world, 'b/0', x=2.0, robot={'drive': DRIVE})
+    world = seen_from_above()
+    put(world, 'a/0', robot={'drive': DRIVE})
+    put(world, 'b/0', x=2.0, robot={'drive': DRIVE})
     for name in ('a/0', 'b/0'):
         world.apply(DriveRobot(name=name, velocity=(0.2, 0.0, 0.0)))
     world.step(60)
@@ -179,9 +153,7 @@ def test_a_robot_keeps_its_state_when_it_is_changed_and_loses_it_when_it_is_remo
     world.apply(ChangeBody(name='a/0', properties=Properties(friction=0.9)))
     kept = world.snapshot().robots
     assert all(map(np.array_equal, kept, before))
-    spawn = Spawn(
-        name='a/0', shape=Disc(radius=0.1), properties=Properties(robot={'drive': DRIVE})
-    )
+    spawn = body_request('a/0', robot={'drive': DRIVE})
     world.apply(Delete(name='a/0'))
     world.apply(spawn)
 
@@ -194,8 +166,8 @@ def test_a_robot_keeps_its_state_when_it_is_changed_and_loses_it_when_it_is_remo
 
 
 def test_a_sleeping_robot_is_woken_up_by_a_command():
-    world = _world()
-    _spawn(world, 'a/0', robot={'drive': DRIVE})
+    world = seen_from_above()
+    put(world, 'a/0', robot={'drive': DRIVE})
     world.step(240)
     assert world.space.table.asleep.all()
 
@@ -207,8 +179,8 @@ def test_a_sleeping_robot_is_woken_up_by_a_command():
 
 @pytest.mark.parametrize(('velocity', 'axis'), [((0.001, 0.0, 0.0), 0), ((0.0, 0.0, 0.02), 2)])
 def test_a_robot_that_creeps_or_turns_slowly_does_not_fall_asleep(velocity, axis):
-    world = _world()
-    _spawn(world, 'a/0', robot={'drive': {**DRIVE, 'timeout': 0}})
+    world = seen_from_above()
+    put(world, 'a/0', robot={'drive': {**DRIVE, 'timeout': 0}})
     world.apply(DriveRobot(name='a/0', velocity=velocity))
     world.step(480)
 
@@ -216,15 +188,15 @@ def test_a_robot_that_creeps_or_turns_slowly_does_not_fall_asleep(velocity, axis
 
 
 def test_motion_under_way_is_saved_and_loaded_to_the_bit(tmp_path):
-    world = _world()
-    _spawn(world, 'a/0', robot=SLIPPING)
-    _spawn(world, 'b/0', x=0.25, mass=0.02)
+    world = seen_from_above()
+    put(world, 'a/0', robot=SLIPPING)
+    put(world, 'b/0', x=0.25, mass=0.02)
     world.apply(DriveRobot(name='a/0', velocity=(0.3, 0.0, 0.4)))
     world.step(50)
 
     path = save_world(world.save(), 'robots', world_dir=tmp_path, physics_rate=240.0)
     loaded = load_world(path, settings=WorldSettings(), physics_rate=240.0)
-    one, other = _world(), _world()
+    one, other = seen_from_above(), seen_from_above()
     one.apply(Restore(state=world.save()))
     other.apply(Restore(state=loaded))
 
@@ -262,3 +234,18 @@ def test_a_file_with_a_robot_that_cannot_be_is_refused(tmp_path, body, code):
         load_world(path, settings=WorldSettings(), physics_rate=240.0)
 
     assert caught.value.cause == code
+
+
+def test_a_body_that_is_no_robot_any_more_has_no_state_of_one():
+    world = seen_from_above()
+    put(world, 'a/0', robot={'drive': DRIVE})
+    world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
+    world.step(60)
+
+    world.apply(ChangeBody(name='a/0', unset=('robot',)))
+
+    assert world.save().bodies[0].driven is None
+    with pytest.raises(BadProperty):
+        world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
+    world.apply(ChangeBody(name='a/0', properties=Properties(robot={'drive': DRIVE})))
+    assert not any(world.snapshot().robots.odometry[0])

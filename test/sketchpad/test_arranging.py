@@ -45,7 +45,7 @@ def test_a_force_is_put_on_a_body_by_an_arrow_and_changed_in_its_panel(sheet: Sh
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(-4.6, 4.0))
 
-    newtons = sheet.page.get_by_label('Newtons of force 1')
+    newtons = sheet.page.get_by_label('Force [N] (1)')
     newtons.wait_for()
     assert float(newtons.input_value()) == pytest.approx(20.0, rel=0.02)
     newtons.fill('8')

@@ -11,8 +11,9 @@ from typing import Any
 from urllib.parse import quote
 
 from physsim_ros.files import shipped_lessons
-from physsim_ros.sketchpad import locks, Role
+from physsim_ros.sketchpad import Role
 from physsim_ros.sketchpad.access import Access
+from physsim_ros.sketchpad.rights import MOST_PATTERNS
 import pytest
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
@@ -100,7 +101,7 @@ def test_freezing_and_locking_are_parameters_that_scripts_have_too(browser: Brow
 def test_thousands_of_names_may_be_locked_and_some_patterns(browser: Browser) -> None:
     pupil, boss = browser.open_page(), teacher(browser)
     names = [f'a/{number}' for number in range(5000)]
-    patterns = [f'b{number}/*' for number in range(locks.MOST_PATTERNS)]
+    patterns = [f'b{number}/*' for number in range(MOST_PATTERNS)]
     assert boss.ask('lock', names=[*names, *patterns])['ok']
     for name in ('a/4999', 'b49/3'):
         assert spawn(pupil, name, 0.0)['code'] == 'frozen'

@@ -16,10 +16,9 @@ import numpy as np
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.sketchpad import Role
 from physsim_ros.sketchpad.inbox import Opened
-from physsim_ros.sketchpad.locks import MOST_PATTERNS
 from physsim_ros.sketchpad.message import KINDS, Message, read_message
+from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server import MOST_BYTES
-from physsim_ros.sketchpad.touches import MOST_FOLLOWED
 from physsim_ros.testing import own_context, PhysSim
 import pytest
 
@@ -62,7 +61,7 @@ MESSAGES: list[tuple[str, dict[str, Any]]] = [
     ('copy_machine', {'names': NAMES, 'by': [0.0, 500.0]}),
     ('copy_machine', {'names': ['b/0'] * 100_000, 'by': [0.0, 500.0]}),
     ('delete', {'names': UNKNOWN}),
-    ('follow', {'names': NAMES[:MOST_FOLLOWED]}),
+    ('follow', {'names': NAMES}),
     ('watch', {'name': 'b/0'}),
     ('drive', {'name': 'b/0', 'velocity': [1.0, 0.0, 0.0]}),
     ('change_joint', {'name': 'j/0', 'properties': {'stiffness': 50.0}}),

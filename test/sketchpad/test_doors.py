@@ -5,31 +5,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 import json
 from pathlib import Path
 from typing import Any
 
 from physsim_ros.files import OwnWorlds
 from physsim_ros.ros import world_files
+from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import (
     autosave,
-    lesson_list,
+    gallery,
     message,
     Role,
     sketchpad,
     world_handlers,
 )
 from physsim_ros.sketchpad.autosave import Autosave
-from physsim_ros.sketchpad.body_past import BodyPasts
-from physsim_ros.sketchpad.cursors import Cursors
 from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.message import KINDS
+from physsim_ros.sketchpad.open_pages import OpenPages
 from physsim_ros.sketchpad.page_handlers import CookieCheck
 from physsim_ros.sketchpad.page_session import PageSession
+from physsim_ros.sketchpad.past import BodyPasts, TimelineReport
 from physsim_ros.sketchpad.server import Server
-from physsim_ros.sketchpad.timeline_report import TimelineReport
 import pytest
 
 from .browser import Browser
@@ -41,19 +41,27 @@ def fail(*_: object, **__: object) -> Any:
     raise ZeroDivisionError('by zero')
 
 
-@pytest.fixture
-def goes_on(
-    browser: Browser, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Callable[[], None]]:
-    """Give a test a check that an error was told, and that world and pages go on without it."""
-    errors: list[BaseException] = []
-    browser.physsim.node.boundary.on_error = errors.append
+class Doors:
+    """The pages of a world of which a part fails from some moment on."""
 
-    def check() -> None:
+    def __init__(self, browser: Browser, monkeypatch: pytest.MonkeyPatch, read_log: Any) -> None:
+        self.browser = browser
+        self.monkeypatch = monkeypatch
+        self._read_log = read_log
+        self.errors: list[BaseException] = []
+        browser.physsim.node.boundary.on_error = self.errors.append
+
+    def fail(self, owner: object, name: str) -> None:
+        """Have a part raise an error that nobody expects."""
+        self.monkeypatch.setattr(owner, name, fail)
+
+    def go_on(self) -> None:
+        """Check that the error was told, and that world and pages go on without it."""
+        browser, errors = self.browser, self.errors
         browser.until(lambda: errors)
         assert {type(each) for each in errors} == {ZeroDivisionError}
-        monkeypatch.undo()
-        log = capfd.readouterr().err
+        self.monkeypatch.undo()
+        log = self._read_log()
         assert 'failure 1, ' in log
         assert 'ZeroDivisionError: by zero' in log
         page, before, count = browser.open_page(), browser.physsim.time, len(errors)
@@ -63,9 +71,16 @@ def goes_on(
         page.until(lambda: page.frames and page.frames[-1].time == pytest.approx(before + 0.1))
         assert len(errors) == count
 
-    yield check
+
+@pytest.fixture
+def doors(
+    browser: Browser, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> Iterator[Doors]:
+    """Give a test pages and what makes their parts fail."""
+    doors = Doors(browser, monkeypatch, lambda: capfd.readouterr().err)
+    yield doors
     # Each of these tests makes sure that its error came about.
-    assert errors
+    assert doors.errors
 
 
 def assert_failed(answer: dict[str, Any]) -> None:
@@ -74,28 +89,21 @@ def assert_failed(answer: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize('kind', sorted(KINDS.keys() - {'show', 'here'}))
-def test_a_message_on_the_thread_of_the_world(
-    browser: Browser,
-    goes_on: Callable[[], None],
-    monkeypatch: pytest.MonkeyPatch,
-    kind: str,
-) -> None:
-    server = browser.physsim.node.outputs.sketchpad
+def test_a_message_on_the_thread_of_the_world(doors: Doors, kind: str) -> None:
+    server = doors.browser.physsim.node.outputs.sketchpad
     assert server is not None
     # A teacher's page may send all kinds.
-    page = browser.open_page(cookie=browser.login_cookie(server.url(Role.TEACH)))
-    monkeypatch.setitem(KINDS, kind, KINDS[kind]._replace(handle=fail, fields={}))
+    page = doors.browser.open_page(cookie=doors.browser.login_cookie(server.url(Role.TEACH)))
+    doors.monkeypatch.setitem(KINDS, kind, KINDS[kind]._replace(handle=fail, fields={}))
     assert_failed(page.ask(kind))
-    goes_on()
+    doors.go_on()
 
 
-def test_a_message_that_is_read(
-    browser: Browser, goes_on: Callable[[], None], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    page = browser.open_page()
-    monkeypatch.setattr(message, 'check_right', fail)
+def test_a_message_that_is_read(doors: Doors) -> None:
+    page = doors.browser.open_page()
+    doors.fail(message, 'check_right')
     assert_failed(page.ask('drop'))
-    goes_on()
+    doors.go_on()
 
 
 @pytest.mark.parametrize(
@@ -108,32 +116,26 @@ def test_a_message_that_is_read(
         ('put_back', {'name': 'mine'}, OwnWorlds, 'put_back'),
         ('forget', {}, Autosave, 'forget_unsaved'),
         ('share', {}, Simulation, 'save'),
-        ('take_back', {}, Simulation, 'take_back'),
+        ('take_back', {}, Past, 'take_back'),
         ('course', {'course': 7}, Simulation, 'return_to_course'),
     ],
 )
 def test_an_action(
-    browser: Browser,
-    goes_on: Callable[[], None],
-    monkeypatch: pytest.MonkeyPatch,
-    kind: str,
-    fields: dict[str, Any],
-    where: object,
-    name: str,
+    doors: Doors, kind: str, fields: dict[str, Any], where: object, name: str
 ) -> None:
-    page = browser.open_page()
-    monkeypatch.setattr(where, name, fail)
+    page = doors.browser.open_page()
+    doors.fail(where, name)
     assert_failed(page.ask(kind, **fields))
-    goes_on()
+    doors.go_on()
 
 
-def test_an_upload(
-    browser: Browser, goes_on: Callable[[], None], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sketchpad, 'state_from', fail)
-    upload = browser.fetch('/world', method='POST', body=WORLD, headers={'Origin': browser.base})
+def test_an_upload(doors: Doors) -> None:
+    doors.fail(sketchpad, 'state_from')
+    upload = doors.browser.fetch(
+        '/world', method='POST', body=WORLD, headers={'Origin': doors.browser.base}
+    )
     assert_failed(json.loads(upload.body))
-    goes_on()
+    doors.go_on()
 
 
 REQUESTS: dict[str, tuple[object, str]] = {
@@ -145,34 +147,30 @@ REQUESTS: dict[str, tuple[object, str]] = {
 
 
 @pytest.mark.parametrize('path', REQUESTS)
-def test_a_request(
-    browser: Browser, goes_on: Callable[[], None], monkeypatch: pytest.MonkeyPatch, path: str
-) -> None:
-    monkeypatch.setattr(*REQUESTS[path], fail)
-    response = browser.fetch(path)
+def test_a_request(doors: Doors, path: str) -> None:
+    doors.fail(*REQUESTS[path])
+    response = doors.browser.fetch(path)
     assert response.code == 500
     assert b'failure 1 in the log' in response.body
-    goes_on()
+    doors.go_on()
 
 
-def test_a_file_of_the_list_of_worlds(
-    browser: Browser, goes_on: Callable[[], None], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_of_the_list_of_worlds(doors: Doors) -> None:
     """A lesson that nobody can read is in the list by its name, and so are all others."""
-    load, bad = lesson_list.load_world, browser.physsim.node.world_files.directory / 'lessons'
+    load, bad = gallery.load_world, doors.browser.physsim.node.world_files.directory / 'lessons'
     bad.mkdir()
     (bad / 'bad.yaml').write_text(WORLD)
 
     def load_unless_bad(path: Path) -> Any:
         return fail() if path.stem == 'bad' else load(path)
 
-    monkeypatch.setattr(lesson_list, 'load_world', load_unless_bad)
-    page = browser.open_page()
+    doors.monkeypatch.setattr(gallery, 'load_world', load_unless_bad)
+    page = doors.browser.open_page()
     page.until(lambda: page.of_type('worlds'))
     (content,) = page.of_type('worlds')
     assert {'name': 'bad', 'number': 0, 'title': 'bad', 'question': ''} in content['lessons']
     assert len(content['lessons']) > 1
-    goes_on()
+    doors.go_on()
 
 
 @pytest.mark.parametrize(
@@ -185,31 +183,23 @@ def test_a_file_of_the_list_of_worlds(
         (sketchpad.Sketchpad, '_send_class'),
         (Server, '_show'),
         (FrameFeed, 'send_frame'),
-        (Cursors, 'move'),
+        (OpenPages, 'move_cursor'),
     ],
     ids=lambda value: value if isinstance(value, str) else '',
 )
-def test_what_goes_to_a_page(
-    browser: Browser,
-    goes_on: Callable[[], None],
-    monkeypatch: pytest.MonkeyPatch,
-    where: object,
-    name: str,
-) -> None:
-    page = browser.open_page()
+def test_what_goes_to_a_page(doors: Doors, where: object, name: str) -> None:
+    page = doors.browser.open_page()
     assert page.ask('drop')['ok']
-    monkeypatch.setattr(where, name, fail)
-    browser.open_page()
+    doors.fail(where, name)
+    doors.browser.open_page()
     page.send('here', point=[0, 0])
-    browser.physsim.step()
-    goes_on()
+    doors.browser.physsim.step()
+    doors.go_on()
 
 
-def test_an_autosave(
-    browser: Browser, goes_on: Callable[[], None], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    page = browser.open_page()
-    monkeypatch.setattr(autosave, 'write_file', fail)
+def test_an_autosave(doors: Doors) -> None:
+    page = doors.browser.open_page()
+    doors.fail(autosave, 'write_file')
     assert page.ask('spawn', body={'name': 'a/0', 'circle': {'radius': 1}})['ok']
-    browser.physsim.step(2)
-    goes_on()
+    doors.browser.physsim.step(2)
+    doors.go_on()

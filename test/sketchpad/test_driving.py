@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Robots that are driven on the page."""
+"""Robots that are driven on the page, and actors that drive themselves."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import Sheet, started_world
+from .chromium import PIXEL, Sheet, started_world
 from ..outside import Outside
 
 WORLD = """
@@ -21,6 +21,9 @@ floor_friction: 0.6
 bodies:
   - {name: crate/0, box: {width: 0.4, height: 0.4}, at: [-1, 1]}
   - {name: tb3/0, robot: turtlebot4, at: [0, 0]}
+  - {name: cart/0, box: {width: 0.4, height: 0.2}, at: [1, 1.5], kinematic: true,
+     actor: {kind: path, points: [[1, 1.5], [1.5, 1.5]], speed: 0.5, repeat: to_and_fro,
+     start: {near: crate/0, distance: 1}}}
 """
 
 
@@ -34,7 +37,7 @@ def address(outside: Outside) -> str:
 def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
     """Give a test a page whose robot is selected, from the beginning of the world."""
     sheet = Sheet(chromium, address)
-    sheet.begin(2)
+    sheet.begin(3)
     sheet.page.mouse.click(*sheet.place(0.0, 0.0))
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_role('heading', name='differential · /tb3_0').wait_for()
@@ -107,3 +110,19 @@ def test_the_stick_drives_it_and_lets_it_stop(sheet: Sheet) -> None:
     sheet.page.mouse.up()
     sheet.press('Undo')
     sheet.wait('physsim.bodies["tb3/0"].join() === "0,0,0"')
+
+
+def test_the_panel_of_an_actor_says_what_it_follows(sheet: Sheet) -> None:
+    sheet.page.mouse.click(*sheet.place(1.0, 1.5))
+    sheet.page.get_by_text(
+        'Follows a path, to and fro · 2 points · 0.5 m/s · starts when crate/0 is within 1 m'
+    ).wait_for()
+    # Its way is drawn: the second point is a ring in the colour of what is selected.
+    x, y = sheet.place(1.5, 1.5)
+    sheet.until(lambda: near_blue(sheet, x + 4.0, y), 'the way of the actor')
+
+
+def near_blue(sheet: Sheet, x: float, y: float) -> bool:
+    """Return whether a pixel of the canvas is blue [px]."""
+    red, green, blue, _ = sheet.page.evaluate(PIXEL, [x, y])
+    return bool(blue > red + 60 and blue > green + 30)

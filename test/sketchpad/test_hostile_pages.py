@@ -8,11 +8,10 @@ from contextlib import ExitStack, suppress
 import json
 import socket
 
-from physsim_ros.sketchpad import listening, open_pages
-from physsim_ros.sketchpad.access import Access, Role
+from physsim_ros.sketchpad import listening, Role
+from physsim_ros.sketchpad.access import Access
 from physsim_ros.sketchpad.inbox import CAPACITY
 from physsim_ros.sketchpad.open_pages import MOST_PAGES
-from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.server import MOST_BYTES
 import pytest
 from tornado.httpclient import HTTPClientError
@@ -322,22 +321,7 @@ def test_one_page_too_many_is_refused(browser: Browser) -> None:
     assert pages[0].ask('drop')['ok']
 
 
-def test_an_address_that_takes_all_pages_leaves_others_their_share(
-    browser: Browser, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(open_pages, 'MOST_PAGES', 4)
-    greedy = [browser.open_page() for _ in range(4)]
-    assert all(page.ask('drop')['ok'] for page in greedy)
-    monkeypatch.setattr(PageSocket, 'address', '192.0.2.1')
-    others = [browser.open_page(), browser.open_page()]
-    browser.until(lambda: greedy[2].closed and greedy[3].closed)
-    assert greedy[2].socket.close_code == 1008
-    # Both have two now.
-    assert status_of_socket(browser) == 503
-    assert all(page.ask('drop')['ok'] for page in (*greedy[:2], *others))
-
-
-def test_one_connection_too_many_is_told_so(
+def test_one_connection_too_many_is_closed(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(listening, 'MOST_CONNECTIONS', 3)
@@ -345,10 +329,15 @@ def test_one_connection_too_many_is_told_so(
     with ExitStack() as closing:
         for _ in range(3):
             closing.enter_context(socket.create_connection((host, int(port))))
-        refused = browser.fetch('/session')
-        assert refused.code == 503
-        assert b'too many connections' in refused.body
-    browser.until(lambda: browser.fetch('/session').code == 200)
+        with pytest.raises((HTTPClientError, OSError)):
+            browser.fetch('/session')
+    browser.until(lambda: is_served(browser))
+
+
+def is_served(browser: Browser) -> bool:
+    with suppress(HTTPClientError, OSError):
+        return browser.fetch('/session').code == 200
+    return False
 
 
 def test_roles_have_tokens_of_their_own() -> None:

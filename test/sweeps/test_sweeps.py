@@ -156,3 +156,22 @@ def test_an_experiment_that_cannot_be_is_refused() -> None:
     without = experiment()
     with pytest.raises(TypeError, match='world'):
         Experiment(controller=without.controller)  # type: ignore[call-arg]
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'code', 'told'),
+    [
+        ({'gian': [1.0]}, 'unknown_property', "no parameter 'gian'; nearest is 'gain'"),
+        ({'gain': [1.0], 'x': [1]}, 'unknown_property', "no parameter 'x'; it has gain"),
+        ({}, 'bad_property', 'the controller needs the parameter gain'),
+    ],
+)
+def test_a_parameter_that_the_controller_does_not_have_is_refused_before_the_first_run(
+    parameters: dict[str, Any], code: str, told: str
+) -> None:
+    def never(*_: object) -> Any:
+        pytest.fail('a case was run')
+
+    with pytest.raises(Refusal, match=told) as caught:
+        sweep(experiment(), [Case(parameters={'gain': 1.0}), *cases_of((1,), **parameters)], never)
+    assert caught.value.code == code

@@ -9,6 +9,7 @@ import threading
 import weakref
 
 from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.simulation.past import frame_size
 from physsim_ros.view import FrameContext
 from physsim_ros.view import output as output_module
 from physsim_ros.view.endpoints import Endpoint, FileEndpoint
@@ -33,7 +34,8 @@ class Blocked(FileEndpoint):
 
 def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers(tmp_path, monkeypatch):
     path, told = tmp_path / 'it.rrd', []
-    size = output_module._size(frame(0))  # noqa: SLF001  of all frames
+    one = frame(0)
+    size = frame_size(one.snapshot, one.contacts)
     monkeypatch.setattr(output_module, 'WAITING_BYTES', 10.5 * size)
     endpoint = Blocked(path)
     output = Output(endpoint, ErrorBoundary(), told.append)

@@ -5,7 +5,8 @@
 `make evaluate`: how well strokes are read, by hands that were not there when limits were chosen.
 
 `make evaluate ARGS='300 tuning'` chooses the strokes of each kind and the half: `report`,
-`tuning`, by which limits are chosen, or `apart`, hands of another kind.
+`tuning`, by which limits are chosen, `apart`, hands of another kind, or `strangers`, hands and
+arrows of a third kind with which nothing was chosen.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import time
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.meanings import DELETION, GRAVITY
-from physsim_ros.drawing.strokes.recogniser import recognise_form
+from physsim_ros.drawing.strokes.reading import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 

@@ -22,9 +22,9 @@ import numpy as np
 from physsim_ros.drawing.strokes import evidence
 from physsim_ros.drawing.strokes.evidence import Candidate, CONSTANT, TABLE
 from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.joining import joined_strokes
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import resample_stroke
-from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags
 from physsim_ros.model.errors import Refusal
 
@@ -41,7 +41,7 @@ _CURVED, _LARGE = 1.0, 0.1
 # Rounds of Newton's method.
 _ROUNDS = 10
 # Names of the signs, by the kinds of figures.
-_NAMES = tuple(sign.PRIMITIVE for sign in SIGNS)
+_NAMES = tuple(sign.name for sign in SIGNS)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,7 +96,7 @@ def examples(count: int, half: str) -> Iterator[Example]:
 
 def _example(samples: Floats, kind: str, tail: Floats) -> Example:
     features = Features.of(resample_stroke(samples))
-    candidates = [(sign.PRIMITIVE, each) for sign in SIGNS for each in sign.candidates(features)]
+    candidates = [(sign.name, each) for sign in SIGNS for each in sign.candidates(features)]
     right = [number for number, (name, _) in enumerate(candidates) if name == kind]
     if 'arrow' in kind:
         # Of both directions, that from the tail; behind the centre of a round arrow is its tail.

@@ -20,6 +20,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from . import strangers
 from .figures import Figure, Floats, Random
 
 # The greatest distance of a way from the samples that show it, in shares of the size, beside what
@@ -57,6 +58,10 @@ class Hand:
     :param simplified: greatest distance of samples left out from the line through the others
     :param slant: shear of all that is drawn
     :param warp: amplitude of a smooth distortion whose waves are as long as the figure
+    :param lag: of the pen behind the hand [s], of `strangers`, as are the others that follow
+    :param missed: typical distance of a corner from where it should be
+    :param arc: typical height of the arc of a straight side, in shares of its length
+    :param wander: typical distance of the hand from its way
     """
 
     size: float
@@ -82,6 +87,10 @@ class Hand:
     simplified: float
     slant: float = 0.0
     warp: float = 0.0
+    lag: float = 0.0
+    missed: float = 0.0
+    arc: float = 0.0
+    wander: float = 0.0
 
 
 def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
@@ -89,7 +98,7 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
     Return somebody of a half of the people: no hand of one half has the habits of the other.
 
     Hands `apart` are of another kind: they slant and distort what they draw, and their other
-    habits have longer tails.
+    habits have longer tails. Those of `strangers` have another mechanism.
     """
     corners = max(turning(figure.way) / (math.pi / 2) if figure.smooth else len(figure.way), 3)
     # Whoever draws something thin takes more care, if not enough.
@@ -129,6 +138,8 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
         dropped=rng.uniform(0.2, 0.7) if sending < 0.3 else 0.0,
         simplified=rng.uniform(0.004, 0.01) if sending > 0.85 else 0.0,
     )
+    if half == 'strangers':
+        return strangers.stranger(somebody, care, rng)
     return _apart(somebody, care, rng) if half == 'apart' else somebody
 
 
@@ -151,7 +162,10 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
 
     :return: (n, 3) float64: x, y [m], time [s]
     """
-    way = _dense(_way(figure, somebody, rng))
+    way = _way(figure, somebody, rng)
+    if somebody.lag:
+        way = strangers.sketched(way, figure, somebody, rng)
+    way = _dense(way)
     if somebody.slant or somebody.warp:
         way = _distorted(way, somebody, rng)
     if not figure.smooth:
@@ -171,6 +185,9 @@ def drawn(figure: Figure, somebody: Hand, rng: Random) -> Floats:
 def _sampled(way: Floats, somebody: Hand, rng: Random) -> Floats:
     """Return the samples that arrive of a way of the pen, (n, 3) float64: x, y [m], time [s]."""
     here, times = _paced(way, somebody, rng)
+    if somebody.lag:
+        here = strangers.followed(here, times, somebody.lag)
+        here = here + strangers.wandering(times, somebody.wander, rng)
     here = here + _wandering(times, somebody, rng)
     here = here * somebody.size + somebody.place
     if somebody.pixel:
@@ -193,7 +210,7 @@ def _show(samples: Floats, way: Floats, somebody: Hand) -> bool:
     off = off.min(axis=1)
     begun = np.hypot(*(way - way[0]).T) > somebody.first_step * somebody.size
     late = np.maximum.accumulate(begun)
-    trembling = somebody.drift + somebody.tremor + somebody.noise
+    trembling = somebody.drift + somebody.tremor + somebody.noise + somebody.wander
     return bool(off[late].max(initial=0.0) <= (_SHOWN + 3.0 * trembling) * somebody.size)
 
 
@@ -204,7 +221,7 @@ def stroke(figure: Figure, rng: Random) -> Floats:
 
 def _habit(rng: Random, low: float, high: float, half: str) -> float:
     """Return a number of a range that is cut into eight bands: every other one is a half's."""
-    if half == 'apart':
+    if half in {'apart', 'strangers'}:
         return float(rng.uniform(low, high))
     band = 2 * rng.integers(4) + (half == 'report')
     return float(low + (high - low) * (band + rng.random()) / 8)

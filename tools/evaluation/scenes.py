@@ -21,13 +21,13 @@ from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.simulation.world import World
 
-from . import arrows, figures
+from . import arrows, figures, strangers
 from .faults import Fault, FAULTS
 from .figures import Figure
 from .hands import drawn, Hand, hand
 from .outlines import Floats, Random
 
-SEEDS = {'tuning': 1, 'report': 2, 'apart': 3}
+SEEDS = {'tuning': 1, 'report': 2, 'apart': 3, 'strangers': 4}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -78,7 +78,8 @@ def faulty_scenes(count: int, half: str) -> Iterator[Scene]:
 
 def _scene(kind: Kind, fault: Fault, name: str, half: str, rng: Random) -> Scene | None:
     """Return a scene of a kind with a fault, or None where it cannot have that."""
-    figure = kind.draw(rng)
+    draw = strangers.arrow if (kind.draw, half) == (arrows.arrow, 'strangers') else kind.draw
+    figure = draw(rng)
     wrong = fault.figure(figure, rng)
     if wrong is None:
         return None

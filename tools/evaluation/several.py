@@ -24,8 +24,7 @@ from physsim_ros.model.shapes import Box, Chain, Disc
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.simulation import Simulation
 
-from . import figures
-from .arrows import shaft_and_head
+from . import arrows, figures, strangers
 from .hands import drawn, Hand, hand
 from .outlines import Floats, Random
 from .people import figure_of, placed
@@ -86,7 +85,7 @@ def show_several(count: int, half: str) -> None:
     print('\nin several strokes, with pauses')
     for number, (name, thing) in enumerate(THINGS.items()):
         rng = np.random.default_rng((SEEDS[half], 2000 + number))
-        hits = [_is_right(thing(rng), half, rng) for _ in range(count)]
+        hits = [_is_right(thing(rng, half), half, rng) for _ in range(count)]
         print(f'{name:<34}{np.mean(hits):7.1%} of {count}')
     rng = np.random.default_rng((SEEDS[half], 3000))
     count = max(count // 2, 10)
@@ -103,7 +102,7 @@ def joined_things(count: int, half: str) -> Iterator[tuple[Thing, list[Floats]]]
     for number, draw in enumerate(THINGS.values()):
         rng = np.random.default_rng((SEEDS[half], 4000 + number))
         for _ in range(count):
-            thing = draw(rng)
+            thing = draw(rng, half)
             yield thing, list(_samples_of(thing, half, rng))
 
 
@@ -213,8 +212,8 @@ def _body_under(ways: Sequence[Floats], rng: Random) -> Spawn:
     return Spawn(name='a/0', shape=Box(width=float(x), height=float(y)), pose=(*at.tolist(), 0.0))
 
 
-def _anchoring(turn: float) -> Callable[[Random], Thing]:
-    def thing(rng: Random) -> Thing:
+def _anchoring(turn: float) -> Callable[[Random, str], Thing]:
+    def thing(rng: Random, _half: str) -> Thing:
         lines = (figures.turned_about_origin(way, turn) for way in _x(rng))
         ways = _placed_at_random(rng, *lines, turn=0.2)
         body = _body_under(ways, rng)
@@ -230,8 +229,12 @@ def _anchoring(turn: float) -> Callable[[Random], Thing]:
     return thing
 
 
-def _gravity_arrow(rng: Random) -> Thing:
-    ways = _placed_at_random(rng, *shaft_and_head(rng))
+def _shaft_and_head(rng: Random, half: str) -> list[Floats]:
+    return (strangers if half == 'strangers' else arrows).shaft_and_head(rng)
+
+
+def _gravity_arrow(rng: Random, half: str) -> Thing:
+    ways = _placed_at_random(rng, *_shaft_and_head(rng, half))
     shaft = ways[0][-1] - ways[0][0]
 
     def right(snapshot: Snapshot) -> bool:
@@ -241,13 +244,13 @@ def _gravity_arrow(rng: Random) -> Thing:
 
     if shaft[1] < -0.7 * float(np.hypot(*shaft)):
         # Gravity is downwards already.
-        return _gravity_arrow(rng)
+        return _gravity_arrow(rng, half)
     ordered = ways if rng.random() < 0.7 else ways[::-1]
     return Thing(ways=ordered, right=right, kind='arrow', tail=ways[0][0])
 
 
-def _velocity_arrow(rng: Random) -> Thing:
-    ways = _placed_at_random(rng, *shaft_and_head(rng))
+def _velocity_arrow(rng: Random, half: str) -> Thing:
+    ways = _placed_at_random(rng, *_shaft_and_head(rng, half))
     tail, tip = ways[0][[0, -1]]
     radius = float(np.hypot(*(tip - tail))) * rng.uniform(0.2, 0.5)
     body = Spawn(name='a/0', shape=Disc(radius=radius), pose=(*tail.tolist(), 0.0))
@@ -261,7 +264,7 @@ def _velocity_arrow(rng: Random) -> Thing:
     return Thing(ways=ways, under=(body,), right=right, kind='arrow', tail=tail)
 
 
-def _four_lines(rng: Random) -> Thing:
+def _four_lines(rng: Random, _half: str) -> Thing:
     high = rng.uniform(0.4, 1.0)
     corners = _line((0, 0), (1, 0), (1, high), (0, high))
     sides = [corners[[side, (side + 1) % 4]] for side in range(4)]
@@ -272,7 +275,7 @@ def _four_lines(rng: Random) -> Thing:
     return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Box: 1})
 
 
-def _crossing_walls(rng: Random) -> Thing:
+def _crossing_walls(rng: Random, _half: str) -> Thing:
     return Thing(
         ways=_placed_at_random(rng, *_x(rng)),
         right=lambda snapshot: _shapes(snapshot) == {Chain: 2},
@@ -280,7 +283,7 @@ def _crossing_walls(rng: Random) -> Thing:
     )
 
 
-def _meeting_walls(rng: Random) -> Thing:
+def _meeting_walls(rng: Random, _half: str) -> Thing:
     """Return a T or an L of two walls, or two beside each other."""
     at, length = rng.uniform(0.0, 1.0), rng.uniform(0.5, 1.0)
     angle = rng.uniform(1.1, 2.0)
@@ -289,7 +292,7 @@ def _meeting_walls(rng: Random) -> Thing:
     return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Chain: 2})
 
 
-def _marked_circle(rng: Random) -> Thing:
+def _marked_circle(rng: Random, _half: str) -> Thing:
     angle = np.linspace(0.0, 2.0 * math.pi, 60)
     circle = 0.5 * np.column_stack((np.cos(angle), np.sin(angle)))
     circle[-1] = circle[0]
@@ -307,7 +310,7 @@ def _shapes(snapshot: Snapshot) -> dict[type, int]:
     return dict(found)
 
 
-THINGS: dict[str, Callable[[Random], Thing]] = {
+THINGS: dict[str, Callable[[Random, str], Thing]] = {
     'x of two lines, on a body': _anchoring(0.0),
     '+ of two lines, on a body': _anchoring(math.pi / 4),
     'arrow of shaft and head': _gravity_arrow,

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Freehand strokes: resampled, recognised, interpreted in the scene, regularised into requests.
+Freehand strokes: resampled, recognised, read in the scene, regularised into requests.
 
-Not here: clicks (`clicks`), and the session that both belong to (`drawing.session`). Start with
-`interpretation`, then `recogniser`; `signs` has one file for each sign.
+Not here: clicks (`drawing.tools`), and the session that both belong to (`drawing.session`). Start
+with `reading`; `meanings` has its words, `signs` one file for each sign.
 """

@@ -16,22 +16,21 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes import corner_detection, fitting, request_builder
+from physsim_ros.drawing.strokes import corner_detection, fitting, outcomes, pivots
+from physsim_ros.drawing.strokes.evidence import falls, LEAST, rises
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import rectangle, traced
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
+from physsim_ros.drawing.strokes.geometry import angles, point_of, principal_axis, size_of, widened
 from physsim_ros.drawing.strokes.meanings import (
     Context,
     DISC,
-    Interpretation,
+    Form,
+    Meaning,
     Outcome,
     POLYGON,
     RECTANGLE,
 )
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
-from physsim_ros.drawing.strokes.plane import angles, principal_axis
-from physsim_ros.drawing.strokes.polyline import point_of, size_of, widened
-from physsim_ros.drawing.strokes.signs import axle, weld
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
 from physsim_ros.model.transform import norms, Point
@@ -46,7 +45,7 @@ _CIRCULAR, _OVAL_SIDES = 0.63, 48
 # Evidence for an ellipse, in log odds: a constant, and the factors of the logarithms of the
 # residuals of straight sides and of the ellipse, of the bulge of the sides, and of the log of
 # the aspect below that of `_PLANK`: what is thinner is more often a plank than an oval.
-_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -6.0, 1.55, 3.9, 3.75, 8.6, 0.35
+_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -5.5, 2.8, 5.55, 4.95, 7.5, 0.35
 # The least residual that is told from 0, in shares of the size.
 _EXACT = 0.001
 # The least aspect of the corners of a polygon that may be a small circle.
@@ -55,7 +54,7 @@ _LEAST_ROUND = 0.4
 BLOB = 0.8
 
 
-def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
+def forms(features: Features, plain: float) -> Iterator[Form]:
     """
     Yield disc, oval, rectangle and polygon, which share the weight of a closed outline.
 
@@ -74,7 +73,7 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
             yield replace(shape, weight=closed * shape.weight / total)
 
 
-def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
+def _shapes(outline: Floats, gap: float) -> Iterator[Form]:
     """Yield the shapes that an outline may have, with relative weights."""
     ellipse = fitting.ellipse(outline)
     error, aspect = ellipse.error, ellipse.aspect
@@ -93,33 +92,30 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Hypothesis]:
     circular = rises(aspect, _CIRCULAR, 0.02)
     rim = ellipse.center + np.array((ellipse.radius, 0.0))
     disc = np.array((ellipse.center, rim))
-    yield Hypothesis(primitive=DISC, weight=circle * circular, points=disc)
+    yield Form(name=DISC, weight=circle * circular, points=disc)
     # A thinner outline is a line, drawn to and fro.
     _, longer, shorter = principal_axis(outline - outline.mean(axis=0))
     broad = rises(math.sqrt(shorter / longer), 0.02, 0.003)
     oval = ellipse.corners(_OVAL_SIDES)
-    yield Hypothesis(primitive=OVAL, weight=broad * circle * (1.0 - circular), points=oval)
+    yield Form(name=OVAL, weight=broad * circle * (1.0 - circular), points=oval)
     square = falls(off, _SQUARE, 0.003) * falls(off / max(error, 1e-6), _SQUARER, 0.03)
     if len(at) == 4 and squareness(found) > square:
         corners, square = found, squareness(found)
     else:
         corners = narrowed(corners)
-    yield Hypothesis(primitive=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners)
+    yield Form(name=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners)
     if len(at) >= 3 and crosses_itself(found):
         boundary = outer_boundary(found)
         sided = sided if boundary is not None else 0.0
         found = found if boundary is None else boundary
     sided *= 1.0 - square
-    yield Hypothesis(primitive=POLYGON, weight=broad * sided, points=found)
     free = BLOB * max(1.0 - max(square, circle) - sided, 0.0)
-    if free < LEAST:
-        return
-    along: Floats | None = traced(outline)
-    if along is not None and crosses_itself(along):
-        along = outer_boundary(along)
-    if along is not None:
+    if free > sided:
         # Neither round nor sided: a polygon along the stroke.
-        yield Hypothesis(primitive=POLYGON, weight=broad * free, points=along)
+        along = traced(outline)
+        boundary = outer_boundary(along) if crosses_itself(along) else along
+        found, free = (found, 0.0) if boundary is None else (boundary, free)
+    yield Form(name=POLYGON, weight=broad * (sided + free), points=found)
 
 
 def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) -> float:
@@ -143,68 +139,66 @@ def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) ->
     return rises(evidence, 0.0, 1.0)
 
 
-def disc_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+def disc_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and disc."""
-    points = hypothesis.points
-    build = partial(request_builder.disc, points, context)
+    points = form.points
+    build = partial(outcomes.disc, points, context)
     circle = point_of(points[0]), math.dist(*points)
-    yield from _axle_or_body(hypothesis, context, *circle, meaning=DISC, build=build)
+    yield from _axle_or_body(form, context, *circle, meaning=DISC, build=build)
 
 
-def oval_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+def oval_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and polygon, which is not regularised."""
-    points = hypothesis.points
-    build = partial(request_builder.smooth_polygon, points, context)
+    points = form.points
+    build = partial(outcomes.smooth_polygon, points, context)
     circle = point_of(points.mean(axis=0)), size_of(points) / 3
-    yield from _axle_or_body(hypothesis, context, *circle, meaning=POLYGON, build=build)
+    yield from _axle_or_body(form, context, *circle, meaning=POLYGON, build=build)
 
 
 def _axle_or_body(
-    hypothesis: Hypothesis,
+    form: Form,
     context: Context,
     center: Point,
     radius: float,
     *,
     meaning: str,
     build: Callable[[], Outcome],
-) -> Iterator[Interpretation]:
+) -> Iterator[Meaning]:
     """
     Yield an axle and a body, which share the weight of a round outline.
 
     :param meaning: of the body
     :param build: returns its outcome
     """
-    share = axle.share_of(center, radius, context)
-    yield axle.interpretation(center, radius, context, weight=hypothesis.weight * share)
-    yield Interpretation(meaning=meaning, weight=hypothesis.weight * (1.0 - share), build=build)
+    share = pivots.axle_share(center, radius, context)
+    yield pivots.axle_meaning(center, radius, context, weight=form.weight * share)
+    yield Meaning(name=meaning, weight=form.weight * (1.0 - share), build=build)
 
 
-def rectangle_interpretations(
-    hypothesis: Hypothesis, context: Context
-) -> Iterator[Interpretation]:
+def rectangle_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a weld and a rectangle."""
-    pin = weld.interpretation(hypothesis.points, context, weight=hypothesis.weight)
+    pin = pivots.weld_meaning(form.points, context, weight=form.weight)
     yield pin
-    yield Interpretation(
-        meaning=RECTANGLE,
-        weight=hypothesis.weight - pin.weight,
-        build=partial(request_builder.rectangle, hypothesis.points, context),
+    yield Meaning(
+        name=RECTANGLE,
+        weight=form.weight - pin.weight,
+        build=partial(outcomes.rectangle, form.points, context),
     )
 
 
-def polygon_interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+def polygon_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield axle and polygon: small circles are drawn with corners."""
-    points = hypothesis.points
+    points = form.points
     center, radius = points.mean(axis=0), size_of(points) / 3
     _, along, across = principal_axis(points - center)
-    share = axle.share_of(point_of(center), radius, context, corners=len(points))
+    share = pivots.axle_share(point_of(center), radius, context, corners=len(points))
     share *= rises(math.sqrt(across / along), _LEAST_ROUND, 0.03)
-    weight, shown = hypothesis.weight * share, math.dist(center, points[0])
-    yield axle.interpretation(point_of(center), shown, context, weight=weight)
-    yield Interpretation(
-        meaning=POLYGON,
-        weight=hypothesis.weight * (1.0 - share),
-        build=partial(request_builder.polygon, points, context),
+    weight, shown = form.weight * share, math.dist(center, points[0])
+    yield pivots.axle_meaning(point_of(center), shown, context, weight=weight)
+    yield Meaning(
+        name=POLYGON,
+        weight=form.weight * (1.0 - share),
+        build=partial(outcomes.polygon, points, context),
     )
 
 

@@ -17,8 +17,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.plane import angles
-from physsim_ros.drawing.strokes.polyline import smoothed, turns
+from physsim_ros.drawing.strokes.geometry import angles, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, dots, norms, Point
@@ -59,7 +58,8 @@ def corners(points: Floats, *, closed: bool, gap: float = 0.0) -> list[int]:
     places = _peaks(turn, closed=closed)
     if not closed:
         inner = places[(places > 2) & (places < count - 3)]
-        return _corners_among(smooth, np.array([0, *inner, count - 1]), WOBBLE)
+        chosen = _corners_among(smooth, np.array([0, *inner, count - 1]), WOBBLE)
+        return _without_arcs(smooth, chosen)
     if len(places) < 2:
         return list(map(int, places))
     # Opened at the sharpest candidate, which is a corner.
@@ -181,6 +181,30 @@ def _least_cost(errors: NDArray[np.float64], path: Floats, wobble: float) -> lis
     for row in before[: sides - 1][::-1]:
         chosen.append(int(row[chosen[-1]]))
     return [0, *chosen[::-1]]
+
+
+def _without_arcs(path: Floats, at: list[int]) -> list[int]:
+    """Return the corners of an open polyline without those within a side that is an arc."""
+    kept = list(at)
+    while len(kept) > 2:
+        straight = np.diagonal(_errors(path, np.array(kept)), 1)
+        sides = zip(kept, kept[2:], strict=False)
+        arcs = np.array([_arc_error(path[slice(a, b + 1)]) for a, b in sides])
+        worse = arcs - straight[:-1] - straight[1:]
+        if worse.min() > 0.0:
+            break
+        del kept[1 + int(worse.argmin())]
+    return kept
+
+
+def _arc_error(points: Floats) -> float:
+    """Return the sum of squared distances from the parabola of least squares [m²]."""
+    share = np.linspace(-1.0, 1.0, len(points))
+    square = share**2 - (share**2).mean()
+    error = float(((points - points.mean(axis=0)) ** 2).sum())
+    for each in (share, square):
+        error -= float(((each[:, None] * points).sum(axis=0) ** 2).sum()) / float((each**2).sum())
+    return error
 
 
 def _turn(a: Point, b: Point, c: Point) -> float:

@@ -2,14 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Evidence for signs: log odds, from the measures of a stroke and a table of numbers.
+Weights of forms and meanings: evidence for signs, soft conditions, confidence.
 
 The evidence for a sign is a sum over its measures; each term is a piecewise linear function whose
 knots and values are rows of `evidence.csv` (a generalised additive model; Hastie and Tibshirani,
 1986). The probability of a sign is the share of its exponential among those of all signs and of
-no sign at all, whose evidence is 0 (the conditional logit; McFadden, 1974).
+no sign at all, whose evidence is 0 (the conditional logit; McFadden, 1974). The rest is shared
+among lines and outlines by soft conditions (logistic functions), each 0.5 at its limit. A weight
+becomes a confidence, the share of guesses of that weight that are right, by Platt scaling (Platt,
+1999): a logistic function of the log odds of the weight against the others.
 
-`python -m tools.evaluation.fit` makes the table, from hands of the tuning half of `make evaluate`.
+`python -m tools.evaluation.fit` makes the table, and prints the constants of the confidence, from
+hands of the tuning half of `make evaluate`.
 """
 
 from __future__ import annotations
@@ -25,6 +29,17 @@ from physsim_ros.model.arrays import Floats
 
 # The file of the table, beside this one, and the name of the measure that is 0 for every stroke.
 TABLE, CONSTANT = 'evidence.csv', 'constant'
+# Weight of the possibility that a stroke means nothing.
+DOUBT = 0.02
+# Log odds of a group being right at equal weights, and their growth with the log odds of weights.
+GROUP_BIAS, GROUP_SLOPE = -0.4, 1.9
+# The same for a meaning within its group.
+SHARE_BIAS, SHARE_SLOPE = 0.36, 0.86
+# The least share of either side, so that log odds are finite.
+_LEAST = 1e-3
+# Forms and meanings of a lower weight are dropped. A rival of a hundredth tells right
+# readings from wrong ones.
+LEAST = 0.002
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -95,3 +110,37 @@ def _read_table() -> dict[str, list[Term]]:
 
 
 _TABLE = _read_table()
+
+
+def group_confidence(weight: float, total: float) -> float:
+    """
+    Return the confidence in a group of meanings, 0 .. 1.
+
+    :param weight: of the group
+    :param total: of all groups
+    """
+    return _platt(weight / (total + DOUBT), GROUP_BIAS, GROUP_SLOPE)
+
+
+def share_confidence(share: float) -> float:
+    """
+    Return the confidence in a meaning where its group is right, 0 .. 1.
+
+    :param share: weight of the meaning, as a share of the weight of its group
+    """
+    return _platt(share, SHARE_BIAS, SHARE_SLOPE)
+
+
+def _platt(share: float, bias: float, slope: float) -> float:
+    odds = max(share, _LEAST) / max(1.0 - share, _LEAST)
+    return 1.0 / (1.0 + math.exp(-bias - slope * math.log(odds)))
+
+
+def rises(value: float, limit: float, width: float) -> float:
+    """Return the logistic function: 0 far below a limit, 0.5 there, 1 far above."""
+    return 1.0 / (1.0 + math.exp(min(max((limit - value) / width, -50.0), 50.0)))
+
+
+def falls(value: float, limit: float, width: float) -> float:
+    """Return the logistic function: 1 far below a limit, 0.5 there, 0 far above."""
+    return rises(-value, -limit, width)

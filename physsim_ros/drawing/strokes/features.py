@@ -17,8 +17,8 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.corner_detection import ARM
-from physsim_ros.drawing.strokes.hypothesis import falls
-from physsim_ros.drawing.strokes.polyline import COUNT, path_length, smoothed, turns
+from physsim_ros.drawing.strokes.evidence import falls
+from physsim_ros.drawing.strokes.geometry import COUNT, path_length, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, norms

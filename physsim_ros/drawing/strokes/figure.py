@@ -16,28 +16,25 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
-import itertools
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.interpretation import Guess, guess_meanings, is_likely
-from physsim_ros.drawing.strokes.meanings import (
-    CLOSED,
-    DELETION,
-    DISC,
-    OPEN,
-    POLYGON,
-    RECTANGLE,
+from physsim_ros.drawing.strokes.geometry import COUNT, size_of
+from physsim_ros.drawing.strokes.joining import (
+    few_points,
+    is_connected,
+    joined_strokes,
+    touch,
+    touching,
 )
-from physsim_ros.drawing.strokes.polyline import COUNT, path_length, size_of
+from physsim_ros.drawing.strokes.meanings import CLOSED, DELETION, DISC, OPEN, POLYGON, RECTANGLE
+from physsim_ros.drawing.strokes.reading import Guess, guess_meanings, is_likely
 from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
-from physsim_ros.drawing.strokes.stroke_order import joined_strokes
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
-from physsim_ros.model.transform import norms
 
 # The greatest number of strokes of one figure.
 MOST_STROKES = 8
@@ -47,13 +44,6 @@ MOST_TIME = 0.01
 _LOOSE = frozenset({'wall', 'hatching'})
 # Meanings that several strokes never have together.
 _SINGLE = OPEN | {DELETION}
-# The greatest distance of strokes that touch, in shares of the larger one's size.
-_TOUCHING = 0.15
-# Stride of the points of a stroke between which distances are taken: 1.6 % of its length.
-_STRIDE = 2
-# The length by which a stroke may end short of another that it is to meet, in shares of its own;
-# the number of points on it; the number of those at an end of a stroke that give its direction.
-_BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
 # The least share of the middle half of a line that lies on a solid whose mark it is.
 _ON_SOLID = 0.6
 
@@ -233,10 +223,10 @@ def _groups(
         if not part or count > MOST_STROKES or not _follows(figure, group[0], settings):
             break
         group.insert(0, figure)
-    touching = _touching([stroke for each in group for stroke in each.strokes], settings)
+    meeting = touching([stroke for each in group for stroke in each.strokes], settings.snap)
     for first in range(len(group) - 1):
         before = sum(len(each.strokes) for each in group[:first])
-        if _is_connected(touching[before:, before:]):
+        if is_connected(meeting[before:, before:]):
             yield group[first:]
 
 
@@ -250,7 +240,7 @@ def _leaves_its_bodies(figure: Figure, walls: AbstractSet[str]) -> bool:
 
     :param walls: names of bodies that are no ends of joints: other strokes of the same figure
     """
-    points, scene = np.vstack([_few_points(stroke) for stroke in figure.strokes]), figure.scene
+    points, scene = np.vstack([few_points(stroke) for stroke in figure.strokes]), figure.scene
     return any(
         float((scene.covers(each.a, points) | scene.covers(each.b, points)).mean()) < _ON_SOLID
         for each in figure.requests
@@ -266,54 +256,11 @@ def _is_side(line: Figure, figure: Figure, settings: DrawingSettings) -> bool:
     first, last = (end[None] for end in stroke[[0, -1]])
     ends = joined_strokes(figure.strokes)
     begin, end = ends[:1], ends[-1:]
-    size = _size(ends)
+    size = size_of(ends)
     return any(
-        _touch(first, one, size, settings) and _touch(last, other, size, settings)
+        touch(first, one, size, settings.snap) and touch(last, other, size, settings.snap)
         for one, other in ((begin, end), (end, begin))
     )
-
-
-def _touching(strokes: Sequence[Floats], settings: DrawingSettings) -> Flags:
-    """Return which strokes touch each other, (n, n) bool."""
-    paths, sizes = [_extended(stroke) for stroke in strokes], [_size(stroke) for stroke in strokes]
-    touching = np.zeros((len(paths), len(paths)), np.bool_)
-    for one, other in itertools.combinations(range(len(paths)), 2):
-        size = max(sizes[one], sizes[other])
-        touching[one, other] = _touch(paths[one], paths[other], size, settings)
-    return touching | touching.T
-
-
-def _is_connected(touching: Flags) -> bool:
-    """Return whether each stroke touches another one, directly or by others."""
-    reached = np.arange(len(touching)) == 0
-    for _ in range(len(touching)):
-        reached |= touching[reached].any(axis=0)
-    return bool(reached.all())
-
-
-def _touch(one: Floats, other: Floats, size: float, settings: DrawingSettings) -> bool:
-    """Return whether points of two strokes of a size are near enough to touch."""
-    x, y = (one[:, None] - other[None]).transpose(2, 0, 1)
-    return float(np.hypot(x, y).min()) <= min(_TOUCHING * size, max(settings.snap, size / 20))
-
-
-def _size(stroke: Floats) -> float:
-    return size_of(stroke)
-
-
-def _extended(stroke: Floats) -> Floats:
-    """Return points of a stroke and of its lines beyond both ends, where others may meet it."""
-    step = _BEYOND * path_length(stroke) / _POINTS_BEYOND
-    parts = [_few_points(stroke)]
-    for points in (stroke, stroke[::-1]):
-        ahead = points[0] - points[_END]
-        ahead *= step / max(float(norms(ahead)), 1e-300)
-        parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
-    return np.vstack(parts)
-
-
-def _few_points(stroke: Floats) -> Floats:
-    return stroke[::_STRIDE]
 
 
 def _share_inside(line: Figure, solid: Figure) -> float:

@@ -10,16 +10,18 @@ Law: a fit is always returned; the caller decides by its residual whether it is 
 from __future__ import annotations
 
 from dataclasses import dataclass
-import itertools
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.plane import (
+from physsim_ros.drawing.strokes.geometry import (
+    COUNT,
     principal_axis,
     quarter_heading,
+    size_of,
+    smoothed,
+    spaced,
     unit_vector,
 )
-from physsim_ros.drawing.strokes.polyline import COUNT, size_of, smoothed, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import dots, norms, rotated_each
 
@@ -148,18 +150,24 @@ def simplified(points: Floats, bends: Floats) -> Floats | None:
     """
     size = size_of(points)
     path = smoothed(points, SMOOTHING, closed=False)
-    off = np.min([segment_distances(path, *side) for side in itertools.pairwise(bends)], axis=0)
+    off = segment_distances(path, bends[:-1, None], bends[1:, None]).min(axis=0)
     if math.sqrt(float((off**2).mean())) <= CURVED * size:
         return None
     return _traced(path, FINE * size)
 
 
 def segment_distances(points: Floats, start: Floats, end: Floats) -> Floats:
-    """Return the distances of points from a segment, (n,) float64 [m]."""
-    along = end - start
-    share = np.clip(dots(points - start, along) / max(float(dots(along, along)), 1e-300), 0.0, 1.0)
-    away = points - start - share[:, None] * along
-    result: Floats = norms(away)
+    """
+    Return the distances of points from segments [m].
+
+    :param points: (n, 2) float64 [m]
+    :param start: (2,) float64 of one segment, or (k, 1, 2) of several [m]
+    :param end: the same
+    :return: (n,) float64, or (k, n)
+    """
+    along, away = end - start, points - start
+    share = np.clip(dots(away, along) / np.maximum(dots(along, along), 1e-300), 0.0, 1.0)
+    result: Floats = norms(away - share[..., None] * along)
     return result
 
 

@@ -2,30 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Interpretations: the meanings that a form may have in the scene that it was drawn over.
+Words of reading: a stroke has forms, a form has meanings in a scene, a meaning has an outcome.
 
-Law: an interpretation changes nothing; its outcome is a list of ordinary requests. An outcome
-that the world cannot have is refused when it is built, before any request is submitted.
+Law: a meaning changes nothing; its outcome is a list of ordinary requests. An outcome that the
+world cannot have is refused when it is built, before any request is submitted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.evidence import Candidate
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.requests import Request
 
-# Factor on the weight of a sign that was drawn where there is nothing that it could change: an
-# interpretation that can be carried out is taken before it.
+# Factor on the weight of a sign that was drawn where there is nothing that it could change: a
+# meaning that can be carried out is taken before it.
 MISPLACED = 0.5
 # Share of the weight of a line between two bodies that is a joint's; the rest is a wall's.
-BETWEEN = 0.9
-
-
+BETWEEN = 0.98
 # Meanings of closed outlines.
 DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
 # Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.
@@ -37,9 +37,24 @@ DELETION, GRAVITY = 'deletion', 'gravity'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Form:
+    """
+    A form that a stroke may have.
+
+    :param name: name of the form: `disc`, `line`, `arrow` and so on; its module defines it
+    :param weight: how well the stroke fits the form, 0 .. 1
+    :param points: (n, 2) float64: the points that describe the form, in the world [m]
+    """
+
+    name: str
+    weight: float
+    points: Floats
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Context:
     """
-    The context of an interpretation.
+    A stroke in the scene that it was drawn over.
 
     :param drawn: the stroke
     :param scene: the world that it was drawn over
@@ -70,15 +85,30 @@ class Outcome:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Interpretation:
+class Meaning:
     """
     A meaning that a stroke may have.
 
-    :param meaning: name of it, as `~/events` reports it: `disc`, `anchor` and so on
+    :param name: as `~/events` reports it: `disc`, `anchor` and so on
     :param weight: likelihood, not yet normalised
     :param build: returns the outcome, or raises a Refusal
     """
 
-    meaning: str
+    name: str
     weight: float
     build: Callable[[], Outcome]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sign:
+    """
+    A sign: a form that is told from lines and outlines by evidence.
+
+    :param name: of the form, and of its rows in the table of evidence
+    :param candidates: yields the ways in which a stroke may have this form, with their measures
+    :param meanings: yields the meanings of the form; their weights add up to that of the form
+    """
+
+    name: str
+    candidates: Callable[[Features], Iterator[Candidate]]
+    meanings: Callable[[Form, Context], Iterator[Meaning]]

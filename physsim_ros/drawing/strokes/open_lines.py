@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Open strokes that do not cross themselves: a wall, or a rod or spring between two bodies.
+Open strokes that do not cross themselves: a wall, a joint between two bodies, or hatching.
 
-Law: a line is a joint only between two different bodies, one of which moves.
+Laws: a line is a joint only between two different bodies, one of which moves. Lines inside a body
+make it heavier.
 """
 
 from __future__ import annotations
@@ -14,17 +15,18 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes import request_builder, snapping
+from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.corner_detection import bends_of
+from physsim_ros.drawing.strokes.evidence import falls, LEAST, rises
 from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import simplified
-from physsim_ros.drawing.strokes.hypothesis import falls, Hypothesis, LEAST, rises
-from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Interpretation
-from physsim_ros.drawing.strokes.polyline import COUNT, path_length, point_of
-from physsim_ros.drawing.strokes.signs import hatching
+from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of
+from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Form, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import ChangeBody
 from physsim_ros.model.transform import cross, norms
 
 LINE = 'line'
@@ -39,9 +41,13 @@ _STRAIGHT = 0.95
 _SAGGING = 0.92
 # The least number of bends, to alternate sides, of a spring.
 _FEWEST_TEETH = 3
+# Factor on the density of a body by each line of its hatching.
+HEAVIER = 1.25
+# The least share of the stroke on the body: ends may cross its edge.
+_INSIDE = 0.95
 
 
-def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
+def forms(features: Features, plain: float) -> Iterator[Form]:
     """
     Yield a line, straight, bent or curved; the points are its ends and bends.
 
@@ -62,31 +68,31 @@ def hypotheses(features: Features, plain: float) -> Iterator[Hypothesis]:
     )
     weight = plain * calm * (1.0 - features.closure) * falls(loops, 0.5, 0.2)
     if weight >= LEAST:
-        yield Hypothesis(primitive=LINE, weight=weight, points=bends_of(points))
+        yield Form(name=LINE, weight=weight, points=bends_of(points))
 
 
-def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+def meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield hatching, or a rod, spring or rope, with that a chain, and a wall."""
-    points = hypothesis.points
+    points = form.points
     kind, share = _joint_along(points, context)
-    body = hatching.hatched_body(context)
+    body = hatched_body(context)
     if body is not None and share == 0.0:
         lines = len(points) - 1
-        yield hatching.interpretation(body, lines, context, weight=hypothesis.weight)
+        yield hatching_meaning(body, lines, context, weight=form.weight)
         return
-    yield Interpretation(
-        meaning=str(kind),
-        weight=hypothesis.weight * share,
-        build=partial(request_builder.join, kind, context.drawn.points, context),
+    yield Meaning(
+        name=str(kind),
+        weight=form.weight * share,
+        build=partial(outcomes.join, kind, context.drawn.points, context),
     )
     if kind is JointKind.ROPE:
         # No stroke tells a chain from a rope: it is offered, and never the first guess.
-        build = partial(request_builder.chain, context)
-        yield Interpretation(meaning='chain', weight=LEAST, build=build)
-    yield Interpretation(
-        meaning='wall',
-        weight=hypothesis.weight * (1.0 - share),
-        build=partial(request_builder.wall, points, context),
+        build = partial(outcomes.chain, context)
+        yield Meaning(name='chain', weight=LEAST, build=build)
+    yield Meaning(
+        name='wall',
+        weight=form.weight * (1.0 - share),
+        build=partial(outcomes.wall, points, context),
     )
 
 
@@ -94,7 +100,7 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     """Return the kind of joint that a line would be, and its share of the weight, 0 .. 1."""
     drawn = context.drawn.points
     start, end = point_of(drawn[0]), point_of(drawn[-1])
-    ends = snapping.joint_ends(drawn, context)
+    ends = bodies_under.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
     curved = between and simplified(drawn, points) is not None
@@ -130,3 +136,36 @@ def _gram_polynomials(degree: int, count: int) -> list[Floats]:
 
 # All polynomials of at most the third degree, along a resampled stroke.
 _CUBICS = _gram_polynomials(3, COUNT)
+
+
+def hatched_body(context: Context) -> str | None:
+    """Return the name of the topmost dynamic body that all of the stroke lies on, if any."""
+    points, scene = context.drawn.points, context.scene
+    for name in scene.bodies_at(point_of(points[len(points) // 2])):
+        if scene.body(name).dynamic and scene.covers(name, points).mean() >= _INSIDE:
+            return name
+    return None
+
+
+def hatching_meaning(body: str, lines: int, context: Context, *, weight: float) -> Meaning:
+    """
+    Return the meaning of a line as hatching.
+
+    :param body: that the stroke lies on
+    :param lines: number of lines of the hatching
+    """
+    return Meaning(
+        name='hatching', weight=weight, build=partial(_make_heavier, body, lines, context)
+    )
+
+
+def _make_heavier(name: str, lines: int, context: Context) -> Outcome:
+    body = context.scene.body(name)
+    density = body.total_mass / body.shape.form.area * HEAVIER**lines
+    heavier = ChangeBody(name=name, properties=Properties(density=density))
+    return Outcome(
+        requests=(heavier,),
+        subject=name,
+        message=f'{name} is heavier by {HEAVIER**lines - 1.0:.0%}: {density:.3g} kg/m²',
+        outline=context.drawn.points,
+    )

@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
-from physsim_ros.drawing.strokes.plane import headings, quarter_heading
+from physsim_ros.drawing.strokes.geometry import headings, quarter_heading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself
 from physsim_ros.model.transform import cross, dots, norms, Pose

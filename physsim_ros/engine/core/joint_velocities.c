@@ -9,8 +9,11 @@
 // rise. An island then has the greatest share of its bounces with which their impulses do no work.
 //
 // Curvature: a point on a circle leaves its tangent in half a step, so that rows are solved for
-// J v = - dt / 2 (dJ/dt) v; without that a pendulum loses (w dt)² / 2 of its energy in a step. An island gets no more
-// energy by this than the projection took, and none where contacts press.
+// J v = - dt / 2 (dJ/dt) v, as SHAKE has it (Ryckaert, Ciccotti and Berendsen, J. Comput. Phys. 23, 1977); without that
+// a pendulum loses (w dt)² / 2 of its energy in a step. An island gets no more energy by this than its rows take from
+// the velocities with which the step began: those of a point that follows its circle are half a step behind it, and
+// pay for it; those of a taut straight chain, whose rows are singular, pay nothing for what no impulse can give. A
+// limit that holds, as a taut rope does, bends too, if that presses it on.
 
 #include "joint_solver.h"
 #include <string.h>
@@ -31,6 +34,13 @@ typedef struct Impact {
     double *given;                  // (row_count): λ of Chipmunk
     double *bounce;                 // (touch_count): least velocity along the normal that Chipmunk seeks [m/s]
 } Impact;
+
+// Impulses, and what they change.
+typedef struct Change {
+    double *impulses; // (row_count): λ
+    Twist *twists;    // (body_count)
+    double energy;    // of the change of velocities, twice [J]
+} Change;
 
 static double softness_of(const Solve *solve, int row) {
     const Row *of_joint = solve->island->rows[row];
@@ -207,45 +217,46 @@ static Solution solve_bounces(Solve *solve, Impact *impact) {
     return solution;
 }
 
-// Add the impulses of the curvature to a solution, whose factors the system has.
+// Change the rates of the rows that hold in a solution, whose factors the system has.
+static Change changed_by(Solve *solve, const Solution *solution, const double *rates) {
+    Change change = {TAKE(solve->arena, double, solve->island->row_count),
+                     TAKE(solve->arena, Twist, solve->island->body_count), 0.0};
+    solve_active(&solve->system, solution->sides, rates, change.impulses, change.twists);
+    change.energy = mass_product(&solve->system, change.twists, change.twists);
+    return change;
+}
+
+// Add the impulses of the curvature to a solution.
 static void bend(Solve *solve, Solution *solution, Twist *velocities) {
     const Island *island = solve->island;
     Arena *arena = solve->arena;
-    int normal = island->joint_row_count;
-    double lost = mass_product(&solve->system, solution->changes, solution->changes);
     Pose *halfway = TAKE(arena, Pose, island->body_count);
+    Twist *begun = TAKE(arena, Twist, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
-        Twist *twist = velocities + body;
-        twist->v = add(twist->v, solution->changes[body].v);
-        twist->w += solution->changes[body].w;
-        halfway[body].p = add(solve->poses[body].p, scaled(twist->v, solve->dt / 2.0));
-        halfway[body].yaw = solve->poses[body].yaw + twist->w * solve->dt / 2.0;
+        velocities[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
+        halfway[body] = moved(solve->poses[body], velocities[body], solve->dt / 2.0);
+        begun[body] = body_of(island->engine[body])->twist;
     }
-    for (int number = 0; number < island->touch_count; number++) {
-        // Under a load rows can be singular, as those of a straight chain: there energy is lost.
-        if (solution->sides[normal + number] == 0) {
-            return;
-        }
-    }
-    double *excess = TAKE(arena, double, normal), *wanted = TAKE(arena, double, island->row_count);
-    double *impulses = TAKE(arena, double, island->row_count);
-    Jacobian *jacobians = TAKE(arena, Jacobian, normal);
-    Twist *changes = TAKE(arena, Twist, island->body_count);
+    double *excess = TAKE(arena, double, island->joint_row_count);
+    Jacobian *jacobians = TAKE(arena, Jacobian, island->joint_row_count);
     read_rows(island, halfway, excess, jacobians);
-    for (int row = 0; row < normal; row++) {
+    double *before = TAKE(arena, double, island->row_count), *wanted = TAKE(arena, double, island->row_count);
+    for (int row = 0; row < island->joint_row_count; row++) {
         Ends ends = island->ends[row];
-        if (is_equality(island->rows[row]) && solution->sides[row] == 0) {
-            wanted[row] = rate(solve->jacobians[row], ends, velocities) - rate(jacobians[row], ends, velocities);
+        double bent = rate(solve->jacobians[row], ends, velocities) - rate(jacobians[row], ends, velocities);
+        bool pressed_on = solve->excess[row] * bent < 0.0;
+        if (solution->sides[row] == 0 && (is_equality(island->rows[row]) || pressed_on)) {
+            before[row] = -rate(solve->jacobians[row], ends, begun);
+            wanted[row] = bent;
         }
     }
-    solve_active(&solve->system, solution->sides, wanted, impulses, changes);
-    double share = sqrt(paid_share(lost, mass_product(&solve->system, changes, changes)));
+    Change taken = changed_by(solve, solution, before), given = changed_by(solve, solution, wanted);
+    double share = sqrt(paid_share(taken.energy, given.energy));
     for (int row = 0; row < island->row_count; row++) {
-        solution->impulses[row] += impulses[row] * share;
+        solution->impulses[row] += given.impulses[row] * share;
     }
     for (int body = 0; body < island->body_count; body++) {
-        velocities[body].v = add(velocities[body].v, scaled(changes[body].v, share));
-        velocities[body].w += changes[body].w * share;
+        velocities[body] = twist_sum(velocities[body], given.twists[body], share);
     }
 }
 

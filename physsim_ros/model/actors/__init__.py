@@ -11,9 +11,17 @@ moves them (`engine/core/actors.c`). Start with `actor`; a new kind is a class a
 
 from __future__ import annotations
 
-from physsim_ros.model.actors.actor import Actor, Path, REPEATS, Start
+from physsim_ros.model.actors.actor import (
+    Actor,
+    ActorState,
+    ActorStates,
+    NO_ACTORS,
+    Path,
+    REPEATS,
+    Start,
+    WAITING,
+)
 from physsim_ros.model.actors.pedestrians import Orca, Pedestrian, SocialForce
-from physsim_ros.model.actors.states import ActorState, ActorStates, NO_ACTORS, WAITING
 from physsim_ros.model.declarations import OfKind
 
 # By the word for it, in the order of `ACTOR_PATH`, `ACTOR_SOCIAL_FORCE`, `ACTOR_ORCA` of

@@ -14,20 +14,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 import itertools
 import math
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, ClassVar, NamedTuple, Self
 
+import numpy as np
+from physsim_ros.model.arrays import Ints
 from physsim_ros.model.checks import (
     check_point,
     check_yaw,
     FASTEST,
     LONGEST,
     number,
+    OneOf,
     shown,
     Within,
 )
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.texts import nearest_name
+from physsim_ros.model.robot_states import NEVER
 
 # Greatest number of points of an actor.
 MOST_POINTS = 1000
@@ -61,13 +64,6 @@ def _point(value: object, name: str) -> Waypoint:
         raise Malformed(f'{name} must be [x, y] or [x, y, yaw], not {shown(value)}', field=name)
     place = check_point([number(each, name) for each in value[:2]], name)
     return place if len(value) == 2 else (*place, check_yaw(number(value[2], name), name))
-
-
-def _repeat(value: object, name: str) -> str:
-    if not isinstance(value, str) or value not in REPEATS:
-        near, words = nearest_name(str(value), REPEATS), ', '.join(REPEATS)
-        raise BadProperty(f'{name} {shown(value)} is none of {words}{near}', field=name)
-    return value
 
 
 def _times(value: object, name: str) -> tuple[float, ...]:
@@ -133,14 +129,12 @@ class Actor(Checked, ABC):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    KIND: ClassVar[str]
-
     points: Annotated[
         tuple[Waypoint, ...], _points, 'x, y [m] in the world, of a path also yaw [rad]'
     ]
     repeat: Annotated[
         str,
-        _repeat,
+        OneOf(REPEATS),
         'what follows the last point: `once` nothing, `loop` the first point, `to_and_fro` the '
         'way back',
     ] = 'once'
@@ -151,15 +145,6 @@ class Actor(Checked, ABC):
         'coefficient of friction with the floor, which moves it; a kinematic body moves whatever '
         'it touches, and a robot by its drive',
     ] = 0.8
-
-    def entry(self) -> dict[str, object]:
-        """Return the mapping that it is made from."""
-        values: dict[str, Any] = {'kind': self.KIND, **self.explicit(), **self._lists()}
-        values['start'] = self.start.explicit()
-        return {key: value for key, value in values.items() if value != {}}
-
-    def _lists(self) -> dict[str, object]:
-        return {'points': [list(point) for point in self.points]}
 
     @property
     @abstractmethod
@@ -203,10 +188,6 @@ class Path(Actor):
         if self.times is None and any(length == 0.0 for length in self._lengths()):
             raise BadProperty('two points at one place need times', field='points')
 
-    def _lists(self) -> dict[str, object]:
-        lists = super(Path, self)._lists()
-        return lists if self.times is None else {**lists, 'times': list(self.times)}
-
     def _stations(self) -> tuple[Waypoint, ...]:
         """Return its points, of a loop the first one again, turned to where the last one looks."""
         first, *_, last = *self.points, self.points[-1]
@@ -238,3 +219,54 @@ class Path(Actor):
             most[0] = max(most[0], math.dist(a[:2], b[:2]) / lapse)
             most[1] = max(most[1], abs(b[2] - a[2]) / lapse)
         return *most, float(len(self.points[0]) == 3)
+
+
+class ActorState(NamedTuple):
+    """
+    The state of one actor; `ActorStates` has its fields.
+
+    In a saved state, `begun` counts from the moment of saving.
+    """
+
+    begun: int
+    reached: int
+
+    def shifted(self, steps: int) -> Self:
+        """Return the state in a world that counts its steps from so many earlier."""
+        return self if self.begun == NEVER else self._replace(begun=self.begun + steps)
+
+
+# Of an actor that waits for its start.
+WAITING = ActorState(NEVER, 0)
+
+
+class ActorStates(NamedTuple):
+    """
+    The states of a actors, in the order of the scene.
+
+    :ivar begun: (a,) int64: step at which it starts, or started; NEVER where it waits for a
+        gate or a distance
+    :ivar reached: (a,) int64: count of the points that a pedestrian has reached; 0 of a path
+    """
+
+    begun: Ints
+    reached: Ints
+
+    @classmethod
+    def of(cls, actors: Sequence[ActorState]) -> Self:
+        """Return the states of actors; of none the same value, which checkpoints share."""
+        if not actors:
+            return cls(*NO_ACTORS)
+        return cls(*(np.array(column, np.int64) for column in zip(*actors, strict=True)))
+
+    @property
+    def nbytes(self) -> int:
+        """Memory of the arrays [bytes]."""
+        return sum(column.nbytes for column in self)
+
+    def rows(self) -> list[ActorState]:
+        """Return the state of each actor."""
+        return [ActorState(*row) for row in zip(*(each.tolist() for each in self), strict=True)]
+
+
+NO_ACTORS = ActorStates(np.empty(0, np.int64), np.empty(0, np.int64))

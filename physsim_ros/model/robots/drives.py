@@ -38,7 +38,6 @@ class Drive(Checked, ABC):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    KIND: ClassVar[str]
     max_speed: Annotated[float, Within(0.0, FASTEST, 'm/s'), 'a command beyond it is cut off'] = (
         0.5
     )
@@ -63,10 +62,6 @@ class Drive(Checked, ABC):
         'on',
     ] = 0.2
     wheel_radius: Annotated[float, LENGTH, 'of its wheels'] = 0.03
-
-    def entry(self) -> dict[str, object]:
-        """Return the mapping that it is made from."""
-        return {'kind': self.KIND, **self.explicit()}
 
     @property
     @abstractmethod

@@ -7,10 +7,10 @@ A robot: a drive, odometry, sensors, and the namespace of its topics.
 Law: the topics of a robot have different names, which ROS allows.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 import re
-from typing import Annotated, Any, Self
+from typing import Annotated
 
 from physsim_ros.model.checks import pair, shown, Within
 from physsim_ros.model.declarations import Checked
@@ -45,10 +45,6 @@ class Odometry(Checked):
         'standard deviations of its drift, 0 .. 1: of the way after 1 m [m], of the heading after '
         '1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
     ] = (0.0, 0.0)
-
-    def entry(self) -> dict[str, object]:
-        """Return the mapping that it is made from."""
-        return {'rate': self.rate, 'slip': list(self.slip)}
 
 
 # Names of topics that every robot has.
@@ -125,18 +121,6 @@ class Robot(Checked):
             if topics.count(topic) > 1:
                 raise BadProperty(f'a robot has two topics {topic}', field='sensors')
 
-    @classmethod
-    def from_mapping(cls, mapping: Mapping[Any, Any]) -> Self:
-        """
-        Return the robot of a mapping; a shipped name is looked up before (`files.resources`).
-
-        :raises BadProperty: there is no drive; and as those of other values
-        """
-        cls.check_keys(mapping)
-        if 'drive' not in mapping:
-            raise BadProperty('a robot needs a drive', field='drive')
-        return cls(**mapping)
-
     @property
     def topics(self) -> int:
         """Return the number of its topics."""
@@ -158,11 +142,3 @@ class Robot(Checked):
         """
         names = [*OWN_TOPICS, *_OWN_FRAMES, *(sensor.name for sensor in self.sensors)]
         return [f'{namespace}/{name}' for name in names] if namespace else names
-
-    def entry(self) -> dict[str, object]:
-        """Return the mapping that it is made from."""
-        entry: dict[str, object] = {} if self.namespace is None else {'namespace': self.namespace}
-        entry |= {'drive': self.drive.entry(), 'odometry': self.odometry.entry()}
-        if self.sensors:
-            entry['sensors'] = [sensor.entry() for sensor in self.sensors]
-        return entry

@@ -4,18 +4,16 @@
 """
 The kinds of shapes: one class each, of validated values.
 
-Each has its key in world files, its entry there, and its form: convex pieces and mass properties.
+Each has its key in world files, and its form: convex pieces and mass properties.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass, field
 import itertools
-from typing import ClassVar, get_args, Self
+from typing import Annotated, Any, ClassVar, get_args, Self
 
 import numpy as np
-from physsim_ros.model.checks import number, OfClass, point_list
-from physsim_ros.model.declarations import known_mapping
+from physsim_ros.model.checks import OfClass, point_list
+from physsim_ros.model.declarations import Checked, known_mapping
 from physsim_ros.model.errors import BadOutline, BadProperty
 from physsim_ros.model.shapes.form import (
     Capsule,
@@ -43,56 +41,48 @@ from physsim_ros.model.shapes.validation import (
 from physsim_ros.model.transform import cross, Point
 
 
+def _points(value: Any, name: str) -> tuple[Point, ...]:
+    # Those of a file are told from numbers in texts.
+    points = point_list(value, name) if isinstance(value, list) else value
+    return as_tuples(checked_points(points, name))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Disc:
+class Disc(Checked):
     """
     A disc, about the body's position (Box2D and Pymunk: a circle).
 
-    :param radius: [m]
     :raises BadSize: the radius is out of range
     :raises Malformed: the radius is not finite
     """
 
     KEY: ClassVar = 'circle'
 
-    radius: float
+    radius: Annotated[float, checked_length, '[m]']
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, 'radius', checked_length(self.radius, 'radius'))
+        Checked.__post_init__(self)
         object.__setattr__(self, 'form', form_of((Circle((0.0, 0.0), self.radius),)))
-
-    @classmethod
-    def from_entry(cls, entry: object) -> Self:
-        """Return the disc of a world file's entry."""
-        known = known_mapping(entry, cls.KEY, ['radius'])
-        return cls(radius=number(known.get('radius'), 'radius'))
-
-    def entry(self) -> object:
-        """Return the entry of a world file."""
-        return {'radius': self.radius}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Box:
+class Box(Checked):
     """
     A rectangle about the body's position, its sides along the body's axes.
 
-    :param width: along x [m]
-    :param height: along y [m]
     :raises BadSize: a side is out of range
     :raises Malformed: a side is not finite
     """
 
     KEY: ClassVar = 'box'
 
-    width: float
-    height: float
+    width: Annotated[float, checked_length, 'along x [m]']
+    height: Annotated[float, checked_length, 'along y [m]']
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, 'width', checked_length(self.width, 'width'))
-        object.__setattr__(self, 'height', checked_length(self.height, 'height'))
+        Checked.__post_init__(self)
         object.__setattr__(self, 'form', form_of((Convex(self.corners()),)))
 
     def corners(self, center: Point = (0.0, 0.0)) -> tuple[Point, ...]:
@@ -106,24 +96,12 @@ class Box:
             (x - half_width, y + half_height),
         )
 
-    @classmethod
-    def from_entry(cls, entry: object) -> Self:
-        """Return the box of a world file's entry."""
-        known = known_mapping(entry, cls.KEY, ['width', 'height'])
-        width, height = (number(known.get(side), side) for side in ('width', 'height'))
-        return cls(width=width, height=height)
-
-    def entry(self) -> object:
-        """Return the entry of a world file."""
-        return {'width': self.width, 'height': self.height}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Polygon:
+class Polygon(Checked):
     """
     A solid with any simple outline.
 
-    :param outline: the vertices in order, either way round, the first not repeated [m]
     :raises BadOutline: it crosses or touches itself, encloses no area or has too many vertices
     :raises BadSize: it is too large or too thin
     :raises Malformed: a coordinate is not finite
@@ -131,21 +109,23 @@ class Polygon:
 
     KEY: ClassVar = 'polygon'
 
-    outline: tuple[Point, ...]
+    outline: Annotated[
+        tuple[Point, ...], _points, 'vertices in order, either way round, none repeated [m]'
+    ]
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        outline = distinct_points(checked_points(self.outline, 'outline'), closed=True)
-        object.__setattr__(self, 'outline', as_tuples(outline))
+        Checked.__post_init__(self)
+        object.__setattr__(self, 'outline', distinct_points(self.outline, closed=True))
         object.__setattr__(self, 'form', _form_of_outline(self.outline))
 
     @classmethod
-    def from_entry(cls, entry: object) -> Self:
-        """Return the polygon of a world file's entry."""
-        return cls(outline=point_list(entry, cls.KEY))
+    def from_value(cls, value: object, name: str) -> Self:
+        """Return the polygon of a list of points."""
+        return cls(outline=point_list(value, name))
 
-    def entry(self) -> object:
-        """Return the entry of a world file."""
+    def entry(self) -> Any:
+        """Return the list of its points."""
         return [list(point) for point in self.outline]
 
 
@@ -176,11 +156,10 @@ def _form_of_outline(points: tuple[Point, ...]) -> Form:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Triangles:
+class Triangles(Checked):
     """
     A solid made of triangles; where they overlap, the mass of both counts.
 
-    :param vertices: three for each triangle, either way round [m]
     :raises BadOutline: the count is no multiple of three, or too high, or a triangle is degenerate
     :raises BadSize: a triangle is too large or too thin
     :raises Malformed: a coordinate is not finite
@@ -188,37 +167,36 @@ class Triangles:
 
     KEY: ClassVar = 'triangles'
 
-    vertices: tuple[Point, ...]
+    vertices: Annotated[
+        tuple[Point, ...], _points, 'three for each triangle, either way round [m]'
+    ]
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        vertices = checked_points(self.vertices, 'vertices')
-        if len(vertices) == 0 or len(vertices) % 3:
+        Checked.__post_init__(self)
+        if not self.vertices or len(self.vertices) % 3:
             raise BadOutline('triangles need three points each', field='vertices')
-        object.__setattr__(self, 'vertices', as_tuples(vertices))
-        triangles = vertices.reshape(-1, 3, 2)
+        triangles = np.array(self.vertices).reshape(-1, 3, 2)
         turn = cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
         triangles = np.where((turn < 0)[:, None, None], triangles[:, ::-1], triangles)
         pieces = tuple(convex_piece(triangle) for triangle in triangles)
         object.__setattr__(self, 'form', form_of(pieces))
 
     @classmethod
-    def from_entry(cls, entry: object) -> Self:
-        """Return the triangles of a world file's entry."""
-        return cls(vertices=point_list(entry, cls.KEY))
+    def from_value(cls, value: object, name: str) -> Self:
+        """Return the triangles of a list of points."""
+        return cls(vertices=point_list(value, name))
 
-    def entry(self) -> object:
-        """Return the entry of a world file."""
+    def entry(self) -> Any:
+        """Return the list of its points."""
         return [list(vertex) for vertex in self.vertices]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Chain:
+class Chain(Checked):
     """
     A chain of segments with round ends, for walls and terrain (Box2D: a chain shape).
 
-    :param points: at least two, in order [m]
-    :param thickness: of the segments [m]
     :raises BadOutline: fewer than two different points, or too many
     :raises BadSize: the thickness is out of range
     :raises Malformed: a number is not finite
@@ -226,76 +204,60 @@ class Chain:
 
     KEY: ClassVar = 'chain'
 
-    points: tuple[Point, ...]
-    thickness: float
+    points: Annotated[tuple[Point, ...], _points, 'at least two, in order [m]']
+    thickness: Annotated[float, checked_length, 'of the segments [m]']
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, 'thickness', checked_length(self.thickness, 'thickness'))
-        distinct = distinct_points(checked_points(self.points, 'points'), closed=False)
-        if len(distinct) < 2:
+        Checked.__post_init__(self)
+        object.__setattr__(self, 'points', distinct_points(self.points, closed=False))
+        if len(self.points) < 2:
             raise BadOutline('a chain needs two different points', field='points')
-        object.__setattr__(self, 'points', as_tuples(distinct))
         pieces = tuple(
             Capsule(start, end, self.thickness / 2)
             for start, end in itertools.pairwise(self.points)
         )
         object.__setattr__(self, 'form', form_of(pieces))
 
-    @classmethod
-    def from_entry(cls, entry: object) -> Self:
-        """Return the chain of a world file's entry."""
-        known = known_mapping(entry, cls.KEY, ['points', 'thickness'])
-        thickness = number(known.get('thickness'), 'thickness')
-        return cls(points=point_list(known.get('points'), 'points'), thickness=thickness)
-
-    def entry(self) -> object:
-        """Return the entry of a world file."""
-        return {'points': [list(point) for point in self.points], 'thickness': self.thickness}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Compound:
+class Compound(Checked):
     """
     A compound: the same disc or box at several positions, not rotated, as one rigid body.
 
-    :param element: the disc or box
-    :param centers: its positions [m]
     :raises BadOutline: no centre, or too many
     :raises Malformed: a coordinate is not finite, or the element is something else
     """
 
     KEY: ClassVar = 'compound'
 
-    element: Disc | Box
-    centers: tuple[Point, ...]
+    element: Annotated[Disc | Box, OfClass(Disc | Box), 'the disc or box']
+    centers: Annotated[tuple[Point, ...], _points, 'its positions [m]']
     form: Form = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        OfClass(Disc | Box)(self.element, 'element')
-        centers = as_tuples(checked_points(self.centers, 'centers'))
-        if not centers:
+        Checked.__post_init__(self)
+        if not self.centers:
             raise BadOutline('a compound needs at least one element', field='centers')
-        object.__setattr__(self, 'centers', centers)
         pieces: tuple[Piece, ...]
         if isinstance(self.element, Disc):
-            pieces = tuple(Circle(center, self.element.radius) for center in centers)
+            pieces = tuple(Circle(center, self.element.radius) for center in self.centers)
         else:
-            pieces = tuple(Convex(self.element.corners(center)) for center in centers)
+            pieces = tuple(Convex(self.element.corners(center)) for center in self.centers)
         object.__setattr__(self, 'form', form_of(pieces))
 
     @classmethod
-    def from_entry(cls, entry: object) -> Self:
-        """Return the compound of a world file's entry."""
-        known = known_mapping(entry, cls.KEY, [Disc.KEY, Box.KEY, 'centers'])
+    def from_value(cls, value: object, name: str) -> Self:
+        """Return the compound of a mapping, in which its element has the key of that."""
+        known = known_mapping(value, name, [Disc.KEY, Box.KEY, 'centers'])
         named = [each for each in (Disc, Box) if each.KEY in known]
         if len(named) != 1:
             raise BadProperty(f'a compound has one of {Disc.KEY}, {Box.KEY}', field='shape')
-        element = named[0].from_entry(known[named[0].KEY])
+        element = named[0].from_value(known[named[0].KEY], named[0].KEY)
         return cls(element=element, centers=point_list(known.get('centers'), 'centers'))
 
-    def entry(self) -> object:
-        """Return the entry of a world file."""
+    def entry(self) -> Any:
+        """Return the mapping of its element, by the key of that, and of its centres."""
         centers = [list(center) for center in self.centers]
         return {self.element.KEY: self.element.entry(), 'centers': centers}
 

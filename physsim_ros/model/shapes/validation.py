@@ -72,21 +72,20 @@ def checked_points(points: Sequence[Point], name: str) -> Floats:
     return array + 0.0
 
 
-def distinct_points(points: Floats, *, closed: bool) -> Floats:
+def distinct_points(points: tuple[Point, ...], *, closed: bool) -> tuple[Point, ...]:
     """
     Return points without those that coincide with the one before them.
 
-    :param points: (n, 2) float64 [m]
+    :param points: [m]
     :param closed: whether the first point follows the last one
     """
-    kept: list[int] = []
-    pairs = points.tolist()
-    for at, pair in enumerate(pairs):
-        if not kept or math.dist(pair, pairs[kept[-1]]) > COINCIDENT:
-            kept.append(at)
-    while closed and len(kept) > 1 and math.dist(pairs[kept[0]], pairs[kept[-1]]) <= COINCIDENT:
+    kept: list[Point] = []
+    for point in points:
+        if not kept or math.dist(point, kept[-1]) > COINCIDENT:
+            kept.append(point)
+    while closed and len(kept) > 1 and math.dist(kept[0], kept[-1]) <= COINCIDENT:
         kept.pop()
-    return points[kept]
+    return tuple(kept)
 
 
 def as_tuples(points: Floats) -> tuple[Point, ...]:

@@ -15,13 +15,7 @@ from dataclasses import dataclass
 import struct
 
 import numpy as np
-from physsim_ros.appearance import (
-    joint_strips,
-    JointColors,
-    JointLines,
-    segment_corners,
-    symbol_sizes,
-)
+from physsim_ros.appearance import JointGlyphs, segment_corners
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
@@ -75,7 +69,9 @@ class MarkersEncoder:
         self._until = -1
         self._count = 0
         self._joint_columns: _JointColumns | None = None
-        self._joints: dict[str, tuple[tuple[Joint, float], tuple[_MarkerBytes, _MarkerBytes]]] = {}
+        self._joints: dict[
+            str, tuple[tuple[Joint, float, int], tuple[_MarkerBytes, _MarkerBytes]]
+        ] = {}
 
     def encode(self, frame: Frame) -> bytes:
         """Return the serialised message of a frame."""
@@ -100,7 +96,9 @@ class MarkersEncoder:
         if hands:
             markers.append((-1, self._serialise(hands_symbol(hands))))
         before = len(markers)
-        joints = [(-1, marker) for pair in self._joint_markers(scene) for marker in pair]
+        glyphs = JointGlyphs(scene) if scene.joints else None
+        pairs = () if glyphs is None else self._joint_markers(glyphs)
+        joints = [(-1, marker) for pair in pairs for marker in pair]
         markers += joints
         shown = dict.fromkeys(marker.key for _, marker in markers)
         until = self._count + DELETE_REPEATS
@@ -136,7 +134,8 @@ class MarkersEncoder:
         writer.poses = [offset for offset, row in zip(offsets, rows, strict=True) if row >= 0]
         self._template = MessageTemplate(writer)
         last = before + len(joints)
-        self._joint_columns = _JointColumns(scene, offsets[before:last]) if joints else None
+        starts = offsets[before:last]
+        self._joint_columns = None if glyphs is None else _JointColumns(glyphs, starts)
         self._hands, self._hands_at = (
             hands,
             (offsets[before - 1] + _POSED.size) // 8 if hands else 0,
@@ -159,17 +158,15 @@ class MarkersEncoder:
             markers.append((-1, self._serialise(wall_symbol(scene.settings.bounds))))
         return markers
 
-    def _joint_markers(self, scene: Scene) -> list[tuple[_MarkerBytes, _MarkerBytes]]:
+    def _joint_markers(self, glyphs: JointGlyphs) -> list[_JointMarkers]:
         """Return the markers of each joint: its points, and its lines."""
         joints = {}
-        sizes = symbol_sizes(scene) if scene.joints else ()
-        for joint, size in zip(scene.joints, sizes, strict=True):
+        counts = glyphs.segment_ends.tolist()
+        for joint, *look in zip(glyphs.scene.joints, glyphs.sizes, counts, strict=True):
             known = self._joints.get(joint.name)
-            if known is None or known[0] != (joint, size):
-                strips = joint_strips(joint, size)
-                corners = len(segment_corners([len(strip) for strip in strips]))
-                points, lines = joint_symbols(joint, size, corners)
-                known = (joint, size), (self._serialise(points), self._serialise(lines))
+            if known is None or known[0] != (joint, *look):
+                points, lines = joint_symbols(joint, *look)
+                known = (joint, *look), (self._serialise(points), self._serialise(lines))
             joints[joint.name] = known
         self._joints = joints
         return [markers for _, markers in joints.values()]
@@ -214,20 +211,21 @@ class _MarkerBytes:
     size_of_rest: int
 
 
+# Of the points of a joint, and of its lines.
+_JointMarkers = tuple[_MarkerBytes, _MarkerBytes]
+
+
 class _JointColumns:
     """
     The offsets of the points and colours of joints in a message.
 
-    :param scene: with the joints
+    :param glyphs: of the joints
     :param starts: offsets of the poses of their markers [bytes], two for each joint
     """
 
-    def __init__(self, scene: Scene, starts: Sequence[int]) -> None:
-        glyphs = map(joint_strips, scene.joints, symbol_sizes(scene))
-        self._lines = JointLines(scene, list(glyphs))
-        self._colors = JointColors(scene)
-        self._corners = segment_corners(self._lines.lengths.tolist())
-        counts = np.bincount(self._lines.owner, 2 * self._lines.lengths - 2)
+    def __init__(self, glyphs: JointGlyphs, starts: Sequence[int]) -> None:
+        scene, self._glyphs = glyphs.scene, glyphs
+        self._corners = segment_corners(glyphs.lengths.tolist())
         offsets: list[int] = []
         # Of the points of the joints: number of the joint, and 0 for its first point, 1 for its
         # second.
@@ -236,9 +234,9 @@ class _JointColumns:
             first = (starts[2 * number] + _POSED.size) // 8
             offsets += (first + 3 * each for each in range(joint.kind.points))
             points += ((number, each) for each in range(joint.kind.points))
-        for number, count in enumerate(counts.tolist()):
+        for number, count in enumerate(glyphs.segment_ends.tolist()):
             first = (starts[2 * number + 1] + _POSED.size) // 8
-            offsets += (first + 3 * each for each in range(int(count)))
+            offsets += (first + 3 * each for each in range(count))
         self._offsets = np.array(offsets, np.intp)
         self._points = tuple(np.array(points, np.intp).T)
         self._color_offsets = (np.array(starts, np.intp) + _COLORED) // 4
@@ -253,11 +251,11 @@ class _JointColumns:
         if len(self._sliders):
             ends = ends.copy()
             ends[self._sliders, 1] = ends[self._sliders, 0] + self._slider_axes(snapshot)
-        corners = self._lines.corners(snapshot.poses)[self._corners]
+        corners = self._glyphs.corners(snapshot.poses)[self._corners]
         points = np.concatenate((ends[self._points], corners))
         template.doubles[self._offsets] = points[:, 0]
         template.doubles[self._offsets + 1] = points[:, 1]
-        colors = np.repeat(self._colors.at(snapshot), 2, axis=0)
+        colors = np.repeat(self._glyphs.colors(snapshot), 2, axis=0)
         for channel in range(4):
             template.floats[self._color_offsets + channel] = colors[:, channel]
 

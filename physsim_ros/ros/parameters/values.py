@@ -47,7 +47,8 @@ def declare(node: Node) -> dict[str, Any]:
             given = Parameter(name, Type.BYTE_ARRAY, [])
         parameter = _converted(given)
         check(parameter)
-        node.set_parameters([parameter])
+        if parameter is not given:
+            node.set_parameters([parameter])
         node.set_descriptor(name, spec.descriptor)
         values[name] = list(parameter.value) if isinstance(spec.default, list) else parameter.value
     world_settings(values)

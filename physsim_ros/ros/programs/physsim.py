@@ -175,7 +175,7 @@ def main() -> None:
     executor = EventsExecutor()
     try:
         executor.add_node(node)
-        node.on_quit = partial(signal.raise_signal, signal.SIGTERM)
+        node.control.on_quit = partial(signal.raise_signal, signal.SIGTERM)
         node.start()
         # Objects that exist now live until the end: the garbage collector skips them.
         gc.collect()

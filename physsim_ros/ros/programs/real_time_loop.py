@@ -97,9 +97,9 @@ class _Mark:
             self._queued = now
             self._executor.create_task(self._reach)
         else:
-            self._node.message_delay = (now - self._queued) * 1e-9
+            self._node.diagnostics.message_delay = (now - self._queued) * 1e-9
 
     def _reach(self) -> None:
         if self._queued is not None:
-            self._node.message_delay = (time.monotonic_ns() - self._queued) * 1e-9
+            self._node.diagnostics.message_delay = (time.monotonic_ns() - self._queued) * 1e-9
         self._queued = None

@@ -22,12 +22,12 @@ from nav_msgs.msg import OccupancyGrid
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
 from physsim_ros.model.timeline import TimelineStatus
-from physsim_ros.ros.encoders.map import MapEncoder
 from physsim_ros.ros.encoders.markers import MarkersEncoder
 from physsim_ros.ros.encoders.preview import preview_message
 from physsim_ros.ros.encoders.streams import (
     ClockEncoder,
     ContactsEncoder,
+    MapEncoder,
     PosesEncoder,
     StatesEncoder,
     TransformsEncoder,

@@ -6,5 +6,5 @@ Requests from the graph: topics and services, and their messages as requests of 
 
 Law: a message is validated here, a request where it is applied. Not here: what a request does
 (`simulation`), answers (`ros.publishers`). Start with `request_topics`; a message goes through
-`decoding` and `conversions`.
+`conversions`.
 """

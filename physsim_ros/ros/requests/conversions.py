@@ -10,11 +10,11 @@ stamps are ignored.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 import math
 from typing import Any, TypeVar
 
-from geometry_msgs.msg import PointStamped
+from geometry_msgs.msg import PointStamped, Quaternion
 from nav_msgs.msg import OccupancyGrid, Path
 import numpy as np
 from physsim_ros.files import load_mapping, PROPERTIES, with_shipped_robot
@@ -46,12 +46,13 @@ from physsim_ros.model.requests import (
     Spawn,
     Unjoin,
     UnjoinAll,
+    without_unset,
 )
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.texts import property_meant
 from physsim_ros.model.transform import Pose
 from physsim_ros.ros.marker_shapes import points_from, shape_from
-from physsim_ros.ros.requests.decoding import CommandMessage
+from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
 # The namespaces of markers with an empty one.
@@ -70,9 +71,6 @@ WALLS, MOST_WALLS = 'walls', 20_000
 # Occupancy from which on a cell is a wall [percent], as map_server's `occupied_thresh` is.
 OCCUPIED = 65
 
-# Columns of twists and wrenches of the plane: x, y, about z.
-_PLANAR = [0, 1, 5]
-
 _AtPoint = TypeVar('_AtPoint', bound=AtPoint)
 
 
@@ -86,7 +84,7 @@ def joint_name_of(marker: Marker) -> str:
     return f'{marker.ns.removeprefix(JOINT_PREFIX) or JOINT_NAMESPACE}/{marker.id}'
 
 
-def subject_of(message: Marker | PointStamped | CommandMessage, *, joint: bool = False) -> str:
+def subject_of(message: Any, *, joint: bool = False) -> str:
     """Return the one body, or with `joint` the joint, that a message names, or ''."""
     if isinstance(message, Marker):
         return joint_name_of(message) if joint else name_of(message)
@@ -108,6 +106,7 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         return DeleteAll(namespace=marker.ns or None)
     if marker.action != Marker.ADD:
         raise BadProperty(f'there is no action {marker.action}', field='action')
+    properties, unset = _properties(marker)
     return Spawn(
         name=name_of(marker),
         shape=shape_from(marker),
@@ -115,15 +114,16 @@ def body_request(marker: Marker, *, frame_id: str) -> Spawn | Delete | DeleteAll
         frame=named_frame(marker.header.frame_id, frame_id),
         color=_color(marker),
         lifetime=marker.lifetime.sec + marker.lifetime.nanosec * 1e-9,
-        properties=_properties(marker),
+        properties=properties,
+        unset=unset,
     )
 
 
-def _properties(marker: Marker) -> Properties:
-    """Return the properties in the text of a marker, or those of a note of that text."""
+def _properties(marker: Marker) -> tuple[Properties, tuple[str, ...]]:
+    """Return the properties that the text of a marker sets and unsets, or those of a note."""
     if marker.type == Marker.TEXT_VIEW_FACING:
-        return Properties(anchored=True, sensor=True, label=marker.text)
-    mapping = mapping_of(marker.text, 'text')
+        return Properties(anchored=True, sensor=True, label=marker.text), ()
+    mapping, unset = without_unset(mapping_of(marker.text, 'text'), Properties)
     for key in mapping:
         word = str(key)
         if word in _FIELDS or property_meant(word, _FIELDS):
@@ -132,7 +132,7 @@ def _properties(marker: Marker) -> Properties:
                 'lifetime as fields',
                 field=word,
             )
-    return Properties.from_mapping(with_shipped_robot(mapping, PROPERTIES))
+    return Properties.from_mapping(with_shipped_robot(mapping, PROPERTIES)), unset
 
 
 def joint_request(marker: Marker, *, frame_id: str) -> Join | Unjoin | UnjoinAll:
@@ -197,25 +197,28 @@ def hand_request(
     raise BadProperty(f'a hand has no event_type {feedback.event_type}', field='event_type')
 
 
-def command_request(message: CommandMessage, *, frame_id: str) -> Command:
+def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
     """
     Return the request with the poses, twists and wrenches of a message.
 
     :raises Malformed: the lengths differ, or a number is not finite
     :raises NotPlanar: a rotation is not about z
     """
-    poses = message.transforms[:, :3].copy()
-    if len(poses) == len(message.joint_names):
-        # Another number of poses is refused by `Command`.
-        rotations = message.transforms[:, 3:].tolist()
-        poses[:, 2] = [_yaw(rotation, 'transforms') for rotation in rotations]
     return Command(
-        names=message.joint_names,
-        poses=poses,
-        twists=message.twist[:, _PLANAR],
-        wrenches=message.wrench[:, _PLANAR],
-        frame=named_frame(message.frame_id, frame_id),
+        names=tuple(message.joint_names),
+        poses=_rows(
+            (each.translation.x, each.translation.y, _yaw_of(each.rotation, 'transforms'))
+            for each in message.transforms
+        ),
+        twists=_rows((each.linear.x, each.linear.y, each.angular.z) for each in message.twist),
+        wrenches=_rows((each.force.x, each.force.y, each.torque.z) for each in message.wrench),
+        frame=named_frame(message.header.frame_id, frame_id),
     )
+
+
+def _rows(rows: Iterable[tuple[float, float, float]]) -> Floats:
+    """Return rows of three numbers as an array, (n, 3) float64."""
+    return np.array([*rows], dtype=np.float64).reshape(-1, 3)
 
 
 def stroke_samples(path: Path) -> tuple[str, Floats, float | None]:
@@ -266,8 +269,8 @@ def walls_requests(message: OccupancyGrid, *, frame_id: str) -> tuple[DeleteAll 
         raise Malformed(
             f'data has {len(cells)} cells, not {info.width} times {info.height}', field='data'
         )
-    position, turn = info.origin.position, info.origin.orientation
-    yaw = _yaw((turn.x, turn.y, turn.z, turn.w), 'info.origin.orientation')
+    position = info.origin.position
+    yaw = _yaw_of(info.origin.orientation, 'info.origin.orientation')
     grid = Grid(
         occupied=cells.reshape(info.height, info.width) >= OCCUPIED,
         resolution=float(info.resolution),
@@ -294,8 +297,7 @@ def planar_pose(pose: Any, field: str) -> Pose:
     :raises Malformed: the rotation is not finite
     :raises NotPlanar: it is not about z
     """
-    turn = pose.orientation
-    yaw = _yaw((turn.x, turn.y, turn.z, turn.w), f'{field}.orientation')
+    yaw = _yaw_of(pose.orientation, f'{field}.orientation')
     return pose.position.x, pose.position.y, yaw
 
 
@@ -311,12 +313,15 @@ def mapping_of(text: str, field: str) -> dict[Any, Any]:
     return load_mapping(text, field=field)
 
 
-def _yaw(parts: Sequence[float], field: str) -> float:
+def _yaw_of(rotation: Quaternion, field: str) -> float:
     """
     Return the yaw of a rotation [rad]; all zero is the identity, as RViz reads it.
 
-    :param parts: of its quaternion: x, y, z, w
+    :param field: of the message, for the refusal
+    :raises Malformed: it is not finite
+    :raises NotPlanar: it is not about z
     """
+    parts = rotation.x, rotation.y, rotation.z, rotation.w
     if not all(map(math.isfinite, parts)):
         raise Malformed(f'{field} is not finite', field=field)
     largest = max(map(abs, parts))

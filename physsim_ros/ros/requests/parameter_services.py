@@ -43,9 +43,6 @@ _TYPES = {each.value for each in Type}
 MOST_PARAMETERS = 100
 _READING = (DescribeParameters, GetParameters, GetParameterTypes, ListParameters)
 
-# Sets parameters, or refuses all, and returns the answers.
-_Fill = Callable[[Refusal | None], list[Answer]]
-
 
 class ParameterServices(ParameterService):
     """
@@ -70,55 +67,44 @@ class ParameterServices(ParameterService):
     def _set_parameters_callback(
         self, request: SetParameters.Request, response: SetParameters.Response
     ) -> Future:
-        set_each = super()._set_parameters_callback
-
-        def fill(refusal: Refusal | None) -> list[Answer]:
-            if refusal is not None:
-                response.results = [_refused(refusal)] * len(request.parameters)
-                return [Answer.refused(refusal, topic=_TOPIC)]
-            set_each(request, response)
-            return self._answers(request.parameters, response.results)
-
-        return self._add_call(request.parameters, response, fill)
+        return self._add_call(super()._set_parameters_callback, request, response)
 
     def _set_parameters_atomically_callback(
         self,
         request: SetParametersAtomically.Request,
         response: SetParametersAtomically.Response,
     ) -> Future:
-        set_all = super()._set_parameters_atomically_callback
-
-        def fill(refusal: Refusal | None) -> list[Answer]:
-            if refusal is not None:
-                response.result = _refused(refusal)
-                return [Answer.refused(refusal, topic=_TOPIC)]
-            set_all(request, response)
-            results = [response.result] * len(request.parameters)
-            return self._answers(request.parameters, results)
-
-        return self._add_call(request.parameters, response, fill)
+        return self._add_call(super()._set_parameters_atomically_callback, request, response)
 
     def _add_call(
-        self, messages: Sequence[ParameterMessage], response: Any, fill: _Fill
+        self, set_parameters: Callable[..., object], request: Any, response: Any
     ) -> Future:
-        if len(messages) > MOST_PARAMETERS:
-            refusal = Malformed(f'a call sets at most {MOST_PARAMETERS} parameters')
-            return self._calls.add(_TOPIC, response, lambda _: fill(refusal), Wait.BEHIND_REQUESTS)
+        """Set parameters in the turn of the call; return the future of the response."""
+        messages: Sequence[ParameterMessage] = request.parameters
+        too_many = len(messages) > MOST_PARAMETERS
+
+        def fill(refusal: Refusal | None) -> list[Answer]:
+            if too_many:
+                refusal = Malformed(f'a call sets at most {MOST_PARAMETERS} parameters')
+            if refusal is None:
+                set_parameters(request, response)
+                results = _results_of(response, len(messages))
+                return [self._answer(*each) for each in zip(messages, results, strict=True)]
+            result = SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
+            if isinstance(response, SetParameters.Response):
+                response.results = [result] * len(messages)
+            else:
+                response.result = result
+            return [Answer.refused(refusal, topic=_TOPIC)]
+
         _replace_unknown_types(messages)
         changes_world = any(each.name in WorldSettings.FIELDS for each in messages)
-        wait = Wait.FOR_SEEK if changes_world else Wait.BEHIND_REQUESTS
+        wait = Wait.FOR_SEEK if changes_world and not too_many else Wait.BEHIND_REQUESTS
         return self._calls.add(_TOPIC, response, fill, wait)
 
-    def _answers(
-        self, messages: Iterable[ParameterMessage], results: Iterable[SetParametersResult]
-    ) -> list[Answer]:
-        return [
-            self._answer(message.name, result)
-            for message, result in zip(messages, results, strict=True)
-        ]
-
-    def _answer(self, name: str, result: SetParametersResult) -> Answer:
+    def _answer(self, message: ParameterMessage, result: SetParametersResult) -> Answer:
         """Return the result for one parameter as an answer, whose message is its reason, too."""
+        name = message.name
         if result.successful:
             result.reason = f'{name} is {shown(self._get_node().get_parameter(name).value)}'
             return Answer(topic=_TOPIC, message=result.reason)
@@ -141,8 +127,12 @@ def _read_bounded(read: Callable[[Any, Any], Any], request: Any, response: Any) 
     return response if len(names) > MOST_PARAMETERS else read(request, response)
 
 
-def _refused(refusal: Refusal) -> SetParametersResult:
-    return SetParametersResult(successful=False, reason=f'{refusal.code}: {refusal}')
+def _results_of(response: Any, count: int) -> Sequence[SetParametersResult]:
+    """Return the result for each of the parameters of a call."""
+    if isinstance(response, SetParameters.Response):
+        results: Sequence[SetParametersResult] = response.results
+        return results
+    return [response.result] * count
 
 
 def _replace_unknown_types(messages: Iterable[ParameterMessage]) -> None:

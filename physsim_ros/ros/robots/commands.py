@@ -6,7 +6,7 @@ Commands of a robot: `cmd_vel`, as `Twist`, as `TwistStamped`, or of a car as Ac
 
 The type is that of the publisher, as the graph has it. A process takes one type for a topic: where
 it has other nodes, nothing is subscribed to before a publisher is there. Of what comes between two
-frames the last one counts, and only that is decoded: a flood costs no more than its bytes.
+frames the last one counts.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Car, Drive
 from physsim_ros.model.transform import REST
 from physsim_ros.model.transform import Twist as Velocity
-from physsim_ros.ros.requests.decoding import CdrReader, Truncated
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
+from rclpy.time import Time
 
 # By their names on the graph.
 _TYPES = {'geometry_msgs/msg/Twist': Twist, 'geometry_msgs/msg/TwistStamped': TwistStamped}
@@ -228,8 +228,9 @@ class Commands:
     def _receive(self, kind: type, data: bytes) -> None:
         self._last = kind, data
         if kind is not Twist:
-            with suppress(Truncated):
-                stamp = CdrReader(data).stamp()
+            with suppress(rclpy_implementation.RMWError):
+                message: Any = deserialize_message(data, kind)
+                stamp = Time.from_msg(message.header.stamp).nanoseconds
                 self._unstamped = stamp == 0
                 if self.awaited is not None and stamp >= self.awaited:
                     self.awaited = None

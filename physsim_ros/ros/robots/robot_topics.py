@@ -11,8 +11,9 @@ subscribes; a topic that ROS refuses, as another type has it, is refused, and th
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 import math
-from typing import Any, TypeGuard
+from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
@@ -22,7 +23,6 @@ from physsim_ros.model.robots import Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body
 from physsim_ros.ros.robots.commands import Commands
-from physsim_ros.ros.robots.description import urdf_of
 from physsim_ros.ros.robots.frames import (
     BASE,
     FOOTPRINT,
@@ -31,6 +31,7 @@ from physsim_ros.ros.robots.frames import (
     RobotTf,
     TF_DEPTH,
     tf_message_type,
+    urdf_of,
 )
 from physsim_ros.ros.robots.messages import odometry_message, READINGS, StampedView
 from physsim_ros.sensing import is_due, true_motion
@@ -39,6 +40,30 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
+
+
+class _Topic(NamedTuple):
+    """
+    A topic of a robot that is published at frames, while it is heard.
+
+    :ivar publisher: of the topic
+    :ivar message: makes its message, of a view, the row of the robot's body in the scene, and the
+        number of the robot among those of the scene
+    :ivar name: that sets the moments of its rate
+    :ivar rate: [Hz]; None is each frame
+    :ivar sensor: whose reading it is; None for other topics
+    """
+
+    publisher: Publisher
+    message: Callable[[StampedView, int, int], Any]
+    name: str
+    rate: float | None = None
+    sensor: Sensor | None = None
+
+    @property
+    def is_heard(self) -> bool:
+        """Whether it has subscribers."""
+        return self.publisher.get_subscription_count() > 0
 
 
 class RobotTopics:
@@ -76,33 +101,44 @@ class RobotTopics:
         root = node.get_namespace().rstrip('/')
         self._below = f'{root}/{namespace}/' if namespace else f'{root}/'
         self._publishers: list[Publisher] = []
-        self._odometry = self._publisher(Odometry, 'odom')
-        self._truth = self._publisher(Odometry, 'ground_truth')
-        self._sensors = [
-            (sensor, self._publisher(READINGS[type(sensor)].kind, sensor.name))
-            for sensor in robot.sensors
-        ]
-        durability = DurabilityPolicy.TRANSIENT_LOCAL
+        self._topics: list[_Topic] = []
+        latched = DurabilityPolicy.TRANSIENT_LOCAL
+        kind = None if robot_tf is RobotTf.NONE else tf_message_type()
+        if kind is not None:
+            below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
+            # Before the readings, which are looked up in it by their stamps.
+            self._add(kind, 'tf', partial(self._transforms, kind), below=below, depth=TF_DEPTH)
+            fixed = self._publisher(kind, 'tf_static', below=below, durability=latched)
+            if fixed is not None:
+                fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
+        self._add(Odometry, 'ground_truth', self.truth)
+        self._add(Odometry, 'odom', self.odometry, rate=robot.odometry.rate)
+        for sensor in robot.sensors:
+            kind = READINGS[type(sensor)].kind
+            message = partial(self.reading, sensor)
+            self._add(kind, sensor.name, message, rate=sensor.rate, sensor=sensor)
         self._description = self._publisher(
-            String, 'robot_description', depth=1, durability=durability
+            String, 'robot_description', depth=1, durability=latched
         )
         # Colour and shape of the last description.
         self._described: object = None
         topic = f'{self._below}cmd_vel'
         self.commands = Commands(node, topic, body, robot.drive, refuse, expected=expected)
-        self._tf: Publisher | None = None
-        self._tf_message: Any = None if robot_tf is RobotTf.NONE else tf_message_type()
-        if (kind := self._tf_message) is not None:
-            below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
-            self._tf = self._publisher(kind, 'tf', below=below, depth=TF_DEPTH)
-            fixed = self._publisher(
-                kind,
-                'tf_static',
-                below=below,
-                durability=durability,
-            )
-            if fixed is not None:
-                fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
+
+    def _add(
+        self,
+        kind: type,
+        name: str,
+        message: Callable[[StampedView, int, int], Any],
+        *,
+        rate: float | None = None,
+        sensor: Sensor | None = None,
+        **options: Any,
+    ) -> None:
+        """Add a topic to those that are published at frames, unless ROS refuses it."""
+        publisher = self._publisher(kind, name, **options)
+        if publisher is not None:
+            self._topics.append(_Topic(publisher, message, name, rate, sensor))
 
     def _publisher(
         self,
@@ -136,14 +172,11 @@ class RobotTopics:
     @property
     def has_subscribers(self) -> bool:
         """Whether one of its topics has subscribers."""
-        return any(map(_is_heard, self._publishers))
+        return any(each.get_subscription_count() for each in self._publishers)
 
     def wants_contacts(self) -> bool:
         """Return whether a bumper has subscribers."""
-        return any(
-            isinstance(sensor, Bumper) and _is_heard(publisher)
-            for sensor, publisher in self._sensors
-        )
+        return any(isinstance(each.sensor, Bumper) and each.is_heard for each in self._topics)
 
     def publish(self, view: StampedView, row: int, number: int) -> bool:
         """
@@ -155,23 +188,18 @@ class RobotTopics:
         :return: whether a scan is among it
         """
         scanned = False
-        # Before the readings, which are looked up in it by their stamps.
-        if _is_heard(self._tf):
-            odometry = view.snapshot.robots.odometry[number].tolist()
-            moving = self._frames.moving(view.stamp, tuple(odometry))
-            self._tf.publish(self._tf_message(transforms=[moving]))
-        if _is_heard(self._truth):
-            self._truth.publish(self.truth(view, row))
-        odometry = self.robot.odometry
-        if _is_heard(self._odometry) and self._is_due('odom', odometry.rate, view):
-            self._odometry.publish(self.odometry(view, number))
-        for sensor, publisher in self._sensors:
-            if _is_heard(publisher) and self._is_due(sensor.name, sensor.rate, view):
-                publisher.publish(self.reading(view, row, sensor))
-                scanned |= isinstance(sensor, Laser)
+        for topic in self._topics:
+            if topic.is_heard and self._is_due(topic, view):
+                topic.publisher.publish(topic.message(view, row, number))
+                scanned |= isinstance(topic.sensor, Laser)
         return scanned
 
-    def odometry(self, view: StampedView, number: int) -> Odometry:
+    def _transforms(self, kind: type, view: StampedView, _: int, number: int) -> Any:
+        """Return the message of the transform that moves."""
+        odometry = tuple(view.snapshot.robots.odometry[number].tolist())
+        return kind(transforms=[self._frames.moving(view.stamp, odometry)])
+
+    def odometry(self, view: StampedView, _: int, number: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
         states = view.snapshot.robots
         ahead, aside, turn = states.wheels[number].tolist()
@@ -194,7 +222,7 @@ class RobotTopics:
             ),
         )
 
-    def truth(self, view: StampedView, row: int) -> Odometry:
+    def truth(self, view: StampedView, row: int, _: int = 0) -> Odometry:
         """Return where the robot is, and how it moves."""
         return odometry_message(
             view,
@@ -204,7 +232,7 @@ class RobotTopics:
             covariances=(SPAWNED.covariance, SPAWNED.covariance),
         )
 
-    def reading(self, view: StampedView, row: int, sensor: Sensor) -> Any:
+    def reading(self, sensor: Sensor, view: StampedView, row: int, _: int = 0) -> Any:
         """Return the message of a sensor of it."""
         reading = READINGS[type(sensor)]
         message = reading.message(view, row, sensor)
@@ -219,16 +247,11 @@ class RobotTopics:
         for publisher in self._publishers:
             self._node.destroy_publisher(publisher)
 
-    def _is_due(self, name: str, rate: float, view: StampedView) -> bool:
-        """Return whether what has a rate [Hz] reads at a frame, a past one as before."""
+    def _is_due(self, topic: _Topic, view: StampedView) -> bool:
+        """Return whether a topic is published at a frame, at a past one as before."""
         now, before = view.snapshot.stamp, view.before
-        if before is None:
+        if topic.rate is None or before is None:
             return True
         # In a rewind, the frame before is a later one: the period that counts ends with this one.
         period = abs(now - before.stamp)
-        return is_due(f'{self.body}|{name}', rate, now - period, now)
-
-
-def _is_heard(publisher: Publisher | None) -> TypeGuard[Publisher]:
-    """Return whether a topic is there and has subscribers."""
-    return publisher is not None and publisher.get_subscription_count() > 0
+        return is_due(f'{self.body}|{topic.name}', topic.rate, now - period, now)

@@ -14,14 +14,14 @@ from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from physsim_ros.ros.node_control import NodeControl
     from physsim_ros.ros.requests.services import ServiceCalls
-    from physsim_ros.sketchpad import WorldControl
     from rclpy.node import Node
 
 __all__ = ['create_simulation_services']
 
 
-def create_simulation_services(node: Node, control: WorldControl, calls: ServiceCalls) -> None:
+def create_simulation_services(node: Node, control: NodeControl, calls: ServiceCalls) -> None:
     """
     Offer the services below `~/simulation/`, if their package is installed.
 

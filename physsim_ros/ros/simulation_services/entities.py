@@ -22,10 +22,10 @@ from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import extent_of
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, Pose, REST
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.requests.conversions import named_frame, planar_pose
 from physsim_ros.ros.robots.frames import rotation_of
 from physsim_ros.ros.simulation_services.results import box_around, failed, failing_with
-from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import (
     Bounds,
     EntityCategory,
@@ -45,7 +45,7 @@ class Entities:
     :param control: of the node
     """
 
-    def __init__(self, control: WorldControl) -> None:
+    def __init__(self, control: NodeControl) -> None:
         self._control = control
         self._frame_id = str(control.values['frame_id'])
 

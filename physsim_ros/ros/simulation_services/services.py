@@ -11,15 +11,14 @@ from typing import Any
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
-from physsim_ros.ros.simulation_services.named_poses import NamedPoses
 from physsim_ros.ros.simulation_services.results import Failed, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
-from physsim_ros.ros.simulation_services.worlds import Worlds
+from physsim_ros.ros.simulation_services.worlds import NamedPoses, Worlds
 from physsim_ros.simulation.request_queue import Wait
-from physsim_ros.sketchpad import WorldControl
 from rclpy.action import ActionServer
 from rclpy.node import Node
 from rclpy.task import Future
@@ -40,7 +39,7 @@ class SimulationServices:
     :param calls: of services
     """
 
-    def __init__(self, node: Node, control: WorldControl, calls: ServiceCalls) -> None:
+    def __init__(self, node: Node, control: NodeControl, calls: ServiceCalls) -> None:
         self._control = control
         self._calls = calls
         entities, places, worlds = Entities(control), NamedPoses(control), Worlds(control)

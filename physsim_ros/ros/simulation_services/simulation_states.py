@@ -14,9 +14,9 @@ from typing import Any
 
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteBodies, Restore
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.simulation_services.results import failed
 from physsim_ros.ros.simulation_services.worlds import Worlds
-from physsim_ros.sketchpad import WorldControl
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
 
@@ -79,7 +79,7 @@ class SimulationStates:
     :param worlds: of the services
     """
 
-    def __init__(self, control: WorldControl, worlds: Worlds) -> None:
+    def __init__(self, control: NodeControl, worlds: Worlds) -> None:
         self._control = control
         self._worlds = worlds
         self._quits = False
@@ -188,8 +188,7 @@ class SimulationStates:
         )
 
     def _perform(self, service: str) -> str:
-        perform, _ = self._control.services[service]
-        return perform()
+        return self._control.services[service].perform()
 
     @property
     def _state(self) -> int:

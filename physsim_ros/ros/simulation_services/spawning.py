@@ -11,7 +11,7 @@ one gesture, which `undo` reverts.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import count
 import re
 from typing import Any
@@ -22,6 +22,7 @@ from physsim_ros.model.names import check_body_name
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.robots.robot import check_namespace
 from physsim_ros.model.texts import counted
+from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.requests.conversions import mapping_of, named_frame, planar_pose
 from physsim_ros.ros.simulation_services.results import (
     box_around,
@@ -31,8 +32,7 @@ from physsim_ros.ros.simulation_services.results import (
     result_of,
 )
 from physsim_ros.ros.simulation_services.worlds import unknown_sources, Worlds
-from physsim_ros.sketchpad import WorldControl
-from simulation_interfaces.msg import Result, Spawnable, SpawnResult
+from simulation_interfaces.msg import Resource, Result, Spawnable, SpawnEntity, SpawnResult
 from simulation_interfaces.srv import SpawnEntities
 
 # Entities of one call: a tenth of a second on a laptop. Meanwhile nothing else is done.
@@ -47,27 +47,6 @@ _SHAPES: dict[str, Mapping[str, Any]] = {
 _FOREIGN = ('.sdf', '.urdf', '.xacro', '.usd', '.usda', '.mjcf', '.xml', '.dae', '.stl')
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Wanted:
-    """
-    A body that is to be spawned.
-
-    :param name: of the body; '' is that of the entry
-    :param allow_renaming: whether it gets another name where that one is taken or invalid
-    :param uri: name of a spawnable
-    :param text: an entry of a world file, where there is no uri
-    :param namespace: of the topics of a robot
-    :param pose: a geometry_msgs/PoseStamped
-    """
-
-    name: str
-    allow_renaming: bool
-    uri: str
-    text: str
-    namespace: str
-    pose: Any
-
-
 class Spawning:
     """
     The services that spawn; each returns a message about what was done, '' for nothing.
@@ -76,7 +55,7 @@ class Spawning:
     :param worlds: of the services, since nothing is spawned where none is loaded
     """
 
-    def __init__(self, control: WorldControl, worlds: Worlds) -> None:
+    def __init__(self, control: NodeControl, worlds: Worlds) -> None:
         self._control = control
         self._worlds = worlds
         self._frame_id = str(control.values['frame_id'])
@@ -97,13 +76,12 @@ class Spawning:
     def spawn(self, request: Any, response: Any) -> str:
         """Spawn a body by the name of a spawnable, or by an entry of a world file."""
         self._worlds.check_loaded()
-        wanted = _Wanted(
+        wanted = SpawnEntity(
             name=request.name,
             allow_renaming=request.allow_renaming,
-            uri=request.uri,
-            text=request.resource_string,
-            namespace=request.entity_namespace,
-            pose=request.initial_pose,
+            entity_resource=Resource(uri=request.uri, resource_string=request.resource_string),
+            entity_namespace=request.entity_namespace,
+            initial_pose=request.initial_pose,
         )
         spawn = self._request_of(wanted, self._control.current_snapshot().scene.names)
         message = self._perform(spawn, self._control.simulation.requests.begin_gesture())
@@ -126,7 +104,7 @@ class Spawning:
             result = SpawnResult()
             response.results.append(result)
             try:
-                spawn = self._request_of(_wanted(each), names)
+                spawn = self._request_of(each, names)
                 self._perform(spawn, gesture)
             except (Failed, Refusal) as error:
                 refusal, result.result.result = result_of(error)
@@ -149,11 +127,11 @@ class Spawning:
             field='spawn_requests',
         )
 
-    def _request_of(self, wanted: _Wanted, names: Collection[str]) -> Spawn:
+    def _request_of(self, wanted: SpawnEntity, names: Collection[str]) -> Spawn:
         """Return the request for a body, of a name that is not among those that are taken."""
         entry = dict(_entry(wanted))
         with failing_with(SpawnResult.NAMESPACE_INVALID):
-            namespace = check_namespace(wanted.namespace, 'entity_namespace')
+            namespace = check_namespace(wanted.entity_namespace, 'entity_namespace')
         if namespace and 'robot' in entry:
             robot = entry['robot']
             robot = {'from': robot} if isinstance(robot, str) else robot
@@ -161,10 +139,10 @@ class Spawning:
                 entry['robot'] = {**robot, 'namespace': namespace}
         entry['name'] = _name(wanted, entry, names)
         with failing_with(SpawnResult.INVALID_POSE):
-            pose = planar_pose(wanted.pose.pose, 'initial_pose')
+            pose = planar_pose(wanted.initial_pose.pose, 'initial_pose')
         with failing_with(SpawnResult.RESOURCE_PARSE_ERROR):
             spawn = spawn_from(entry)
-        frame = named_frame(wanted.pose.header.frame_id, self._frame_id)
+        frame = named_frame(wanted.initial_pose.header.frame_id, self._frame_id)
         with failing_with(SpawnResult.INVALID_POSE):
             return replace(spawn, pose=pose, frame=frame)
 
@@ -178,18 +156,6 @@ class Spawning:
             raise Failed(refusal, SpawnResult.INVALID_POSE) from refusal
 
 
-def _wanted(message: Any) -> _Wanted:
-    """Return the spawn that a simulation_interfaces/msg/SpawnEntity asks for."""
-    return _Wanted(
-        name=message.name,
-        allow_renaming=message.allow_renaming,
-        uri=message.entity_resource.uri,
-        text=message.entity_resource.resource_string,
-        namespace=message.entity_namespace,
-        pose=message.initial_pose,
-    )
-
-
 def _spawnables() -> tuple[str, ...]:
     return *shipped_robots(), *_SHAPES
 
@@ -199,9 +165,9 @@ def _entry_of(uri: str) -> Mapping[str, Any]:
     return _SHAPES.get(uri, {'robot': uri})
 
 
-def _entry(wanted: _Wanted) -> Mapping[str, Any]:
+def _entry(wanted: SpawnEntity) -> Mapping[str, Any]:
     """Return the entry that is named, or is there as a text."""
-    uri, text = wanted.uri, wanted.text
+    uri, text = wanted.entity_resource.uri, wanted.entity_resource.resource_string
     if not (uri or text):
         raise failed(
             'neither uri nor resource_string says what to spawn',
@@ -226,7 +192,7 @@ def _entry(wanted: _Wanted) -> Mapping[str, Any]:
     return _entry_of(uri)
 
 
-def _name(wanted: _Wanted, entry: Mapping[str, Any], taken: Collection[str]) -> str:
+def _name(wanted: SpawnEntity, entry: Mapping[str, Any], taken: Collection[str]) -> str:
     """Return the name of a new body."""
     name = wanted.name or entry.get('name', '')
     try:
@@ -236,7 +202,11 @@ def _name(wanted: _Wanted, entry: Mapping[str, Any], taken: Collection[str]) -> 
     except Refusal as refusal:
         if not wanted.allow_renaming:
             raise Failed(refusal, SpawnResult.NAME_INVALID) from refusal
-        stem = re.sub('[^A-Za-z0-9_]+', '_', str(name)).strip('_') or wanted.uri or 'entity'
+        stem = (
+            re.sub('[^A-Za-z0-9_]+', '_', str(name)).strip('_')
+            or wanted.entity_resource.uri
+            or 'entity'
+        )
         return next(each for each in _numbered(stem[:100]) if each not in taken)
     if name not in taken:
         return name

@@ -11,6 +11,7 @@ front. Other folders import the names below.
 
 from physsim_ros.simulation.past.budget import (
     DEFAULT_MEMORY,
+    frame_size,
     LEAST_MEMORY,
     MEGABYTE,
     MOST_MEMORY,
@@ -27,5 +28,6 @@ __all__ = [
     'CachedFrame',
     'Moment',
     'Past',
+    'frame_size',
     'request_size',
 ]

@@ -4,24 +4,26 @@
 """
 The cursor: a world at a moment of the line of events in force.
 
-Laws: a world that continues from a moment of the past makes the same bits as before, from the same
-checkpoints and with the same requests, until a request changes its course; a difference is
-reported. A refused request changes nothing. A seek under way counts as done: moment and settings
-are those of its goal, a reader of the world finishes it, and another seek replaces it.
+Laws: a world that continues from a moment of the past makes the same bits as before, until a
+request changes its course. Long work, a seek or an amendment of the past, is made in parts. While
+it is under way it counts as done: moment and settings are those to which it leads, and a reader of
+the world finishes it. Another seek replaces a seek; an amendment is finished first.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
+from physsim_ros.model.errors import Failed, OutOfHistory
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past.node import Keyframe, Moment, Node
+from physsim_ros.simulation.past.node import Moment, Node
+from physsim_ros.simulation.past.replay import finish, Replay
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -30,19 +32,20 @@ from physsim_ros.simulation.world import World
 _AHEAD = 0.75
 
 
-class _Seek(NamedTuple):
+class _Work(NamedTuple):
     """
-    A seek that is under way.
+    A seek or an amendment that is under way.
 
-    :ivar goal: the moment that is shown
-    :ivar parts: of the replay that leads there
+    :ivar goal: the moment to which a seek leads; None is an amendment, which leads to the end of
+        the line in force
+    :ivar parts: of the work
     """
 
-    goal: Moment
+    goal: Moment | None
     parts: Iterator[None]
 
 
-class Cursor:
+class Cursor(Replay):
     """
     A world at a moment of the line in force.
 
@@ -50,28 +53,21 @@ class Cursor:
     :param tree: of all lines
     :param reports: of events without a request, to which it adds
     :param boundary: of the requests
-
-    :ivar serial: number of the last request that was applied
     """
 
     def __init__(
         self, world: World, tree: Tree, reports: list[Answer], boundary: ErrorBoundary
     ) -> None:
-        self.serial = 0
-        self._world = world
-        self._tree = tree
-        self._reports = reports
+        super().__init__(world, tree, reports)
         self._boundary = boundary
-        # The checkpoint from which the present space was built.
-        self._resumed: Moment | None = None
-        self._seek: _Seek | None = None
+        self._work: _Work | None = None
 
     # The moment
 
     @property
     def world(self) -> World:
         """Return the world, at this moment."""
-        self.finish_seek()
+        self.finish_work()
         return self._world
 
     @property
@@ -81,13 +77,10 @@ class Cursor:
 
     @property
     def moment(self) -> Moment:
-        """Return step and serial, those of the goal while a seek is under way."""
-        return self._here if self._seek is None else self._seek.goal
-
-    @property
-    def _here(self) -> Moment:
-        """Step and serial of the world as it is."""
-        return self._world.step_count, self.serial
+        """Return step and serial, those to which work leads that is under way."""
+        if self._work is None:
+            return self._here
+        return self._work.goal or self._tree.end
 
     @property
     def is_newest(self) -> bool:
@@ -95,9 +88,44 @@ class Cursor:
         return self.moment == self._tree.end
 
     @property
-    def is_seeking(self) -> bool:
-        """Whether a seek is under way."""
-        return self._seek is not None
+    def is_working(self) -> bool:
+        """Whether a seek or an amendment is under way."""
+        return self._work is not None
+
+    @property
+    def is_amending(self) -> bool:
+        """Whether an amendment is under way."""
+        return self._work is not None and self._work.goal is None
+
+    def work(self, parts: Iterator[None]) -> None:
+        """Have an amendment be carried out part by part, from now on."""
+        self.finish_work()
+        self._work = _Work(None, parts)
+
+    def continue_work(self) -> bool:
+        """Carry out a part, a frame or a request; return whether work is still under way."""
+        # Within a part, the world is where it is.
+        work, self._work = self._work, None
+        # An amendment that is refused ends with a seek back.
+        if work is not None and next(work.parts, self) is not self:
+            self._work = work
+        return self._work is not None
+
+    def parts_of_work(self) -> Iterator[None]:
+        """Carry out the work that is under way as a part of other work."""
+        work, self._work = self._work, None
+        if work is not None:
+            yield from work.parts
+
+    def finish_work(self) -> None:
+        """Carry out the rest of the work that is under way."""
+        while self.continue_work():
+            pass
+
+    def finish_amendment(self) -> None:
+        """Carry out the rest of an amendment."""
+        while self.is_amending:
+            self.continue_work()
 
     # To another moment
 
@@ -107,6 +135,7 @@ class Cursor:
 
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
+        self.finish_amendment()
         self._world.begin(state, 0)
         self._begin_line(state, self._world.renew())
 
@@ -116,23 +145,14 @@ class Cursor:
 
         :param loaded: the state that was loaded last
         """
+        self.finish_amendment()
         self._world.resume(checkpoint)
         self._begin_line(loaded, checkpoint)
 
     def _begin_line(self, loaded: WorldState, checkpoint: Checkpoint) -> None:
-        self._seek, self.serial = None, 0
+        self._work, self.serial = None, 0
         self._tree.begin(loaded, checkpoint, self._world.digest())
         self._resumed = self.moment
-
-    def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
-        """
-        Go to a keyframe.
-
-        :param going_over: whether the world is at that moment now, with the same bits
-        """
-        self._world.resume(keyframe.checkpoint, going_over=going_over)
-        self.serial = keyframe.serial
-        self._resumed = keyframe.moment
 
     def seek(self, step: int, *, with_contacts: bool = True) -> None:
         """
@@ -167,7 +187,7 @@ class Cursor:
         # A seek that this one replaces has also come to a moment of the line.
         if elsewhere or not keyframe.moment <= self._here <= first:
             self.resume(keyframe)
-        self._seek = _Seek(goal, self._parts_of_seek(start, goal, with_contacts=with_contacts))
+        self._work = _Work(goal, self._parts_of_seek(start, goal, with_contacts=with_contacts))
 
     def _parts_of_seek(
         self, start: Moment, goal: Moment, *, with_contacts: bool
@@ -177,17 +197,6 @@ class Cursor:
         yield from self._replay_to(*goal)
         if not with_contacts:
             self._world.clear_contacts()
-
-    def continue_seek(self) -> bool:
-        """Replay a frame or a request of a seek; return whether it is still under way."""
-        if self._seek is not None and next(self._seek.parts, self) is self:
-            self._seek = None
-        return self._seek is not None
-
-    def finish_seek(self) -> None:
-        """Replay up to the goal of a seek."""
-        while self.continue_seek():
-            pass
 
     def follow(self, tip: Node, head: int, moment: tuple[int, int | None]) -> int:
         """
@@ -214,7 +223,7 @@ class Cursor:
         :return: whether the world is at the same moment as before
         """
         # Before the steps that it replays are dropped.
-        self.finish_seek()
+        self.finish_work()
         tree = self._tree
         tree.limit_length(length)
         if self._world.step_count >= tree.oldest and self.moment >= tree.keyframes[0].moment:
@@ -222,105 +231,46 @@ class Cursor:
         self.seek(tree.oldest)
         return False
 
-    # Replay
-
-    def replay_shown(self, step: int) -> None:
-        """Replay up to a step of the line, with the requests with which it was shown."""
-        _finish(self._replay_to(step, self._tree.serial_shown_at(step)))
-
-    def _replay_to(self, step: int, serial: int) -> Iterator[None]:
-        """Replay up to a moment of the line, no earlier than now; yield after each part."""
-        world = self._world
-        while world.step_count < step:
-            yield from self._replay_to_stop(min(step, world.step_count + world.frame_steps))
-            yield
-        yield from self._apply_logged(serial)
-
-    def _replay_to_stop(self, end: int) -> Iterator[None]:
-        """Replay up to the next step with a request or a checkpoint, or to the end."""
-        tree, world = self._tree, self._world
-        yield from self._apply_logged(tree.serial_at(world.step_count))
-        self._enter_checkpoint()
-        self._make_steps(end)
-        yield from self._apply_logged(tree.serial_shown_at(world.step_count))
-
-    def _make_steps(self, end: int) -> None:
-        step = self._world.step_count
-        stop = self._tree.next_stop(step, end)
-        lost, broken = self._world.step(stop - step), self._world.take_broken()
-        # In a replay, events were reported the first time.
-        if stop > self._tree.head:
-            for name in lost:
-                self._report(
-                    'divergence', f'{name} left the range of numbers and was removed', name
-                )
-            for name, force in broken:
-                self._report(
-                    'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
-                )
-
-    def _apply_logged(self, serial: int) -> Iterator[None]:
-        """Apply the logged requests of this step up to a serial; yield after each."""
-        for node in self._tree.nodes_between(self.serial, serial):
-            self._enter_checkpoint()
-            try:
-                self._world.replay(node.request)
-            except Refusal as refusal:
-                self._report('divergence', f'a request of the log is refused now: {refusal}')
-            self.serial += 1
-            yield
-
-    def _enter_checkpoint(self) -> None:
-        """Move into a space that is built from the checkpoint of this moment, if there is one."""
-        keyframe = self._tree.keyframe_at(*self._here)
-        if keyframe is not None and self._resumed != keyframe.moment:
-            self.resume(keyframe, going_over=self.check_digest())
-
-    def check_digest(self) -> bool:
-        """Return whether the world has the digest of the keyframe here; report a difference."""
-        keyframe = self._tree.keyframe_at(*self._here)
-        same = keyframe is None or self._world.digest() == keyframe.digest
-        if not same:
-            seconds = self._world.step_count * self._world.dt
-            self._report('divergence', f'{seconds:.3f} s was reached with other bits than before')
-        return same
-
-    def _report(self, code: str, message: str, subject: str = '') -> None:
-        self._reports.append(Answer(topic=code, subject=subject, message=message, code=code))
-
     # Going on
 
-    def apply(self, request: Request, gesture: int, author: str = '') -> Answer:
+    @contextmanager
+    def request(self, request: Request) -> Iterator[World]:
         """
-        Carry out a request; if it changes anything, it is the new tip.
+        Have the block carry out a request, in the space in which a replay will carry it out.
 
-        :param author: name of the person who did it; '' is nobody
-        :raises Refusal: and nothing is changed
+        :return: the world
+        :raises Failed: in place of an unexpected error; the world is rebuilt, since half of the
+            request may be done
         """
-        world, tree = self.world, self._tree
-        # A replay will carry it out in that space, too.
+        world = self.world
         self._enter_checkpoint()
         try:
             with self._boundary.message(type(request).__name__):
-                done = world.apply(request)
+                yield world
         except Failed:
-            # Half of it may be done: the world is built again from the checkpoint before it.
             self.seek_moment(*self.moment, elsewhere=True)
             raise
-        if world.changed:
-            tree.add_request(
-                self.moment,
-                request,
-                gesture=gesture,
-                author=author,
-                subject=done.subject,
-                settings=world.settings,
-            )
-            self.serial += 1
-            if tree.is_log_long:
-                # So that a paused world can drop its oldest requests.
-                self.add_keyframe()
-        return done
+
+    def log(self, request: Request, subject: str, gesture: int, author: str) -> None:
+        """
+        Add the request that has changed the world; it is the new tip.
+
+        :param subject: name of the body or joint concerned, or ''
+        :param author: name of the person who did it; '' is nobody
+        """
+        tree, settings = self._tree, self._world.settings
+        tree.add_request(
+            self.moment,
+            request,
+            gesture=gesture,
+            author=author,
+            subject=subject,
+            settings=settings,
+        )
+        self.serial += 1
+        if tree.is_log_long:
+            # So that a paused world can drop its oldest requests.
+            self.add_keyframe()
 
     def advance(self, steps: int) -> None:
         """Advance by a number of steps: by replay up to the head, then by new steps."""
@@ -328,54 +278,12 @@ class Cursor:
         end = world.step_count + steps
         while world.step_count < end:
             if world.step_count < tree.head:
-                _finish(self._replay_to_stop(min(end, tree.head)))
+                finish(self._replay_to_stop(min(end, tree.head)))
             else:
-                _finish(self._apply_logged(tree.serial_at(world.step_count)))
+                finish(self._apply_logged(tree.serial_at(world.step_count)))
                 self._make_checkpoint()
                 self._make_steps(end)
                 tree.note_step(world.step_count)
-
-    def amend(
-        self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
-    ) -> tuple[int, list[Answer | Refusal], list[Refusal]]:
-        """
-        Replace the requests of earlier gestures, and simulate again up to this moment.
-
-        Later requests that the amended past refuses are dropped, and so is the future of this
-        moment. Gestures that changed nothing or are no longer kept are ignored; without any other,
-        the requests are applied now.
-
-        :param gestures: their numbers, at least one; the requests get the first number
-        :param requests: that replace theirs, at their first step
-        :param author: name of the person who did it; '' is nobody
-        :return: the first step that differs; for each new request its result or its refusal; the
-            refusals of later requests
-        """
-        now, tree, gesture = self.moment, self._tree, gestures[0]
-        starts = [tree.gesture_start(each, now[1]) for each in gestures]
-        found = [start for start in starts if start is not None]
-        step, serial = min(found, key=lambda start: start[1], default=now)
-        # Commands of robots join the gesture before them, whose author is another one.
-        later = [
-            each
-            for each in tree.nodes_between(serial, now[1])
-            if each.gesture not in gestures or each.author != tree.node(each.opening).author
-        ]
-        self.follow(tree.node(serial), step, (step, serial))
-        done = [self._try_apply(request, gesture, author) for request in requests]
-        again = []
-        for node in later:
-            self.advance(node.step - self.world.step_count)
-            again.append(self._try_apply(node.request, node.gesture, node.author))
-        self.advance(now[0] - self.world.step_count)
-        self.world.clear_contacts()
-        return step, done, [each for each in again if isinstance(each, Refusal)]
-
-    def _try_apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
-        try:
-            return self.apply(request, gesture, author)
-        except Refusal as refusal:
-            return refusal
 
     # Checkpoints
 
@@ -402,9 +310,3 @@ class Cursor:
         """Build the share of the bodies for the next checkpoint that is due in some steps."""
         bodies, spacing = len(self.world), self._tree.spacing
         self._world.build_bodies(-(-bodies * steps // max(1, int(spacing * _AHEAD))))
-
-
-def _finish(parts: Iterator[None]) -> None:
-    """Carry out all parts of a replay."""
-    for _ in parts:
-        pass

@@ -15,19 +15,21 @@ between two checkpoints, is replayed forward while the segment after it is shown
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right, insort
-from collections import Counter
 from collections.abc import Iterator
 from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.budget import frame_size, scene_size
-from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.past.budget import frame_size
 from physsim_ros.simulation.past.node import CachedFrame, Keyframe
+from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
+# Share of the budget for frames [1]: 64 MB of 256, three minutes of 100 bodies. More saves little,
+# since a rewind replays ahead of the frame that is shown.
+_SHARE = 1 / 4
 # Greatest memory of a body in a frame, on average of all frames [bytes]: a pose.
 _BODY = 24
 
@@ -50,24 +52,22 @@ class FrameCache:
     """
     The cached frames of the line in force.
 
-    :param cursor: of a world that replays segments
-    :param world: of that cursor
+    :param replay: that replays segments
+    :param world: of that replay
     :param tree: of all lines, with the budget; for few bodies frames take less of it: a pose of
-        each body in each frame of the history
+        each body in each frame of the past
 
     :ivar size: memory that the frames take [bytes]
     """
 
-    def __init__(self, cursor: Cursor, world: World, tree: Tree) -> None:
+    def __init__(self, replay: Replay, world: World, tree: Tree) -> None:
         self.size = 0
-        self._cursor = cursor
+        self._replay = replay
         self._world = world
         self._tree = tree
         # The frames by step, and their steps in the order of time.
         self._frames: dict[int, CachedFrame] = {}
         self._steps: list[int] = []
-        # Number of frames of each scene, whose memory is counted once.
-        self._scenes: Counter[int] = Counter()
         # The step that is shown.
         self._shown = 0
         # Number of bodies in the last frame.
@@ -85,7 +85,7 @@ class FrameCache:
         return [self._frames[step].snapshot for step in steps[-count:]]
 
     def add_frame(self, frame: CachedFrame) -> None:
-        """Add a frame that has just been shown; to a history without length none is added."""
+        """Add a frame that has just been shown; to a past without length none is added."""
         if not self._tree.length:
             return
         self._bodies = len(frame.snapshot.poses)
@@ -105,7 +105,7 @@ class FrameCache:
         return self._drop(bisect_left(self._steps, step), len(self._steps))
 
     def cached_frame(self, step: int) -> CachedFrame | None:
-        """Return the cached frame of a step; None if it is not cached, or not in the history."""
+        """Return the cached frame of a step; None if it is not cached, or not in the past."""
         if self._tree.oldest <= step <= self._tree.head and self._is_cached(step):
             return self._frames[step].copy()
         return None
@@ -163,24 +163,24 @@ class FrameCache:
         keyframe, end = self._tree.segment(step)
         of, segment = (keyframe, end, self._world.reports_contacts), self._segment
         if segment is None or segment.of != of or segment.stride > stride:
-            self._cursor.resume(keyframe)
-            self._cursor.replay_shown(keyframe.step)
+            self._replay.resume(keyframe)
+            self._replay.replay_shown(keyframe.step)
             segment = _Segment(of, stride, self._parts_of_segment(keyframe, end, stride))
             self._segment = segment
         return segment.parts
 
     def _parts_of_segment(self, keyframe: Keyframe, end: int, stride: int) -> Iterator[None]:
         """Replay a segment from its keyframe; at its end its frames replace those cached."""
-        cursor, world, frames = self._cursor, self._world, []
+        replay, world, frames = self._replay, self._world, []
         # The step may have been shown without the requests before the keyframe.
-        if cursor.serial == self._tree.serial_shown_at(keyframe.step):
+        if replay.serial == self._tree.serial_shown_at(keyframe.step):
             frames.append(self._frame())
         while (at := world.step_count) < end:
-            cursor.replay_shown(min(end, at - at % stride + stride))
+            replay.replay_shown(min(end, at - at % stride + stride))
             frames.append(self._frame())
             if world.step_count < end:
                 yield
-        cursor.check_digest()
+        replay.check_digest()
         self._segment = None
         # The frame at its keyframe is the last one of the segment before, if there is one.
         begin = keyframe.step
@@ -199,36 +199,26 @@ class FrameCache:
         """Add a frame, in place of the one of the same step."""
         step = frame.snapshot.step
         if step in self._frames:
-            self._count(self._frames[step], -1)
+            self.size -= frame_size(*self._frames[step])
         else:
             insort(self._steps, step)
         self._frames[step] = frame.copy()
-        self._count(frame, 1)
+        self.size += frame_size(*frame)
 
     def _drop(self, begin: int, end: int) -> list[CachedFrame]:
         """Drop and return the frames from one place to another in the order of time."""
         dropped = [self._frames.pop(step) for step in self._steps[begin:end]]
         del self._steps[begin:end]
-        for frame in dropped:
-            self._count(frame, -1)
+        self.size -= sum(frame_size(*frame) for frame in dropped)
         return dropped
 
-    def _count(self, frame: CachedFrame, sign: int) -> None:
-        """Add the memory of a frame, or subtract it."""
-        scene = frame.snapshot.scene
-        others = self._scenes[id(scene)] - (sign < 0)
-        self.size += sign * (frame_size(*frame) + (0 if others else scene_size(scene)))
-        self._scenes[id(scene)] += sign
-        if not self._scenes[id(scene)]:
-            del self._scenes[id(scene)]
-
     def _evict(self, step: int) -> None:
-        """Drop the frames before the history, and more until all fit."""
+        """Drop the frames that are no longer kept, and more until all fit."""
         self._shown = step
         tree, frame = self._tree, self._world.frame_steps
         self._drop(0, bisect_left(self._steps, tree.keyframes[0].step))
         poses = tree.length // frame * self._bodies
-        limit = min(tree.budget.frame_limit, poses * _BODY)
+        limit = min(tree.budget.size * _SHARE, poses * _BODY)
         while self.size > limit and self.drop_oldest():
             pass
 

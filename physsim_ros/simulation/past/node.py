@@ -57,7 +57,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
-from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
@@ -200,40 +199,3 @@ class Line:
     words: str = ''
     ghost: list[CachedFrame] = field(default_factory=list)
     size: int = 0
-
-
-# Verb of the requests whose class name is no verb, and object of those that concern no single body
-# or joint.
-_PHRASES = {
-    requests.ChangeBody: ('change', ''),
-    requests.Command: ('set motion of', 'several bodies'),
-    requests.Configure: ('change', 'settings'),
-    requests.DeleteAll: ('delete', 'all bodies'),
-    requests.DeleteBodies: ('delete', 'several bodies'),
-    requests.DriveRobot: ('drive', ''),
-    requests.Grab: ('drag', ''),
-    requests.GrabToPlace: ('place', ''),
-    requests.LetGo: ('drag', ''),
-    requests.MoveBodies: ('move', 'several bodies'),
-    requests.Restore: ('load', 'world'),
-    requests.Unjoin: ('delete', ''),
-    requests.UnjoinAll: ('delete', 'all joints'),
-}
-
-
-def gesture_phrase(first: Node, count: int) -> str:
-    """
-    Return the phrase by which undo and redo name a gesture: `spawn ball/0 and 2 more`.
-
-    :param first: its first request
-    :param count: number of its requests
-    """
-    request = first.request
-    verb, several = _PHRASES.get(type(request), (type(request).__name__.lower(), ''))
-    phrase = f'{verb} {first.subject or several}'.rstrip()
-    namespace = getattr(request, 'namespace', None)
-    if namespace is not None:
-        phrase += f' of {namespace or "no namespace"}'
-    # All moves of a hand are one drag.
-    more = count > 1 and not isinstance(request, requests.Grab)
-    return f'{phrase} and {count - 1} more' if more else phrase

@@ -15,7 +15,7 @@ theory of operation.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import replace
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -24,16 +24,21 @@ from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.model.timeline import CourseSpan, TimelineStatus
+from physsim_ros.model.timeline import TimelineStatus
+from physsim_ros.simulation.past.amendment import Amendment
 from physsim_ros.simulation.past.budget import Budget
 from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.frames import FrameCache
-from physsim_ros.simulation.past.node import CachedFrame, gesture_phrase, Line, Moment
+from physsim_ros.simulation.past.node import CachedFrame, Line, Moment
+from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.status import gesture_phrase, timeline_status
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
 # Greatest simulation time that is simulated again where a gesture is taken back [s].
 LONGEST_AGAIN = 60.0
+# Share of the budget below which the next loss is reported again [1].
+_RELIEF = 1 / 2
 
 
 class Past:
@@ -52,6 +57,7 @@ class Past:
     :param boundary: of the requests
     :raises BadProperty: the memory is out of range
 
+    :ivar boundary: of the requests
     :ivar budget: of all that is kept
     :ivar tree: of all lines
     :ivar cursor: the world at a moment of the line in force
@@ -72,6 +78,7 @@ class Past:
     ) -> None:
         self.physics_rate = physics_rate
         self.frame_steps = frame_steps
+        self.boundary = boundary
         self.budget = Budget(memory)
         self.reports: list[Answer] = []
         self.tree = Tree(
@@ -81,10 +88,9 @@ class Past:
         self._worlds = tuple(
             World(physics_rate=physics_rate, frame_steps=frame_steps) for _ in range(2)
         )
-        self.cursor, replay = (
-            Cursor(world, self.tree, self.reports, boundary) for world in self._worlds
-        )
-        self.frames = FrameCache(replay, self._worlds[1], self.tree)
+        present, shown = self._worlds
+        self.cursor = Cursor(present, self.tree, self.reports, boundary)
+        self.frames = FrameCache(Replay(shown, self.tree, self.reports), shown, self.tree)
         self.cursor.begin(WorldState(settings=settings))
         self._courses = 1
 
@@ -109,33 +115,7 @@ class Past:
         :param shown: the moment that is shown
         :param speed: simulation seconds a second
         """
-        tree, rate = self.tree, self.physics_rate
-        if speed < 0.0:
-            state = 'rewinding'
-        elif shown != tree.end:
-            state = 'in the past'
-        else:
-            state = 'playing' if speed else 'paused'
-        gesture, undo = tree.last_gesture(shown[1]), ''
-        if gesture is not None:
-            undo = gesture_phrase(*gesture)
-        elif self._undoes_reset(shown[1]):
-            undo = 'reset'
-        redo = tree.undone[-1].words if self._is_undone else ''
-        return TimelineStatus(
-            state=state,
-            speed=speed,
-            oldest=tree.oldest / rate,
-            now=shown[0] / rate,
-            newest=tree.head / rate,
-            course=tree.course,
-            undo=undo and f'undo {undo}',
-            redo=redo and f'redo {redo}',
-            courses=tuple(
-                CourseSpan(line.course, min(step, line.head) / rate, line.head / rate)
-                for line, step in sorted(tree.courses_left(), key=lambda each: each[0].course)
-            ),
-        )
+        return timeline_status(self.tree, shown, speed, self.physics_rate)
 
     def ghost(self, course: int, seconds: float) -> Snapshot | None:
         """
@@ -153,17 +133,33 @@ class Past:
 
         :param shown: the moment that is shown, which is kept
         """
-        tree, frames = self.tree, self.frames
+        tree, frames, budget = self.tree, self.frames, self.budget
         tree.shown = shown
         tree.drop_lost()
-        kinds = (
+        self._count_memory()
+        budget.told &= budget.used > _RELIEF * budget.size
+        is_lost = False
+        # Frames come back by a replay, and are no loss.
+        for drop in (
             frames.drop_oldest,
             tree.drop_oldest_ghost,
             tree.drop_oldest_line,
             tree.drop_oldest_checkpoint,
-        )
-        if self.budget.fit(lambda: frames.size + tree.size, kinds):
-            self.reports.append(self.budget.report(tree.oldest / self.physics_rate))
+        ):
+            while budget.used > budget.size and drop():
+                self._count_memory()
+                is_lost |= drop != frames.drop_oldest
+        if is_lost and not budget.told:
+            budget.told = True
+            oldest = tree.oldest / self.physics_rate
+            message = (
+                f'the past would take more than {budget.megabytes:g} MB (history_memory): the '
+                f'oldest goes, {oldest:.3f} s is the oldest that is kept'
+            )
+            self.reports.append(Answer(topic='history', message=message, code='history'))
+
+    def _count_memory(self) -> None:
+        self.budget.used = self.frames.size + self.tree.size
 
     # Requests
 
@@ -175,24 +171,20 @@ class Past:
         :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
-        cursor, tree = self.cursor, self.tree
-        left = tree.line(cursor.moment) if not cursor.is_newest else None
-        changed = False
-        try:
-            done = cursor.apply(request, gesture, author)
-            changed = cursor.world.changed
-        finally:
-            if left is not None and not changed:
-                self.tree.drop(left)
-        if changed:
-            if left is not None:
-                self._begin_course(left)
+        cursor = self.cursor
+        with cursor.request(request) as world:
+            answer = world.apply(request)
+        if world.changed:
+            if not cursor.is_newest:
+                self._begin_course()
+            cursor.log(request, answer.subject, gesture, author)
             self.tree.drop_undone()
-        return done
+        return answer
 
-    def _begin_course(self, left: Line) -> None:
-        """Begin a course at this moment, and keep the line that was in force."""
+    def _begin_course(self) -> None:
+        """Begin a course at this moment, and keep the line that is in force."""
         step, _ = self.cursor.moment
+        left = self.tree.line(self.cursor.moment)
         self.tree.keep_course(left, self.frames.drop_from(step))
         self._courses += 1
         self.tree.course = self._courses
@@ -201,21 +193,20 @@ class Past:
 
     def amend(
         self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
-    ) -> list[Answer | Refusal]:
+    ) -> Generator[None, None, list[Answer | Refusal]]:
         """
-        Replace the requests of earlier gestures, and simulate again up to this moment.
+        Replace the requests of earlier gestures, in parts; see `Amendment`.
 
-        :param author: name of the person who did it; '' is nobody
-        :return: for each request what `apply` returns, or its refusal
+        :return: for each request its answer, or its refusal
         """
-        step, done, _ = self.cursor.amend(gestures, requests, author)
-        self.tree.drop_undone()
-        self.frames.drop_from(step)
-        return done
+        amendment = Amendment(self.cursor, self.tree, gestures, requests, author)
+        before = yield from self._carry_out(amendment)
+        self.tree.drop(before)
+        return amendment.done
 
-    def take_back(self, author: str) -> str:
+    def take_back(self, author: str) -> Generator[None, None, str]:
         """
-        Take back the last gesture of a person, and simulate again up to this moment.
+        Take back the last gesture of a person, and simulate again up to this moment, in parts.
 
         What others have done since is done again as it was asked.
 
@@ -234,22 +225,32 @@ class Past:
             raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
         if cursor.moment[0] - first.step > self.steps_in(LONGEST_AGAIN):
             raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
-        before = tree.line(cursor.moment)
+        amendment = Amendment(cursor, tree, (first.gesture,), (), stands_alone=True)
+        before = yield from self._carry_out(amendment)
         before.words = gesture_phrase(first, 1)
-        told = len(self.reports)
-        step, _, refused = cursor.amend((first.gesture,), ())
-        if refused:
-            # Reports of the way have been given before.
+        tree.undone.append(before)
+        return before.words
+
+    def _carry_out(self, amendment: Amendment) -> Generator[None, None, Line]:
+        """
+        Carry out an amendment; where it fails, the line before is in force again.
+
+        :return: the line before
+        """
+        before, told = self.tree.line(self.cursor.moment), len(self.reports)
+        try:
+            yield from amendment.parts()
+        except Exception:
+            # Reports of the way were given the first time.
             del self.reports[told:]
             left, _ = self._go_to(before)
             self.tree.drop(left)
-            raise NotAlone('somebody has used it since; delete it instead')
-        self.frames.drop_from(step)
+            raise
         self.tree.drop_undone()
-        self.tree.undone.append(before)
-        return before.words
+        self.frames.drop_from(amendment.step)
+        return before
 
-    def doings_of(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    def added_by(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the bodies and the joints in the world that a person has added, by name."""
         return self.tree.added_by(author, self.cursor.world.scene)
 
@@ -309,7 +310,7 @@ class Past:
         """
         Go back to the moment before the last gesture, and return the phrase for it.
 
-        :raises OutOfHistory: there is none in the history
+        :raises OutOfHistory: there is none that is kept
         """
         tree, serial = self.tree, self.cursor.moment[1]
         gesture = tree.last_gesture(serial)
@@ -317,7 +318,7 @@ class Past:
             first, count = gesture
             words, before = gesture_phrase(first, count), tree.node(first.serial - 1)
             goal = tree.line_to(before, first.step, (first.step, before.serial))
-        elif self._undoes_reset(serial):
+        elif tree.undoes_reset(serial):
             # The requests since a reset are undone before it, though they are no longer kept.
             words, goal = 'reset', tree.resets[-1]
         else:
@@ -333,12 +334,12 @@ class Past:
 
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
-        if not self._is_undone:
-            raise OutOfHistory('there is nothing to redo', field='history')
         tree, era = self.tree, self.tree.era
+        if not tree.has_undone:
+            raise OutOfHistory('there is nothing to redo', field='history')
         left, _ = self._go_to(tree.undone[-1])
         if tree.era == era:
-            self.tree.drop(left)
+            tree.drop(left)
         else:
             tree.resets.append(left)
 
@@ -360,16 +361,6 @@ class Past:
         tree.keep_course(*self._go_to(line))
         self.tree.drop_undone()
         return True
-
-    @property
-    def _is_undone(self) -> bool:
-        """Whether there is anything to redo."""
-        self.tree.drop_lost()
-        return bool(self.tree.undone)
-
-    def _undoes_reset(self, serial: int) -> bool:
-        """Return whether an undo at a serial reverts a reset: all since the reset is undone."""
-        return serial == 0 and self.tree.oldest == 0 and bool(self.tree.resets)
 
     def _go_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
         """Put a line in force; return the line before, and the frames that only that has shown."""

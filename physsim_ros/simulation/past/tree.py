@@ -4,38 +4,38 @@
 """
 The tree of all lines of events: the one in force, flat, and those that were left.
 
-Laws: a moment is a step and the number of requests up to it; the same requests from the same
-checkpoint lead to the same bits; requests are counted from the beginning of the world, and the
-number of a request, its serial, never changes. A line that is not in force is independent of the
-others; its ghost has the frames that it has shown, to the bit, and no others. See `node` for the
-theory of operation.
+Law: a line that is not in force is independent of the others; its ghost has the frames that it has
+shown, to the bit, and no others. See `node` for the theory of operation.
 """
 
 from __future__ import annotations
 
-from bisect import bisect_left, bisect_right
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.requests import Axle, Join, Pin, Request, Restore, Spawn
-from physsim_ros.model.scene import Scene
+from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.budget import (
     Budget,
     checkpoint_size,
-    frames_size,
+    frame_size,
     request_size,
 )
+from physsim_ros.simulation.past.line import LineInForce
 from physsim_ros.simulation.past.node import CachedFrame, Keyframe, Line, Moment, Node
 
 # Greatest number of courses that are kept, as many as a person tells apart; the one that was left
 # first is dropped first.
 MOST_COURSES = 16
+# Share of the budget from which the requests after a checkpoint make the next one due [1], so that
+# the past has at least eight parts that can be dropped.
+_LOG_SHARE = 1 / 8
 
 
-class Tree:
+class Tree(LineInForce):
     """
     All lines of events.
 
@@ -45,11 +45,7 @@ class Tree:
     :param spacing: greatest number of steps from one checkpoint to the next
 
     :ivar size: memory of requests, checkpoints and ghosts [bytes]
-    :ivar nodes: of the line in force, the root first
-    :ivar keyframes: of its nodes, oldest first; also those ahead, where another line has run
-        before
-    :ivar head: the last step that it has reached
-    :ivar course: its number
+    :ivar course: number of the course of the line in force
     :ivar era: number of resets before it
     :ivar shown: the moment that is shown; the checkpoint before it is not dropped to save memory
     :ivar left: courses that were left, by number, in the order in which they were left
@@ -58,99 +54,20 @@ class Tree:
     """
 
     def __init__(self, budget: Budget, *, length: int, spacing: int) -> None:
+        super().__init__(length=length, spacing=spacing)
         self.budget = budget
-        self.length = length
-        self.spacing = spacing
         self.size = 0
-        self.nodes: list[Node] = []
-        self.keyframes: list[Keyframe] = []
-        self.head = 0
         self.course, self.era = 1, 0
         self.shown = (0, 0)
         self.left: dict[int, Line] = {}
         self.undone: list[Line] = []
         self.resets: list[Line] = []
-        # Serial of the first request of each gesture.
-        self._openings: dict[int, int] = {}
         # By tip and head of another line, the step at which that line parts from this one.
         self._partings: dict[tuple[Node, int], int | None] = {}
         # The oldest keyframe when lines that part before it were dropped last.
         self._oldest: Keyframe | None = None
 
     # The line in force
-
-    @property
-    def oldest(self) -> int:
-        """Return the oldest step that can be shown."""
-        root, first = self.nodes[0], self.keyframes[0].step
-        # The root's step was shown without its request, and so it cannot be shown again.
-        begins_later = root.step == first and not root.shown
-        return min(self.head, max(first + begins_later, self.head - self.length))
-
-    @property
-    def tip(self) -> Node:
-        """Return the last node."""
-        return self.nodes[-1]
-
-    @property
-    def end(self) -> Moment:
-        """Return the last moment that was reached."""
-        return self.head, self.tip.serial
-
-    @property
-    def _first(self) -> int:
-        return self.nodes[0].serial if self.nodes else 0
-
-    def node(self, serial: int) -> Node:
-        """Return the node of a serial."""
-        return self.nodes[serial - self._first]
-
-    def nodes_between(self, serial: int, end: int) -> list[Node]:
-        """Return the nodes after a serial, up to another one."""
-        first, last = serial - self._first + 1, end - self._first + 1
-        return self.nodes[first:last]
-
-    def serial_at(self, step: int) -> int:
-        """Return the serial of the last request before or at a step."""
-        place = bisect_right(self.nodes, step, key=lambda each: each.step)
-        return self._first + max(0, place - 1)
-
-    def serial_shown_at(self, step: int) -> int:
-        """Return the serial of the last request with which a step was shown."""
-        # At one step, the requests that were shown come first.
-        not_shown = (step, True)
-        place = bisect_left(self.nodes, not_shown, key=lambda each: (each.step, not each.shown))
-        return self._first + max(0, place - 1)
-
-    def keyframe_before(self, step: int, serial: int) -> Keyframe:
-        """Return the last keyframe from which a moment can be reached."""
-        place = bisect_right(self.keyframes, (step, serial), key=lambda each: each.moment)
-        return self.keyframes[place - 1]
-
-    def keyframe_at(self, step: int, serial: int) -> Keyframe | None:
-        """Return the keyframe at a moment, if there is one."""
-        keyframe = self.keyframe_before(step, serial)
-        return keyframe if keyframe.moment == (step, serial) else None
-
-    def segment(self, step: int) -> tuple[Keyframe, int]:
-        """Return the keyframe before a step, and the step of the next one or the last step."""
-        place = bisect_left(self.keyframes, step, key=lambda each: each.step)
-        first = self.keyframes[max(0, place - 1)]
-        end = self.head
-        if place < len(self.keyframes):
-            end = min(end, self.keyframes[place].step)
-        return first, max(step, end)
-
-    def next_stop(self, step: int, end: int) -> int:
-        """Return the next step with a request or a checkpoint, or the end."""
-        place = bisect_right(self.keyframes, step, key=lambda each: each.step)
-        if place < len(self.keyframes):
-            end = min(end, self.keyframes[place].step)
-        elif (due := self.keyframes[-1].step + self.spacing) > step:
-            # A checkpoint comes at the same step, however many steps are made in a call.
-            end = min(end, due)
-        place = bisect_right(self.nodes, step, key=lambda each: each.step)
-        return min(end, self.nodes[place].step) if place < len(self.nodes) else end
 
     def is_checkpoint_due(self, step: int) -> bool:
         """Return whether a checkpoint is due at the tip; a loaded state begins with one."""
@@ -162,47 +79,7 @@ class Tree:
     def is_log_long(self) -> bool:
         """Whether the memory of the requests since the last checkpoint exceeds the limit."""
         last = self.node(self.keyframes[-1].serial)
-        return self.tip.total - last.total > self.budget.log_limit
-
-    def last_gesture(self, serial: int) -> tuple[Node, int] | None:
-        """
-        Return the first request of the last gesture up to a serial.
-
-        :return: its node, and the number of requests from there to the serial, those of other
-            gestures included, since an undo goes back before them; None if the beginning of the
-            gesture is not kept, since it is undone as a whole or not at all
-        """
-        if serial <= self._first:
-            return None
-        opening = self.node(serial).opening
-        return (self.node(opening), serial - opening + 1) if opening > self._first else None
-
-    def last_gesture_of(self, author: str) -> Node | None:
-        """Return the first request of the last gesture of a person; None if none is kept."""
-        for node in reversed(self.nodes[1:]):
-            if node.author == author:
-                return self.node(node.opening) if node.opening > self._first else None
-        return None
-
-    def added_by(self, author: str, scene: Scene) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the bodies and the joints of a scene that a person was the last to add."""
-        bodies: dict[str, str] = {}
-        joints: dict[str, str] = {}
-        for node in self.nodes[1:]:
-            if isinstance(node.request, Spawn):
-                bodies[node.subject] = node.author
-            elif isinstance(node.request, Join | Pin | Axle):
-                joints[node.subject] = node.author
-        return (
-            tuple(name for name in scene.names if bodies.get(name) == author),
-            tuple(joint.name for joint in scene.joints if joints.get(joint.name) == author),
-        )
-
-    def gesture_start(self, gesture: int, serial: int) -> Moment | None:
-        """Return the moment before the first request of a gesture up to a serial, if kept."""
-        opening = self._openings.get(gesture, serial + 1)
-        kept = self._first < opening <= serial
-        return (self.node(opening).step, opening - 1) if kept else None
+        return self.tip.total - last.total > self.budget.size * _LOG_SHARE
 
     def parting(self, tip: Node, head: int) -> int | None:
         """
@@ -336,13 +213,6 @@ class Tree:
             self.head = step
             self._drop_old()
 
-    def note_shown(self, step: int, serial: int) -> None:
-        """Note that a step was shown with the requests up to a serial."""
-        place = serial - self._first
-        while place > 0 and self.nodes[place].step == step and not self.nodes[place].shown:
-            self.nodes[place].shown = True
-            place -= 1
-
     # Lines that are not in force
 
     def line(self, moment: Moment) -> Line:
@@ -369,7 +239,7 @@ class Tree:
     def keep_course(self, line: Line, ghost: Sequence[CachedFrame]) -> None:
         """Keep a line as a course that was left, with the frames that only it has shown."""
         line.ghost = [frame._replace(contacts=None) for frame in ghost]
-        line.size = frames_size(line.ghost)
+        line.size = sum(frame_size(*frame) for frame in line.ghost)
         self.size += line.size
         self.left[line.course] = line
         of_era = [each for each in self.left.values() if each.era == line.era]
@@ -398,6 +268,16 @@ class Tree:
         undone = [line for line in self.left.values() if line.era > self.era]
         for line in [*self.undone, *undone]:
             self.drop(line)
+
+    @property
+    def has_undone(self) -> bool:
+        """Return whether there is anything to redo."""
+        self.drop_lost()
+        return bool(self.undone)
+
+    def undoes_reset(self, serial: int) -> bool:
+        """Return whether an undo at a serial reverts a reset: all since the reset is undone."""
+        return serial == 0 and self.oldest == 0 and bool(self.resets)
 
     def drop_lost(self) -> None:
         """Drop the lines that part from the line in force before the oldest checkpoint."""

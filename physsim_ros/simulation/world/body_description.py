@@ -4,25 +4,27 @@
 """
 The body that a request makes or changes, as a value without a space.
 
-Law: a property that a request does not name keeps its value; of a new body, it is the default of
-the world.
+Law: a property that a request does not name keeps its value. One that it unsets, and one of a new
+body, has the default of the world.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 from physsim_ros.model.actors import Pedestrian
-from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import HEAVIEST, LIGHTEST
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import Anchored, BadProperty
-from physsim_ros.model.requests import Spawn
+from physsim_ros.model.requests import ChangeBody, Spawn
 from physsim_ros.model.robots import check_namespace
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import REST, Twist
+
+# Of the fields of a body that the world has no defaults of.
+_DEFAULTS = {each.name: each.default for each in fields(Body)}
 
 
 def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Twist]:
@@ -34,8 +36,8 @@ def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tu
     :raises Refusal: the body cannot be simulated
     """
     changes = spawn_changes(request, expires)
-    body = changed_body(_default_body(request, settings), changes, request.properties)
-    return body, changed_twist(body, REST, request.properties)
+    body = changed_body(_default_body(request, settings), changes, request, settings)
+    return body, changed_twist(body, REST, request)
 
 
 def spawn_changes(request: Spawn, expires: int | None) -> dict[str, Any]:
@@ -52,18 +54,25 @@ def spawn_changes(request: Spawn, expires: int | None) -> dict[str, Any]:
     return changes
 
 
-def changed_body(old: Body, changes: dict[str, Any], properties: Properties) -> Body:
+def changed_body(
+    old: Body, changes: dict[str, Any], request: Spawn | ChangeBody, settings: WorldSettings
+) -> Body:
     """
-    Return a body with other properties.
+    Return a body with the properties that a request sets, without those that it unsets.
 
     :param changes: other fields of the body, by name
+    :param settings: of the world, the defaults of properties
     :raises BadProperty: it would be too light or too heavy, or a robot or conveyor that cannot be
     """
-    values = properties.explicit()
+    values = {name: _default(name, settings) for name in request.unset}
+    if 'mass' in values and old.mass is not None:
+        # Its density was that of the mass.
+        values['density'] = settings.density
+    values |= request.properties.explicit()
     for motion in ('velocity', 'spin'):
         values.pop(motion, None)
-    if properties.density is not None:
-        values['mass'] = None
+    if 'density' in values:
+        values.setdefault('mass', None)
     body = replace(old, **changes, **values)
     if body.mass is not None:
         # The default density of the world at its spawn is in no file.
@@ -102,20 +111,29 @@ def _check_role(body: Body) -> None:
     check_namespace(body.robot.namespace_of(body.name), 'namespace')
 
 
-def changed_twist(body: Body, twist: Twist, properties: Properties) -> Twist:
+def _default(name: str, settings: WorldSettings) -> Any:
+    """Return the value of a property of a body that nobody has set."""
+    return getattr(settings, name, _DEFAULTS.get(name))
+
+
+def changed_twist(body: Body, twist: Twist, request: Spawn | ChangeBody) -> Twist:
     """
-    Return the twist of a body with other properties.
+    Return the twist of a body with the properties that a request sets and unsets.
 
     :param twist: that it has now
     :raises Anchored: a velocity is named, and the body is anchored
     """
+    properties = request.properties
     moves = (properties.velocity or (0.0, 0.0)) != (0.0, 0.0) or bool(properties.spin)
     if body.anchored and moves:
         raise Anchored(f'{body.name} is anchored; it has no velocity', field='velocity')
     if body.anchored:
         return REST
-    vx, vy = twist[:2] if properties.velocity is None else properties.velocity
-    return vx, vy, twist[2] if properties.spin is None else properties.spin
+    vx, vy = REST[:2] if 'velocity' in request.unset else twist[:2]
+    spin = 0.0 if 'spin' in request.unset else twist[2]
+    if properties.velocity is not None:
+        vx, vy = properties.velocity
+    return vx, vy, spin if properties.spin is None else properties.spin
 
 
 def _default_body(request: Spawn, settings: WorldSettings) -> Body:
@@ -124,13 +142,7 @@ def _default_body(request: Spawn, settings: WorldSettings) -> Body:
         name=request.name,
         shape=request.shape,
         color=color_of(request.name),
-        mass=None,
         density=settings.density,
         friction=settings.friction,
         elasticity=settings.elasticity,
-        anchored=False,
-        kinematic=False,
-        group=0,
-        sensor=False,
-        expires=None,
     )

@@ -17,7 +17,6 @@ from typing import Any
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_pose
 from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at
 from physsim_ros.model.names import names_in
@@ -63,7 +62,7 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
     pose = pose_in_world(space, request.pose, request.frame)
     expires = live.step_after(request.lifetime)
     if old is not None:
-        _change(live, old, spawn_changes(request, expires), pose, request.properties)
+        _change(live, old, spawn_changes(request, expires), pose, request)
         return Answer(subject=name, message=f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
     check_robot(space, body)
@@ -82,7 +81,7 @@ def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
     if request.pose is not None:
         pose = pose_in_world(space, request.pose, request.frame)
     changes = {} if request.color is None else {'color': request.color}
-    _change(live, rigid, changes, pose, request.properties)
+    _change(live, rigid, changes, pose, request)
     return Answer(subject=name, message=f'changed {name}')
 
 
@@ -227,16 +226,16 @@ def _change(
     old: RigidBody,
     changes: dict[str, Any],
     pose: Pose,
-    properties: Properties,
+    request: Spawn | ChangeBody,
 ) -> None:
     """Change fields and properties of a body, and its pose."""
-    body = changed_body(old.body, changes, properties)
+    body = changed_body(old.body, changes, request, live.settings)
     check_robot(live.space, body)
     if body.actor != old.body.actor:
         check_start(body, live.space.bodies.by_name)
     live.capacity.check_robot(body)
     twist = REST if old.body.anchored else live.space.twist_of(old)
-    twist = changed_twist(body, twist, properties)
+    twist = changed_twist(body, twist, request)
     if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):
         live.capacity.check_body(body, pose, old=old)
     live.space.change(old, body, pose, twist)

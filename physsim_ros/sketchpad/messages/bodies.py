@@ -27,7 +27,7 @@ from physsim_ros.model.requests import (
     MoveBodies,
     Spawn,
     Unjoin,
-    unset_in,
+    without_unset,
 )
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
@@ -37,7 +37,6 @@ from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
-from physsim_ros.sketchpad.touches import MOST_FOLLOWED
 
 
 def _body(value: object, name: str) -> Spawn:
@@ -47,8 +46,8 @@ def _body(value: object, name: str) -> Spawn:
 
 def _changes(value: object, name: str) -> dict[str, Any]:
     """Return changed properties of a body as the fields of `ChangeBody`."""
-    given = dict(fields.mapping(value, name))
-    changes: dict[str, Any] = {}
+    given, unset = without_unset(fields.mapping(value, name), Properties)
+    changes: dict[str, Any] = {'unset': unset}
     if 'color' in given:
         changes['color'] = fields.color(given.pop('color'), 'color')
     if 'at' in given:
@@ -58,10 +57,8 @@ def _changes(value: object, name: str) -> dict[str, Any]:
 
 def _joint_changes(value: object, name: str) -> dict[str, Any]:
     """Return changed properties of a joint as the fields of `Join`."""
-    given = fields.mapping(value, name)
-    unset = unset_in(given)
-    changed = {key: given[key] for key in given if key not in unset}
-    return {'properties': JointProperties.from_mapping(changed), 'unset': unset}
+    given, unset = without_unset(fields.mapping(value, name), JointProperties)
+    return {'properties': JointProperties.from_mapping(given), 'unset': unset}
 
 
 def _velocity(value: object, name: str) -> Twist:
@@ -76,10 +73,7 @@ def _poses(value: object, name: str) -> list[Pose]:
 
 
 def _followed(value: object, name: str) -> frozenset[str]:
-    names = fields.names(value, name) if value else ()
-    if len(names) > MOST_FOLLOWED:
-        raise BadProperty(f'a page follows at most {MOST_FOLLOWED} bodies', field=name)
-    return frozenset(names)
+    return frozenset(fields.names(value, name) if value else ())
 
 
 # Bodies

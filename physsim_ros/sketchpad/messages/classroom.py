@@ -5,18 +5,16 @@
 
 from __future__ import annotations
 
-from functools import partial
 import re
 
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies, Unjoin
-from physsim_ros.simulation.request_queue import Wait
-from physsim_ros.sketchpad.locks import locks_of
+from physsim_ros.simulation.request_queue import TakeBack
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession, TEACHER, UNNAMED
-from physsim_ros.sketchpad.rights import Right
+from physsim_ros.sketchpad.rights import locks_of, Right
 
 # Lengths of an answer to a lesson and of a message to all [characters]; the rest is left out.
 LONGEST_ANSWER, LONGEST_MESSAGE = 24, 200
@@ -60,15 +58,15 @@ def raise_hand(page: PageSession, origin: Origin, *, raised: bool) -> None:
 @message('say', 'page', Right.TEACH, text=fields.text)
 def say(page: PageSession, origin: Origin, text: str) -> None:
     """Show a message on all pages of this world."""
-    page.tell_all({'type': 'said', 'name': page.person, 'text': text[:LONGEST_MESSAGE]})
+    page.send_all({'type': 'said', 'name': page.person, 'text': text[:LONGEST_MESSAGE]})
     page.answer_page(origin, 'the message is shown')
 
 
 @message('take_back', '~/undo')
 def take_back(page: PageSession, origin: Origin) -> None:
     """Undo the last gesture of the person at this page, where it stands alone; time stays."""
-    action = partial(page.world.simulation.take_back, page.person)
-    page.perform(origin, action, Wait.BEHIND_REQUESTS)
+    queue, author = page.world.simulation.requests, page.person
+    queue.submit(TakeBack(), topic=origin.topic, asker=origin.asker, author=author)
 
 
 @message('freeze', 'page', Right.TEACH, frozen=flag)
@@ -90,7 +88,7 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
     """Delete the bodies and joints that a person has added, as far as the history reaches."""
     # Requests may wait that add some.
     page.world.current_snapshot()
-    bodies, joints = page.world.simulation.past.doings_of(person)
+    bodies, joints = page.world.simulation.past.added_by(person)
     if not bodies and not joints:
         raise NothingThere(f'there is nothing of {person}', field='person')
     deletion = [DeleteBodies(names=bodies)] if bodies else []

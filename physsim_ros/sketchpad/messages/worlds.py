@@ -69,7 +69,7 @@ def service(page: PageSession, origin: Origin, name: str, world: str = '') -> No
     origin = origin._replace(topic=f'~/{name}')
     if name in ('clear', 'load_world'):
         page.check_locked((DeleteAll(),))
-    action, wait = page.world.services[name]
+    action, wait = page.world.service(name)
     if world:
         if name not in ('load_world', 'save_world'):
             raise BadWorldFile(f'~/{name} takes no world', field='world')
@@ -127,7 +127,7 @@ def _saving(page: PageSession, save: Callable[[], str]) -> str:
     """Save the world, note that it is saved, and return the message about it."""
     done = save()
     page.autosave.note_saved()
-    page.list_worlds()
+    page.list_worlds(None)
     return done
 
 
@@ -168,7 +168,7 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
     def manage() -> str:
         with _reaching(name):
             done = action()
-        page.list_worlds()
+        page.list_worlds(None)
         return done
 
     page.perform(origin, manage)

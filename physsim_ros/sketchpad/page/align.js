@@ -2,13 +2,14 @@
 /** Several bodies are aligned at their edges or centres, or distributed with equal gaps; one undo takes it back. */
 
 import {createElement, inRow, textButton} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
 
 /** Label, axis (0 is x), and the share of the way from the lower edge to the upper one. @type {[string, number, number][]} */
-const ALIGNMENTS = [['Left', 0, 0], ['Centre', 0, 0.5], ['Right', 0, 1], ['Top', 1, 1], ['Middle', 1, 0.5], ['Bottom', 1, 0]];
+const ALIGNMENTS = [[t('Left'), 0, 0], [t('Centre'), 0, 0.5], [t('Right'), 0, 1], [t('Top'), 1, 1], [t('Middle'), 1, 0.5], [t('Bottom'), 1, 0]];
 /** @type {[string, number][]} */
-const DISTRIBUTIONS = [['Across', 0], ['Up', 1]];
+const DISTRIBUTIONS = [[t('Across'), 0], [t('Up'), 1]];
 
 /**
  * @param {App} app
@@ -21,7 +22,7 @@ export function arrangeButtons(app, names) {
     return boxes.map((box) => along(axis, at - edge(box, axis, share)));
   })));
   const distribute = DISTRIBUTIONS.map(([label, axis]) => textButton(label, () => place(app, names, (boxes) => distances(boxes, axis))));
-  return [createElement('h3', {textContent: 'Align'}), inRow(...align), createElement('h3', {textContent: 'Equal gaps'}), inRow(...distribute)];
+  return [createElement('h3', {textContent: t('Align')}), inRow(...align), createElement('h3', {textContent: t('Equal gaps')}), inRow(...distribute)];
 }
 
 /** @typedef {number[]} Box xmin, ymin, xmax, ymax [m] */

@@ -9,36 +9,31 @@ import {Arrows} from './arrows.js';
 import {Camera} from './camera.js';
 import {Classroom} from './classroom.js';
 import {Connection} from './connection.js';
-import {Cursor} from './cursor.js';
 import {createElement, elementOf} from './dom.js';
 import {Driving} from './driving.js';
 import {Gallery} from './gallery.js';
 import {Handles} from './handles.js';
-import {Hints} from './hints.js';
+import {Hints, Tips} from './hints.js';
 import {JointPanel} from './joint_panel.js';
-import {Keyboard} from './keyboard.js';
+import {Cursor, Keyboard} from './keyboard.js';
 import {Lessons} from './lessons.js';
-import {Notes} from './notes.js';
+import {Narrator, Sound} from './narrator.js';
+import {Notes, Refusals} from './notes.js';
 import {Numbers} from './numbers.js';
 import {Panel} from './panel.js';
 import {PlotWindow} from './plot_window.js';
 import {Plots} from './plots.js';
 import {Pointers} from './pointer.js';
-import {Readings} from './readings.js';
-import {Records} from './records.js';
-import {Refusals} from './refusals.js';
+import {Records, Trail} from './records.js';
 import {Room} from './room.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
-import {Sound} from './sound.js';
+import {Settings} from './settings.js';
 import {Stopwatch} from './stopwatch.js';
-import {EmptyCard} from './strokes.js';
+import {t} from './strings.js';
+import {EmptyCard, Readings} from './strokes.js';
 import {TimeBar} from './time_bar.js';
-import {Tips} from './tips.js';
-import {Toolbar} from './toolbar.js';
-import {TopBar} from './top_bar.js';
-import {Trail} from './trail.js';
-import {VelocityArrow} from './velocity_arrow.js';
+import {makeToolbar, Toolbar, TopBar} from './toolbar.js';
 import {shapeWord, Words} from './words.js';
 import {WorldState} from './world_state.js';
 
@@ -80,7 +75,6 @@ export class App {
     this.panel = new Panel(this);
     this.joints = new JointPanel(this);
     this.stopwatch = new Stopwatch(this);
-    this.arrow = new VelocityArrow(this);
     this.handles = new Handles(this);
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);
@@ -96,6 +90,10 @@ export class App {
     this.tips = new Tips(this.camera);
     this.card = new EmptyCard(this);
     this.room = new Room(this);
+    this.settings = new Settings(this);
+    this.narrator = new Narrator(this);
+    for (const id of ['tools', 'files', 'looks', 'edit', 'marks', 'legend']) makeToolbar(elementOf(id, HTMLElement));
+    makeToolbar(elementOf('time', HTMLElement), '[data-icon=play]');
     this.#listen();
     this.connection.connect();
     setInterval(() => this.#listBodies(), LIST_EVERY);
@@ -114,7 +112,7 @@ export class App {
       this.askForParts();
     });
     connection.on('open', () => {
-      if (!gone.hidden) this.notes.showMessage('Connected again');
+      if (!gone.hidden) this.notes.showMessage(t('Connected again'));
       gone.hidden = true;
     });
     connection.on('closed', (status) => {
@@ -122,19 +120,19 @@ export class App {
       if (gone.hidden) this.tool.cancel();
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
-        'Wrong token: open the address that the node printed.' :
-        status ? 'The server refused this page; trying again …' :
-          'The server is gone. This page comes back with it.';
+        t('Wrong token: open the address that the node printed.') :
+        status ? t('The server refused this page; trying again …') :
+          t('The server is gone. This page comes back with it.');
     });
   }
 
   /** Ask for the parts of frames that are shown. */
   askForParts() {
-    const {velocities, forces} = this.arrows, {name} = this.panel;
+    const {velocities, forces} = this.arrows, {name} = this.panel, told = this.settings?.speaks || this.selection.names.size > 0;
     const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
     this.view.dirty = true;
     // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || name !== '' || this.records.records || this.tool.measures === true, contacts: forces || name !== '' || this.sound.on || this.records.recordsForces, forces: true, laser: robot ? name : ''});
+    this.connection.send('show', {velocities: velocities || forces || told || this.records.records || this.tool.measures === true, contacts: forces || told || this.sound.on || this.records.recordsForces, forces: true, laser: robot ? name : ''});
   }
 
   #listBodies() {
@@ -142,9 +140,9 @@ export class App {
     const texts = bodies.slice(0, LISTED).map((body, row) => {
       const {name, anchored, label} = body;
       const [x, y] = world.place(row, [0, 0]);
-      return `${name}: ${shapeWord(body)}${label && ` ${label}`}${anchored ? ', anchored' : ''}, at ${x.toFixed(1)}, ${y.toFixed(1)} m`;
+      return `${name}: ${shapeWord(body)}${label && ` ${label}`}${anchored ? `, ${t('anchored')}` : ''}, ${t('at {x}, {y} m', {x: x.toFixed(1), y: y.toFixed(1)})}`;
     });
-    if (bodies.length > LISTED) texts.push(`and ${bodies.length - LISTED} more`);
+    if (bodies.length > LISTED) texts.push(t('and {count} more', {count: bodies.length - LISTED}));
     const list = elementOf('list', HTMLElement);
     while (list.children.length > texts.length) list.lastChild?.remove();
     texts.forEach((text, i) => {

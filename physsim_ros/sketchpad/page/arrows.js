@@ -8,10 +8,11 @@
  * that bears.
  */
 
-import {createElement, elementOf} from './dom.js';
+import {createElement, elementOf, textButton, toggling} from './dom.js';
 import {drawApplied} from './force_fields.js';
 import {bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {roundUp, threeDigits} from './rounding.js';
+import {t} from './strings.js';
 
 /** @import {App, Force, Palette, Point, SceneView} from './types.js' */
 
@@ -25,7 +26,7 @@ const LEAST_SPEED = 5; // m/s: that there is always room for
 const FEW = 12; // bodies that move, of which all forces are shown where none is selected
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
 /** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
-const NAMES = {weight: 'weight', normal: 'normal force', friction: 'friction', joint: 'joint', applied: 'applied force', air: 'air', sum: 'sum'};
+const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'), applied: t('applied force'), air: t('air'), sum: t('sum')};
 
 /** How many units are a bar's length: 1, 2 or 5 times a power of ten. */
 class ArrowScale {
@@ -85,23 +86,21 @@ export class Arrows {
       return createElement('span', {className: `scale ${kind}`}, this.bars[unit]);
     };
     const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) => {
-      const button = createElement('button', {type: 'button', textContent: name, className: kind, 'aria-pressed': isOn(), onclick: () => {
+      return toggling(textButton(name, () => {}, kind), isOn, () => {
         change();
-        button.setAttribute('aria-pressed', String(isOn()));
         this.app.view.dirty = true;
-      }});
-      return button;
+      });
     };
     const {legend, off} = this;
     legend.hidden = !this.velocities && !this.forces;
     legend.replaceChildren(
-      ...this.velocities ? [bar('m/s', 'velocity'), part('Momentum', 'momentum', () => this.momenta, () => {
+      ...this.velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
         this.momenta = !this.momenta;
         this.showLegend();
       }), ...this.momenta ? [bar('N s', 'momentum')] : []] : [],
       ...this.forces ? [bar('N', ''), ...Object.entries(NAMES).map(([kind, name]) =>
         part(name, kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
-      part('x and y', 'parts', () => this.components, () => { this.components = !this.components; }), this.hint);
+      part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint);
     this.app.room.fit();
   }
 
@@ -149,7 +148,7 @@ export class Arrows {
       if (anchored) continue;
       const from = camera.toPage(...world.place(row, centroid)), speed = Math.hypot(x, y);
       if (this.momenta) this.#arrow(view, from, mass * x, mass * y, this.impulses, room, view.palette.momentum, `${threeDigits(mass * speed)} N s`, {width: WIDE});
-      // The arrow of the selected body can be dragged (velocity_arrow.js).
+      // The arrow of the selected body can be dragged.
       if (name === panel.name) {
         if (this.components) this.#components(view, from, x, y, this.speeds, room, view.palette.accent, 'm/s');
       } else this.#arrow(view, from, x, y, this.speeds, room, view.palette.accent, `${threeDigits(speed)} m/s`, {unit: 'm/s'});
@@ -166,7 +165,7 @@ export class Arrows {
     const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all);
     const some = all.some(isSelected), beside = some ? neighboursOf(world, selected) : selected;
     const few = viewOnly || bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).length <= FEW;
-    if (!some && !few) this.hint.textContent = 'Tap a body: its forces, and those of what touches it.';
+    if (!some && !few) this.hint.textContent = t('Tap a body: its forces, and those of what touches it.');
     const forces = [...all, ...sums].filter((force) => !this.off.has(force.kind) && (some ? isSelected(force) || beside.has(force.row) : few));
     const shown = some ? forces : bearing(forces, world.scene.gravity);
     this.newtons.fit(Math.max(...shown.map(({x, y}) => Math.hypot(x, y)), 0), room, world.paused);
@@ -175,7 +174,7 @@ export class Arrows {
       const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${NAMES[kind]} ${size}` : size;
       const width = some && !named ? NARROW : kind === 'sum' ? WIDE : USUAL;
       const to = this.#arrow(view, from, x, y, this.newtons, room, color, text, {width, unit: named || !some ? 'N' : '', named});
-      if (!to && kind === 'sum' && named) view.number({text: 'sum 0 N', color, tip: [from[0], from[1] - BAR / 2], along: [0, -1], named});
+      if (!to && kind === 'sum' && named) view.number({text: `${NAMES.sum} 0 N`, color, tip: [from[0], from[1] - BAR / 2], along: [0, -1], named});
       this.drawn.push({name: bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
     }
   }

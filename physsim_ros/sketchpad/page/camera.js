@@ -16,6 +16,7 @@ export class Camera {
     this.scale = 60; // px/m
     this.width = this.height = 1; // of the page [px]
     this.fitted = false; // nobody has moved the view since
+    this.whole = 60; // scale that was fitted last [px/m]
   }
 
   /** @returns {boolean} whether tools and panel lie below */
@@ -84,6 +85,7 @@ export class Camera {
     const height = this.height - insets.top - insets.bottom;
     this.scale = Math.max(Math.min(width / Math.max(xmax - xmin, LEAST_SPAN),
       height / Math.max(ymax - ymin, LEAST_SPAN)), LEAST_SCALE);
+    this.whole = this.scale;
     this.x = (xmin + xmax) / 2 + (insets.right - insets.left) / 2 / this.scale;
     this.y = (ymin + ymax) / 2 + (insets.top - insets.bottom) / 2 / this.scale;
   }

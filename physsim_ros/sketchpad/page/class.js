@@ -7,9 +7,10 @@
 import {Camera} from './camera.js';
 import {sayForm} from './classroom.js';
 import {Connection} from './connection.js';
-import {createElement, elementOf, inRow, textButton} from './dom.js';
+import {choice, createElement, elementOf, inRow, languageField, textButton} from './dom.js';
 import {SceneView} from './scene_view.js';
-import {watchTheme} from './theme.js';
+import {watchTheme} from './settings.js';
+import {t} from './strings.js';
 import {WorldState} from './world_state.js';
 
 /** @import {Classmate} from './types.js' */
@@ -27,7 +28,7 @@ class Card {
     this.name = createElement('a', {target: '_blank', rel: 'noopener'});
     this.lesson = createElement('small');
     this.answer = createElement('p');
-    this.hand = createElement('strong', {textContent: 'hand raised', hidden: true});
+    this.hand = createElement('strong', {textContent: t('hand raised'), hidden: true});
     const canvas = createElement('canvas', {role: 'img'});
     this.element = createElement('li', {}, inRow(this.name, this.hand), canvas, this.lesson, this.answer);
     const connection = this.connection = new Connection(`/ws/${number}`), camera = new Camera();
@@ -54,17 +55,17 @@ class Card {
   /** @param {{name: string, address: string}} seat */
   sit({name, address}) {
     this.name.href = address;
-    this.name.textContent = name || 'free';
+    this.name.textContent = name || t('free');
     this.element.classList.toggle('free', !name);
-    this.canvas.ariaLabel = `World of ${name || 'nobody'}`;
+    this.canvas.ariaLabel = t('World of {name}', {name: name || t('nobody')});
   }
 
   show() {
     const {pupil, world: {scene: {lesson}}} = this, answered = pupil?.answered;
-    this.lesson.textContent = lesson ? `${lesson.number}. ${lesson.title}` : 'no lesson';
+    this.lesson.textContent = lesson ? `${lesson.number}. ${lesson.title}` : t('no lesson');
     this.hand.hidden = !pupil?.raised;
     const known = answered && answered.lesson === lesson?.title;
-    this.answer.textContent = known ? `${answered.answer} ${lesson?.unit === '1' ? '' : lesson?.unit} ${answered.right ? '✓ right' : '✗ not yet'}` : '';
+    this.answer.textContent = known ? `${answered.answer} ${lesson?.unit === '1' ? '' : lesson?.unit} ${answered.right ? t('✓ right') : t('✗ not yet')}` : '';
     this.answer.className = known && answered.right ? 'right' : '';
     this.element.classList.toggle('raised', Boolean(pupil?.raised));
   }
@@ -111,20 +112,21 @@ function begin(count) {
   const toAll = (/** @type {string} */ type, /** @type {Record<string, unknown>} */ fields) => {
     for (const {connection} of cards) connection.send(type, fields);
   };
-  const lessons = createElement('select', {'aria-label': 'Lesson'});
+  const lessons = choice(t('Lesson'), [], '', () => {});
   cards[0].connection.on('worlds', ({lessons: list}) => lessons.replaceChildren(...list.map(
     (/** @type {{name: string, number: number, title: string}} */ each) =>
       createElement('option', {value: each.name, textContent: `${each.number}. ${each.title}`}))));
   // A lesson may have been written meanwhile.
   lessons.onpointerdown = () => cards[0].connection.send('list');
   elementOf('all', HTMLElement).append(inRow(lessons,
-    textButton('Open the lesson for all', () => cards.forEach(({connection}) => connection.openLesson(lessons.value))),
-    textButton('Pause all', () => toAll('service', {name: 'pause'})),
-    textButton('Freeze all', () => toAll('freeze', {frozen: true})),
-    textButton('Let them draw again', () => toAll('freeze', {frozen: false})),
-    textButton('Clear all worlds', () => confirm('Delete all bodies of all worlds?') && toAll('service', {name: 'clear'}), 'danger')),
+    textButton(t('Open the lesson for all'), () => cards.forEach(({connection}) => connection.openLesson(lessons.value))),
+    textButton(t('Pause all'), () => toAll('service', {name: 'pause'})),
+    textButton(t('Freeze all'), () => toAll('freeze', {frozen: true})),
+    textButton(t('Let them draw again'), () => toAll('freeze', {frozen: false})),
+    textButton(t('Clear all worlds'), () => confirm(t('Delete all bodies of all worlds?')) && toAll('service', {name: 'clear'}), 'danger')),
   sayForm((text) => toAll('say', {text})));
 }
 
+document.querySelector('main')?.append(inRow(languageField()));
 watchTheme();
 showSeats();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
 
-import {createElement, elementOf, iconButton, inRow, textButton} from './dom.js';
+import {createElement, elementOf, fieldForm, iconButton, inRow, textButton} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App, Classmate, Point, SceneView} from './types.js' */
 
@@ -9,7 +10,7 @@ const NAME = 'physsim-name'; // of the person, in this browser
 const LONGEST = 24; // characters
 const PERIOD = 100; // ms between messages of the cursor
 const SHOWN = 10000; // ms: a cursor that rests
-const TITLE = 'People';
+const TITLE = t('People');
 const GOLDEN = 137; // degrees between the colours of Page 1 and Page 2: the golden angle
 
 export class Classroom {
@@ -50,9 +51,9 @@ export class Classroom {
     });
     view.canvas.addEventListener('pointermove', (event) => this.#sendCursor(event));
     view.overlays.push((each) => this.#draw(each));
-    this.button = iconButton(TITLE, 'people', () => this.#showPeople(), 'People in this world');
+    this.button = iconButton(TITLE, 'people', () => this.#showPeople(), t('People in this world'));
     this.button.hidden = true;
-    this.hand = iconButton('Raise your hand', 'raise', () => this.#raise(!this.raised), 'Raise your hand, or lower it: your teacher sees it');
+    this.hand = iconButton(t('Raise your hand'), 'raise', () => this.#raise(!this.raised), t('Raise your hand, or lower it: your teacher sees it'));
     this.hand.hidden = true;
     elementOf('looks', HTMLElement).append(this.button, this.hand);
   }
@@ -80,7 +81,7 @@ export class Classroom {
     app.time.showTimeline();
     const frozen = state.frozen && !this.teacher && !app.viewOnly;
     document.body.classList.toggle('frozen', frozen);
-    if (frozen && !this.frozen) this.thaw = app.notes.pin(() => null, ['Your teacher has frozen this world.'], {kind: 'docked', shown: 0});
+    if (frozen && !this.frozen) this.thaw = app.notes.pin(() => null, [t('Your teacher has frozen this world.')], {kind: 'docked', shown: 0});
     else if (!frozen) this.thaw();
     this.frozen = frozen;
     app.gallery.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
@@ -97,31 +98,30 @@ export class Classroom {
   #showPeople() {
     const {app, state, teacher} = this, {connection} = app;
     const own = state.people.find(({page}) => page === this.page)?.name ?? '';
-    const input = createElement('input', {value: localStorage.getItem(NAME) ?? '', placeholder: own, required: true, maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': 'Your name'});
-    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-      event.preventDefault();
-      localStorage.setItem(NAME, input.value.trim());
-      connection.send('person', {name: input.value.trim()});
+    const input = createElement('input', {value: localStorage.getItem(NAME) ?? '', placeholder: own, required: true, maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': t('Your name')});
+    const form = fieldForm(input, t('Use this name'), (name) => {
+      localStorage.setItem(NAME, name);
+      connection.send('person', {name});
       app.gallery.dialog.close();
-    }}, input, createElement('button', {textContent: 'Use this name'}));
+    });
     const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role, answered, raised}) =>
-      createElement('li', {}, dot(name), `${name}${page === this.page ? ' (you)' : ''}${role === 'teach' && name !== 'Teacher' ? ', teacher' : ''}`,
-        ...raised ? [createElement('strong', {textContent: 'hand raised'})] : [], ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
-        ...teacher ? [textButton(`Delete what ${name} drew`, () => connection.send('clear_of', {person: name}), 'danger')] : [])));
+      createElement('li', {}, dot(name), `${name}${page === this.page ? ` (${t('you')})` : ''}${role === 'teach' && name !== 'Teacher' ? `, ${t('teacher')}` : ''}`,
+        ...raised ? [createElement('strong', {textContent: t('hand raised')})] : [], ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
+        ...teacher ? [textButton(t('Delete what {name} drew', {name}), () => connection.send('clear_of', {person: name}), 'danger')] : [])));
     app.gallery.show(TITLE, ...app.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
   }
 
   /** @returns {Node[]} what a teacher may do */
   #powers() {
     const {app: {connection, selection}, state: {frozen, locked}} = this, chosen = [...selection.names];
-    const freeze = textButton(frozen ? 'Let them draw again' : 'Freeze all pupils', () => connection.send('freeze', {frozen: !frozen}));
-    const lock = chosen.length ? textButton(`Lock what is selected (${chosen.length})`, () => connection.send('lock', {names: [...new Set([...locked, ...chosen])]})) :
-      textButton('Lock all bodies', () => connection.send('lock', {names: ['*']}));
-    return [createElement('h3', {textContent: 'Teacher'}), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
-      ...locked.length ? [textButton('Unlock all', () => connection.send('lock', {names: []}))] : []),
-    ...locked.length ? [createElement('p', {textContent: `Locked: ${locked.join(', ')}`})] : [],
-    createElement('h3', {textContent: 'Pupils come here'}),
-    createElement('img', {src: '/qr.svg', alt: 'QR code of the address of pupils', className: 'code'})];
+    const freeze = textButton(frozen ? t('Let them draw again') : t('Freeze all pupils'), () => connection.send('freeze', {frozen: !frozen}));
+    const lock = chosen.length ? textButton(t('Lock what is selected ({count})', {count: chosen.length}), () => connection.send('lock', {names: [...new Set([...locked, ...chosen])]})) :
+      textButton(t('Lock all bodies'), () => connection.send('lock', {names: ['*']}));
+    return [createElement('h3', {textContent: t('Teacher')}), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
+      ...locked.length ? [textButton(t('Unlock all'), () => connection.send('lock', {names: []}))] : []),
+    ...locked.length ? [createElement('p', {textContent: t('Locked: {names}', {names: locked.join(', ')})})] : [],
+    createElement('h3', {textContent: t('Pupils come here')}),
+    createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})];
   }
 
   /** @param {PointerEvent} event */
@@ -156,12 +156,11 @@ export class Classroom {
 
 /** @param {(text: string) => void} say to all */
 export function sayForm(say) {
-  const input = createElement('input', {required: true, maxLength: 200, autocomplete: 'off', placeholder: 'Message to all', 'aria-label': 'Message to all'});
-  return createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-    event.preventDefault();
-    say(input.value.trim());
+  const input = createElement('input', {required: true, maxLength: 200, autocomplete: 'off', placeholder: t('Message to all'), 'aria-label': t('Message to all')});
+  return fieldForm(input, t('Send'), (text) => {
+    say(text);
     input.value = '';
-  }}, input, createElement('button', {textContent: 'Send'}));
+  });
 }
 
 /** @param {string} name of a person */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Short forms to make and find elements of the page. */
 
+import {chooseLanguage, language, LANGUAGES, t} from './strings.js';
+
 /**
  * @template {keyof HTMLElementTagNameMap} T
  * @param {T} tag
@@ -35,7 +37,8 @@ export function icon(id) {
  * @param {string} title
  */
 export function iconButton(name, id, onclick, title = name) {
-  return createElement('button', {type: 'button', 'aria-label': name, title, onclick}, icon(id));
+  return createElement('button', {type: 'button', 'aria-label': name, 'data-icon': id, title, onclick}, icon(id),
+    createElement('span', {className: 'word', 'aria-hidden': true, textContent: name}));
 }
 
 /**
@@ -79,7 +82,7 @@ export function textOf(field) {
  * @param {(value: number) => void} change when it is let go
  */
 export function range(label, min, max, step, value, change) {
-  const typed = createElement('input', {type: 'number', min, step: 'any', value: Number(value.toPrecision(5)), 'aria-label': `${label}, typed`,
+  const typed = createElement('input', {type: 'number', min, step: 'any', value: Number(value.toPrecision(5)), 'aria-label': t('{quantity}, typed', {quantity: label}),
     oninput: () => {
       input.max = String(Math.max(max, Number(typed.value)));
       input.value = typed.value;
@@ -89,6 +92,66 @@ export function range(label, min, max, step, value, change) {
     oninput: () => { typed.value = input.value; },
     onchange: () => change(Number(input.value))});
   return createElement('div', {className: 'field'}, createElement('span', {textContent: label}), typed, input);
+}
+
+/**
+ * @param {string} label
+ * @param {boolean} checked
+ * @param {(checked: boolean) => void} change
+ */
+export function checkField(label, checked, change) {
+  const input = createElement('input', {type: 'checkbox', checked, onchange: () => change(input.checked)});
+  return createElement('label', {}, label, input);
+}
+
+/**
+ * @param {string} label
+ * @param {[value: string, text: string][]} options
+ * @param {string} value that is chosen
+ * @param {(value: string) => void} change
+ */
+export function choice(label, options, value, change) {
+  const input = createElement('select', {'aria-label': label, onchange: () => change(input.value)},
+    ...options.map(([each, textContent]) => createElement('option', {value: each, textContent})));
+  input.value = value;
+  return input;
+}
+
+/** @returns {HTMLElement} a choice of the language; the page is loaded again in it */
+export function languageField() {
+  return createElement('label', {}, t('Language'), choice(t('Language'), Object.entries(LANGUAGES), language, chooseLanguage));
+}
+
+/**
+ * A field with a button, in a row; Enter presses it.
+ * @param {HTMLInputElement} input
+ * @param {string} label of the button
+ * @param {(text: string) => void} done gets what was typed, trimmed
+ * @param {string} unit between them
+ */
+export function fieldForm(input, label, done, unit = '') {
+  return createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
+    event.preventDefault();
+    done(input.value.trim());
+  }}, input, unit, createElement('button', {textContent: label}));
+}
+
+/**
+ * Let a button show whether it is on, and change that.
+ * @template {HTMLButtonElement} T
+ * @param {T} button
+ * @param {() => boolean} isOn
+ * @param {() => void} change
+ * @returns {T}
+ */
+export function toggling(button, isOn, change) {
+  const show = () => button.setAttribute('aria-pressed', String(isOn()));
+  button.onclick = () => {
+    change();
+    show();
+  };
+  show();
+  return button;
 }
 
 /** @param {Node[]} children beside each other */

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Driving the selected robot: by W A S D, and by a stick for thumbs in its panel. */
+/** What moves on its own: a robot, driven by W A S D or by a stick for thumbs in its panel; an actor, with its way in the world. */
 
 import {createElement} from './dom.js';
+import {t} from './strings.js';
 
-/** @import {App, Point, Robot} from './types.js' */
+/** @import {Actor, App, Point, Robot, SceneView, WorldState} from './types.js' */
 
 const PERIOD = 100; // ms between commands: a drive stops without one after half a second
 const TURN = 0.5; // share of the greatest turn rate that a key asks for
@@ -22,7 +23,7 @@ export class Driving {
     this.stick = [0, 0];
     this.timer = 0;
     this.knob = createElement('i');
-    this.element = createElement('div', {className: 'stick', role: 'img', 'aria-label': 'Stick: drag to drive'}, this.knob);
+    this.element = createElement('div', {className: 'stick', role: 'img', 'aria-label': t('Stick: drag to drive')}, this.knob);
     this.element.addEventListener('pointerdown', (event) => {
       this.element.setPointerCapture(event.pointerId);
       this.#drag(event);
@@ -44,10 +45,10 @@ export class Driving {
    * @returns {Node[]} its part of the panel
    */
   show({kind, namespace, max_speed: speed, max_turn: turn}) {
-    return [createElement('h3', {textContent: `Robot, ${kind} · /${namespace}`}),
-      createElement('p', {textContent: `Up to ${speed} m/s and ${turn} rad/s`}),
+    return [createElement('h3', {textContent: `${t('Robot, {drive}', {drive: kind})} · /${namespace}`}),
+      createElement('p', {textContent: t('Up to {speed} m/s and {turn} rad/s', {speed, turn})}),
       createElement('div', {className: 'drive'}, this.element,
-        createElement('p', {textContent: `Drag the knob; or ${kind === 'omni' ? 'W A S D, Q and E' : 'W A S D'}, after a click on the world.`}))];
+        createElement('p', {textContent: t('Drag the knob; or {keys}, after a click on the world.', {keys: kind === 'omni' ? 'W A S D Q E' : 'W A S D'})}))];
   }
 
   /**
@@ -114,4 +115,37 @@ export class Driving {
     connection.send('drive', {name: panel.name, velocity: sum.map((each, i) => Math.max(-1, Math.min(each, 1)) * most[i])});
     this.name = this.timer ? panel.name : '';
   }
+}
+
+/** @type {Record<Actor['kind'], string>} */
+const KINDS = {path: t('Follows a path'), social_force: t('Walks by social forces'), orca: t('Walks and avoids others (ORCA)')};
+/** @type {Record<string, string>} */
+const REPEATS = {once: t('once'), loop: t('round and round'), to_and_fro: t('to and fro')};
+const POINT = 4; // px: radius of a point of the way
+
+/**
+ * @param {Actor} actor
+ * @returns {Node[]} lines of the panel
+ */
+export function actorLines({kind, points, speed, repeat = 'once', start = {}}) {
+  const {gate, near, distance, time} = start;
+  const texts = [`${KINDS[kind]}, ${REPEATS[repeat]}`, t('{count} points', {count: points.length})];
+  if (speed) texts.push(`${speed} m/s`);
+  if (gate) texts.push(t('starts when something is in {name}', {name: gate}));
+  if (near) texts.push(t('starts when {name} is within {distance} m', {name: near, distance: distance ?? 0}));
+  if (time) texts.push(t('waits {time} s', {time}));
+  return [createElement('p', {className: 'actor', textContent: texts.join(' · ')})];
+}
+
+/**
+ * @param {SceneView} view
+ * @param {WorldState} world
+ * @param {string} name of the selected body, whose way is drawn if it is an actor
+ */
+export function drawWay(view, {scene}, name) {
+  const actor = scene.bodies.find((body) => body.name === name)?.actor, {accent} = view.palette;
+  if (!actor) return;
+  const points = actor.points.map(([x, y]) => /** @type {Point} */ ([x, y]));
+  view.line(actor.repeat === 'loop' ? [...points, points[0]] : points, accent, [8, 5]);
+  for (const point of points) view.ring(point, POINT, accent);
 }

@@ -4,8 +4,9 @@
  * to scale.
  */
 
-import {createElement, inRow, textButton} from './dom.js';
+import {checkField, createElement, inRow, textButton} from './dom.js';
 import {threeDigits} from './rounding.js';
+import {t} from './strings.js';
 
 /** @import {App, AppliedForce, Body, Point, SceneView, WorldState} from './types.js' */
 
@@ -26,23 +27,23 @@ export function forceFields({world}, {name, forces = []}, change) {
   const rows = forces.map(({force: [x, y], axes}, i) => {
     const replaced = (/** @type {Partial<AppliedForce>} */ fields) => send(now().map((each, j) => j === i ? {...each, ...fields} : each));
     const number = (/** @type {string} */ label, /** @type {number} */ value) => createElement('input', {type: 'number', step: 'any',
-      value: Number(value.toPrecision(5)), 'aria-label': `${label} of force ${i + 1}`,
+      value: Number(value.toPrecision(5)), 'aria-label': `${label} (${i + 1})`,
       onchange: () => {
         const [newtons, degrees] = [Number(size.value), Number(angle.value)];
         if (size.value && angle.value) replaced({force: [newtons * Math.cos(degrees * DEGREE), newtons * Math.sin(degrees * DEGREE)]});
       }});
-    const size = number('Newtons', Math.hypot(x, y)), angle = number('Direction', Math.atan2(y, x) / DEGREE);
-    const turns = createElement('input', {type: 'checkbox', checked: axes === 'body', onchange: () => {
+    const size = number(t('Force [N]'), Math.hypot(x, y)), angle = number(t('Direction [°]'), Math.atan2(y, x) / DEGREE);
+    const turns = checkField(t('Turns with the body'), axes === 'body', (isOn) => {
       const yaw = world.frame.yaw[world.row(name)], force = now()[i]?.force ?? [x, y];
       // Its direction of now stays.
-      replaced({axes: turns.checked ? 'body' : 'world', force: rotated(force, turns.checked ? -yaw : yaw)});
-    }});
-    return createElement('fieldset', {className: 'force'}, createElement('legend', {textContent: forces.length > 1 ? `Force ${i + 1}` : 'Constant force'}),
-      createElement('label', {}, 'Force [N]', size), createElement('label', {}, 'Direction [°]', angle),
-      createElement('label', {}, 'Turns with the body', turns),
-      inRow(textButton('Remove', () => send(now().filter((_, j) => j !== i)), 'danger')));
+      replaced({axes: isOn ? 'body' : 'world', force: rotated(force, isOn ? -yaw : yaw)});
+    });
+    return createElement('fieldset', {className: 'force'}, createElement('legend', {textContent: t('Constant force {number}', {number: i + 1})}),
+      createElement('label', {}, t('Force [N]'), size), createElement('label', {}, t('Direction [°]'), angle),
+      turns,
+      inRow(textButton(t('Remove'), () => send(now().filter((_, j) => j !== i)), 'danger')));
   });
-  return [...rows, inRow(textButton('Add a constant force', () => send([...now(), {force: [FIRST, 0]}])))];
+  return [...rows, inRow(textButton(t('Add a constant force'), () => send([...now(), {force: [FIRST, 0]}])))];
 }
 
 /**

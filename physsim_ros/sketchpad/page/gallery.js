@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
 
-import {createElement, download, elementOf, icon, iconButton, inRow, textButton} from './dom.js';
+import {createElement, download, elementOf, fieldForm, icon, iconButton, inRow, textButton} from './dom.js';
+import {language, t} from './strings.js';
 import {capital} from './words.js';
 
 /** @import {App} from './types.js' */
 
 const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
 const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
-const WORLDS = 'Worlds'; // title
+const WORLDS = t('Worlds'); // title
 const UNSAVED = 30000; // ms for which the unsaved world is offered beside the world; then it is in the list
 const LONGEST_LINK = 16000; // characters
 const PRESSED = 200; // ms until it is looked again whether a dialog is still pressed
@@ -47,7 +48,7 @@ export class Gallery {
     const top = this.dialog.open && this.dialog.ariaLabel === title ? this.dialog.scrollTop : 0;
     this.dialog.ariaLabel = title;
     this.dialog.replaceChildren(createElement('header', {}, createElement('h2', {textContent: title}),
-      iconButton('Close', 'close', () => this.dialog.close(), '')),
+      iconButton(t('Close'), 'close', () => this.dialog.close(), '')),
     ...content);
     if (!this.dialog.open) this.dialog.showModal();
     this.dialog.scrollTop = top;
@@ -76,11 +77,11 @@ export class Gallery {
       createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
-    this.show(WORLDS, inRow(textButton('Empty room', () => this.#upload(EMPTY)),
-      createElement('label', {className: 'file'}, 'Open a file', file),
-      ...this.unsaved ? [textButton(`Unsaved world of ${this.unsaved}`, () => this.#openUnsaved())] : []),
-    ...own.length ? [createElement('h3', {textContent: 'Yours'}), cards(own)] : [],
-    ...this.app.lessons.section(), createElement('h3', {textContent: 'To explore, simplest first'}), cards(shipped));
+    this.show(WORLDS, inRow(textButton(t('Empty room'), () => this.#upload(EMPTY)),
+      createElement('label', {className: 'file'}, t('Open a file'), file),
+      ...this.unsaved ? [textButton(t('Unsaved world of {date}', {date: this.unsaved}), () => this.#openUnsaved())] : []),
+    ...own.length ? [createElement('h3', {textContent: t('Yours')}), cards(own)] : [],
+    ...this.app.lessons.section(), createElement('h3', {textContent: t('To explore, simplest first')}), cards(shipped));
   }
 
   /** @param {typeof this.worlds[0]} world */
@@ -93,8 +94,8 @@ export class Gallery {
       ...shipped && title !== heading ? [createElement('small', {textContent: title})] : []);
     if (shipped) return card;
     return createElement('div', {className: 'own'}, card, inRow(
-      textButton('Rename', () => this.#askName(`Rename ${name}`, name, 'Rename', (to) => this.#rename(name, to))),
-      textButton('Delete', () => this.#delete(name), 'danger')));
+      textButton(t('Rename'), () => this.show(t('Rename {name}', {name}), this.#nameForm(t('New name'), name, t('Rename'), (to) => this.#rename(name, to)))),
+      textButton(t('Delete'), () => this.#delete(name), 'danger')));
   }
 
   /**
@@ -103,14 +104,14 @@ export class Gallery {
    */
   async #rename(name, to) {
     if (!(await this.app.connection.ask('rename', {name, to})).ok) return;
-    this.app.notes.offer(`Renamed to ${to}`, 'Undo', () => this.app.connection.send('rename', {name: to, to: name}));
+    this.app.notes.offer(t('Renamed to {name}', {name: to}), t('Undo'), () => this.app.connection.send('rename', {name: to, to: name}));
   }
 
   /** @param {string} name */
   async #delete(name) {
     this.dialog.close();
     if (!(await this.app.connection.ask('remove', {name})).ok) return;
-    this.app.notes.offer(`${name} is deleted`, 'Undo', () => this.app.connection.send('put_back', {name}));
+    this.app.notes.offer(t('{name} is deleted', {name}), t('Undo'), () => this.app.connection.send('put_back', {name}));
   }
 
   /**
@@ -122,24 +123,12 @@ export class Gallery {
    */
   #nameForm(title, value, label, done) {
     const name = createElement('input', {value, required: true, maxLength: 64, autocomplete: 'off', 'aria-label': title,
-      pattern: NAME, title: 'Letters, digits, spaces, - and _; without / and .'});
-    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-      event.preventDefault();
-      this.dialog.close();
-      done(name.value.trim());
-    }}, name, createElement('button', {textContent: label}));
+      pattern: NAME, title: t('Letters, digits, spaces, - and _; without / and .')});
     queueMicrotask(() => name.select());
-    return form;
-  }
-
-  /**
-   * @param {string} title
-   * @param {string} value
-   * @param {string} label of the button
-   * @param {(name: string) => void} done
-   */
-  #askName(title, value, label, done) {
-    this.show(title, this.#nameForm('New name', value, label, done));
+    return fieldForm(name, label, (text) => {
+      this.dialog.close();
+      done(text);
+    });
   }
 
   /**
@@ -165,14 +154,14 @@ export class Gallery {
     if (ok) {
       this.name = name;
       this.#sendPicture(name);
-      if (replace) this.app.notes.offer(`${name} is replaced`, 'Undo', () => this.app.connection.send('put_back', {name}));
+      if (replace) this.app.notes.offer(t('{name} is replaced', {name}), t('Undo'), () => this.app.connection.send('put_back', {name}));
       return;
     }
     if (code !== 'exists') return;
     const free = this.#freeName(name), own = this.worlds.some((each) => each.name === name && !each.shipped);
-    const choices = [textButton(`Save as ${free}`, () => this.#save(free))];
-    if (own) choices.push(textButton(`Replace ${name}`, () => this.#save(name, true), 'danger'));
-    this.show(own ? `There is a world ${name} already` : `${name} is a world that ships with physsim`, inRow(...choices));
+    const choices = [textButton(t('Save as {name}', {name: free}), () => this.#save(free))];
+    if (own) choices.push(textButton(t('Replace {name}', {name}), () => this.#save(name, true), 'danger'));
+    this.show(own ? t('There is a world {name} already', {name}) : t('{name} is a world that ships with physsim', {name}), inRow(...choices));
   }
 
   /** @param {string} name of the world that is shown */
@@ -193,9 +182,9 @@ export class Gallery {
   #offerUnsaved(saved) {
     if (!saved || this.app.viewOnly || this.offered === saved) return;
     this.offered = saved;
-    this.unsaved = new Date(saved * 1000).toLocaleString([], {dateStyle: 'medium', timeStyle: 'short'});
-    this.dismiss = this.app.notes.pin(() => null, [`The world of ${this.unsaved} was not saved.`,
-      textButton('Open it', () => this.#openUnsaved()), textButton('Discard it', () => this.#forgetUnsaved())],
+    this.unsaved = new Date(saved * 1000).toLocaleString(language, {dateStyle: 'medium', timeStyle: 'short'});
+    this.dismiss = this.app.notes.pin(() => null, [t('The world of {date} was not saved.', {date: this.unsaved}),
+      textButton(t('Open it'), () => this.#openUnsaved()), textButton(t('Discard it'), () => this.#forgetUnsaved())],
     {kind: 'docked', shown: UNSAVED});
   }
 
@@ -204,7 +193,7 @@ export class Gallery {
     const {unsaved} = this;
     if (text === null || !await this.#upload(text)) return;
     await this.#forgetUnsaved();
-    this.app.notes.showMessage(`Opened the world of ${unsaved}`);
+    this.app.notes.showMessage(t('Opened the world of {date}', {date: unsaved}));
   }
 
   #forgetUnsaved() {
@@ -214,11 +203,11 @@ export class Gallery {
   }
 
   showSave() {
-    const name = this.name || this.#freeName('my world');
-    this.show('Save', this.#nameForm('Name of the world', name, 'Save world', (given) => this.#save(given)), inRow(
-      textButton('Download file', () => this.#download()),
-      textButton('Copy link', () => this.#copyLink()),
-      textButton('Picture (PNG)', () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
+    const name = this.name || this.#freeName(t('my world'));
+    this.show(t('Save'), this.#nameForm(t('Name of the world'), name, t('Save world'), (given) => this.#save(given)), inRow(
+      textButton(t('Download file'), () => this.#download()),
+      textButton(t('Copy link'), () => this.#copyLink()),
+      textButton(t('Picture (PNG)'), () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
   }
 
   /** @param {string} name */
@@ -227,7 +216,7 @@ export class Gallery {
     if (!(await this.app.connection.openWorld(name))) return;
     this.dismiss();
     this.app.room.frameNext();
-    this.app.notes.showMessage(`Opened ${name}`);
+    this.app.notes.showMessage(t('Opened {name}', {name}));
     this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
   }
 
@@ -238,19 +227,19 @@ export class Gallery {
   async #upload(text) {
     this.dialog.close();
     if (new Blob([text]).size > LARGEST) {
-      this.app.notes.showMessage('This file is too large: a world has at most 1 MiB here.', {ok: false});
+      this.app.notes.showMessage(t('This file is too large: a world has at most 1 MiB here.'), {ok: false});
       return false;
     }
-    const {ok, message} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
-      .then((response) => response.json().catch(() => ({ok: false, message: 'The server refused this file'})),
-        () => ({ok: false, message: 'Not done: the server is not reachable'}));
+    const {ok, message, code} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
+      .then((response) => response.json().catch(() => ({ok: false, code: '', message: t('The server refused this file')})),
+        () => ({ok: false, code: '', message: t('Not done: the server is not reachable')}));
     if (ok) {
       await this.app.connection.ask('service', {name: 'reset'});
       this.name = '';
       this.dismiss();
       this.app.room.frameNext();
     }
-    this.app.notes.showMessage(this.app.words.tell({message}), {ok});
+    this.app.notes.showMessage(this.app.words.tell({message, code, ok}), {ok});
     return ok;
   }
 
@@ -269,13 +258,13 @@ export class Gallery {
     if (world === null) return;
     const link = `${location.origin}/#world=${await packText(world)}`;
     if (link.length > LONGEST_LINK) {
-      this.app.notes.showMessage('This world is too large for a link: download it as a file.', {ok: false});
+      this.app.notes.showMessage(t('This world is too large for a link: download it as a file.'), {ok: false});
       return;
     }
-    const text = createElement('input', {value: link, readOnly: true, 'aria-label': 'Link'});
-    this.show('A link that holds this world', text);
+    const text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
+    this.show(t('A link that holds this world'), text);
     text.select();
-    this.app.notes.showMessage('A link that holds this world');
+    this.app.notes.showMessage(t('A link that holds this world'));
     await navigator.clipboard?.writeText(link).catch(() => {});
   }
 
@@ -284,7 +273,7 @@ export class Gallery {
     const packed = /^#world=(.+)/.exec(location.hash)?.[1];
     if (!packed || this.app.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
-    this.show('This link contains a world', inRow(textButton('Open it', () => this.#openLink(packed))));
+    this.show(t('This link contains a world'), inRow(textButton(t('Open it'), () => this.#openLink(packed))));
   }
 
   /** @param {string} packed */
@@ -295,7 +284,7 @@ export class Gallery {
       return;
     }
     this.dialog.close();
-    this.app.notes.showMessage('This link is broken, or its world is too large.', {ok: false});
+    this.app.notes.showMessage(t('This link is broken, or its world is too large.'), {ok: false});
   }
 }
 

@@ -3,7 +3,8 @@
 
 import {createElement, inRow, range, textButton} from './dom.js';
 import {threeDigits} from './rounding.js';
-import {capital, isDrawn} from './words.js';
+import {t} from './strings.js';
+import {capital, isDrawn, thingWord} from './words.js';
 
 /** @import {App, Joint, SceneView} from './types.js' */
 /** @import {Content} from './panel.js' */
@@ -13,11 +14,11 @@ import {capital, isDrawn} from './words.js';
  * @type {Record<string, [keyof Joint, string, number, number, number][]>}
  */
 const CONSTANTS = {
-  spring: [['stiffness', 'Spring constant [N/m]', 500, 1, 100], ['rest_length', 'Rest length [m]', 5, 0.01, 0],
-    ['damping', 'Damping [N s/m]', 20, 0.1, 0]],
-  rope: [['length', 'Length [m]', 10, 0.01, 0]],
-  motor: [['rate', 'Rate [rad/s]', 20, 0.1, 1], ['max_torque', 'Greatest torque [N m]', 1000, 1, 1000]],
-  gear: [['ratio', 'Ratio', 5, 0.1, 1]],
+  spring: [['stiffness', t('Spring constant [N/m]'), 500, 1, 100], ['rest_length', t('Rest length [m]'), 5, 0.01, 0],
+    ['damping', t('Damping [N s/m]'), 20, 0.1, 0]],
+  rope: [['length', t('Length [m]'), 10, 0.01, 0]],
+  motor: [['rate', t('Rate [rad/s]'), 20, 0.1, 1], ['max_torque', t('Greatest torque [N m]'), 1000, 1, 1000]],
+  gear: [['ratio', t('Ratio'), 5, 0.1, 1]],
 };
 const MEASURED = ['spring', 'rod', 'rope'], LIMITED = ['axle', 'slider'];
 
@@ -45,19 +46,19 @@ export class JointPanel {
       this.app.connection.send('change_joint', {name, properties});
     const unit = joint.kind === 'slider' ? 'm' : 'rad';
     /** @type {['lower' | 'upper' | 'break_force', string][]} */
-    const limits = [['break_force', 'Breaks at [N]']];
-    if (LIMITED.includes(joint.kind)) limits.unshift(['lower', `Least [${unit}]`], ['upper', `Greatest [${unit}]`]);
-    return {title: capital(joint.kind), name: isDrawn(name) ? '' : name, first: [this.force], rest: [
+    const limits = [['break_force', t('Breaks at [N]')]];
+    if (LIMITED.includes(joint.kind)) limits.unshift(['lower', t('Least [{unit}]', {unit})], ['upper', t('Greatest [{unit}]', {unit})]);
+    return {title: capital(thingWord(joint.kind)), name: isDrawn(name) ? '' : name, first: [this.force], rest: [
       ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
         const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
         return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
       }),
       ...limits.map(([key, label]) => {
-        const input = createElement('input', {type: 'number', step: 'any', placeholder: 'none', value: joint[key] ?? '',
+        const input = createElement('input', {type: 'number', step: 'any', placeholder: t('none'), value: joint[key] ?? '',
           onchange: () => change({[key]: input.value === '' ? null : Number(input.value)})});
         return createElement('label', {}, label, input);
       }),
-      inRow(textButton('Delete joint', () => this.delete(), 'danger')),
+      inRow(textButton(t('Delete joint'), () => this.delete(), 'danger')),
     ], place: () => this.app.world.place(joint.a, joint.points[0])};
   }
 
@@ -70,7 +71,7 @@ export class JointPanel {
   #draw(view) {
     const {world} = this.app, number = this.#number, joint = world.scene.joints[number];
     if (!joint) return;
-    const force = [`Force now: ${threeDigits(world.frame.forces?.[number] ?? 0)} N`, ...this.#lengthNow(joint)].join(' · ');
+    const force = [t('Force now: {force} N', {force: threeDigits(world.frame.forces?.[number] ?? 0)}), ...this.#lengthNow(joint)].join(' · ');
     if (this.force.textContent !== force) this.force.textContent = force;
     view.ring(world.place(joint.a, joint.points[0]), 9, view.palette.accent);
     if (joint.points[1] && joint.kind !== 'slider') view.ring(world.place(joint.b, joint.points[1]), 9, view.palette.accent);
@@ -83,7 +84,7 @@ export class JointPanel {
   #lengthNow({kind, a, b, points: [p, q], rest_length: rest, stiffness = 100}) {
     if (!MEASURED.includes(kind)) return [];
     const {world} = this.app, [ax, ay] = world.place(a, p), [bx, by] = world.place(b, q);
-    const length = Math.hypot(bx - ax, by - ay), text = `length ${threeDigits(length)} m`;
-    return kind === 'spring' ? [text, `energy ${threeDigits(stiffness * (length - rest) ** 2 / 2)} J`] : [text];
+    const length = Math.hypot(bx - ax, by - ay), text = t('length {length} m', {length: threeDigits(length)});
+    return kind === 'spring' ? [text, t('energy {energy} J', {energy: threeDigits(stiffness * (length - rest) ** 2 / 2)})] : [text];
   }
 }

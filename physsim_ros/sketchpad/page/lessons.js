@@ -5,7 +5,8 @@
  * A lesson belongs to its world (`scene.lesson`), so that all pages of the world have its card.
  */
 
-import {createElement, elementOf, icon, inRow, textButton} from './dom.js';
+import {createElement, elementOf, fieldForm, icon, inRow, textButton} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App, Lesson} from './types.js' */
 
@@ -41,7 +42,7 @@ export class Lessons {
   /** @returns {Node[]} the list, with a heading; nothing where there are no lessons */
   section() {
     if (!this.list.length) return [];
-    return [createElement('h3', {textContent: 'Lessons'}),
+    return [createElement('h3', {textContent: t('Lessons')}),
       createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
         createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
           createElement('strong', {}, number ? `${number}. ${title} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
@@ -55,7 +56,7 @@ export class Lessons {
     if (!(await connection.openLesson(name))) return;
     gallery.dismiss();
     this.app.room.frameNext();
-    this.app.notes.showMessage(`Opened ${this.list.find((each) => each.name === name)?.title ?? name}`);
+    this.app.notes.showMessage(t('Opened {name}', {name: this.list.find((each) => each.name === name)?.title ?? name}));
   }
 
   /** Offer the lesson of a link: the link of a stranger does not replace the world of a class. */
@@ -64,8 +65,8 @@ export class Lessons {
     const lesson = this.list.find((each) => each.name === name), {gallery, notes, viewOnly, world} = this.app;
     if (!name || viewOnly || lesson && lesson.title === world.scene.lesson?.title) return;
     history.replaceState(null, '', location.pathname);
-    if (!lesson) notes.showMessage(`There is no lesson ${name} here.`, {ok: false});
-    else gallery.show(lesson.title, createElement('p', {textContent: lesson.question}), inRow(textButton('Open the lesson', () => this.#open(name))));
+    if (!lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
+    else gallery.show(lesson.title, createElement('p', {textContent: lesson.question}), inRow(textButton(t('Open the lesson'), () => this.#open(name))));
   }
 
   /**
@@ -91,28 +92,27 @@ export class Lessons {
    */
   #work({title, hint, measure, unit, figure, within, answer}) {
     const result = createElement('p', {'aria-live': 'polite'}), shown = unit === '1' ? '' : unit;
-    const input = createElement('input', {inputMode: 'decimal', required: true, autocomplete: 'off', 'aria-label': `Your answer ${shown}`});
-    const solution = folded('Answer', answer);
+    const input = createElement('input', {inputMode: 'decimal', required: true, autocomplete: 'off', 'aria-label': t('Your answer {unit}', {unit: shown})});
+    const solution = folded(t('Answer'), answer);
     solution.hidden = true;
-    const form = createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
-      event.preventDefault();
-      const value = Number(input.value.trim().replace(',', '.')), right = Math.abs(value - figure) <= within;
+    const form = fieldForm(input, t('Check'), (typed) => {
+      const value = Number(typed.replace(',', '.')), right = Math.abs(value - figure) <= within;
       result.className = right ? 'right' : '';
-      result.textContent = right ? 'Right!' : Number.isNaN(value) ? 'That is not a number.' : 'Not yet. Measure again, or look at the hint.';
-      this.answered = {lesson: title, answer: input.value.trim(), right};
-      if (input.value.trim()) this.app.connection.send('answered', this.answered);
+      result.textContent = right ? t('Right!') : Number.isNaN(value) ? t('That is not a number.') : t('Not yet. Measure again, or look at the hint.');
+      this.answered = {lesson: title, answer: typed, right};
+      if (typed) this.app.connection.send('answered', this.answered);
       // Who has tried may look.
       solution.hidden = false;
       solution.open = right;
       if (!right) return;
       this.solved.add(title);
       localStorage.setItem(SOLVED, JSON.stringify([...this.solved]));
-    }}, input, shown, createElement('button', {textContent: 'Check'}));
+    }, shown);
     const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
-    const buttons = [textButton('Start again', () => this.app.time.callService('reset'))];
-    if (next) buttons.push(textButton('Next lesson', () => this.#open(next.name)));
-    return [createElement('p', {}, createElement('strong', {textContent: 'To measure: '}), measure), form, result,
-      folded('Hint', hint), solution, inRow(...buttons)];
+    const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
+    if (next) buttons.push(textButton(t('Next lesson'), () => this.#open(next.name)));
+    return [createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${measure}`), form, result,
+      folded(t('Hint'), hint), solution, inRow(...buttons)];
   }
 }
 
@@ -125,5 +125,5 @@ function folded(title, text) {
 }
 
 function solvedMark() {
-  return createElement('span', {role: 'img', 'aria-label': 'solved'}, icon('solved'));
+  return createElement('span', {role: 'img', 'aria-label': t('solved')}, icon('solved'));
 }

@@ -6,13 +6,14 @@
 
 import {createElement} from './dom.js';
 import {threeDigits} from './rounding.js';
+import {t} from './strings.js';
 
 /** @import {App, Body, Point, Sample, WorldState} from './types.js' */
 
 const DEGREE = Math.PI / 180; // rad
 /** What can be typed; of an anchored body the first ones. @type {[string, string][]} */
-const TYPED = [['x', 'x [m]'], ['y', 'y [m]'], ['angle', 'Angle [°]'], ['mass', 'Mass [kg]'],
-  ['vx', 'vx [m/s]'], ['vy', 'vy [m/s]'], ['spin', 'Spin [rad/s]']];
+const TYPED = [['x', 'x [m]'], ['y', 'y [m]'], ['angle', t('Angle [°]')], ['mass', t('Mass [kg]')],
+  ['vx', 'vx [m/s]'], ['vy', 'vy [m/s]'], ['spin', t('Spin [rad/s]')]];
 const NOTHING = 1e-7; // m, °, m/s, rad/s: that is shown as 0
 const AT_REST = 4; // number of those that an anchored body has
 /**
@@ -20,8 +21,7 @@ const AT_REST = 4; // number of those that an anchored body has
  * @typedef {{mass: number, x: number, y: number, angle: number, vx: number, vy: number, spin: number}} Motion
  */
 /** @typedef {{name: string, motion: Motion, answered: boolean}} Typed */
-/** Words of the energies. */
-const ENERGIES = ['of motion', 'of height'];
+const ENERGIES = [t('Energy of motion'), t('Energy of height')];
 const MOST_PAIRS = 3; // bodies in touch with whose friction that of the pair is told
 
 export class Numbers {
@@ -36,14 +36,14 @@ export class Numbers {
     this.momentum = createElement('p');
     this.totals = createElement('p', {className: 'numbers'}); // of several bodies
     this.pairs = createElement('p', {className: 'pairs'}); // friction with what the body touches
-    this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': `Energy ${word}`}));
-    this.labels = ENERGIES.map((word) => createElement('span', {textContent: `Energy ${word}`}));
+    this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': word}));
+    this.labels = ENERGIES.map((word) => createElement('span', {textContent: word}));
     this.values = ENERGIES.map(() => createElement('span'));
     this.inputs = new Map(TYPED.map(([key]) => [key, createElement('input', {type: 'number', step: 'any',
       onchange: () => this.#type(key)})]));
-    this.typed = createElement('details', {className: 'typed'}, createElement('summary', {textContent: 'Enter numbers'}),
+    this.typed = createElement('details', {className: 'typed'}, createElement('summary', {textContent: t('Enter numbers')}),
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
-    this.element = createElement('section', {className: 'numbers', 'aria-label': 'Numbers'}, this.line, this.momentum,
+    this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
     app.view.overlays.push(() => this.update());
     app.connection.on('open', () => { this.ahead = null; });
@@ -60,7 +60,7 @@ export class Numbers {
     if (row < 0) return;
     const body = world.scene.bodies[row], {vx, vy} = motionOf(world, row), {mass} = body;
     tell(this.line, `${threeDigits(mass)} kg · ${placed(world, row)}`);
-    tell(this.momentum, `Momentum ${momentumText([mass * vx, mass * vy])}`);
+    tell(this.momentum, t('Momentum {momentum}', {momentum: momentumText([mass * vx, mass * vy])}));
     tell(this.pairs, this.#pairsOf(row));
     this.#showTyped(body, row);
     this.#showEnergies(body, row);
@@ -80,7 +80,8 @@ export class Numbers {
       py += bodies[row].mass * motion.vy;
       energy = [energy[0] + each[0], energy[1] + each[1]];
     }
-    return `Together ${threeDigits(mass)} kg · momentum ${momentumText([px, py])} · energy of motion ${number(energy[0])} J, of height ${number(energy[1])} J`;
+    return t('Together {mass} kg · momentum {momentum} · energy of motion {motion} J, of height {height} J',
+      {mass: threeDigits(mass), momentum: momentumText([px, py]), motion: number(energy[0]), height: number(energy[1])});
   }
 
   /**
@@ -94,7 +95,7 @@ export class Numbers {
       if (other >= 0) others.add(other);
     }
     return [...others].slice(0, MOST_PAIRS).map((other) =>
-      `Friction with ${words.of(bodies[other].name)}: ${threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction))}`).join(' · ');
+      t('Friction with {name}: {friction}', {name: words.of(bodies[other].name), friction: threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction))})).join(' · ');
   }
 
   /**
@@ -198,7 +199,7 @@ export function originOf([cx, cy], [x, y], yaw) {
 export function placed(world, row, by = [0, 0]) {
   const {frame: {yaw, velocities}, scene} = world, {centroid, anchored} = scene.bodies[row];
   const [x, y] = world.place(row, centroid), degrees = Math.round(yaw[row] / DEGREE * 10) / 10;
-  const texts = [`at ${number(x + by[0])}, ${number(y + by[1])} m`, `${degrees}°`];
+  const texts = [t('at {x}, {y} m', {x: number(x + by[0]), y: number(y + by[1])}), `${degrees}°`];
   if (velocities && !anchored) {
     texts.push(`${number(Math.hypot(velocities.x[row], velocities.y[row]))} m/s`, `${number(velocities.spin[row])} rad/s`);
   }
@@ -228,32 +229,33 @@ function tell(element, text) {
  *   label: of an axis, column: of a table; of: NaN where it is not known; sums: whether that of several bodies is their sum
  */
 
-/** Kinds of forces, as they are recorded. */
-export const FORCES = {weight: 'Weight', normal: 'Normal force', friction: 'Friction', joint: 'Force of joints', applied: 'Applied force', sum: 'Sum of forces'};
+/** Kinds of forces, as they are recorded, with their names on axes and in tables. */
+export const FORCES = {weight: [t('Weight'), 'weight'], normal: [t('Normal force'), 'normal force'], friction: [t('Friction'), 'friction'],
+  joint: [t('Force of joints'), 'force of joints'], applied: [t('Applied force'), 'applied force'], sum: [t('Sum of forces'), 'sum of forces']};
 
 /** By key, in the order of the columns. @type {Record<string, Quantity>} */
 export const QUANTITIES = {
-  time: {label: 'Time [s]', column: 'time [s]', of: ({time}) => time},
+  time: {label: t('Time [s]'), column: 'time [s]', of: ({time}) => time},
   x: {label: 'x [m]', column: 'x [m]', of: ({x}) => x},
-  y: {label: 'Height [m]', column: 'y [m]', of: ({y}) => y},
+  y: {label: t('Height [m]'), column: 'y [m]', of: ({y}) => y},
   vx: {label: 'vx [m/s]', column: 'vx [m/s]', of: ({vx}) => vx},
   vy: {label: 'vy [m/s]', column: 'vy [m/s]', of: ({vy}) => vy},
-  spin: {label: 'Spin [rad/s]', column: 'spin [rad/s]', of: ({spin}) => spin},
-  speed: {label: 'Speed [m/s]', column: 'speed [m/s]', of: ({vx, vy}) => Math.hypot(vx, vy)},
-  energy: {label: 'Energy [J]', column: 'energy [J]', sums: true, of: (sample, body, gravity) => {
+  spin: {label: t('Spin [rad/s]'), column: 'spin [rad/s]', of: ({spin}) => spin},
+  speed: {label: t('Speed [m/s]'), column: 'speed [m/s]', of: ({vx, vy}) => Math.hypot(vx, vy)},
+  energy: {label: t('Energy [J]'), column: 'energy [J]', sums: true, of: (sample, body, gravity) => {
     const [motion, height] = energiesOf(body, sample, gravity);
     return motion + height;
   }},
   px: {label: 'px [N s]', column: 'px [N s]', sums: true, of: ({vx}, {mass}) => mass * vx},
   py: {label: 'py [N s]', column: 'py [N s]', sums: true, of: ({vy}, {mass}) => mass * vy},
-  momentum: {label: 'Momentum [N s]', column: 'momentum [N s]', of: ({vx, vy}, {mass}) => mass * Math.hypot(vx, vy)},
+  momentum: {label: t('Momentum [N s]'), column: 'momentum [N s]', of: ({vx, vy}, {mass}) => mass * Math.hypot(vx, vy)},
   ax: {label: 'ax [m/s²]', column: 'ax [m/s²]', of: ({ax = NaN}) => ax},
   ay: {label: 'ay [m/s²]', column: 'ay [m/s²]', of: ({ay = NaN}) => ay},
-  acceleration: {label: 'Acceleration [m/s²]', column: 'acceleration [m/s²]', of: ({ax = NaN, ay = NaN}) => Math.hypot(ax, ay)},
-  yaw: {label: 'Angle [rad]', column: 'yaw [rad]', of: ({yaw}) => yaw},
-  motion: {label: 'Energy of motion [J]', column: 'energy of motion [J]', sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[0]},
-  height: {label: 'Energy of height [J]', column: 'energy of height [J]', sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[1]},
-  ...Object.fromEntries(Object.entries(FORCES).map(([kind, name]) => [kind, /** @type {Quantity} */ ({label: `${name} [N]`, column: `${name.toLowerCase()} [N]`,
+  acceleration: {label: t('Acceleration [m/s²]'), column: 'acceleration [m/s²]', of: ({ax = NaN, ay = NaN}) => Math.hypot(ax, ay)},
+  yaw: {label: t('Angle [rad]'), column: 'yaw [rad]', of: ({yaw}) => yaw},
+  motion: {label: t('Energy of motion [J]'), column: 'energy of motion [J]', sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[0]},
+  height: {label: t('Energy of height [J]'), column: 'energy of height [J]', sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[1]},
+  ...Object.fromEntries(Object.entries(FORCES).map(([kind, [name, column]]) => [kind, /** @type {Quantity} */ ({label: `${name} [N]`, column: `${column} [N]`,
     of: ({forces}) => forces?.[kind] ?? NaN})])),
 };
 

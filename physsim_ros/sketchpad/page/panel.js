@@ -6,9 +6,15 @@
  * of a body while time runs or the large plot is open, it is folded to its first lines.
  */
 
-import {bodyContent, severalContent} from './body_panel.js';
-import {createElement, elementOf, iconButton} from './dom.js';
-import {worldContent} from './world_panel.js';
+import {arrangeButtons} from './align.js';
+import {checkField, createElement, elementOf, iconButton, inRow, textButton, textField, textOf} from './dom.js';
+import {actorLines, drawWay} from './driving.js';
+import {forceFields} from './force_fields.js';
+import {sizeOf} from './label_view.js';
+import {t} from './strings.js';
+import {sendNote} from './tools/note.js';
+import {isDrawn} from './words.js';
+import {materialFields, worldContent} from './world_panel.js';
 
 /** @import {App, Point} from './types.js' */
 
@@ -35,15 +41,18 @@ export class Panel {
     /** @type {?boolean} whether it is folded, where somebody has chosen that for this subject */
     this.chosen = null;
     this.isStale = false; // the scene has changed while somebody worked in it
-    this.more = iconButton('More', 'fold', () => {
+    this.more = iconButton(t('More'), 'fold', () => {
       this.chosen = !this.isFolded;
       this.#fold();
       app.room.fit();
-    }, 'All of this panel, or its first lines');
+    }, t('All of this panel, or its first lines'));
     this.rest = createElement('div');
     app.connection.on('scene', () => queueMicrotask(() => this.#follow()));
     this.element.addEventListener('focusout', () => setTimeout(() => this.isStale && this.#follow()));
-    app.view.overlays.push(() => this.#fold());
+    app.view.overlays.push((view) => {
+      this.#fold();
+      drawWay(view, app.world, this.name);
+    });
   }
 
   /** @returns {string} the name of the body that is its subject; '' where that is none, or several */
@@ -97,7 +106,7 @@ export class Panel {
     this.rest.replaceChildren(...rest);
     element.replaceChildren(createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})), this.more,
-      iconButton('Close', 'close', () => app.selection.select([]))), ...first, this.rest);
+      iconButton(t('Close'), 'close', () => app.selection.select([]))), ...first, this.rest);
     app.numbers.update();
     this.#fold();
   }
@@ -125,4 +134,71 @@ export class Panel {
     if (camera.narrow) camera.pan(0, Math.min(top - COVERED - y, 0));
     else if (y < bottom) camera.pan(Math.min(left - COVERED - x, 0), 0);
   }
+}
+
+const BESIDE = 0.5; // m: where a copy is put
+
+/**
+ * @param {App} app
+ * @param {string} name
+ * @returns {?Content} null where there is no such body
+ */
+export function bodyContent(app, name) {
+  const body = app.world.scene.bodies.find((each) => each.name === name);
+  if (!body) return null;
+  const change = (/** @type {object} */ properties) => app.connection.send('change', {name, properties});
+  const label = textField({value: body.label, onchange: () => {
+    const value = textOf(label), {height = 0} = body.shape, row = app.world.row(name);
+    if (body.name.startsWith('note/') && height) {
+      sendNote(app, name, value, [...app.world.place(row, [0, 0]), app.world.frame.yaw[row]], height / sizeOf(app.view.ctx, body.label)[1]);
+    } else change({label: value});
+  }});
+  const material = materialFields(body, change);
+  material.find((each) => each.textContent === t('Friction'))?.append(app.numbers.pairs);
+  return {
+    title: app.words.title(name), name: isDrawn(name) ? name : '',
+    first: [app.numbers.element, ...body.actor ? actorLines(body.actor) : [], ...body.robot ? app.driving.show(body.robot) : []],
+    rest: [
+      app.numbers.typed,
+      ...material,
+      createElement('label', {}, t('Label'), label),
+      // A robot is neither.
+      ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})), checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
+      ...forceFields(app, body, change),
+      inRow(
+        textButton(t('Copy'), () => copy(app, name)),
+        textButton(t('Delete body'), () => app.selection.deleteBodies(), 'danger')),
+      createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
+      ...app.trail.switches(name),
+      app.plots.element,
+    ],
+    place: () => {
+      const row = app.world.row(name);
+      return row < 0 ? null : app.world.place(row, app.world.scene.bodies[row].centroid);
+    },
+  };
+}
+
+/**
+ * @param {App} app
+ * @param {string[]} names
+ * @returns {Content}
+ */
+export function severalContent(app, names) {
+  return {title: t('{count} bodies', {count: names.length}), first: [app.numbers.totals], rest: [
+    createElement('p', {textContent: t('Drag them with the lasso.')}),
+    inRow(textButton(t('Copy beside'), () => {
+      const [left, , right] = app.world.boundsOfAll(names);
+      app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
+    }), textButton(t('Plot them'), () => app.plotWindow.open(names)), textButton(t('Delete bodies'), () => app.selection.deleteBodies(), 'danger')),
+    ...arrangeButtons(app, names)]};
+}
+
+/**
+ * @param {App} app
+ * @param {string} name of the body
+ */
+function copy({world, connection}, name) {
+  const row = world.row(name);
+  if (row >= 0) connection.send('copy', {name, to: [world.frame.x[row] + BESIDE, world.frame.y[row] + BESIDE]});
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
 
-import {drawChart} from './chart.js';
-import {createElement, download, elementOf, iconButton, inRow, textButton} from './dom.js';
+import {choice, createElement, download, elementOf, iconButton, inRow, textButton, toggling} from './dom.js';
 import {FORCES, QUANTITIES, tableOf} from './numbers.js';
+import {drawChart} from './plots.js';
 import {threeDigits} from './rounding.js';
+import {t} from './strings.js';
 
 /** @import {App, Palette, Sample} from './types.js' */
-/** @import {Curve, Scales} from './chart.js' */
+/** @import {Curve, Scales} from './plots.js' */
 
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
 const NARROW = 560; // px
 const EVERY = 80; // ms
-const LISTED = 200; // bodies that can be added
 /** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
 const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
 
@@ -25,7 +25,7 @@ export class PlotWindow {
     this.names = [];
     this.axes = {x: 'time', y: 'y'};
     this.sums = false; // the sum over the bodies is shown, too
-    this.canvas = createElement('canvas', {role: 'img', 'aria-label': 'Large plot'});
+    this.canvas = createElement('canvas', {role: 'img', 'aria-label': t('Large plot')});
     this.reading = createElement('output', {textContent: ''});
     this.legend = createElement('div', {className: 'row legend'});
     /** @type {?Scales} */
@@ -48,19 +48,16 @@ export class PlotWindow {
 
   /** @param {string[]} names of bodies */
   open(names) {
-    const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => {
-      const input = createElement('select', {'aria-label': label, onchange: () => {
-        this.axes[axis] = input.value;
-        this.#record();
-        this.#draw();
-      }}, ...Object.entries(QUANTITIES).map(([value, quantity]) => createElement('option', {value, textContent: quantity.label})));
-      input.value = this.axes[axis];
-      return input;
-    };
+    const quantities = Object.entries(QUANTITIES).map(([key, {label}]) => /** @type {[string, string]} */ ([key, label]));
+    const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => choice(label, quantities, this.axes[axis], (key) => {
+      this.axes[axis] = key;
+      this.#record();
+      this.#draw();
+    });
     this.element.replaceChildren(createElement('header', {},
-      inRow(select('y', 'Upwards'), createElement('span', {textContent: 'over'}), select('x', 'To the right'),
-        this.#adder(), this.#summer(), this.legend, textButton('Copy table', () => this.#copyTable())),
-      iconButton('Close the plot', 'close', () => this.close())), this.canvas, this.reading);
+      inRow(select('y', t('Upwards')), createElement('span', {textContent: t('over')}), select('x', t('To the right')),
+        this.#adder(), this.#summer(), this.legend, textButton(t('Copy table'), () => this.#copyTable())),
+      iconButton(t('Close the plot'), 'close', () => this.close())), this.canvas, this.reading);
     this.element.hidden = false;
     this.#show(names);
     this.#record();
@@ -90,23 +87,19 @@ export class PlotWindow {
 
   /** @returns {HTMLElement} the switch of the sum over the bodies, of what can be summed */
   #summer() {
-    const button = textButton('Sum', () => {
+    const button = toggling(textButton(t('Sum'), () => {}), () => this.sums, () => {
       this.sums = !this.sums;
-      button.setAttribute('aria-pressed', String(this.sums));
       this.#draw();
     });
-    button.title = 'Momentum or energy of all bodies of the plot together';
-    button.setAttribute('aria-pressed', String(this.sums));
+    button.title = t('Momentum or energy of all bodies of the plot together');
     return button;
   }
 
   #adder() {
-    const {bodies} = this.app.world.scene;
-    const input = createElement('select', {'aria-label': 'Add a body', onchange: () => {
-      this.#show([...this.names.filter((name) => name !== input.value), input.value]);
+    const input = choice(t('Add a body'), this.app.words.choices(t('Add a body …')), '', (added) => {
+      this.#show([...this.names.filter((name) => name !== added), added]);
       input.value = '';
-    }}, ...['', ...bodies.slice(0, LISTED).map(({name}) => name)].map((name) =>
-      createElement('option', {value: name, textContent: name ? this.app.words.item(name) : 'Add a body …'})));
+    });
     return input;
   }
 
@@ -117,7 +110,7 @@ export class PlotWindow {
     this.legend.replaceChildren(...names.map((name, i) => {
       const button = textButton(`${this.app.words.item(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
       button.style.color = this.app.view.palette[COLORS[i % COLORS.length]];
-      button.title = `Take ${name} out of the plot`;
+      button.title = t('Take {name} out of the plot', {name});
       return button;
     }));
     this.#draw();
@@ -201,7 +194,7 @@ export class PlotWindow {
   async #copyTable() {
     try {
       await navigator.clipboard.writeText(this.#tableOf(this.names));
-      this.app.notes.showMessage('Table copied');
+      this.app.notes.showMessage(t('Table copied'));
     } catch {
       // Browsers give the clipboard to pages of this machine or with TLS only.
       this.saveTable(this.names);

@@ -64,7 +64,7 @@ export class Pointers {
       this.working = event.pointerId;
       app.time.endRewind();
       const touch = this.#touch(event);
-      this.worked = [app.arrow, app.handles].find((handle) => handle.isAt(touch)) ?? app.tool;
+      this.worked = app.handles.isAt(touch) ? app.handles : app.tool;
       this.worked.down(touch);
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
       this.worked.cancel();
@@ -127,6 +127,7 @@ export class Pointers {
     if (event.pointerId !== this.working) return;
     this.working = -1;
     this.worked.up(this.#touch(event));
+    if (this.worked === this.app.tool) this.app.hints.noteUse();
     this.app.handles.point(this.#touch(event), event.pointerType === 'touch');
     this.app.view.dirty = true;
   }

@@ -5,7 +5,7 @@ import {BodyView} from './body_view.js';
 import {drawGrid, drawScan} from './grid_view.js';
 import {JointView} from './joint_view.js';
 import {drawLabels, drawNumbers} from './label_view.js';
-import {readPalette, watchTheme} from './theme.js';
+import {readPalette, watchTheme} from './settings.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from './types.js' */
 /** @import {Numbered} from './label_view.js' */

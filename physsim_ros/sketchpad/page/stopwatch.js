@@ -4,14 +4,14 @@
  * touches; and a stopwatch by hand, in the time of the world, with laps.
  */
 
-import {createElement, inRow, textButton} from './dom.js';
+import {choice, createElement, inRow, textButton} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
 /** @import {Content} from './panel.js' */
 
 /** @typedef {{name: string, other: string, time: number}} Touched a body that was followed, by another one */
 
-const LISTED = 200; // bodies that can be chosen
 const MOST = 10000; // touches that are kept
 const SAME = 1e-9; // s
 const MOST_LAPS = 8; // that are shown
@@ -31,11 +31,11 @@ export class Stopwatch {
     this.ended = null;
     /** @type {number[]} times of laps [s] */
     this.laps = [];
-    this.byHand = createElement('output', {className: 'reading', 'aria-label': 'Stopwatch by hand'});
+    this.byHand = createElement('output', {className: 'reading', 'aria-label': t('Stopwatch by hand')});
     this.lapList = createElement('p');
-    this.time = createElement('output', {className: 'reading', 'aria-label': 'Stopwatch'});
+    this.time = createElement('output', {className: 'reading', 'aria-label': t('Stopwatch')});
     this.details = createElement('p');
-    this.count = createElement('output', {className: 'reading', 'aria-label': 'Number of collisions'});
+    this.count = createElement('output', {className: 'reading', 'aria-label': t('Number of collisions')});
     app.connection.on('touches', ({touches}) => this.#add(touches));
     app.connection.on('frame', ({ghost, time}) => ghost || this.#goTo(time));
     app.connection.on('open', () => this.#follow());
@@ -50,18 +50,18 @@ export class Stopwatch {
   /** @returns {Content} of the panel */
   content() {
     queueMicrotask(() => this.#update());
-    return {title: 'Measure', rest: [
-      createElement('p', {textContent: 'Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.'}),
-      createElement('h3', {textContent: 'Stopwatch'}),
-      this.#chooser('start', 'Starts when touched', 'at 0 s'),
-      this.#chooser('stop', 'Stops when touched', 'never'),
+    return {title: t('Measure'), rest: [
+      createElement('p', {textContent: t('Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.')}),
+      createElement('h3', {textContent: t('Stopwatch')}),
+      this.#chooser('start', t('Starts when touched'), t('at 0 s')),
+      this.#chooser('stop', t('Stops when touched'), t('never')),
       this.time, this.details,
-      createElement('h3', {textContent: 'By hand'}),
+      createElement('h3', {textContent: t('By hand')}),
       this.byHand, this.lapList,
-      inRow(textButton('Start or stop (7)', () => this.press()), textButton('Lap (6)', () => this.lap())),
-      createElement('h3', {textContent: 'Collisions'}),
-      this.#chooser('counted', 'Collisions of', 'no body'),
-      this.count, inRow(textButton('Count from here', () => this.#clear()))]};
+      inRow(textButton(t('Start or stop (7)'), () => this.press()), textButton(t('Lap (6)'), () => this.lap())),
+      createElement('h3', {textContent: t('Collisions')}),
+      this.#chooser('counted', t('Collisions of'), t('no body')),
+      this.count, inRow(textButton(t('Count from here'), () => this.#clear()))]};
   }
 
   /**
@@ -70,15 +70,10 @@ export class Stopwatch {
    * @param {string} none
    */
   #chooser(role, label, none) {
-    const {bodies} = this.app.world.scene, gates = bodies.filter(({sensor}) => sensor);
-    const names = [...gates, ...bodies.filter(({sensor}) => !sensor)].slice(0, LISTED).map(({name}) => name);
-    const input = createElement('select', {'aria-label': label, onchange: () => {
-      this[role] = input.value;
+    return createElement('label', {}, label, choice(label, this.app.words.choices(none), this[role], (name) => {
+      this[role] = name;
       this.#follow();
-    }}, createElement('option', {value: '', textContent: none}), ...names.map((name) =>
-      createElement('option', {value: name, textContent: this.app.words.item(name)})));
-    input.value = this[role];
-    return createElement('label', {}, label, input);
+    }));
   }
 
   #follow() {
@@ -113,7 +108,7 @@ export class Stopwatch {
     if (this.began !== null && this.ended === null) this.ended = this.shown;
     else [this.began, this.ended, this.laps] = [this.shown, null, []];
     this.#update();
-    this.app.notes.showMessage(`Stopwatch ${this.byHand.textContent}`);
+    this.app.notes.showMessage(t('Stopwatch {time}', {time: this.byHand.textContent ?? ''}));
   }
 
   /** Note a lap of the stopwatch by hand: of a swing it is the period. */
@@ -121,7 +116,7 @@ export class Stopwatch {
     if (this.began === null || this.ended !== null) return;
     this.laps.push(this.shown);
     this.#update();
-    this.app.notes.showMessage(`Lap ${this.#lapTexts().at(-1)}`);
+    this.app.notes.showMessage(t('Lap {time}', {time: this.#lapTexts().at(-1) ?? ''}));
   }
 
   #lapTexts() {
@@ -140,8 +135,8 @@ export class Stopwatch {
     this.byHand.textContent = this.began === null ? '–' : `${((this.ended ?? this.shown) - this.began).toFixed(3)} s`;
     this.lapList.textContent = this.#lapTexts().slice(-MOST_LAPS).join(', ');
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
-    this.details.textContent = [start && `started at ${start.time.toFixed(4)} s by ${start.other || 'a wall'}`,
-      stop && `stopped at ${stop.time.toFixed(4)} s by ${stop.other || 'a wall'}`].filter(Boolean).join(', ');
+    this.details.textContent = [start && t('started at {time} s by {name}', {time: start.time.toFixed(4), name: start.other || t('a wall')}),
+      stop && t('stopped at {time} s by {name}', {time: stop.time.toFixed(4), name: stop.other || t('a wall')})].filter(Boolean).join(', ');
     this.count.textContent = this.counted ? String(this.touches.filter(({name}) => name === this.counted).length) : '–';
   }
 

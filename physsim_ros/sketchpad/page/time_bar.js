@@ -2,21 +2,24 @@
 /** Time: the buttons, the slider over the history, with the courses that were left, the clock. */
 
 import {createElement, elementOf, iconButton} from './dom.js';
-import {capital} from './words.js';
+import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
 
 /** Name, service, key. @type {[string, string, string][]} */
 export const TIME = [
-  ['Fast rewind', 'fast_rewind', 'Shift+J'], ['Rewind', 'rewind', 'J'], ['Pause', 'pause', 'K'],
-  ['Play', 'play', 'L'], ['Fast forward', 'fast_forward', 'Shift+L'], ['Step', 'step', '.'],
+  [t('Fast rewind'), 'fast_rewind', 'Shift+J'], [t('Rewind'), 'rewind', 'J'], [t('Pause'), 'pause', 'K'],
+  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'], [t('Step'), 'step', '.'],
 ];
 /** @type {[string, string, string][]} */
-export const EDIT = [['Undo', 'undo', 'Ctrl+Z'], ['Redo', 'redo', 'Ctrl+Y'], ['Reset', 'reset', '0']];
+export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0']];
 /** Additions to names of buttons. */
-const MORE = new Map([['step', ': one frame forward'], ['reset', ': back to the beginning']]);
+const MORE = new Map([['step', `: ${t('one frame forward')}`], ['reset', `: ${t('back to the beginning')}`]]);
+/** States of the timeline, as the server has them. */
+const STATES = new Map([['rewinding', t('rewinding')], ['in the past', t('in the past')], ['playing', t('playing')], ['paused', t('paused')]]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
 const WATCHED = 1500; // ms over which the pace is measured
+const EXPLAINED = 3000; // ms for which the world is slow before that is explained
 const SLOW = 0.9; // share of the speed asked for below which the pace is told
 
 export class TimeBar {
@@ -42,6 +45,9 @@ export class TimeBar {
     this.shown = ''; // speed
     /** @type {[number, number, number][]} wall time [ms], simulation time [s] and speed of the last frames */
     this.paces = [];
+    this.reason = ''; // why the world is slower than asked for
+    this.slowSince = 0; // [ms]; 0 where it is not
+    this.explained = -1; // epoch of the scene for which that was told
     this.rate = 1; // of playing, as this page has chosen it
     this.held = false; // by a finger or the mouse
     this.busy = false; // a seek is on its way
@@ -131,12 +137,27 @@ export class TimeBar {
   #showSpeed(speed) {
     const pace = this.#slowPace, {bodies} = this.app.world.scene;
     const text = `${Number((pace || speed).toFixed(2))}×`.replace('-', '−');
+    this.#tellSlow(pace > 0);
     if (text === this.shown) return;
     this.shown = text;
     this.speed.textContent = text;
     this.speed.classList.toggle('slow', pace > 0);
-    this.speed.setAttribute('aria-label', pace ? `Speed ${text}, slower than ${speed}×` : `Speed ${text}`);
-    this.speed.title = pace ? `Slower than ${speed}×: ${bodies.length} bodies are as much as this machine can do` : 'Speed of playing';
+    this.speed.setAttribute('aria-label', pace ? t('Speed {pace}, slower than {speed}×', {pace: text, speed}) : t('Speed {pace}', {pace: text}));
+    this.reason = t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: bodies.length});
+    this.speed.title = pace ? this.reason : t('Speed of playing');
+  }
+
+  /**
+   * Tell why the speed is red, once for a world that stays slow.
+   * @param {boolean} slow
+   */
+  #tellSlow(slow) {
+    const now = performance.now(), {epoch} = this.app.world.scene;
+    if (!slow) this.slowSince = 0;
+    else this.slowSince ||= now;
+    if (!this.slowSince || now - this.slowSince < EXPLAINED || this.explained === epoch) return;
+    this.explained = epoch;
+    this.app.notes.pin(() => null, [this.reason], {kind: 'docked'});
   }
 
   #showTime() {
@@ -158,19 +179,28 @@ export class TimeBar {
     }
   }
 
+  /**
+   * @param {string} service
+   * @param {string} title '' where there is nothing to do
+   * @param {string} otherwise what is told then
+   */
+  #showEdit(service, title, otherwise) {
+    const button = this.buttons.get(service);
+    button?.classList.toggle('idle', !title);
+    if (button) button.title = title || otherwise;
+  }
+
   showTimeline() {
     const {undo, redo, oldest, newest, state, courses = []} = this.app.world.timeline;
     // What is undone is one's own, and that is not known here.
-    for (const [service, words] of [['undo', this.app.classroom.isShared ? 'undo what you did last' : undo], ['redo', redo]]) {
-      const button = this.buttons.get(service);
-      button?.classList.toggle('idle', !words);
-      if (button) button.title = words ? capital(this.app.words.phrase(words)) : `Nothing to ${service}`;
-    }
+    const gesture = (/** @type {string} */ told) => this.app.words.phrase(told.replace(/^(undo|redo) /, ''));
+    this.#showEdit('undo', this.app.classroom.isShared ? t('Undo what you did last') : undo && t('Undo: {gesture}', {gesture: gesture(undo)}), t('Nothing to undo'));
+    this.#showEdit('redo', redo && t('Redo: {gesture}', {gesture: gesture(redo)}), t('Nothing to redo'));
     this.clock.classList.toggle('past', state === 'in the past');
-    this.clock.title = state;
+    this.clock.title = STATES.get(state) ?? state;
     const before = this.rings;
     this.rings = new Map(courses.map(({id, from}) => {
-      const name = `Go back to how it went before, from ${from.toFixed(1)}\u00a0s`, key = `${id} ${name}`;
+      const name = t('Go back to how it went before, from {time}\u00a0s', {time: from.toFixed(1)}), key = `${id} ${name}`;
       // While time runs it is the same element: one that was made anew could not be pressed.
       const ring = before.get(key) ?? this.marks.appendChild(createElement('button', {type: 'button', 'aria-label': name, title: name,
         onclick: () => this.app.connection.send('course', {course: id})}));

@@ -46,6 +46,18 @@ export interface Body {
   centroid: Point;
   robot?: Robot;
   forces?: AppliedForce[];
+  actor?: Actor;
+}
+
+/** What moves a body on its own, as world files have it. */
+export interface Actor {
+  kind: 'path' | 'social_force' | 'orca';
+  /** x, y [m], and of a path yaw [rad]. */
+  points: number[][];
+  /** [m/s] */
+  speed?: number;
+  repeat?: 'once' | 'loop' | 'to_and_fro';
+  start?: {gate?: string, near?: string, distance?: number, time?: number};
 }
 
 /** A constant force on a body. */

@@ -4,20 +4,35 @@
  * by their names and begin with the verb of the request: `spawned drawn/3` is *Circle added* here.
  */
 
+import {refusalText, t} from './strings.js';
+
 /** @import {Body, Connection} from './types.js' */
 
-/** Verbs before the name of a body, and what is said after what it is. */
-const VERBS = new Map([['spawned', 'added'], ['changed', 'changed'], ['moved', 'moved'], ['deleted', 'deleted'],
-  ['anchored', 'anchored'], ['released', 'released'], ['set velocity of', 'has a new velocity']]);
+/** Words for what is drawn, read, joined or undone, by those of the server. */
+const THINGS = new Map([['disc', t('circle')], ['rectangle', t('rectangle')], ['polygon', t('polygon')], ['wall', t('wall')], ['body', t('body')],
+  ['joint', t('joint')], ['axle', t('axle')], ['pin', t('pin')], ['spring', t('spring')], ['rod', t('rod')], ['rope', t('rope')], ['chain', t('chain')],
+  ['motor', t('motor')], ['slider', t('slider')], ['gear', t('gear')], ['anchor', t('anchor')], ['velocity', t('velocity')], ['gravity', t('gravity')],
+  ['delete', t('delete')], ['hatching', t('heavier by hatching')], ['all bodies', t('all bodies')], ['several bodies', t('several bodies')],
+  ['all joints', t('all joints')], ['world', t('the world')], ['settings', t('settings')]]);
+/** Verbs before the name of a body, and what is said of it. */
+const VERBS = new Map([['spawned', t('{thing} added')], ['changed', t('{thing} changed')], ['moved', t('{thing} moved')], ['deleted', t('{thing} deleted')],
+  ['anchored', t('{thing} anchored')], ['released', t('{thing} released')], ['set velocity of', t('{thing} has a new velocity')]]);
+/** Verbs of what is undone, and how that is told. */
+const GESTURES = new Map([['spawn', t('add {thing}')], ['change', t('change {thing}')], ['delete', t('delete {thing}')], ['move', t('move {thing}')],
+  ['drag', t('drag {thing}')], ['place', t('place {thing}')], ['anchor', t('anchor {thing}')], ['release', t('release {thing}')], ['join', t('join {thing}')]]);
+const GESTURE = new RegExp(`(^|: )(${[...GESTURES.keys()].join('|')}) (.+?)( and \\d+ more)?$`);
 /** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
 const SENTENCES = [
-  [/^saved .* to (.+)\.yaml(.*)/, 'Saved as $1$2'], [/^loaded .* from (.+)\.yaml/, 'Opened $1'], [/^loaded 0 bodies$/, 'An empty world'],
-  [/^discarded the unsaved world$/, 'Unsaved world discarded'], [/^deleted the world (.+)/, 'World $1 deleted'], [/^put back the world (.+)/, 'World $1 is back'], [/^renamed .* to (.+)/, 'Renamed to $1'], [/^set gravity$/, 'Gravity set'], [/^set damping$/, 'Air drag set'],
-  [/^on course \d+, at .*/, 'Back on the other course'],
-  [/^course \d+ begins at .*/, 'A new course begins here'], [/^speed (.+)/, 'Speed $1×'], [/^.*; next: /, 'Next: '],
-  [/^a (chain of .+) from .+/, '$1 added'], [/^pose is /, 'position is '], [/^the yaw of pose /, 'the angle '], [/^there is nothing by .+ to undo$/, 'Nothing of yours to undo'], [/^undid (.+?)(, back at .*)?$/, 'Undone: $1'], [/^redid .*/, 'Redone'], [/^(back )?at the beginning, .*/, 'Back at the beginning'],
-  [/ at \([^)]*\)$/, ' here'],
+  [/^saved .* to (.+)\.yaml(.*)/, t('Saved as $1$2')], [/^loaded .* from (.+)\.yaml/, t('Opened $1')], [/^loaded 0 bodies$/, t('An empty world')],
+  [/^discarded the unsaved world$/, t('Unsaved world discarded')], [/^deleted the world (.+)/, t('World $1 deleted')], [/^put back the world (.+)/, t('World $1 is back')], [/^renamed .* to (.+)/, t('Renamed to $1')], [/^set gravity$/, t('Gravity set')], [/^set damping$/, t('Air drag set')],
+  [/^paused$/, t('paused')], [/^playing$/, t('playing')], [/^rewinding$/, t('rewinding')], [/^playing at (.+)/, `${t('playing')}, $1×`], [/^rewinding at (.+)/, `${t('rewinding')}, $1×`],
+  [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')], [/^moved (\d+) bodies$/, t('Moved $1 bodies')], [/^loaded (\d+) bod(y|ies)/, t('Loaded $1 bodies')],
+  [/^on course \d+, at .*/, t('Back on the other course')],
+  [/^course \d+ begins at .*/, t('A new course begins here')], [/^speed (.+)/, t('Speed $1×')], [/^.*; next: /, `${t('Next:')} `],
+  [/^a chain of (\d+) links from .+/, t('Chain of $1 links added')], [/^pose is /, t('position is') + ' '], [/^the yaw of pose /, t('the angle') + ' '], [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')], [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')], [/^redid .*/, t('Redone')], [/^(back )?at the beginning, .*/, t('Back at the beginning')],
+  [/ at \([^)]*\)$/, ` ${t('here')}`],
 ];
+const LISTED = 200; // bodies that can be chosen from
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
 /** Names that nobody chose: of what a pen or a click has drawn. */
 const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((?:drawn|note)\/\d+)/g;
@@ -27,7 +42,10 @@ export class Words {
   constructor(connection) {
     /** Words for the bodies of the last scene, and of the one before: answers come before and after theirs. */
     this.known = /** @type {Map<string, string>[]} */ ([new Map(), new Map()]);
+    /** @type {Body[]} of the last scene */
+    this.bodies = [];
     connection.on('scene', ({bodies}) => {
+      this.bodies = bodies;
       this.known = [new Map(bodies.map((/** @type {Body} */ body) => [body.name, shapeWord(body)])), this.known[0]];
     });
   }
@@ -42,7 +60,7 @@ export class Words {
    * @returns {string} the name that somebody has chosen, short, else what it is
    */
   of(name) {
-    return isDrawn(name) ? this.known[0].get(name) ?? this.known[1].get(name) ?? 'body' : shorten(name);
+    return isDrawn(name) ? this.known[0].get(name) ?? this.known[1].get(name) ?? thingWord('body') : shorten(name);
   }
 
   /**
@@ -53,24 +71,33 @@ export class Words {
     return isDrawn(name) ? `${this.title(name)} ${name.split('/')[1]}` : shorten(name);
   }
 
+  /**
+   * @param {string} none what is said for no body
+   * @returns {[name: string, item: string][]} bodies to choose from, gates first
+   */
+  choices(none) {
+    const bodies = [...this.bodies].sort((one, other) => Number(other.sensor) - Number(one.sensor));
+    return [['', none], ...bodies.slice(0, LISTED).map(({name}) => /** @type {[string, string]} */ ([name, this.item(name)]))];
+  }
+
   /** @param {string} name of a body */
   title(name) {
     return isDrawn(name) ? capital(this.of(name)) : this.of(name);
   }
 
   /**
-   * @param {{message: string, subject?: string, topic?: string, ok?: boolean}} answer
+   * @param {{message: string, code?: string, subject?: string, topic?: string, ok?: boolean}} answer
    * @returns {string} what it says
    */
-  tell({message, subject = '', topic = '', ok = true}) {
-    if (topic === '~/clear' && ok) return 'All bodies deleted';
+  tell({message, code = '', subject = '', topic = '', ok = true}) {
+    if (topic === '~/clear' && ok) return t('All bodies deleted');
     const verb = subject ? message.slice(0, Math.max(message.indexOf(subject), 0)).trimEnd() : '';
     const joint = /^changed (axle|pin|spring|rod|rope|motor|slider|gear) /.exec(message)?.[1];
-    if (joint) return `${capital(joint)} changed`;
-    if (verb.startsWith('joined')) return capital(`${/ by (\w+) /.exec(message)?.[1] ?? 'joint'} added`);
-    const done = VERBS.get(verb);
-    if (done) return `${this.title(subject)} ${done}`;
-    return capital(this.phrase(SENTENCES.reduce((text, [sentence, said]) => text.replace(sentence, said), message)));
+    if (joint) return said('changed', capital(thingWord(joint)));
+    if (verb.startsWith('joined')) return said('spawned', capital(thingWord(/ by (\w+) /.exec(message)?.[1] ?? 'joint')));
+    if (VERBS.has(verb)) return said(verb, this.title(subject));
+    const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message)));
+    return ok ? told : refusalText(code, told);
   }
 
   /**
@@ -78,8 +105,25 @@ export class Words {
    * @returns {string} with words for those that nobody chose
    */
   phrase(text) {
-    return text.replace(/\S+/g, (word) => shorten(word)).replace(/\bspawn\b/, 'add').replace(DRAWN, (_, kind, name) => `the ${kind ?? this.of(name)}`);
+    return text.replace(/\S+/g, (word) => shorten(word)).replace(DRAWN, (_, kind, name) => t('the {thing}', {thing: kind ? thingWord(kind) : this.of(name)}))
+      .replace(GESTURE, (_, before, verb, thing, more = '') => before + filled(GESTURES.get(verb), THINGS.get(thing) ?? thing) + more.replace(/ and (\d+) more/, ` ${t('and $1 more')}`));
   }
+}
+
+/**
+ * @param {string | undefined} sentence
+ * @param {string} thing that it is about
+ */
+function filled(sentence, thing) {
+  return (sentence ?? '').replace('{thing}', () => thing);
+}
+
+/**
+ * @param {string} verb of the server
+ * @param {string} thing
+ */
+function said(verb, thing) {
+  return filled(VERBS.get(verb), thing);
 }
 
 /** @param {string} name of a body */
@@ -102,15 +146,14 @@ export function capital(text) {
  * @returns {string} what somebody calls it who sees it
  */
 export function shapeWord({name, shape: {kind, outline, width}}) {
-  if (name.startsWith('note/')) return 'note';
-  if (kind === 'disc') return 'circle';
-  if (kind === 'chain') return 'wall';
-  if (width) return 'rectangle';
-  return kind === 'polygon' && outline.length === 3 ? 'triangle' : 'shape';
+  if (name.startsWith('note/')) return t('note');
+  if (kind === 'disc') return thingWord('disc');
+  if (kind === 'chain') return thingWord('wall');
+  if (width) return thingWord('rectangle');
+  return kind === 'polygon' && outline.length === 3 ? t('triangle') : t('shape');
 }
 
-/** @param {string} meaning of a stroke, as the server has it */
-export function meaningWord(meaning) {
-  if (meaning === 'hatching') return 'heavier by hatching';
-  return meaning === 'disc' ? 'circle' : meaning.replaceAll('_', ' ');
+/** @param {string} meaning of a stroke, or kind of a joint, as the server has it */
+export function thingWord(meaning) {
+  return THINGS.get(meaning) ?? meaning.replaceAll('_', ' ');
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** What the panel shows of the world: the material of the next drawings, gravity, air, sound; and the fields of a material. */
 
-import {createElement, inRow, range, textButton} from './dom.js';
+import {checkField, createElement, inRow, range, textButton} from './dom.js';
+import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
 /** @import {Content} from './panel.js' */
@@ -12,18 +13,18 @@ import {createElement, inRow, range, textButton} from './dom.js';
  * @type {Record<string, {density: number, friction: number, elasticity: number}>}
  */
 const MATERIALS = {
-  Ice: {density: 0.92, friction: 0.03, elasticity: 0.3},
-  Wood: {density: 0.7, friction: 0.4, elasticity: 0.5},
-  Rubber: {density: 1.1, friction: 1, elasticity: 0.8},
-  Steel: {density: 7.85, friction: 0.6, elasticity: 0.6},
+  [t('Ice')]: {density: 0.92, friction: 0.03, elasticity: 0.3},
+  [t('Wood')]: {density: 0.7, friction: 0.4, elasticity: 0.5},
+  [t('Rubber')]: {density: 1.1, friction: 1, elasticity: 0.8},
+  [t('Steel')]: {density: 7.85, friction: 0.6, elasticity: 0.6},
 };
 /** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
-const RANGES = [['density', 'Density [kg/m²]', 0.1, 10, 0.1], ['friction', 'Friction', 0, 2, 0.05],
-  ['elasticity', 'Bounciness', 0, 1, 0.05]];
+const RANGES = [['density', t('Density [kg/m²]'), 0.1, 10, 0.1], ['friction', t('Friction'), 0, 2, 0.05],
+  ['elasticity', t('Bounciness'), 0, 1, 0.05]];
 /** Gravity at the surface [m/s²]. */
-const PLACES = {Earth: 9.81, Moon: 1.62, Mars: 3.71, None: 0};
-const STEP_OF_DIAL = Math.PI / 12; // rad
-let turn = 0; // of gravity from down, counter-clockwise [rad]: as it was, while there is none
+const PLACES = {[t('Earth')]: 9.81, [t('Moon')]: 1.62, [t('Mars')]: 3.71, [t('None')]: 0};
+const DEGREE = Math.PI / 180, STEP = 15; // rad; degrees of the slider
+let turn = 0; // of gravity from down, counter-clockwise [°]: as it was, while there is none
 
 /**
  * @param {App} app
@@ -33,10 +34,10 @@ export function worldContent(app) {
   const {scene} = app.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
   // As it was set last: the panel is not renewed while somebody works in it.
   let size = strength;
-  if (strength) turn = Math.atan2(gx, -gy);
+  if (strength) turn = Math.round(Math.atan2(gx, -gy) / DEGREE * 1e4) / 1e4;
   const pull = () => {
     // The sine of a half turn is not exactly 0: nine digits are.
-    app.connection.send('gravity', {gravity: [Math.sin(turn) * size, -Math.cos(turn) * size].map((each) => Number(each.toFixed(9)))});
+    app.connection.send('gravity', {gravity: [Math.sin(turn * DEGREE) * size, -Math.cos(turn * DEGREE) * size].map((each) => Number(each.toFixed(9)))});
   };
   const setSize = (/** @type {number} */ value) => {
     size = value;
@@ -47,88 +48,27 @@ export function worldContent(app) {
     app.connection.send('draw_with', properties);
   };
   const chosen = app.material.color ?? app.color, color = chosen || [0.3, 0.47, 0.66];
-  const any = createElement('input', {type: 'checkbox', checked: !chosen,
-    onchange: () => change({color: any.checked ? '' : hexOf(color)})});
-  return {title: 'Material of new bodies', rest: [
-    materialButtons((preset) => {
-      change(preset);
-      app.panel.render();
-    }),
+  const any = checkField(t('Each body another colour'), !chosen, (checked) => change({color: checked ? '' : hexOf(color)}));
+  return {title: t('Material of new bodies'), rest: [
     ...materialFields({...scene, ...app.material, color}, (properties) => {
-      if (properties.color) any.checked = false;
+      if (properties.color) /** @type {HTMLInputElement} */ (any.control).checked = false;
       change(properties);
+      // A material that was pressed is shown in the fields below.
+      if (properties.density && properties.friction) app.panel.render();
     }),
-    createElement('label', {}, 'Each body another colour', any),
-    createElement('h3', {textContent: 'Gravity'}),
-    range('Gravity [m/s²]', 0, 25, 0.01, strength, setSize),
-    gravityButtons(setSize),
-    createElement('label', {}, 'Direction', dial(turn, (angle) => {
-      turn = angle;
+    any,
+    createElement('h3', {textContent: t('Gravity')}),
+    range(t('Gravity [m/s²]'), 0, 25, 0.01, strength, setSize),
+    presetButtons(PLACES, setSize),
+    range(t('Direction of gravity [° from down]'), -180, 180, STEP, turn, (degrees) => {
+      turn = degrees;
       pull();
-    })),
-    range('Air drag [of the speed, each second]', 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping})),
-    createElement('label', {}, 'Sound of impacts', createElement('input', {type: 'checkbox', checked: app.sound.on, onchange: () => {
+    }),
+    range(t('Air drag [of the speed, each second]'), 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping})),
+    checkField(t('Sound of impacts'), app.sound.on, () => {
       app.sound.toggle();
       app.askForParts();
-    }}))]};
-}
-
-/**
- * A compass that is dragged, or turned by arrow keys.
- * @param {number} turn from down, counter-clockwise [rad]
- * @param {(turn: number) => void} change
- */
-function dial(turn, change) {
-  const canvas = createElement('canvas', {className: 'dial', width: 144, height: 144, tabIndex: 0, role: 'slider', 'aria-label': 'Direction of gravity',
-    'aria-valuemin': -180, 'aria-valuemax': 180});
-  const ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
-  const show = () => {
-    const degrees = Math.round(turn * 180 / Math.PI), x = Math.sin(turn), y = Math.cos(turn);
-    canvas.setAttribute('aria-valuenow', String(degrees));
-    canvas.setAttribute('aria-valuetext', degrees ? `${degrees}° from down` : 'down');
-    ctx.setTransform(1, 0, 0, 1, 72, 72);
-    ctx.clearRect(-72, -72, 144, 144);
-    ctx.lineWidth = 6;
-    ctx.lineCap = 'round';
-    ctx.strokeStyle = getComputedStyle(document.documentElement).getPropertyValue('--weight');
-    ctx.beginPath();
-    for (const [along, across] of [[-50, 0], [50, 0], [28, 18], [50, 0], [28, -18]]) ctx.lineTo(x * along + y * across, y * along - x * across);
-    ctx.stroke();
-  };
-  const point = (/** @type {PointerEvent} */ {clientX, clientY, buttons}) => {
-    if (!buttons) return;
-    const {left, top, width} = canvas.getBoundingClientRect();
-    const angle = Math.atan2(clientX - left - width / 2, clientY - top - width / 2);
-    turn = Math.round(angle / STEP_OF_DIAL) * STEP_OF_DIAL;
-    show();
-  };
-  canvas.onpointerdown = (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    point(event);
-  };
-  canvas.onpointermove = point;
-  canvas.onpointerup = () => change(turn);
-  canvas.onkeydown = (event) => {
-    const by = {ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1}[event.key];
-    if (!by) return;
-    event.preventDefault();
-    event.stopPropagation();
-    turn += by * STEP_OF_DIAL;
-    show();
-    change(turn);
-  };
-  show();
-  return canvas;
-}
-
-/** @param {(properties: {density: number, friction: number, elasticity: number}) => void} change */
-export function materialButtons(change) {
-  return presetButtons(MATERIALS, change);
-}
-
-/** @param {(gravity: number) => void} change */
-function gravityButtons(change) {
-  return presetButtons(PLACES, change);
+    })]};
 }
 
 /**
@@ -145,14 +85,15 @@ function presetButtons(presets, change) {
 /**
  * @param {any} values by key
  * @param {(properties: any) => void} change
- * @returns {HTMLElement[]}
+ * @returns {HTMLElement[]} buttons and fields of a material
  */
 export function materialFields(values, change) {
   const color = createElement('input', {type: 'color', value: hexOf(values.color), onchange: () => change({color: color.value})});
   return [
+    presetButtons(MATERIALS, change),
     ...RANGES.map(([key, label, least, most, step]) => range(label, least, most, step, values[key],
       (value) => change({[key]: value}))),
-    createElement('label', {}, 'Colour', color)];
+    createElement('label', {}, t('Colour'), color)];
 }
 
 /**

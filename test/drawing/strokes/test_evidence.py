@@ -1,14 +1,24 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The table of evidence has every measure of every sign, and probabilities are shares."""
+"""The table has every measure of every sign; probabilities are shares, confidences grow."""
 
 from collections.abc import Iterator
+import itertools
 
 import numpy as np
-from physsim_ros.drawing.strokes.evidence import Candidate, CONSTANT, probabilities, Term, terms_of
+from physsim_ros.drawing.strokes.evidence import (
+    Candidate,
+    CONSTANT,
+    group_confidence,
+    probabilities,
+    share_confidence,
+    Term,
+    terms_of,
+)
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.signs import Sign, SIGNS
+from physsim_ros.drawing.strokes.meanings import Sign
+from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 import pytest
 from tools.evaluation import arrows, figures
@@ -31,12 +41,32 @@ def test_probabilities_are_shares_of_odds_and_the_rest_is_no_sign() -> None:
     assert not probabilities([])
 
 
-@pytest.mark.parametrize('sign', SIGNS, ids=lambda sign: sign.PRIMITIVE)
+def test_more_weight_is_more_confidence_and_none_is_certain() -> None:
+    groups = [group_confidence(share, 1.0) for share in (0.0, 0.2, 0.5, 0.8, 1.0)]
+    shares = [share_confidence(share) for share in (0.0, 0.2, 0.5, 0.8, 1.0)]
+
+    for confidences in (groups, shares):
+        assert all(less < more for less, more in itertools.pairwise(confidences))
+        assert confidences[0] > 0.0
+        assert confidences[-1] < 1.0
+
+
+def test_a_group_alone_is_sure_enough_to_delete_and_one_of_two_equals_is_not_built() -> None:
+    assert group_confidence(1.0, 1.0) > 0.9
+    assert group_confidence(0.5, 1.0) < 0.6
+
+
+def test_of_two_equal_meanings_in_a_group_about_every_second_is_right() -> None:
+    # The better one of two is the more likely one, by the noise of weights.
+    assert share_confidence(0.5) == pytest.approx(0.55, abs=0.1)
+
+
+@pytest.mark.parametrize('sign', SIGNS, ids=lambda sign: sign.name)
 def test_the_table_has_the_measures_of_a_sign_and_no_others(sign: Sign) -> None:
     candidate = next(_candidates(sign))
 
-    assert {term.measure for term in terms_of(sign.PRIMITIVE)} == {CONSTANT, *candidate.measures}
-    assert all(list(term.knots) == sorted(set(term.knots)) for term in terms_of(sign.PRIMITIVE))
+    assert {term.measure for term in terms_of(sign.name)} == {CONSTANT, *candidate.measures}
+    assert all(list(term.knots) == sorted(set(term.knots)) for term in terms_of(sign.name))
 
 
 def _candidates(sign: Sign) -> Iterator[Candidate]:
@@ -48,6 +78,6 @@ def _candidates(sign: Sign) -> Iterator[Candidate]:
         'scribble': figures.scribble,
         'zigzag': figures.zigzag,
         'round arrow': arrows.round_arrow,
-    }[sign.PRIMITIVE]
+    }[sign.name]
     for _ in range(20):
         yield from sign.candidates(Features.of(resample_stroke(stroke(draw(rng), rng))))

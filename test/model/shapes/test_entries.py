@@ -18,14 +18,14 @@ def test_every_class_with_a_key_is_a_shape() -> None:
 
 @pytest.mark.parametrize('shape', EXAMPLES.values(), ids=EXAMPLES.keys())
 def test_a_shape_is_read_as_it_was_written(shape: Shape) -> None:
-    assert SHAPES[shape.KEY].from_entry(shape.entry()) == shape
+    assert SHAPES[shape.KEY].from_value(shape.entry(), shape.KEY) == shape
 
 
 @pytest.mark.parametrize('key', SHAPES)
 @pytest.mark.parametrize('entry', [None, 1, 'round', {}, {'points': None}, [1, 2]])
 def test_an_entry_that_is_none_is_refused(key: str, entry: object) -> None:
     with pytest.raises(Refusal):
-        SHAPES[key].from_entry(entry)
+        SHAPES[key].from_value(entry, key)
 
 
 @pytest.mark.parametrize(
@@ -44,5 +44,5 @@ def test_a_compound_is_made_of_one_disc_or_box(
     entry: object, error: type[Refusal], field: str
 ) -> None:
     with pytest.raises(error) as refused:
-        SHAPES['compound'].from_entry(entry)
+        SHAPES['compound'].from_value(entry, 'compound')
     assert refused.value.field == field

@@ -19,41 +19,37 @@ def _by_points(shape, inside):
     return np.hypot(x - form.centroid[0], y - form.centroid[1])[within].mean()
 
 
-def test_of_a_disc_it_is_two_thirds_of_the_radius():
-    assert lever_of(Disc(radius=0.3).form) == pytest.approx(0.2, rel=1e-12)
+@pytest.mark.parametrize(
+    ('shape', 'exact'),
+    [
+        (Disc(radius=0.3), 0.2),
+        (Box(width=1.0, height=1.0), (math.sqrt(2.0) + math.asinh(1.0)) / 6.0),
+    ],
+)
+def test_of_a_disc_and_a_square_it_is_that_of_the_formula(shape, exact):
+    assert lever_of(shape.form) == pytest.approx(exact, rel=1e-12)
 
 
-def test_of_a_square_it_is_that_of_the_formula():
-    exact = (math.sqrt(2.0) + math.asinh(1.0)) / 6.0
-
-    assert lever_of(Box(width=1.0, height=1.0).form) == pytest.approx(exact, rel=1e-12)
+ELL = ((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0))
+DISCS = Compound(element=Disc(radius=0.2), centers=((-0.5, 0.0), (0.5, 0.1)))
 
 
-def test_of_a_concave_polygon_it_is_that_of_its_points():
-    outline = ((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0))
-    shape = Polygon(outline=outline)
-
-    def inside(x, y):
-        return ((x >= 0) & (y >= 0) & (x <= 2) & (y <= 0.5)) | (
-            (x >= 0) & (y >= 0) & (x <= 0.5) & (y <= 2)
-        )
-
+@pytest.mark.parametrize(
+    ('shape', 'inside'),
+    [
+        (
+            Polygon(outline=ELL),
+            lambda x, y: (
+                (np.minimum(x, y) >= 0) & (np.maximum(x, y) <= 2) & (np.minimum(x, y) <= 0.5)
+            ),
+        ),
+        (DISCS, lambda x, y: (np.hypot(x + 0.5, y) <= 0.2) | (np.hypot(x - 0.5, y - 0.1) <= 0.2)),
+        (
+            Chain(points=((0.0, 0.0), (1.0, 0.0)), thickness=0.4),
+            lambda x, y: np.hypot(x - np.clip(x, 0.0, 1.0), y) <= 0.2,
+        ),
+    ],
+    ids=['concave', 'discs beside the centroid', 'segment with round ends'],
+)
+def test_of_other_shapes_it_is_that_of_their_points(shape, inside):
     assert lever_of(shape.form) == pytest.approx(_by_points(shape, inside), rel=5e-3)
-
-
-def test_of_discs_beside_the_centroid_it_is_that_of_their_points():
-    shape = Compound(element=Disc(radius=0.2), centers=((-0.5, 0.0), (0.5, 0.1)))
-
-    def inside(x, y):
-        return (np.hypot(x + 0.5, y) <= 0.2) | (np.hypot(x - 0.5, y - 0.1) <= 0.2)
-
-    assert lever_of(shape.form) == pytest.approx(_by_points(shape, inside), rel=2e-3)
-
-
-def test_of_a_segment_with_round_ends_it_is_that_of_its_points():
-    shape = Chain(points=((0.0, 0.0), (1.0, 0.0)), thickness=0.4)
-
-    def inside(x, y):
-        return np.hypot(x - np.clip(x, 0.0, 1.0), y) <= 0.2
-
-    assert lever_of(shape.form) == pytest.approx(_by_points(shape, inside), rel=2e-3)

@@ -14,6 +14,7 @@ from physsim_ros.model.shapes import (
     LARGEST,
     MOST_POINTS,
     Polygon,
+    Shape,
     SMALLEST,
     Triangles,
 )
@@ -52,44 +53,29 @@ def test_a_length_at_the_end_of_its_range_is_taken(length: float) -> None:
     assert Box(width=length, height=length).form.inner == length / 2
 
 
-@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
-def test_a_coordinate_that_is_not_finite_is_malformed(value: float) -> None:
-    for make in (
-        lambda: Polygon(outline=((0.0, 0.0), (1.0, value), (0.0, 1.0))),
-        lambda: Chain(points=((0.0, 0.0), (value, 0.0)), thickness=0.1),
-        lambda: Triangles(vertices=((0.0, 0.0), (1.0, value), (0.0, 1.0))),
-        lambda: Compound(element=Disc(radius=1.0), centers=((value, 0.0),)),
-    ):
-        with pytest.raises(Malformed):
-            make()
+FAR = math.nextafter(LARGEST, math.inf)
 
 
+@pytest.mark.parametrize('kind', [Polygon, Chain, Triangles, Compound])
 @pytest.mark.parametrize(
-    'points',
-    [((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)), ((0.0,), (1.0,)),
-     (0.0, 1.0, 2.0, 3.0), (('a', 'b'), ('c', 'd'), ('e', 'f')), ((None, 0.0),) * 3],
+    ('points', 'error'),
+    [*((((0.0, 0.0), (1.0, value), (0.0, 1.0)), Malformed)
+       for value in (math.nan, math.inf, -math.inf)),
+     (((0.0, 0.0), (FAR, 0.0), (0.0, 1.0)), BadSize),
+     (((0.0, 0.0), (0.0, -FAR), (1.0, 1.0)), BadSize),
+     (((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0)), Malformed),
+     (((0.0,), (1.0,)), Malformed),
+     ((0.0, 1.0, 2.0, 3.0), Malformed), ((('a', 'b'), ('c', 'd'), ('e', 'f')), Malformed),
+     (((None, 0.0),) * 3, Malformed), (7, Malformed)],
 )  # fmt: skip
-def test_what_are_no_pairs_of_numbers_is_malformed(points: object) -> None:
-    for make in (
-        lambda: Polygon(outline=points),
-        lambda: Chain(points=points, thickness=0.1),
-        lambda: Triangles(vertices=points),
-        lambda: Compound(element=Disc(radius=1.0), centers=points),
-    ):
-        with pytest.raises(Malformed):
-            make()
-
-
-def test_a_coordinate_beyond_the_largest_is_a_bad_size() -> None:
-    far = math.nextafter(LARGEST, math.inf)
-    for make in (
-        lambda: Polygon(outline=((0.0, 0.0), (far, 0.0), (0.0, 1.0))),
-        lambda: Chain(points=((0.0, 0.0), (far, 0.0)), thickness=0.1),
-        lambda: Triangles(vertices=((0.0, 0.0), (far, 0.0), (0.0, 1.0))),
-        lambda: Compound(element=Disc(radius=1.0), centers=((0.0, -far),)),
-    ):
-        with pytest.raises(BadSize):
-            make()
+def test_points_are_pairs_of_finite_numbers_that_are_not_too_large(
+    kind: type[Shape], points: object, error: type[Refusal]
+) -> None:
+    others = {Chain: {'thickness': 0.1}, Compound: {'element': Disc(radius=1.0)}}.get(kind, {})
+    named = {Polygon: 'outline', Triangles: 'vertices', Compound: 'centers'}.get(kind, 'points')
+    with pytest.raises(error) as refused:
+        kind(**{named: points}, **others)
+    assert refused.value.field == named
 
 
 OUTLINES = {

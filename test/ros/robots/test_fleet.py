@@ -13,23 +13,20 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-import numpy as np
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.robots import fleet
-from physsim_ros.simulation.request_handler import RequestHandler
+from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
 import rclpy
 from rclpy.context import Context
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, Imu, JointState, LaserScan, NavSatFix, Range
 from std_msgs.msg import Bool
 
 from .driver import Driver, yaw_of
 from ..journey import Journey, SECOND
-from ...client import Client, set_parameter
+from ...client import Client, Event, set_parameter
 
 
 @pytest.fixture
@@ -113,29 +110,27 @@ def test_a_command_counts_for_its_timeout(flat: PhysSim, client: Client) -> None
     assert robot.truth().twist.twist.linear.x == pytest.approx(0.0, abs=1e-9)
 
 
-def test_a_robot_that_stops_as_no_command_comes_is_told_once(
+def test_a_robot_that_stops_as_no_command_comes_is_told_once_and_one_that_was_stopped_not(
     flat: PhysSim, client: Client
 ) -> None:
     flat.robot('turtlebot3_burger')
     driver = Driver(flat.context, looks=False)
     flat.add(driver)
-    for _ in range(2):
-        driver.send(0.2)
-        flat.run(1.0)
-    (event,) = [event for event in client.events if event.name == '/robot_0/cmd_vel']
-    assert event.code == 'ok'
-    assert 'for 0.5 s' in event.message
 
+    def told() -> list[Event]:
+        return [event for event in client.events if event.name == '/robot_0/cmd_vel']
 
-def test_a_robot_that_is_stopped_is_not_told(flat: PhysSim, client: Client) -> None:
-    flat.robot('turtlebot3_burger')
-    driver = Driver(flat.context, looks=False)
-    flat.add(driver)
     for speed in (0.2, 0.0):
         driver.send(speed)
         flat.run(0.3)
     flat.run(1.0)
-    assert not [event for event in client.events if event.name == '/robot_0/cmd_vel']
+    assert not told()
+    for _ in range(2):
+        driver.send(0.2)
+        flat.run(1.0)
+    (event,) = told()
+    assert event.code == 'ok'
+    assert 'for 0.5 s' in event.message
 
 
 @pytest.mark.parametrize('kind', [Twist, TwistStamped])
@@ -525,14 +520,14 @@ def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: Phys
 def submitted(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Give a test the times at which drives are submitted [s]."""
     times: list[float] = []
-    apply = RequestHandler.apply
+    apply = RequestQueue.apply
 
-    def note(handler: RequestHandler, request: Any, *others: Any) -> Any:
+    def note(queue: RequestQueue, request: Any, *others: Any) -> Any:
         if isinstance(request, DriveRobot):
             times.append(flat.time)
-        return apply(handler, request, *others)
+        return apply(queue, request, *others)
 
-    monkeypatch.setattr(RequestHandler, 'apply', note)
+    monkeypatch.setattr(RequestQueue, 'apply', note)
     return times
 
 
@@ -587,36 +582,6 @@ def test_of_two_handles_of_a_robot_the_later_one_drives(
     assert first.truth().twist.twist.linear.x == pytest.approx(0.1, rel=1e-6)
 
 
-def test_publishers_are_looked_at_where_their_number_changes(
-    flat: PhysSim, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(fleet, '_LOOK_PERIOD', math.inf)
-    flat.robot('turtlebot3_burger', namespace='tb')
-    flat.step()
-    looks: list[float] = []
-    look = flat.node.get_publishers_info_by_topic
-    monkeypatch.setattr(
-        flat.node,
-        'get_publishers_info_by_topic',
-        lambda topic: looks.append(flat.time) or look(topic),
-    )
-    flat.step(60)
-    # Each 15 frames.
-    assert len(looks) == 4
-    node = rclpy.create_node('other', context=flat.context)
-    publishers = [node.create_publisher(Twist, '/tb/cmd_vel', 1)]
-    flat.step()
-    commands = next(iter(flat.node.fleet.robots.values())).commands
-    assert commands.is_heard
-    # Another one in place of it, of another reliability, is looked at with all.
-    node.destroy_publisher(publishers.pop())
-    best_effort = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-    publishers.append(node.create_publisher(Twist, '/tb/cmd_vel', best_effort))
-    flat.step(15)
-    assert commands.is_heard
-    node.destroy_node()
-
-
 def test_a_robot_without_a_shipped_name_is_refused(flat: PhysSim) -> None:
     with pytest.raises(Refused, match='name a shipped robot') as caught:
         flat.robot({'drive': {'kind': 'omni'}})
@@ -640,37 +605,6 @@ def test_the_covariance_of_the_twist_is_that_of_its_speed(flat: PhysSim) -> None
     odometry = robot.odom()
     assert max(odometry.twist.covariance[0], odometry.twist.covariance[35]) <= 1e-9
     assert odometry.pose.covariance[0] > 1e-5
-
-
-def test_the_covariance_of_the_pose_grows_on_the_way_back(flat: PhysSim) -> None:
-    robot = flat.robot({'from': 'turtlebot3_burger', 'odometry': {'slip': [0.01, 0.02]}})
-    variances = []
-    for speed, turn in ((0.2, 0.0), (-0.2, 0.0), (0.0, 1.0), (0.0, -1.0)):
-        robot.drive(speed, turn)
-        flat.run(2.0)
-        covariance = robot.odom().pose.covariance
-        variances.append((covariance[0], covariance[35]))
-    (there, _), (back, heading), (_, turned), (around, twice) = variances
-    assert back == pytest.approx(2 * there, rel=0.1)
-    assert around == pytest.approx(back, rel=0.05)
-    assert turned - heading == pytest.approx(0.02**2 * 2.0, rel=0.15)
-    assert twice - heading == pytest.approx(0.02**2 * 4.0, rel=0.15)
-
-
-def test_the_covariance_of_the_pose_is_along_the_way_and_across(flat: PhysSim) -> None:
-    slip = 0.02, 0.05
-    robot = flat.robot({'from': 'turtlebot3_burger', 'odometry': {'slip': slip}})
-    robot.drive(0.2)
-    flat.run(5.0)
-    odometry = robot.odom()
-    covariance = np.reshape(odometry.pose.covariance, (6, 6))
-    way = odometry.pose.pose.position.x
-    # 5 %: the way is not quite straight, and has a beginning.
-    assert covariance[0, 0] == pytest.approx(slip[0] ** 2 * way, rel=0.05)
-    assert covariance[1, 1] == pytest.approx(slip[1] ** 2 * way**3 / 3, rel=0.05)
-    assert covariance[1, 5] == pytest.approx(slip[1] ** 2 * way**2 / 2, rel=0.05)
-    assert covariance[5, 5] == pytest.approx(slip[1] ** 2 * way, rel=0.05)
-    np.testing.assert_array_equal(covariance, covariance.T)
 
 
 def test_a_robot_of_a_world_file_is_found_and_driven(flat: PhysSim) -> None:

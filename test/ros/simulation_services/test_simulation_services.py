@@ -506,7 +506,7 @@ def test_the_program_ends_after_its_reply(caller: Caller) -> None:
     quitting = 3
     ended: list[str] = []
     node = caller.physsim.node
-    node.on_quit = lambda: ended.append('ended')
+    node.control.on_quit = lambda: ended.append('ended')
     set_parameter(caller.physsim, 'speed', 1.0)
     assert caller('SetSimulationState', state__state=quitting).result.result == OK
     assert caller('GetSimulationState').state.state == quitting

@@ -14,23 +14,26 @@ from physsim_ros.drawing.strokes import regularisation
 from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.fitting import segment_distances
-from physsim_ros.drawing.strokes.hypothesis import Hypothesis
+from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.drawing.strokes.meanings import (
     Context,
+    Form,
     GRAVITY,
-    Interpretation,
+    Meaning,
     MISPLACED,
     Outcome,
+    Sign,
 )
-from physsim_ros.drawing.strokes.polyline import point_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.requests import Command, Configure
 from physsim_ros.model.transform import cross, dots, norms
 
-PRIMITIVE = 'arrow'
-# The least gap between the ends of an arrow, in shares of its length.
-_LEAST_GAP = 0.1
+# The least distance between the ends of an arrow, in shares of its size: barbs reach back to the
+# tail's side, if they are as long as the shaft.
+_LEAST_CHORD = 0.15
+# The least turn of the pen at the tip [rad]: at barbs it turns back.
+_LEAST_TURN = 1.2
 # The part of a shaft that shows how it is bowed, from its tail on, and the part of an arrow in
 # which its head is, before its tip; in shares of the distance between both.
 _SHAFT, _HEAD = 0.6, 0.9
@@ -40,10 +43,10 @@ _NECK = 0.2
 _ALONG = np.linspace(0.15, 1.0, 8)[:, None]
 
 
-def candidates(features: Features) -> Iterator[Candidate]:
+def _candidates(features: Features) -> Iterator[Candidate]:
     """Yield a shaft and a head, in either order; points: tail and tip."""
-    stroke = features.stroke
-    if stroke.gap >= _LEAST_GAP:
+    stroke, measures = features.stroke, features.measures
+    if measures['chord'] >= _LEAST_CHORD and measures['sharpest'] >= _LEAST_TURN:
         for points in (stroke.points, stroke.points[::-1]):
             yield _from_tail(points, features)
 
@@ -65,9 +68,10 @@ def _from_tail(points: Floats, features: Features) -> Candidate:
     less, more = sorted(math.atan2(side * y, -x) for side, (x, y) in ((1, left), (-1, right)))
     neck = np.array(((1.0 + _NECK) * min(left[0], right[0], 0.0), 0.0))
     head = near[near[:, 0] >= neck[0]]
+    # Both barbs, the side between these, and the neck.
     middle = np.zeros(2)
-    sides = (middle, left), (middle, right), (left, right), (middle, neck)
-    off = np.min([segment_distances(head, *side) for side in sides], axis=0)
+    start, end = np.array((middle, middle, left, middle)), np.array((left, right, right, neck))
+    off = segment_distances(head, start[:, None], end[:, None]).min(axis=0)
     missed = [norms((barb * _ALONG)[:, None] - head).min(axis=1).max() for barb in (left, right)]
     steps = np.diff(head, axis=0)
     shaft = frame[frame[:, 0] < 1.0 + neck[0], 1]
@@ -116,22 +120,22 @@ def _in_frame(points: Floats, origin: Floats, one: Floats) -> Floats:
     return local / max(float(dots(along, along)), 1e-300)
 
 
-def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a velocity where the tail lies on a body that can move, else a turn of gravity."""
-    points = hypothesis.points
+    points = form.points
     under = context.scene.bodies_at(point_of(points[0]))
     moving = next((name for name in under if not context.scene.body(name).anchored), None)
     if moving is not None:
-        yield Interpretation(
-            meaning='velocity',
-            weight=hypothesis.weight,
+        yield Meaning(
+            name='velocity',
+            weight=form.weight,
             build=partial(_set_velocity, moving, points, context),
         )
         return
     free = not under
-    yield Interpretation(
-        meaning=GRAVITY,
-        weight=hypothesis.weight * (1.0 if free else MISPLACED),
+    yield Meaning(
+        name=GRAVITY,
+        weight=form.weight * (1.0 if free else MISPLACED),
         build=partial(_turn_gravity, points, context),
     )
 
@@ -166,3 +170,6 @@ def _turn_gravity(points: Floats, context: Context) -> Outcome:
         message=f'gravity towards ({gravity[0]:.3g}, {gravity[1]:.3g}) m/s²',
         outline=context.drawn.points,
     )
+
+
+ARROW = Sign(name='arrow', candidates=_candidates, meanings=_meanings)

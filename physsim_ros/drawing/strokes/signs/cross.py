@@ -12,21 +12,19 @@ import math
 from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.hypothesis import Hypothesis
-from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
-from physsim_ros.drawing.strokes.polyline import point_of
+from physsim_ros.drawing.strokes.geometry import point_of
+from physsim_ros.drawing.strokes.meanings import Context, Form, Meaning, MISPLACED, Outcome, Sign
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.requests import Anchor
 from physsim_ros.model.transform import cross
 
-PRIMITIVE = 'x'
 # The least number of points by which a line is followed beyond the crossing, of `COUNT`, and the
 # least number of those of either line.
 _BEYOND, _FEWEST = 8, 5
 
 
-def candidates(features: Features) -> Iterator[Candidate]:
+def _candidates(features: Features) -> Iterator[Candidate]:
     """Yield two lines that cross, for the crossing with the longest ends; the point is there."""
     stroke, crossings = features.stroke, features.crossings
     count = len(stroke.points) - 1
@@ -56,13 +54,13 @@ def candidates(features: Features) -> Iterator[Candidate]:
     )
 
 
-def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield an anchor."""
-    points = hypothesis.points
+    points = form.points
     under = context.scene.bodies_at(point_of(points[0]), context.settings.snap)
-    yield Interpretation(
-        meaning='anchor',
-        weight=hypothesis.weight * (1.0 if under else MISPLACED),
+    yield Meaning(
+        name='anchor',
+        weight=form.weight * (1.0 if under else MISPLACED),
         build=partial(_anchor_body, points, context),
     )
 
@@ -89,3 +87,6 @@ def _anchor_body(points: Floats, context: Context) -> Outcome:
         message=f'anchor {under[0]}',
         outline=drawn,
     )
+
+
+CROSS = Sign(name='x', candidates=_candidates, meanings=_meanings)

@@ -13,10 +13,8 @@ import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.hypothesis import Hypothesis
-from physsim_ros.drawing.strokes.meanings import Context, Interpretation, MISPLACED, Outcome
-from physsim_ros.drawing.strokes.plane import angles, least_squares
-from physsim_ros.drawing.strokes.polyline import point_of, smoothed
+from physsim_ros.drawing.strokes.geometry import angles, least_squares, point_of, smoothed
+from physsim_ros.drawing.strokes.meanings import Context, Form, Meaning, MISPLACED, Outcome, Sign
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -26,24 +24,23 @@ from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.transform import norms, Point
 
-PRIMITIVE = 'round arrow'
 # Distance of the points between which the pen turns at the tip [points].
 _STRIDE = 3
 # The least turn of the pen at the tip [rad]: barbs point back.
 _TURN = 1.5
 
 
-def candidates(features: Features) -> Iterator[Candidate]:
+def _candidates(features: Features) -> Iterator[Candidate]:
     """Yield an arc and a head, from either end; points: the arc's centre, then the arc."""
     path = smoothed(features.stroke.points, 1.0, closed=False)
-    for points in (path, path[::-1]):
-        yield from _from_tail(points, features)
-
-
-def _from_tail(points: Floats, features: Features) -> Iterator[Candidate]:
-    """Yield the round arrow whose tail is the first point, if it has a tip."""
-    sides = points[_STRIDE:] - points[:-_STRIDE]
+    sides = path[_STRIDE:] - path[:-_STRIDE]
     bends = np.abs(angles(sides[:-_STRIDE], sides[_STRIDE:]))
+    for points, turns in ((path, bends), (path[::-1], bends[::-1])):
+        yield from _from_tail(points, turns, features)
+
+
+def _from_tail(points: Floats, bends: Floats, features: Features) -> Iterator[Candidate]:
+    """Yield the round arrow whose tail is the first point, if it has a tip."""
     # Sharp bends before are of the hand, or corners: those are counted below.
     earliest = len(points) // 3
     sharp = earliest + np.flatnonzero(bends[earliest:] > _TURN)
@@ -69,13 +66,13 @@ def _from_tail(points: Floats, features: Features) -> Iterator[Candidate]:
     )
 
 
-def interpretations(hypothesis: Hypothesis, context: Context) -> Iterator[Interpretation]:
+def _meanings(form: Form, context: Context) -> Iterator[Meaning]:
     """Yield a motor."""
-    center, arc = hypothesis.points[0], hypothesis.points[1:]
+    center, arc = form.points[0], form.points[1:]
     axle = _nearest_axle(center, arc, context.scene)
-    yield Interpretation(
-        meaning='motor',
-        weight=hypothesis.weight * (1.0 if axle is not None else MISPLACED),
+    yield Meaning(
+        name='motor',
+        weight=form.weight * (1.0 if axle is not None else MISPLACED),
         build=partial(_drive_axle, axle, _sweep(arc, center), context),
     )
 
@@ -149,3 +146,6 @@ def _sweep(arc: Floats, center: Floats) -> float:
     """Return the angle by which an arc goes about its centre, counter-clockwise [rad]."""
     away = arc - center
     return float(angles(away[:-1], away[1:]).sum())
+
+
+ROUND_ARROW = Sign(name='round arrow', candidates=_candidates, meanings=_meanings)

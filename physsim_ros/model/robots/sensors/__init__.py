@@ -12,9 +12,8 @@ from __future__ import annotations
 
 from physsim_ros.model.declarations import OfKind
 from physsim_ros.model.robots.sensors.distance import Laser, RangeFinder
-from physsim_ros.model.robots.sensors.motion import Gps, Imu, WheelEncoders
+from physsim_ros.model.robots.sensors.motion import Bumper, FloorEye, Gps, Imu, WheelEncoders
 from physsim_ros.model.robots.sensors.sensor import Sensor
-from physsim_ros.model.robots.sensors.touch import Bumper, FloorEye
 
 # By the word for it.
 SENSORS: dict[str, type[Sensor]] = {

@@ -1,15 +1,22 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Sensors of how a robot moves and where: inertial, of the wheels, by satellites."""
+"""
+Sensors of the robot itself: of its motion, of what touches it, and of the floor below it.
+
+Bumpers and floors have messages of `std_msgs/Bool` and `sensor_msgs/Image`.
+"""
 
 from dataclasses import dataclass, field
+import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import FASTEST, pair, Within
-from physsim_ros.model.robots.sensors.sensor import LENGTH, Sensor
+from physsim_ros.model.checks import FASTEST, pair, Whole, Within
+from physsim_ros.model.robots.sensors.sensor import FULL_TURN, LENGTH, Sensor
 from physsim_ros.model.transform import Point
 
+# Greatest number of photodiodes in a row.
+_MOST_PIXELS = 1000
 _DEVIATION = Within(0.0, FASTEST)
 
 
@@ -56,3 +63,33 @@ class Gps(Sensor):
     name: str = 'fix'
     rate: float = 5.0
     noise: Annotated[float, LENGTH, 'standard deviation to the east, and to the north'] = 0.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bumper(Sensor):
+    """A bumper: whether another body or a wall touches a sector of its body, seen from `at`."""
+
+    KIND: ClassVar = 'bumper'
+
+    name: str = 'bumper'
+    rate: float = 30.0
+    sector: Annotated[
+        float, FULL_TURN, "angle about the sensor's axis; a full turn is the whole body"
+    ] = math.pi
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FloorEye(Sensor):
+    """
+    A row of photodiodes, across the axis of the sensor: colours of sensor bodies below it.
+
+    The bare floor is white; of several bodies, the one spawned last is on top.
+    """
+
+    KIND: ClassVar = 'floor'
+
+    name: str = 'floor'
+    rate: float = 30.0
+    pixels: Annotated[int, Whole(1, _MOST_PIXELS), 'number of photodiodes'] = 8
+    width: Annotated[float, LENGTH, 'from the first, on the left, to the last'] = 0.1
+    noise: Annotated[float, Within(0.0, 1.0), 'standard deviation of a channel, of 0 .. 1'] = 0.0

@@ -7,7 +7,7 @@ from abc import ABC
 from dataclasses import dataclass
 import math
 import re
-from typing import Annotated, ClassVar
+from typing import Annotated
 
 from physsim_ros.model.checks import pair, shown, Within
 from physsim_ros.model.declarations import Checked
@@ -93,17 +93,8 @@ class Sensor(Checked, ABC):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    KIND: ClassVar[str]
     name: Annotated[str, _topic, 'of its topic, below the namespace of the robot']
     at: Annotated[Pose, _mounting, 'x, y [m], yaw [rad] in the frame of the body'] = ORIGIN
     rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'readings a second of simulation time'] = (
         10.0
     )
-
-    def entry(self) -> dict[str, object]:
-        """Return the mapping that it is made from."""
-        values = self.explicit()
-        lists = {
-            key: list(each) if isinstance(each, tuple) else each for key, each in values.items()
-        }
-        return {'kind': self.KIND, **lists}

@@ -6,13 +6,14 @@
  */
 
 import {onGrid, threeDigits} from '../rounding.js';
+import {t} from '../strings.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
 const DRAG = 6; // px: farther than that, letting go is a click too
 const MARK = 4; // px: radius of a point that was clicked
 const CLOSE = 12; // px around the first corner of a polygon
-const NEWTONS = 10; // N: of an arrow of 1 m, as in `drawing/clicks/tools.py`
+const NEWTONS = 10; // N: of an arrow of 1 m, as in `drawing/tools.py`
 /** @type {Record<string, number>} */
 const CLICKS = {rectangle: 3, polygon: Infinity, anchor: 1, release: 1, pin: 1, axle: 1, delete: 1};
 /** Tools whose second point is at a multiple of an angle from the first, while the key of the grid is held. */
@@ -171,8 +172,8 @@ export class ClickTool {
     if (!length) return '';
     const degrees = Math.round(Math.atan2(b[1] - a[1], b[0] - a[0]) * 180 / Math.PI);
     switch (this.id) {
-      case 'circle': return `radius ${threeDigits(length)} m`;
-      case 'circle_diameter': return `diameter ${threeDigits(length)} m`;
+      case 'circle': return t('radius {length} m', {length: threeDigits(length)});
+      case 'circle_diameter': return t('diameter {length} m', {length: threeDigits(length)});
       case 'velocity': return `${threeDigits(length)} m/s, ${degrees}°`;
       case 'force': return `${threeDigits(NEWTONS * length)} N, ${degrees}°`;
       case 'gravity': return `${degrees}°`;

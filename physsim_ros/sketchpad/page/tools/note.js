@@ -3,6 +3,7 @@
 
 import {elementOf, textOf, textField} from '../dom.js';
 import {sizeOf} from '../label_view.js';
+import {t} from '../strings.js';
 
 /** @import {App, Touch} from '../types.js' */
 
@@ -24,7 +25,7 @@ export class Note {
   /** @param {Touch} touch */
   up({at, page: [x, y]}) {
     const {app} = this, em = LETTERS / app.camera.scale;
-    const field = textField({'aria-label': 'Note', onblur: () => field.remove(), onchange: () => {
+    const field = textField({'aria-label': t('Note'), onblur: () => field.remove(), onchange: () => {
       const label = textOf(field).trim();
       if (label) sendNote(app, `note/${Math.floor(Math.random() * FREE)}`, label, at, em, LOOK);
     }});

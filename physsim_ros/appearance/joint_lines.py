@@ -1,0 +1,199 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The glyphs of all joints of a scene as arrays, in the poses and colours of a frame.
+
+Law: corners are computed once for a scene; array operations place them. A strip that keeps its
+form may be drawn as a symbol instead, which has a pose; symbols that look alike are one.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.appearance.joint_colors import JointColors
+from physsim_ros.appearance.joint_glyphs import is_rigid, joint_strips, Strip
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.transform import Point, rotated_each
+
+# The smallest and the largest half size of a symbol [m].
+_SMALL, _LARGE = 0.03, 0.15
+# Decimals that corners are rounded to, so that equal symbols are equal: a micrometre.
+_DIGITS = 6
+# The lines of a symbol, each through its corners, about a point of its joint [m].
+Symbol = tuple[tuple[Point, ...], ...]
+
+
+class Place(NamedTuple):
+    """
+    The frame of a symbol.
+
+    :ivar joint: row of the joint
+    :ivar point: 0 or 1: the first or the second point of the joint, about which it is drawn
+    :ivar side: 0 or 1: the body a or b, with which it turns
+    """
+
+    joint: int
+    point: int
+    side: int
+
+
+class JointGlyphs:
+    """
+    The glyphs of the joints of a scene.
+
+    :param scene: with the joints
+    :param least: half the size of the smallest one [m]
+    :param with_symbols: whether strips that keep their form are symbols, and no lines
+
+    :ivar sizes: half the size of each glyph, a third of the smaller of its bodies [m]
+    :ivar owner: (s,) intp: index of the joint of each strip
+    :ivar lengths: (s,) intp: number of corners of each strip
+    :ivar symbols: the lines of each, and the frames in which it is drawn
+    """
+
+    def __init__(self, scene: Scene, *, least: float = _SMALL, with_symbols: bool = False) -> None:
+        self.scene = scene
+        inner = [body.shape.form.inner for body in scene.bodies]
+        self.sizes = [
+            max(min(min(inner[row] for row in rows if row >= 0) / 3, _LARGE), least)
+            for rows in scene.joint_rows.tolist()
+        ]
+        glyphs = [*map(joint_strips, scene.joints, self.sizes)]
+        self.symbols = _symbols(glyphs) if with_symbols else {}
+        owned = [
+            (number, strip)
+            for number, strips in enumerate(glyphs)
+            for strip in strips
+            if not (with_symbols and is_rigid(strip))
+        ]
+        self._colors = JointColors(scene)
+        corners = [corner for _, strip in owned for corner in strip]
+        owner, lengths = [number for number, _ in owned], [len(strip) for _, strip in owned]
+        self.owner, self.lengths = np.array(owner, np.intp), np.array(lengths, np.intp)
+        self._joints = np.repeat(self.owner, self.lengths)
+        self._along = np.array([each.along for each in corners], np.float64)[:, None]
+        self._across = np.array([each.across for each in corners], np.float64)[:, None]
+        self._sag = np.array([each.sag for each in corners], np.float64)[:, None]
+        self._arms = np.array([each.arm for each in corners], np.float64).reshape(-1, 2)
+        on_b = np.array([each.on_b for each in corners], np.intp)
+        self._rows = scene.joint_rows[self._joints, on_b]
+        self._seats = _drawn_seats(scene)
+        self._rope_lengths = np.array(
+            [joint.rest_length if joint.kind is JointKind.ROPE else 0.0 for joint in scene.joints]
+        )
+        gravity = np.array(scene.settings.gravity)
+        strength = float(np.hypot(*gravity))
+        self._down = gravity / strength if strength > 0 else np.array((0.0, -1.0))
+        places = [place for each in self.symbols.values() for place in each]
+        self._places = np.array(places, np.intp).reshape(-1, 3).T
+
+    @property
+    def segment_ends(self) -> NDArray[np.intp]:
+        """Return the number of ends of line segments of each joint, (j,) intp."""
+        ends = np.bincount(self.owner, 2 * self.lengths - 2, len(self.sizes))
+        return ends.astype(np.intp)
+
+    def colors(self, snapshot: Snapshot) -> NDArray[np.float32]:
+        """Return red, green, blue and alpha of each joint by its force, (j, 4) float32."""
+        return self._colors.at(snapshot)
+
+    def points(self, poses: Floats) -> Floats:
+        """
+        Return the two points of each joint.
+
+        :param poses: (..., n, 3) float64: of the bodies, x, y [m], yaw [rad]
+        :return: (..., j, 2, 2) float64 [m]
+        """
+        background = np.zeros((*poses.shape[:-2], 1, 3))
+        frames = np.concatenate((poses, background), axis=-2)[..., self.scene.joint_rows, :]
+        return frames[..., :2] + rotated_each(self._seats, frames[..., 2])
+
+    def corners(self, poses: Floats) -> Floats:
+        """
+        Return all corners of all strips, one strip after the other.
+
+        :param poses: (..., n, 3) float64: of the bodies, x, y [m], yaw [rad]
+        :return: (..., c, 2) float64 [m]
+        """
+        points = self.points(poses)
+        first, span = points[..., 0, :], points[..., 1, :] - points[..., 0, :]
+        length = np.hypot(span[..., 0], span[..., 1])
+        side = np.stack((-span[..., 1], span[..., 0]), axis=-1)
+        side /= np.maximum(length, 1e-9)[..., None]
+        # Depth of a shallow arc: https://en.wikipedia.org/wiki/Parabola#Arc_length.
+        slack = np.maximum(0.0, self._rope_lengths - length)
+        depth = np.sqrt(3 / 8 * slack * self._rope_lengths)[..., None] * self._down
+        joints = self._joints
+        background = np.zeros((*poses.shape[:-2], 1))
+        yaw = np.concatenate((poses[..., 2], background), axis=-1)[..., self._rows]
+        corners: Floats = first[..., joints, :] + self._along * span[..., joints, :]
+        corners += self._across * side[..., joints, :] + self._sag * depth[..., joints, :]
+        return corners + rotated_each(self._arms, yaw)
+
+    def symbol_poses(self, poses: Floats) -> Floats:
+        """
+        Return the poses of all symbols, one after the other, (..., p, 3) float64.
+
+        :param poses: (..., n, 3) float64: of the bodies, x, y [m], yaw [rad]
+        """
+        joints, points, sides = self._places
+        result = np.empty((*poses.shape[:-2], len(joints), 3))
+        result[..., :2] = self.points(poses)[..., joints, points, :]
+        yaw = np.concatenate((poses[..., 2], np.zeros((*poses.shape[:-2], 1))), axis=-1)
+        result[..., 2] = yaw[..., self.scene.joint_rows[joints, sides]]
+        return result
+
+    def moved_symbols(self, moved: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """
+        Return whether a body of the joint of each symbol has moved, (p,) bool.
+
+        :param moved: (n,) bool: whether each body has
+        """
+        either: NDArray[np.bool_] = np.append(moved, False)[
+            self.scene.joint_rows[self._places[0]]
+        ].any(axis=1)
+        return either
+
+
+def _symbols(glyphs: Sequence[Sequence[Strip]]) -> dict[Symbol, list[Place]]:
+    symbols: defaultdict[Symbol, list[Place]] = defaultdict(list)
+    for number, strips in enumerate(glyphs):
+        lines: defaultdict[Place, Symbol] = defaultdict(tuple)
+        for strip in filter(is_rigid, strips):
+            place = Place(number, int(strip[0].along), int(strip[0].on_b))
+            arms = (corner.arm for corner in strip)
+            lines[place] += (tuple((round(x, _DIGITS), round(y, _DIGITS)) for x, y in arms),)
+        for place, symbol in lines.items():
+            symbols[symbol].append(place)
+    return symbols
+
+
+def _drawn_seats(scene: Scene) -> Floats:
+    """Return the points of joints in body frames, (j, 2, 2) float64 [m]; a gear has centroids."""
+    seats = scene.seats[:, :4].reshape(-1, 2, 2).copy()
+    for number, joint in enumerate(scene.joints):
+        if joint.kind is JointKind.GEAR:
+            for side, row in enumerate(scene.joint_rows[number].tolist()):
+                if row >= 0:
+                    seats[number, side] = scene.centroids[row]
+    return seats
+
+
+def segment_corners(lengths: Sequence[int]) -> NDArray[np.intp]:
+    """
+    Return the indices of the two corners of each segment, (2 s,) intp.
+
+    :param lengths: number of corners of each strip
+    """
+    ends = np.cumsum(lengths)
+    first = np.delete(np.arange(ends[-1]), ends - 1)
+    return np.column_stack((first, first + 1)).ravel()

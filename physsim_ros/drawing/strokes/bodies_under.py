@@ -1,0 +1,274 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The bodies under a stroke: those at its ends, those that it covers, those that it only crosses.
+
+Laws: the end of a drawn joint or wall moves by no more than `snap`, and only onto a body. A body
+that the stroke only crosses is not covered.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.strokes.geometry import point_of
+from physsim_ros.drawing.strokes.meanings import Context
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
+from physsim_ros.model.transform import norms, Point
+
+# The least share of a circle on a second body, across whose edge it was drawn.
+_ACROSS = 0.25
+# The greatest distance of a wheel's middle from the body that carries it, in radii of the wheel:
+# bodies farther apart overlap by accident.
+_CARRIED = 0.9
+# The least area of a wheel, as a share of the circle about it; a pentagon's is 0.76.
+_ROUND = 0.75
+# Stride of the points that are tested: 43 of a stroke, 8 to 10 of each swing of a scribble.
+_STRIDE = 3
+# Name of a body -> which of these points lie on it, (43,) bool.
+Crossed = dict[str, NDArray[np.bool_]]
+# The least share of the stroke on a body that is covered.
+COVERING = 0.3
+# Of a body with a smaller share, whose centroid lies in the bounding box of the stroke: its
+# greatest outer radius, in diagonals of that box, and the least number of entries of the stroke.
+AS_LARGE, LEAST_ENTRIES = 0.75, 2
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """
+    An end of a joint.
+
+    :param point: in the world [m]
+    :param body: name of the body, or 'world' for the background
+    """
+
+    point: Point
+    body: str
+
+
+def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:
+    """
+    Return the ends of a joint between the bodies at two points, the first on a dynamic body.
+
+    :param points: (n, 2) float64: the first and the last one are those points [m]
+    :return: None where no body at either point is dynamic, or it is the same body at both
+    """
+    start, end = point_of(points[0]), point_of(points[-1])
+    scene, snap = context.scene, context.settings.snap
+    first = _bodies_near(start, scene, snap) or (WORLD,)
+    last = _bodies_near(end, scene, snap) or (WORLD,)
+    moving = next((b for b in last if _is_dynamic(b, scene)), None)
+    for a in first:
+        b = next((b for b in last if b != a), None) if _is_dynamic(a, scene) else moving
+        if b is not None:
+            ends = End(_snapped(start, a, scene, snap), a), End(_snapped(end, b, scene, snap), b)
+            return ends if _is_dynamic(a, scene) else ends[::-1]
+    return None
+
+
+def _is_dynamic(name: str, scene: SceneQuery) -> bool:
+    return name != WORLD and scene.body(name).dynamic
+
+
+def axle_pivot(center: Point, context: Context) -> tuple[Point, tuple[str, ...]]:
+    """
+    Return the pivot of an axle [m], and the one or two bodies that it joins, the topmost first.
+
+    :param center: of the circle that was drawn, on a body [m]
+    """
+    scene, snap = context.scene, context.settings.snap
+    under = crossed_pair(center, context)
+    if len(under) == 1 or scene.body(under[1]).anchored:
+        carrier = _carrier_of(under[0], center, snap, scene)
+        if carrier is not None:
+            return scene.centroid(under[0]), (under[0], carrier)
+    for name in under:
+        if isinstance(scene.body(name).shape, Disc):
+            x, y, _ = scene.pose(name)
+            if math.dist((x, y), center) > snap:
+                continue
+            # The middle of a wheel, where it lies on the same bodies or near the other one.
+            near = scene.bodies_at((x, y), snap)
+            if scene.bodies_at((x, y))[:2] == under or (len(under) == 2 and set(under) <= {*near}):
+                return (x, y), under
+    return center, under
+
+
+def crossed_pair(center: Point, context: Context) -> tuple[str, ...]:
+    """
+    Return the two topmost bodies at a point, or one and a second one that the stroke overlaps.
+
+    :param center: of a small closed stroke [m]
+    :return: at most two names, the topmost first
+    """
+    scene, drawn = context.scene, context.drawn.points
+    under = scene.bodies_at(center)[:2]
+    if len(under) != 1:
+        return under
+    (name,) = under
+    radius = float(norms(drawn - center).max())
+    near = scene.bodies_at(center, radius)
+    shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each != name}
+    beside = max(shares, key=shares.__getitem__, default=name)
+    if shares.get(beside, 0.0) < _ACROSS:
+        return (name,)
+    return tuple(each for each in near if each in (name, beside))
+
+
+def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> str | None:
+    """
+    Return the movable body that a wheel overlaps and that is nearest to its middle.
+
+    A wheel may stand half below its chassis; it never turns about the road on which it stands.
+
+    :param wheel: name of the topmost body at the centre of the drawn circle
+    :return: None where there is none, where the wheel is not round, or where the circle is not
+        about its middle
+    """
+    form = scene.body(wheel).shape.form
+    x, y = scene.centroid(wheel)
+    if form.area < _ROUND * math.pi * form.outer**2:
+        return None
+    if math.dist((x, y), center) > max(snap, form.outer / 4):
+        return None
+    near = scene.bodies_at((x, y), _CARRIED * form.outer)
+    dynamic = [each for each in near if each != wheel and scene.body(each).dynamic]
+
+    def distance(name: str) -> float:
+        covered = name in scene.bodies_at((x, y))
+        return 0.0 if covered else math.dist((x, y), _surface((x, y), name, scene))
+
+    return min(dynamic, key=distance, default=None)
+
+
+def wall_end(point: Point, context: Context) -> Point:
+    """Return the snapped end of a wall: an end of another wall, or a point on a body [m]."""
+    scene, snap = context.scene, context.settings.snap
+    near = scene.bodies_at(point, snap)
+    for name in near:
+        shape = scene.body(name).shape
+        if isinstance(shape, Chain):
+            for end in (shape.points[0], shape.points[-1]):
+                there = scene.in_world(name, end)
+                if math.dist(there, point) <= snap:
+                    return there
+    covering = scene.bodies_at(point)
+    return point if covering or not near else _surface(point, near[0], scene)
+
+
+def _bodies_near(point: Point, scene: SceneQuery, snap: float) -> tuple[str, ...]:
+    """Return the bodies that cover a point, or else those within `snap`, topmost first."""
+    return scene.bodies_at(point) or scene.bodies_at(point, snap)
+
+
+def _snapped(point: Point, name: str, scene: SceneQuery, snap: float) -> Point:
+    """Return the snapped end of a joint: the middle of a body, the point, or the nearest one."""
+    if name == WORLD:
+        return point
+    body = scene.body(name)
+    # A body joined exactly at its middle does not turn under gravity.
+    middle = scene.centroid(name)
+    if body.dynamic and math.dist(point, middle) <= min(snap, body.shape.form.inner):
+        return middle
+    return point if name in scene.bodies_at(point) else _surface(point, name, scene)
+
+
+def _surface(point: Point, name: str, scene: SceneQuery) -> Point:
+    """Return the point of a body that is nearest to a point outside it."""
+    local = scene.local(name, point)
+    pieces = scene.body(name).shape.form.pieces
+    nearest = (near for piece in pieces for near in _nearest(piece, local))
+    return scene.in_world(name, min(nearest, key=lambda each: math.dist(each, local)))
+
+
+def _nearest(piece: Piece, point: Point) -> Iterator[Point]:
+    """Yield points of a piece, the one nearest to a point outside it among them."""
+    match piece:
+        case Circle(center, radius):
+            yield _towards(center, point, radius)
+        case Capsule(start, end, radius):
+            yield _towards(_nearest_on_segment(start, end, point), point, radius)
+        case Convex(vertices):
+            for start, end in zip(vertices, (*vertices[1:], vertices[0]), strict=True):
+                yield _nearest_on_segment(start, end, point)
+
+
+def _towards(start: Point, end: Point, length: float) -> Point:
+    """Return the point at a distance from `start` towards `end` [m]."""
+    distance = max(math.dist(start, end), 1e-12)
+    share = length / distance
+    return start[0] + share * (end[0] - start[0]), start[1] + share * (end[1] - start[1])
+
+
+def _nearest_on_segment(start: Point, end: Point, point: Point) -> Point:
+    """Return the point of a segment that is nearest to another point [m]."""
+    along = end[0] - start[0], end[1] - start[1]
+    dot = (point[0] - start[0]) * along[0] + (point[1] - start[1]) * along[1]
+    share = min(max(dot / max(along[0] ** 2 + along[1] ** 2, 1e-24), 0.0), 1.0)
+    return start[0] + share * along[0], start[1] + share * along[1]
+
+
+def covered_bodies(points: Floats, crossed: Crossed, scene: SceneQuery) -> tuple[str, ...]:
+    """
+    Return the names of the bodies that a stroke covers, in spawn order.
+
+    :param points: (n, 2) float64: of the stroke [m]
+    :param crossed: the bodies that it crosses, by `crossed_bodies`
+    """
+    low, high = points.min(axis=0), points.max(axis=0)
+    reach = AS_LARGE * float(norms(high - low))
+    covered = set()
+    for name, hits in crossed.items():
+        form = scene.body(name).shape.form
+        middle = scene.in_world(name, form.centroid)
+        within = bool(((middle >= low) & (middle <= high)).all()) and form.outer <= reach
+        if hits.mean() >= COVERING or (within and _entries(hits) >= LEAST_ENTRIES):
+            covered.add(name)
+    if not covered and crossed:
+        # Of a scribble across a long wall, only little of either lies on the other.
+        most = max(crossed, key=lambda name: _entries(crossed[name]))
+        if _entries(crossed[most]) >= LEAST_ENTRIES:
+            covered.add(most)
+    return tuple(name for name in scene.names if name in covered)
+
+
+def _entries(hits: NDArray[np.bool_]) -> int:
+    """Return how many times a stroke enters a body."""
+    return int(np.count_nonzero(hits[1:] & ~hits[:-1]) + hits[0])
+
+
+def share_on(crossed: Crossed, ends: Iterable[End]) -> float:
+    """Return the share of a stroke that lies on the bodies at its ends, 0 .. 1."""
+    hits = [crossed[end.body] for end in ends if end.body in crossed]
+    return float(np.any(hits, axis=0).mean()) if hits else 0.0
+
+
+def middle_share_on(crossed: Crossed, ends: Iterable[End]) -> float:
+    """Return the share of the middle half of a stroke on the bodies at its ends, 0 .. 1."""
+    middle = {
+        name: hits[slice(len(hits) // 4, len(hits) - len(hits) // 4)]
+        for name, hits in crossed.items()
+    }
+    return share_on(middle, ends)
+
+
+def crossed_bodies(points: Floats, scene: SceneQuery) -> Crossed:
+    """Return the bodies that a stroke crosses, each with the points that lie on it."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    x, y = ((low + high) / 2).tolist()
+    reach = float(norms(high - low)) / 2
+    crossed: Crossed = {}
+    for name in scene.bodies_at((x, y), reach):
+        hits = scene.covers(name, points[::_STRIDE])
+        if hits.any():
+            crossed[name] = hits
+    return crossed

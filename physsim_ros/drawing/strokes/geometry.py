@@ -1,0 +1,188 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Plane geometry: angles, principal axes, small systems of equations; polylines, (n, 2) float64 [m].
+
+Laws: the same bits on every x86-64 processor with FMA. BLAS and LAPACK (`@`, `dot`, `linalg`,
+`convolve`) choose kernels by processor, and so do NumPy's loops for arctan2, exp, log and powers
+but squares: here are closed forms, and the functions of `math`. Every function returns a fresh
+array, and leaves its arguments as they are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache, partial
+import math
+
+import numpy as np
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.transform import cross, dots, norms, Point
+
+_atan2 = np.frompyfunc(math.atan2, 2, 1)
+
+
+def headings(vectors: Floats) -> Floats:
+    """Return the directions of plane vectors (..., 2), -π .. π [rad]."""
+    return np.asarray(_atan2(vectors[..., 1], vectors[..., 0]), dtype=np.float64)
+
+
+def angles(a: Floats, b: Floats) -> Floats:
+    """Return the angles from directions a to directions b [rad], counter-clockwise."""
+    return np.asarray(_atan2(cross(a, b), dots(a, b)), dtype=np.float64)
+
+
+def unit_vector(angle: float) -> Floats:
+    """Return the unit vector of a direction [rad]."""
+    return np.array((math.cos(angle), math.sin(angle)))
+
+
+def quarter_heading(sides: Floats, weights: Floats) -> float:
+    """
+    Return the mean direction of sides modulo a quarter turn, -π/4 .. π/4 [rad].
+
+    Four times the direction is the same for all sides of a rectangle.
+
+    :param sides: (n, 2) float64
+    :param weights: (n,) float64
+    """
+    x, y = (sides / np.maximum(norms(sides), 1e-300)[:, None]).T
+    for _ in range(2):
+        # The square of a complex number of length 1: twice its angle.
+        x, y = x * x - y * y, 2.0 * x * y
+    return math.atan2(float((weights * y).sum()), float((weights * x).sum())) / 4
+
+
+def principal_axis(away: Floats) -> tuple[float, float, float]:
+    """
+    Return the greater principal axis of inertia of points about the origin.
+
+    :param away: (n, 2) float64 [m]
+    :return: its direction [rad]; the sums of squares along it and across it [m²]
+    """
+    x, y = away[:, 0], away[:, 1]
+    xx, xy, yy = float((x * x).sum()), float((x * y).sum()), float((y * y).sum())
+    angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
+    middle, half = (xx + yy) / 2, math.hypot((xx - yy) / 2, xy)
+    return angle, middle + half, max(middle - half, 0.0)
+
+
+def stretched(points: Floats, along: Floats, factor: float) -> Floats:
+    """Return points stretched by a factor along a unit vector: straight lines stay straight."""
+    return points + ((factor - 1.0) * dots(points, along))[..., None] * along
+
+
+def least_squares(columns: Floats, target: Floats) -> tuple[float, float]:
+    """
+    Return a, b for which a · one + b · other is nearest to the target (normal equations).
+
+    :param columns: (n, 2) float64: one, other; 0, 0 is returned where they are parallel
+    :param target: (n,) float64
+    """
+    one, other = columns[:, 0], columns[:, 1]
+    aa, ab, bb = float((one * one).sum()), float((one * other).sum()), float((other**2).sum())
+    at, bt = float((one * target).sum()), float((other * target).sum())
+    determinant = aa * bb - ab * ab
+    if determinant <= 1e-18 * aa * bb:
+        return 0.0, 0.0
+    return (at * bb - bt * ab) / determinant, (bt * aa - at * ab) / determinant
+
+
+# Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
+COUNT = 128
+# The least width of an outline after stretching, in shares of its length, and the greatest factor.
+WIDE, WIDEST = 0.3, 10.0
+
+
+def spaced(path: Floats, count: int) -> Floats:
+    """Return points along a polyline at equal distances."""
+    x, y = path.T
+    length = np.zeros(len(path))
+    np.hypot(np.diff(x), np.diff(y)).cumsum(out=length[1:])
+    at = np.arange(count) * (length[-1] / (count - 1))
+    points = np.empty((count, 2))
+    points[:, 0], points[:, 1] = np.interp(at, length, x), np.interp(at, length, y)
+    return points
+
+
+def size_of(points: Floats) -> float:
+    """Return the diagonal of the bounding box of points [m]."""
+    return float(norms(np.ptp(points, axis=0)))
+
+
+def path_length(path: Floats) -> float:
+    """Return the length of a polyline [m]."""
+    return float(norms(np.diff(path, axis=0)).sum())
+
+
+def smoothed(points: Floats, width: float, *, closed: bool) -> Floats:
+    """Return points smoothed by a Gaussian whose standard deviation is `width` [points]."""
+    kernel = _gaussian(width)
+    reach = len(kernel) - 1
+    if closed:
+        first, last = points[-reach:], points[:reach]
+    else:
+        # Reflected at the ends, so that these do not move.
+        first = 2 * points[0] - points[reach:0:-1]
+        last = 2 * points[-1] - points[::-1][slice(1, reach + 1)]
+    x, y = np.vstack((first, points, last)).T.copy()
+    result = np.empty_like(points)
+    result[:, 0], result[:, 1] = _convolved(x, kernel), _convolved(y, kernel)
+    return result
+
+
+@lru_cache(maxsize=8)
+def _gaussian(width: float) -> tuple[float, ...]:
+    """Return the right half of a Gaussian from its middle on; the sum of both halves is 1."""
+    half = [math.exp(-0.5 * (at / width) ** 2) for at in range(math.ceil(3 * width) + 1)]
+    total = 2.0 * sum(half) - half[0]
+    return tuple(each / total for each in half)
+
+
+def _convolved(values: Floats, kernel: tuple[float, ...]) -> Floats:
+    """Return the convolution of values with a symmetric kernel, where that lies within them."""
+    reach = len(kernel) - 1
+    count = len(values) - 2 * reach
+    result = kernel[0] * values[slice(reach, reach + count)]
+    for at in range(1, reach + 1):
+        before, after = (
+            slice(reach - at, reach - at + count),
+            slice(reach + at, reach + at + count),
+        )
+        result += kernel[at] * (values[before] + values[after])
+    return result
+
+
+def widened(outline: Floats) -> tuple[Floats, Callable[[Floats], Floats]]:
+    """
+    Return a closed polyline stretched across, so that corners at its narrow ends are distinct.
+
+    :return: the polyline, evenly spaced; and the function that undoes the stretching
+    """
+    angle, along, across = principal_axis(outline - outline.mean(axis=0))
+    factor = min(max(WIDE / max(math.sqrt(across / along), 1e-6), 1.0), WIDEST)
+    side = unit_vector(angle + math.pi / 2)
+    path = stretched(outline, side, factor)
+    narrowed = partial(stretched, along=side, factor=1.0 / factor)
+    return spaced(np.vstack((path, path[:1])), COUNT + 1)[:-1], narrowed
+
+
+def turns(points: Floats, arm: int, *, closed: bool) -> Floats:
+    """
+    Return the turning angle of a polyline at each point [rad], over arms of `arm` points.
+
+    Near the ends of an open polyline the arms are shorter; at the ends the angle is 0.
+    """
+    count = len(points)
+    at = np.arange(count)
+    reach = np.full(count, arm) if closed else np.minimum(arm, np.minimum(at, count - 1 - at))
+    a = points - points[at - reach]
+    b = points[(at + reach) % count] - points
+    return angles(a, b)
+
+
+def point_of(row: Floats) -> Point:
+    """Return a row of an array as a point."""
+    x, y = row.tolist()
+    return x, y

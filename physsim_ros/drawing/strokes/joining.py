@@ -1,0 +1,161 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Several strokes as one: which touch each other, and their order as if the pen had not been lifted.
+
+Law: the shape of a figure does not depend on the order and the directions of its strokes. A shaft
+and a head are joined as an arrow in one stroke, whose pen returns from the first barb to the tip.
+Other strokes are joined in the order and the directions with the shortest way between them. Of
+more than four strokes, each is followed by the one that begins nearest to its end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+import itertools
+import math
+
+import numpy as np
+from physsim_ros.drawing.strokes.fitting import segment_distances
+from physsim_ros.drawing.strokes.geometry import angles, path_length, size_of
+from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.transform import norms
+
+# The greatest distance of strokes that touch, in shares of the larger one's size.
+_TOUCHING = 0.15
+# Stride of the points of a stroke between which distances are taken: 1.6 % of its length.
+_STRIDE = 2
+# The length by which a stroke may end short of another that it is to meet, in shares of its own;
+# the number of points on it; the number of those at an end of a stroke that give its direction.
+_BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
+# A shaft and a head: the least straightness of the shaft and of barbs (distance of the ends by
+# length), the greatest angle between barbs [rad], the least length of the shorter barb by that of
+# the longer, and its greatest length and the greatest gap before the tip, in lengths of the shaft.
+_STRAIGHT, _WIDEST, _BALANCE, _LONGEST, _NECK = 0.8, 2.3, 0.35, 1.1, 0.35
+# The greatest number of strokes of which all orders are compared: 4! · 2⁴ = 384.
+_COMPARED = 4
+# The number of points along the way between two strokes, which is then no jump of the pen.
+_BETWEEN = 32
+
+
+def joined_strokes(strokes: Sequence[Floats]) -> Floats:
+    """
+    Return several strokes as one, with points along the straight ways between them.
+
+    :param strokes: each (n, 2) float64: evenly spaced [m]
+    :return: (n, 2) float64 [m]; a single stroke as it is
+    """
+    paths = list(strokes)
+    if len(paths) < 2:
+        return paths[0]
+    if len(paths) == 2:
+        arrow = _arrow(*paths) or _arrow(*reversed(paths))
+        if arrow is not None:
+            return np.vstack(arrow)
+    if len(paths) <= _COMPARED:
+        ordered = min(_orders(paths), key=_way_between)
+    else:
+        ordered = min((_nearest_next(paths, first) for first in _ways(paths)), key=_way_between)
+    ways = [np.linspace(a[-1], b[0], _BETWEEN + 2)[1:-1] for a, b in itertools.pairwise(ordered)]
+    return np.vstack([ordered[0], *itertools.chain(*zip(ways, ordered[1:], strict=True))])
+
+
+def _arrow(shaft: Floats, head: Floats) -> list[Floats] | None:
+    """Return the parts of an arrow from its tail on, or None where two strokes are no arrow."""
+    chord, bend = math.dist(shaft[0], shaft[-1]), segment_distances(head, head[0], head[-1])
+    tip = int(bend.argmax())
+    less, more = sorted(norms(head[[0, -1]] - head[tip]).tolist())
+    angle = abs(float(angles(head[0] - head[tip], head[-1] - head[tip])))
+    straight = min((less + more) / path_length(head), chord / path_length(shaft))
+    if straight < _STRAIGHT or angle > _WIDEST or not _BALANCE * more < less < _LONGEST * chord:
+        return None
+    if math.dist(shaft[0], head[tip]) < math.dist(shaft[-1], head[tip]):
+        shaft = shaft[::-1]
+    gap = math.dist(shaft[-1], head[tip])
+    if gap > min(_NECK * chord, float(norms(head[[0, -1]] - shaft[-1]).min())):
+        return None
+    # A shaft that goes beyond the tip ends beside it.
+    shaft = shaft[: int(norms(shaft - head[tip]).argmin()) + 1]
+    neck = np.linspace(shaft[-1], head[tip], _BETWEEN)[1:-1]
+    return [shaft, neck, head[tip::-1], head[1:]]
+
+
+def _orders(paths: Sequence[Floats]) -> list[tuple[Floats, ...]]:
+    """Return the paths in all orders and directions, the first path forward or backward."""
+    both = [(path, path[::-1]) for path in paths]
+    return [
+        directed
+        for order in itertools.permutations(both)
+        for directed in itertools.product(*order)
+    ]
+
+
+def _ways(paths: Sequence[Floats]) -> list[tuple[int, bool]]:
+    """Return each path, by its index, forward and backward."""
+    return [(index, backward) for index in range(len(paths)) for backward in (False, True)]
+
+
+def _nearest_next(paths: Sequence[Floats], first: tuple[int, bool]) -> tuple[Floats, ...]:
+    """Return the paths in the order in which each begins nearest to the end of the last one."""
+    index, backward = first
+    rest = dict(enumerate(paths))
+    path = rest.pop(index)
+    ordered = [path[::-1] if backward else path]
+    while rest:
+        end = ordered[-1][-1]
+        index, at = min(
+            ((each, at) for each in rest for at in (0, -1)),
+            key=lambda start: math.dist(rest[start[0]][start[1]], end),
+        )
+        path = rest.pop(index)
+        ordered.append(path if at == 0 else path[::-1])
+    return tuple(ordered)
+
+
+def _way_between(paths: Sequence[Floats]) -> float:
+    """Return the length of the way between the paths [m]."""
+    return sum(math.dist(a[-1], b[0]) for a, b in itertools.pairwise(paths))
+
+
+def touching(strokes: Sequence[Floats], snap: float) -> Flags:
+    """Return which strokes touch each other, (n, n) bool."""
+    paths, sizes = (
+        [_extended(stroke) for stroke in strokes],
+        [size_of(stroke) for stroke in strokes],
+    )
+    touching = np.zeros((len(paths), len(paths)), np.bool_)
+    for one, other in itertools.combinations(range(len(paths)), 2):
+        size = max(sizes[one], sizes[other])
+        touching[one, other] = touch(paths[one], paths[other], size, snap)
+    return touching | touching.T
+
+
+def is_connected(touching: Flags) -> bool:
+    """Return whether each stroke touches another one, directly or by others."""
+    reached = np.arange(len(touching)) == 0
+    for _ in range(len(touching)):
+        reached |= touching[reached].any(axis=0)
+    return bool(reached.all())
+
+
+def touch(one: Floats, other: Floats, size: float, snap: float) -> bool:
+    """Return whether points of two strokes of a size are near enough to touch."""
+    x, y = (one[:, None] - other[None]).transpose(2, 0, 1)
+    return float(np.hypot(x, y).min()) <= min(_TOUCHING * size, max(snap, size / 20))
+
+
+def _extended(stroke: Floats) -> Floats:
+    """Return points of a stroke and of its lines beyond both ends, where others may meet it."""
+    step = _BEYOND * path_length(stroke) / _POINTS_BEYOND
+    parts = [few_points(stroke)]
+    for points in (stroke, stroke[::-1]):
+        ahead = points[0] - points[_END]
+        ahead *= step / max(float(norms(ahead)), 1e-300)
+        parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
+    return np.vstack(parts)
+
+
+def few_points(stroke: Floats) -> Floats:
+    """Return the points of a stroke between which distances are taken."""
+    return stroke[::_STRIDE]

@@ -1,0 +1,314 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The tools of drawing by clicks: each is a function from the clicks of a gesture to requests.
+
+Laws: a tool changes neither clicks nor scene. With the last click it returns the requests, before
+that a message about the next click. Clicks without a valid geometry are refused, and the gesture
+is dropped as a whole. A click that is not a finite point leaves the gesture as it was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+import math
+
+import numpy as np
+from physsim_ros.drawing import body_requests, chains, knife
+from physsim_ros.drawing.click import (
+    checked_distance,
+    checked_length,
+    Click,
+    ClickResult,
+    Tool,
+    without_repeats,
+)
+from physsim_ros.drawing.scene_query import SceneQuery
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.model.applied_forces import AppliedForce
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.checks import check_point
+from physsim_ros.model.errors import Anchored, BadOutline, NothingThere
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.requests import (
+    Anchor,
+    Axle,
+    ChangeBody,
+    Command,
+    Configure,
+    Delete,
+    Join,
+    Pin,
+    Release,
+    Request,
+)
+from physsim_ros.model.shapes import MOST_POINTS
+from physsim_ros.model.snapshot import Line, Preview
+from physsim_ros.model.transform import Point
+
+Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
+# Force of an arrow of 1 m [N]: nearly the weight of 1 kg.
+_NEWTONS = 10.0
+# Number of corners of the circle around the first corner of a polygon.
+_CIRCLE_CORNERS = 24
+
+
+def circle(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Draw a disc: its centre, then a point on its rim."""
+    if len(clicks) < 2:
+        return _next_click('the centre is set', 'a point on the rim')
+    center, rim = _points(clicks)
+    radius = checked_distance(center, rim, settings, 'the radius')
+    return _finished(body_requests.disc(scene.next_body(), center, radius, settings))
+
+
+def circle_diameter(
+    clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
+) -> ClickResult:
+    """Draw a disc: one end of a diameter, then the other."""
+    if len(clicks) < 2:
+        return _next_click('an end of a diameter is set', 'the other end')
+    start, end = _points(clicks)
+    radius = checked_distance(start, end, settings, 'the diameter') / 2
+    return _finished(body_requests.disc(scene.next_body(), _middle(start, end), radius, settings))
+
+
+def rectangle(
+    clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
+) -> ClickResult:
+    """Draw a rectangle: a corner, the next corner, then a point of the side across."""
+    if len(clicks) < 2:
+        return _next_click('a corner is set', 'the next corner')
+    start, end, *rest = _points(clicks)
+    width = checked_distance(start, end, settings, 'the first side')
+    if not rest:
+        return _next_click('a side is set', 'a point of the side across')
+    along = (end[0] - start[0]) / width, (end[1] - start[1]) / width
+    # To the left of the first side, or, where it is negative, to the right.
+    height = along[0] * (rest[0][1] - start[1]) - along[1] * (rest[0][0] - start[0])
+    checked_length(abs(height), settings, 'the second side')
+    x, y = _middle(start, end)
+    center = x - along[1] * height / 2, y + along[0] * height / 2
+    yaw = math.atan2(along[1], along[0])
+    name = scene.next_body()
+    return _finished(body_requests.rectangle(name, (*center, yaw), width, abs(height), settings))
+
+
+def polygon(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Draw a polygon: corner after corner; a click on the first one closes it."""
+    points = _points(clicks)
+    if len(points) > 1 and math.dist(points[0], points[-1]) <= settings.snap:
+        corners = without_repeats(points[:-1], settings)
+        return _finished(body_requests.polygon(scene.next_body(), corners, settings))
+    if len(points) > MOST_POINTS:
+        # No polygon of more corners could be closed, and each click looks at all points.
+        raise BadOutline(f'a polygon has at most {MOST_POINTS} corners', field='point')
+    count = len(without_repeats(points, settings))
+    done = 'a corner is set' if count == 1 else f'{count} corners are set'
+    return _next_click(done, 'the next corner, or the first one again to close it')
+
+
+def wall(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Draw a wall: one end, then the other."""
+    if len(clicks) < 2:
+        return _next_click('an end is set', 'the other end')
+    start, end = _points(clicks)
+    checked_distance(start, end, settings, 'the wall')
+    return _finished(body_requests.wall(scene.next_body(), (start, end), settings))
+
+
+def delete(clicks: Sequence[Click], scene: SceneQuery, _settings: DrawingSettings) -> ClickResult:
+    """Delete the body under the click."""
+    return _finished(Delete(name=clicks[0].hit_body(scene)))
+
+
+def velocity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Set the velocity of a body: the body, then the tip of an arrow from there, 1 m for 1 m/s."""
+    name = clicks[0].hit_body(scene)
+    if scene.body(name).anchored:
+        raise Anchored(f'{name} is anchored; it has no velocity', field='point', body=name)
+    if len(clicks) < 2:
+        return _next_click(f'the arrow begins on {name}', 'its tip, 1 m for 1 m/s')
+    tail, tip = _points(clicks)
+    checked_distance(tail, tip, settings, 'the arrow')
+    spin = scene.twist(name)[2]
+    twist = (tip[0] - tail[0], tip[1] - tail[1], spin)
+    return _finished(Command(names=(name,), twists=np.array((twist,))))
+
+
+def gravity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Turn gravity: the tail of an arrow, then its tip; its magnitude stays."""
+    strength = scene.gravity_strength()
+    if len(clicks) < 2:
+        return _next_click('the arrow begins there', 'its tip')
+    tail, tip = _points(clicks)
+    share = strength / checked_distance(tail, tip, settings, 'the arrow')
+    turned = (tip[0] - tail[0]) * share, (tip[1] - tail[1]) * share
+    return _finished(Configure(changes={'gravity': turned}))
+
+
+def force(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Add a constant force: its point on a body, then the tip of an arrow, 1 m for 10 N."""
+    name = clicks[0].hit_body(scene)
+    if len(clicks) < 2:
+        return _next_click(f'the force acts on {name}', 'the tip of its arrow, 1 m for 10 N')
+    tail, tip, body = clicks[0].current_point(scene), clicks[1].point, scene.body(name)
+    checked_distance(tail, tip, settings, 'the arrow')
+    form, at = body.shape.form, clicks[0].local
+    # Near the centre of mass, that is meant.
+    is_central = math.dist(at, form.centroid) <= min(settings.snap, form.inner / 2)
+    added = AppliedForce(
+        force=(_NEWTONS * (tip[0] - tail[0]), _NEWTONS * (tip[1] - tail[1])),
+        at=None if is_central else at,
+    )
+    return _finished(ChangeBody(name=name, properties=Properties(forces=(*body.forces, added))))
+
+
+def cut(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Cut bodies with a knife: from one end of a stroke right through them to the other."""
+    if len(clicks) < 2:
+        return _next_click('the cut begins there', 'its other end, beyond the bodies')
+    start, end = _points(clicks)
+    checked_distance(start, end, settings, 'the cut')
+    requests = knife.cut(start, end, scene)
+    return ClickResult(requests=requests, message=knife.message(requests))
+
+
+def request_at(
+    request: Callable[..., Request],
+    clicks: Sequence[Click],
+    _scene: SceneQuery,
+    _settings: DrawingSettings,
+) -> ClickResult:
+    """Make a request about the bodies under the click; the world resolves the point."""
+    return _finished(request(point=clicks[0].point))
+
+
+def join(
+    kind: JointKind, clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings
+) -> ClickResult:
+    """Join the body, or the background, under the first click to that under the second."""
+    if len(clicks) < 2:
+        where = clicks[0].body or 'the background'
+        return _next_click(f'the {kind} begins on {where}', 'its other end')
+    # Each end stays at its place on the body that was clicked, which may have moved since.
+    ends = [(click.current_point(scene), click.body or WORLD) for click in clicks]
+    if ends[0][1] == WORLD:
+        ends.reverse()
+    (start, a), (end, b) = ends
+    if a == WORLD:
+        raise NothingThere(f'there is no body at either end of the {kind}', field='point')
+    checked_distance(start, end, settings, f'the {kind}')
+    return _finished(Join(name=scene.next_joint(), kind=kind, points=(start, end), a=a, b=b))
+
+
+def chain(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Draw a chain of links from the body, or the background, under one click to another."""
+    if len(clicks) < 2:
+        where = clicks[0].body or 'the background'
+        return _next_click(f'the chain begins on {where}', 'its other end')
+    start, end = (click.current_point(scene) for click in clicks)
+    checked_distance(start, end, settings, 'the chain')
+    first, last = (click.body or WORLD for click in clicks)
+    requests = chains.chain(np.array((start, end)), (first, last), scene, settings)
+    return ClickResult(requests=requests, message=chains.message(requests, (first, last)))
+
+
+TOOLS: dict[Tool, Draw] = {
+    Tool.CIRCLE: circle,
+    Tool.CIRCLE_DIAMETER: circle_diameter,
+    Tool.RECTANGLE: rectangle,
+    Tool.POLYGON: polygon,
+    Tool.WALL: wall,
+    Tool.ANCHOR: partial(request_at, Anchor),
+    Tool.RELEASE: partial(request_at, Release),
+    Tool.PIN: partial(request_at, Pin),
+    Tool.AXLE: partial(request_at, Axle),
+    Tool.DELETE: delete,
+    Tool.SPRING: partial(join, JointKind.SPRING),
+    Tool.ROD: partial(join, JointKind.ROD),
+    Tool.ROPE: partial(join, JointKind.ROPE),
+    Tool.CHAIN: chain,
+    Tool.VELOCITY: velocity,
+    Tool.GRAVITY: gravity,
+    Tool.FORCE: force,
+    Tool.KNIFE: cut,
+}
+
+
+def _points(clicks: Sequence[Click]) -> list[Point]:
+    return [click.point for click in clicks]
+
+
+def _middle(start: Point, end: Point) -> Point:
+    return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+
+
+def _next_click(done: str, wanted: str) -> ClickResult:
+    return ClickResult(message=f'{done}; next: {wanted}')
+
+
+def _finished(*requests: Request) -> ClickResult:
+    return ClickResult(requests=requests)
+
+
+class Gesture:
+    """
+    The clicks so far with a tool.
+
+    :param tool: of the gesture
+    """
+
+    def __init__(self, tool: Tool = Tool.NONE) -> None:
+        self.tool = tool
+        self._clicks: tuple[Click, ...] = ()
+
+    def click(
+        self, point: Point, frame: str, scene: SceneQuery, settings: DrawingSettings
+    ) -> ClickResult:
+        """
+        Add a click.
+
+        :param point: [m]
+        :param frame: of the point: '' for the world, or the name of a body
+        :param scene: the world that was clicked
+        :param settings: of drawing
+        :return: the requests that end the gesture, or a message about the next click
+        :raises Malformed: the point is not finite; the gesture stays as it was
+        :raises UnknownFrame: there is no such frame; the gesture stays as it was
+        :raises Refusal: the gesture cannot be drawn; it is dropped
+        """
+        if self.tool is Tool.NONE:
+            return ClickResult(message='ignored: no tool is in hand; parameter tool takes one')
+        check_point(point, 'point')
+        in_world = scene.resolve_point(point, frame)
+        check_point(in_world, 'point')
+        clicks = (*self._clicks, Click.at_point(scene, in_world))
+        # The gesture is over, refused or not, unless the tool needs more clicks.
+        self._clicks = ()
+        step = TOOLS[self.tool](clicks, scene, settings)
+        if not step.requests:
+            self._clicks = clicks
+        return step
+
+    def preview(self, settings: DrawingSettings) -> Preview:
+        """Return the preview of the clicks so far."""
+        points = tuple(click.point for click in self._clicks)
+        if not points:
+            return Preview()
+        lines: list[Line] = [points] if len(points) > 1 else []
+        if self.tool is Tool.POLYGON:
+            lines.append(_circle(points[0], settings.snap))
+        return Preview(lines=tuple(lines), points=points, label=str(self.tool))
+
+
+def _circle(center: Point, radius: float) -> Line:
+    """Return a circle as a closed line; a click within it closes a polygon."""
+    angles = [math.tau * corner / _CIRCLE_CORNERS for corner in range(_CIRCLE_CORNERS + 1)]
+    return tuple(
+        (center[0] + radius * math.cos(angle), center[1] + radius * math.sin(angle))
+        for angle in angles
+    )

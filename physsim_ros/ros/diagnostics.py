@@ -1,0 +1,176 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+`/diagnostics` once a second: cost of a frame, late frames, real-time factor, energies, waits.
+
+Law: a viewer or recording that has failed, and a second node of this node's name, are reported as
+events, whether `/diagnostics` has subscribers or not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.snapshot import Answer, run_state, Snapshot
+from physsim_ros.ros.outputs import Outputs
+from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents, SAME_NAME_REMEDY
+from physsim_ros.ros.requests.request_topics import RequestTopics
+from physsim_ros.simulation.simulation import Simulation
+from rclpy.time import Time
+
+# From one message to the next [ns].
+_PERIOD = 1_000_000_000
+# Wait of messages above which the diagnostics warn [s].
+LONG_DELAY = 1.0
+# CPU time of a message above which they do [s]: six frames at 60 Hz.
+LONG_MESSAGE = 0.1
+# Real-time factor over speed, below which late frames are an error and not a warning [1].
+FAR_BEHIND = 0.5
+
+
+class Diagnostics:
+    """
+    The diagnostics of a node.
+
+    :param node: that publishes them
+    :param simulation: of the node
+    :param outputs: of the node, with the statistics of frames
+    :param topics: of requests
+    :param boundary: of the node
+
+    :ivar message_delay: time that messages wait before they are handled [s]
+    """
+
+    def __init__(
+        self,
+        node: NodeWithoutQosEvents,
+        simulation: Simulation,
+        outputs: Outputs,
+        topics: RequestTopics,
+        boundary: ErrorBoundary,
+    ) -> None:
+        self.message_delay = 0.0
+        self._node = node
+        self._name = node.get_fully_qualified_name()
+        # Nodes of this name at the last count, this one included.
+        self._namesakes = 1
+        self._simulation = simulation
+        self._outputs = outputs
+        self._topics = topics
+        self._boundary = boundary
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._due = 0
+        # Counts since the start, as the last report had them.
+        self._reported: dict[str, int] = {}
+        # The message that took the longest since the last report, and its CPU time [s].
+        self._longest = ('', 0.0)
+
+    def publish_due(self, now_ns: int) -> None:
+        """
+        Publish the diagnostics if a second is over; called at each tick.
+
+        :param now_ns: steady time, monotonic [ns]
+        """
+        if now_ns < self._due:
+            return
+        self._due = now_ns + _PERIOD
+        outputs, boundary = self._outputs, self._boundary
+        with boundary.output('/diagnostics'):
+            self._longest = boundary.take_longest()
+            events = *outputs.viewer.poll(), *self._new_namesakes(), *boundary.take_events()
+            outputs.report_answers(events)
+            if outputs.frame is not None and self._publisher.get_subscription_count():
+                self._publisher.publish(self._report(outputs.frame.snapshot))
+
+    def _report(self, snapshot: Snapshot) -> DiagnosticArray:
+        """Return the message of the last second, and begin the next."""
+        outputs, simulation = self._outputs, self._simulation
+        statistics, events = outputs.statistics, outputs.topics.events
+        late_frames = simulation.playback.clock.late_frames
+        late = self._new('late frames', late_frames)
+        name, took = self._longest
+        used, budget = simulation.past.budget.in_megabytes
+        px, py = snapshot.momentum
+        frames, factor = statistics.frames, statistics.factor
+        values = {
+            'bodies': len(snapshot.scene.bodies),
+            'simulation time [s]': f'{snapshot.stamp * 1e-9:.3f}',
+            'speed': f'{simulation.speed:g}',
+            'real-time factor': f'{factor:.3f}',
+            'frames': frames,
+            'late frames': late_frames,
+            'late frames in this second': late,
+            'step cost [ms]': f'{statistics.step_cost * 1e3:.3f}',
+            'frame cost [ms]': f'{statistics.frame_cost * 1e3:.3f}',
+            'wait of requests [s]': f'{self.message_delay:.3f}',
+            'requests that wait': len(simulation.requests),
+            'longest message [ms]': f'{took * 1e3:.1f} {name}'.rstrip(),
+            'undecodable messages': self._topics.undecodable,
+            'unexpected errors': self._boundary.failures,
+            'answers that wait': events.waiting,
+            'memory of the past [MB]': f'{used:.1f} of {budget:g}',
+            'kinetic energy [J]': f'{snapshot.kinetic_energy:.6g}',
+            'potential energy [J]': f'{snapshot.potential_energy:.6g}',
+            'elastic energy [J]': f'{snapshot.elastic_energy:.6g}',
+            'momentum [kg m/s]': f'{px:.6g}, {py:.6g}',
+            'viewer': outputs.viewer.state,
+        }
+        statistics.begin_second()
+        concerns, speed = list(self._concerns(late, factor)), simulation.speed
+        is_far_behind = late > 0 and abs(factor) < FAR_BEHIND * abs(speed)
+        level = DiagnosticStatus.WARN if concerns else DiagnosticStatus.OK
+        status = DiagnosticStatus(
+            level=DiagnosticStatus.ERROR if is_far_behind else level,
+            name='physsim: world',
+            message='; '.join(concerns)
+            or (run_state(speed) if speed <= 0 else f'{frames} frames'),
+            hardware_id=self._name,
+            values=[KeyValue(key=key, value=str(value)) for key, value in values.items()],
+        )
+        array = DiagnosticArray(status=[status])
+        array.header.stamp = Time(nanoseconds=snapshot.stamp).to_msg()
+        return array
+
+    def _concerns(self, late: int, factor: float) -> Iterator[str]:
+        """
+        Yield what is amiss in the last second, and what to do.
+
+        :param late: number of frames that were late
+        :param factor: real-time factor [1]
+        """
+        if late > 0:
+            yield (
+                f'{late} frames late, real-time factor {factor:.2f}: '
+                'fewer bodies, joints or viewers, or a lower speed'
+            )
+        if self.message_delay > LONG_DELAY:
+            yield f'requests wait {self.message_delay:.1f} s: send fewer of them'
+        name, took = self._longest
+        if took > LONG_MESSAGE:
+            yield f'{name} took {took:.1f} s, in which time stood: send less at once'
+        if lost := self._new('undecodable messages', self._topics.undecodable):
+            yield f'{lost} messages cannot be decoded: check their publishers'
+        if failed := self._new('unexpected errors', self._boundary.failures):
+            yield f'{failed} unexpected errors: report them with the log of the node'
+        if self._outputs.topics.events.stopped:
+            yield 'a subscriber of ~/events has stopped and loses answers: end it'
+        if failure := self._outputs.viewer.failure:
+            yield f'{failure}: set parameter viewer to open it again'
+
+    def _new(self, what: str, count: int) -> int:
+        """Return how much a count since the start has grown since the last report."""
+        before, self._reported[what] = self._reported.get(what, 0), count
+        return count - before
+
+    def _new_namesakes(self) -> list[Answer]:
+        """Return an event if there are more nodes of this name than at the last count."""
+        before, self._namesakes = self._namesakes, self._node.count_nodes(self._name)
+        if self._namesakes <= max(before, 1):
+            return []
+        message = f'{self._namesakes} nodes are named {self._name}, and all do what one is asked'
+        return [
+            Answer(topic='same_name', message=f'{message}: {SAME_NAME_REMEDY}', code='same_name')
+        ]

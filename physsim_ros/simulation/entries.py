@@ -1,0 +1,168 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""What waits in the queue of requests: changes of the world and of the past, seeks, calls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from enum import Enum
+
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.requests import (
+    ChangeBody,
+    Command,
+    Delete,
+    DriveRobot,
+    Join,
+    Request,
+    Spawn,
+    Unjoin,
+)
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.past import request_size
+
+# Memory of a marker as rclpy decodes it [bytes].
+_UNREAD = 2500
+
+
+@dataclass(frozen=True, slots=True)
+class Seek:
+    """
+    Go to a simulation time.
+
+    :param stamp: of it [ns]
+    """
+
+    stamp: int
+
+
+@dataclass(frozen=True, slots=True)
+class Amend:
+    """
+    Replace the requests of earlier gestures by others, in one gesture.
+
+    The world is simulated again from there up to this moment. Each new request is answered.
+
+    :param gestures: their numbers: `RequestQueue.gesture` after each was submitted
+    :param requests: that replace them
+    """
+
+    gestures: tuple[int, ...]
+    requests: tuple[Request, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TakeBack:
+    """Take back the last gesture of the author of the entry, at this moment."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unread:
+    """
+    A request in a message that is converted when its turn comes, as of an array of thousands.
+
+    :param subject: name of the body or joint that it names
+    :param convert: returns the request; raises a Refusal
+    """
+
+    subject: str
+    convert: Callable[[], Request]
+
+
+class Wait(Enum):
+    """
+    The time at which a call is carried out.
+
+    :cvar NONE: at once: it does not depend on requests
+    :cvar BEHIND_REQUESTS: after the requests that wait; also during a seek, which it replaces, but
+        not during an amendment
+    :cvar FOR_SEEK: after the requests and the end of a seek: it reads or replaces the world
+    """
+
+    NONE = 'none'
+    BEHIND_REQUESTS = 'behind requests'
+    FOR_SEEK = 'for seek'
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """
+    Call a function that reads or replaces the world.
+
+    :param call: the function; it returns answers
+    :param wait: the time at which it is called
+    """
+
+    call: Callable[[], Iterable[Answer]]
+    wait: Wait
+
+
+@dataclass(slots=True)
+class Entry:
+    """
+    What waits in the queue.
+
+    :param request: to be applied; or a change of the past, a seek, a call, the refusal of a
+        message that is no request, an answer without a request
+    :param topic: its source
+    :param subject: name of the body or joint that it names, or ''
+    :param gesture: number of its gesture; requests of one gesture are undone together
+    :param field: the only field of the message, which a refusal names; '' if it has several
+    :param asker: key of the message that asks, which the answer names; '' for none
+    :param size: memory of the request [bytes]
+    :param author: name of the person who did it; '' is nobody
+    """
+
+    request: Request | Unread | Amend | TakeBack | Seek | Call | Refusal | Answer
+    topic: str
+    subject: str
+    gesture: int
+    field: str = ''
+    asker: str = ''
+    size: int = 0
+    author: str = ''
+
+    @property
+    def is_for_world(self) -> bool:
+        """Return whether it is applied to the world, and so waits for the end of a seek."""
+        match self.request:
+            case Call(wait=wait):
+                return wait is Wait.FOR_SEEK
+            case Seek() | Refusal() | Answer():
+                return False
+        return True
+
+    @property
+    def is_answer(self) -> bool:
+        """Return whether it only answers."""
+        return isinstance(self.request, Refusal | Answer)
+
+
+def size_of(request: Request | Unread | Amend | TakeBack) -> int:
+    """Return the memory that a request takes [bytes]."""
+    if isinstance(request, Unread):
+        return _UNREAD
+    if isinstance(request, Amend):
+        return sum(map(size_of, request.requests))
+    if isinstance(request, TakeBack):
+        return 0
+    return request_size(request)
+
+
+def subject_of(request: Request | Unread | Amend | TakeBack) -> str:
+    """Return the one body or joint that a request names, or ''."""
+    match request:
+        case (
+            Spawn(name=name)
+            | ChangeBody(name=name)
+            | Delete(name=name)
+            | Join(name=name)
+            | Unjoin(name=name)
+            | DriveRobot(name=name)
+            | Command(names=(name,))
+            | Unread(subject=name)
+        ):
+            return name
+    return ''

@@ -1,0 +1,271 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Frames of a world: requests and steady time go in, frames come out.
+
+Laws: requests are applied in the order of their arrival and only between frames, in a paused world
+too. Every request is answered, with the first frame after it; a frame without a step shows what
+requests have changed. While a seek or an amendment is under way, no frame is made.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+import math
+
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.sensing import View
+from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.playback import Playback
+from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.simulation.world import World
+from physsim_ros.simulation.world.body_requests import is_driving
+
+# Frames in one call: the one that is due, and one to make up for a late one.
+_FRAMES_A_CALL = 2
+
+
+class FrameMaker:
+    """
+    Applies requests to a world, advances it, and makes its frames.
+
+    :param past: of the world, with the world itself
+    :param speed: simulation seconds a second; 0 is paused, negative goes back
+
+    :ivar physics_rate: steps a second of simulation time [Hz]
+    :ivar frame_steps: number of steps in a frame at speed 1
+    :ivar past: the lines of events, cached frames, and their budget of memory
+    :ivar playback: the moment that is shown
+    :ivar requests: queue of the requests that wait for the next frame, and what applies them
+    :ivar held: the commands with which robots drive on, by the names of their bodies
+    """
+
+    def __init__(self, past: Past, speed: float) -> None:
+        self.physics_rate = past.physics_rate
+        self.frame_steps = past.frame_steps
+        self.past = past
+        self.playback = Playback(past, speed=speed)
+        self.requests = RequestQueue(past, self.playback)
+        self.held: dict[str, DriveRobot] = {}
+        self._view: View | None = None
+
+    @property
+    def world(self) -> World:
+        """Return the world at the moment that is shown."""
+        return self.playback.world
+
+    @property
+    def step(self) -> int:
+        """Return the step that is shown."""
+        return self.playback.step
+
+    @property
+    def speed(self) -> float:
+        """Return simulation seconds a second; 0 is paused, negative goes back."""
+        return self.playback.speed
+
+    @speed.setter
+    def speed(self, speed: float) -> None:
+        if speed < 0.0:
+            self.requests.hands.clear()
+            self.let_go()
+        self.playback.speed = speed
+
+    def let_go(self) -> None:
+        """End what `Robot.drive` has robots do; their last commands end with their timeouts."""
+        self.held.clear()
+
+    @property
+    def view(self) -> View:
+        """
+        Return the frame of now as sensors see it.
+
+        A frame is made when it is first read after steps or requests, so that steps whose frame
+        nobody reads make none.
+        """
+        if self._view is None or self.playback.changed:
+            shown = self._view and self._view.snapshot.step
+            self._observe_frame(moved=shown != self.step)
+        assert self._view is not None  # noqa: S101 - `_observe_frame` makes it
+        return self._view
+
+    @property
+    def frame(self) -> Frame:
+        """Return the frame of now, which is made when it is first read."""
+        return self.view.frame
+
+    def apply_waiting(self) -> None:
+        """Apply the requests that wait, at whose seeks the world goes at once."""
+        self.requests.apply_waiting()
+
+    def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
+        """
+        Apply the requests up to a seek.
+
+        :param is_spent: whether there is no time for a further one
+        :return: whether no seek is under way, and no request waits
+        """
+        self.requests.apply_up_to_seek(is_spent)
+        return self.playback.is_there and not self.requests.has_requests
+
+    def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
+        """
+        Replay up to the goal of a seek whose frame is not cached, or to the end of an amendment.
+
+        Until then no step is due.
+
+        :param is_overdue: whether the work is to continue in another call
+        :return: whether it is done
+        """
+        while self.playback.continue_work():
+            if is_overdue():
+                # The time of this replay is not made up for.
+                self.playback.clock.restart()
+                return False
+        return True
+
+    def apply_requests(self) -> Frame | None:
+        """Apply the requests that wait, without a step; return a frame if anything changed."""
+        self.requests.apply_waiting()
+        return self._observe_frame(moved=False) if self.playback.changed else None
+
+    def take_answers(self) -> tuple[Answer, ...]:
+        """Return the answers that no frame has taken, and drop them."""
+        return self.requests.take_answers()
+
+    def advance_frame(self) -> Frame:
+        """Apply the requests that wait, and advance by one publish period, at any speed."""
+        self._advance_period()
+        return self._observe_frame(moved=True)
+
+    def run(self, seconds: float) -> None:
+        """
+        Advance by simulated seconds, to the nearest publish period, at any speed.
+
+        No frame is made but the last one, when it is read; its contacts are those of all steps
+        since the one that was read before.
+
+        :raises BadProperty: they are below 0, or not finite
+        """
+        periods = seconds * self.physics_rate / self.frame_steps
+        if not 0.0 <= periods < math.inf:
+            raise BadProperty(f'seconds must be finite and >= 0, not {seconds:g}', field='seconds')
+        for _ in range(round(periods)):
+            self._advance_period()
+
+    def _advance_period(self) -> None:
+        """Apply the requests that wait, and advance by one publish period."""
+        self._hold_drives()
+        self.requests.apply_waiting()
+        self.requests.release_grips()
+        self.playback.clock.restart()
+        self.playback.play(self.playback.steps_to_period)
+
+    def advance(
+        self,
+        now_ns: int,
+        *,
+        is_overdue: Callable[[], bool] = lambda: False,
+        is_spent: Callable[[], bool] = lambda: False,
+    ) -> tuple[Frame, ...]:
+        """
+        Apply the requests that wait, and advance, or rewind, by the steps that are due.
+
+        Where the time for requests is spent within a gesture, as in an array of thousands of
+        bodies, time stands until a later call has applied the rest of the gesture.
+
+        :param now_ns: steady time, never going back [ns]
+        :param is_overdue: whether the call has taken too long; a frame that advances then ends at
+            the next publish period, however many steps are due, so that requests do not wait
+        :param is_spent: whether there is no time for a further request in this call
+        :return: the frames, in the order in which they are shown; empty where nothing is due and
+            nothing has changed
+        """
+        playback = self.playback
+        if playback.is_world_due or self.requests.has_requests:
+            playback.seek_shown()
+        if not self.finish_seek(is_overdue):
+            return ()
+        if playback.speed > 0.0:
+            self._hold_drives()
+        self.requests.apply_up_to_seek(is_spent)
+        if not self.finish_seek(is_overdue):
+            return ()
+        if self.requests.is_in_gesture or (playback.frames_due and self.requests.has_requests):
+            playback.clock.restart()
+            return ()
+        if playback.frames_due:
+            playback.frames_due -= 1
+            return (self.advance_frame(),)
+        self.requests.hands.note_time(now_ns, paused=playback.speed == 0)
+        if playback.speed > 0:
+            self.requests.release_grips()
+        frames = tuple(self._due_frames(now_ns, is_overdue))
+        if not frames and playback.changed:
+            return (self._observe_frame(moved=False),)
+        return frames
+
+    def _due_frames(self, now_ns: int, is_overdue: Callable[[], bool]) -> Iterator[Frame]:
+        """Yield the frames that are due at a steady time [ns], and make them."""
+        playback = self.playback
+        for _ in range(_FRAMES_A_CALL):
+            steps = playback.clock.due(now_ns, playback.step)
+            if steps == 0:
+                return
+            if steps > 0:
+                playback.play(steps, is_overdue)
+                yield self._observe_frame(moved=True)
+            elif frame := self._rewind_frame(-steps, is_overdue):
+                yield frame
+            else:
+                return
+            if playback.speed == 0 or is_overdue():
+                return
+
+    def _hold_drives(self) -> None:
+        """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
+        for drive in self.held.values():
+            if not is_driving(self.world, drive, self.frame_steps):
+                # In the gesture before, with which it is undone: nobody undoes a tick.
+                self.requests.apply(drive, self.requests.gesture)
+
+    def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
+        """Return the frame some steps back; None while its replay goes on."""
+        before = self.playback.step
+        while not self.playback.rewind(steps):
+            if is_overdue():
+                # The time of this replay is not made up for.
+                self.playback.clock.restart()
+                return None
+        for _ in self.playback.replay_ahead(steps):
+            if is_overdue():
+                break
+        if self.playback.step <= self.past.tree.oldest:
+            self.playback.speed = 0.0
+            self.requests.report_oldest('; paused')
+        return self._observe_frame(moved=self.playback.step < before)
+
+    def _observe_frame(self, *, moved: bool) -> Frame:
+        """Return the frame that is shown, with all answers; fit the past into its budget."""
+        snapshot, contacts = self.playback.observe_frame(moved=moved)
+        self.past.fit_memory(self.playback.moment)
+        self.requests.answers += self.past.reports
+        self.past.reports.clear()
+        self.playback.changed = False
+        frame = Frame(
+            snapshot=snapshot,
+            contacts=contacts if self.past.reports_contacts else None,
+            answers=self.requests.take_answers(),
+            speed=self.playback.speed,
+            moved=moved,
+            past=snapshot.step < self.past.tree.head,
+            course=self.past.tree.course,
+        )
+        before, last = None, self._view
+        if last is not None:
+            before = last.snapshot if last.snapshot.step != snapshot.step else last.before
+        self._view = View(frame, before)
+        return frame

@@ -1,0 +1,113 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Amendment: requests of the past are replaced, and the world is simulated again up to its moment.
+
+Laws: later requests are carried out again in their order, each at its step; the future of the
+moment is dropped. Between two parts of the work the line in force counts as reached up to that
+moment, though not all of it is simulated yet.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from physsim_ros.model.errors import NotAlone, Refusal
+from physsim_ros.model.requests import Request
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.past.tree import Tree
+
+
+class Amendment:
+    """
+    The replacement of the requests of earlier gestures, up to the moment of a cursor.
+
+    Gestures that changed nothing or are no longer kept are ignored; without any other, the
+    requests are applied now.
+
+    :param cursor: on the line in force
+    :param tree: with that line
+    :param gestures: their numbers, at least one; the requests get the first number
+    :param requests: that replace theirs, at their first step
+    :param author: name of the person who did it; '' is nobody
+    :param stands_alone: whether it ends where a later request is refused, which else is dropped
+
+    :ivar step: the first step that differs
+    :ivar done: for each new request its answer or its refusal
+    """
+
+    def __init__(
+        self,
+        cursor: Cursor,
+        tree: Tree,
+        gestures: Sequence[int],
+        requests: Sequence[Request],
+        author: str = '',
+        *,
+        stands_alone: bool = False,
+    ) -> None:
+        self._cursor, self._tree = cursor, tree
+        self._requests, self._gesture, self._author = requests, gestures[0], author
+        now = cursor.moment
+        starts = [tree.gesture_start(each, now[1]) for each in gestures]
+        found = [start for start in starts if start is not None]
+        self.step, self._serial = min(found, key=lambda start: start[1], default=now)
+        self._end = now[0]
+        # Commands of robots join the gesture before them, whose author is another one.
+        self._later = [
+            each
+            for each in tree.nodes_between(self._serial, now[1])
+            if each.gesture not in gestures or each.author != tree.node(each.opening).author
+        ]
+        self._stands_alone = stands_alone
+        self.done: list[Answer | Refusal] = []
+
+    def parts(self) -> Iterator[None]:
+        """
+        Carry it out; yield after each frame and each request.
+
+        :raises NotAlone: a later request is refused, and it is to stand alone
+        """
+        tree = self._tree
+        for _ in self._simulate():
+            reached, tree.head = tree.head, self._end
+            yield
+            tree.head = reached
+
+    def _simulate(self) -> Iterator[None]:
+        cursor, tree = self._cursor, self._tree
+        start = self.step, self._serial
+        cursor.follow(tree.node(self._serial), self.step, start)
+        yield from cursor.parts_of_work()
+        for request in self._requests:
+            self.done.append(self._apply(request, self._gesture, self._author))
+            yield
+        for node in self._later:
+            yield from self._advance(node.step)
+            answer = self._apply(node.request, node.gesture, node.author)
+            if self._stands_alone and isinstance(answer, Refusal):
+                raise NotAlone('somebody has used it since; delete it instead')
+            yield
+        yield from self._advance(self._end)
+        cursor.world.clear_contacts()
+
+    def _advance(self, step: int) -> Iterator[None]:
+        world = self._cursor.world
+        while (left := step - world.step_count) > 0:
+            self._cursor.advance(min(left, world.frame_steps))
+            yield
+
+    def _apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
+        cursor = self._cursor
+        try:
+            with cursor.request(request) as world:
+                answer = world.apply(request)
+        except Refusal as refusal:
+            # The world may have to be rebuilt.
+            cursor.finish_work()
+            return refusal
+        if world.changed:
+            cursor.log(request, answer.subject, gesture, author)
+        return answer

@@ -1,0 +1,126 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The gallery: the worlds and lessons that pages offer, those of the package and the user's own.
+
+Law: an own world or lesson comes before the shipped one of its name.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from functools import lru_cache
+from itertools import islice
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+
+from physsim_ros.files import (
+    load_world,
+    OwnWorlds,
+    shipped_lessons,
+    shipped_pictures,
+    shipped_worlds,
+    title_of,
+    user_lessons,
+    worlds_in,
+)
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import PhysSimError, Refusal
+
+# Worlds and lessons of the user that are listed, at most.
+MOST_WORLDS, MOST_LESSONS = 500, 100
+# Shipped worlds, the simplest first; the others come after these.
+BY_DIFFICULTY = (
+    'demo',
+    'dominoes',
+    'pendulums',
+    'incline',
+    'newtons_cradle',
+    'galton',
+    'car',
+    'catapult',
+    'gear_train',
+    'bridge',
+)
+
+
+def gallery_content(own_worlds: OwnWorlds, boundary: ErrorBoundary) -> dict[str, Any]:
+    """Return the message of all worlds and lessons, the shipped ones and the user's own."""
+    known = worlds_in(shipped_worlds())
+    names = sorted(known, key=lambda name: (*BY_DIFFICULTY, name).index(name))
+    shipped = [_shipped(known[name]) for name in names]
+    files = islice(worlds_in(own_worlds.directory).values(), MOST_WORLDS)
+    own = [_own(path, own_worlds) for path in files]
+    # A world of the user comes before the shipped one of its name.
+    worlds = {entry['name']: entry for entry in shipped + own}
+    return {
+        'type': 'worlds',
+        'worlds': list(worlds.values()),
+        'lessons': _lessons(own_worlds.directory, boundary),
+    }
+
+
+def _shipped(path: Path) -> dict[str, Any]:
+    picture = (shipped_pictures() / f'{path.stem}.png').is_file()
+    return {
+        'name': path.stem,
+        'title': title_of(path),
+        'picture': f'/gallery/{path.stem}.png' if picture else '',
+        'shipped': True,
+    }
+
+
+def _own(path: Path, own_worlds: OwnWorlds) -> dict[str, Any]:
+    # The title is the name: a comment of the user's file is private.
+    name, picture = path.stem, ''
+    # A script may have chosen a name that a page refuses.
+    with suppress(Refusal, OSError):
+        changed = own_worlds.picture(name).stat().st_mtime_ns
+        picture = f'/picture/{quote(name)}?{changed}'
+    return {'name': name, 'title': name, 'picture': picture, 'shipped': False}
+
+
+def _lessons(world_dir: Path, boundary: ErrorBoundary) -> list[dict[str, Any]]:
+    """
+    Return name, number, title and question of each lesson, by their numbers.
+
+    The title of a file that is no lesson is its name; who opens it is told why.
+
+    :param world_dir: directory of the user's worlds
+    :param boundary: of the files
+    """
+    own = islice(worlds_in(user_lessons(world_dir)).items(), MOST_LESSONS)
+    # A lesson of the user comes before the shipped one of its name.
+    files = worlds_in(shipped_lessons()) | dict(own)
+    lessons = [
+        {'name': name} | _read(path, _version(path), boundary) for name, path in files.items()
+    ]
+    return sorted(lessons, key=lambda each: (each['number'], each['name']))
+
+
+def _version(path: Path) -> tuple[int, int]:
+    """Return time of change [ns] and size [bytes] of a file; zeros where it is gone."""
+    try:
+        status = path.stat()
+    except OSError:
+        return 0, 0
+    return status.st_mtime_ns, status.st_size
+
+
+@lru_cache(maxsize=2 * MOST_LESSONS)
+def _read(
+    path: Path,
+    version: tuple[int, int],  # noqa: ARG001 - a key
+    boundary: ErrorBoundary,
+) -> dict[str, Any]:
+    """Return number, title and question of a lesson."""
+    try:
+        with boundary.reading('lesson'):
+            lesson = load_world(path).lesson
+    except PhysSimError:
+        lesson = None
+    if lesson is None:
+        return {'number': 0, 'title': path.stem, 'question': ''}
+    return {'number': lesson.number, 'title': lesson.title, 'question': lesson.question}

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Texts in the language of the reader: `t('Open it')`. The English text is the key of its translation, in
+ * `languages/<language>.json`, which only pages in that language load.
+ *
+ * A text has its values in braces, by name. The language is that of the browser, until somebody chooses another one
+ * in the help; the page is then loaded again.
+ */
+
+/** Names of the languages in themselves. @type {Record<string, string>} */
+export const LANGUAGES = {en: 'English', de: 'Deutsch'};
+const KEY = 'physsim-language';
+
+/** The language of the page (BCP 47). */
+export const language = [localStorage.getItem(KEY), ...navigator.languages.map((each) => each.split('-')[0])]
+  .find((each) => each && each in LANGUAGES) ?? 'en';
+
+/**
+ * Translations by English text, and sentences by the code of a refusal, where `{message}` is the server's own one.
+ * @type {{texts: Record<string, string>, refusals: Record<string, string>}}
+ */
+const table = language === 'en' ? {texts: {}, refusals: {}} :
+  await fetch(`/page/languages/${language}.json`).then((response) => response.json());
+
+/**
+ * @param {string} text in English, with the names of its values in braces
+ * @param {Record<string, string | number>} values
+ * @returns {string} in the language of the page
+ */
+export function t(text, values = {}) {
+  return filled(table.texts[text] ?? text, values);
+}
+
+/**
+ * @param {string} code of a refusal
+ * @param {string} message of the server, in English
+ * @returns {string} what the refusal says; in English, and for a code without a translation, the message
+ */
+export function refusalText(code, message) {
+  return filled(table.refusals[code] ?? '{message}', {message});
+}
+
+/** @param {string} chosen one of the languages */
+export function chooseLanguage(chosen) {
+  localStorage.setItem(KEY, chosen);
+  location.reload();
+}
+
+/**
+ * @param {string} text
+ * @param {Record<string, string | number>} values
+ */
+function filled(text, values) {
+  return text.replace(/\{(\w+)\}/g, (braces, name) => String(values[name] ?? braces));
+}
+
+const ATTRIBUTES = ['aria-label', 'title', 'placeholder', 'alt'];
+
+/** Translate what the HTML of the page says. */
+function translateDocument() {
+  document.documentElement.lang = language;
+  document.title = t(document.title);
+  for (const element of document.body.querySelectorAll('*')) {
+    for (const name of ATTRIBUTES) {
+      const text = element.getAttribute(name);
+      if (text) element.setAttribute(name, t(text));
+    }
+    const {firstChild} = element;
+    if (!element.children.length && firstChild) firstChild.nodeValue = t(firstChild.nodeValue ?? '');
+  }
+}
+
+translateDocument();

@@ -1,0 +1,193 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The past for pages: the timeline with the ghost of a course that was left, and pasts of bodies.
+
+Laws: the timeline is sent at once where more than its time changes, else each 0.1 s. The world's
+thread only looks up the snapshots of a body's past; the server's thread makes its columns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import groupby
+from operator import attrgetter
+import time
+from typing import Any
+
+import numpy as np
+from physsim_ros.model.scene import Scene
+from physsim_ros.model.snapshot import Frame, Snapshot
+from physsim_ros.model.timeline import CourseSpan, TimelineStatus
+from physsim_ros.model.transform import rotated_each
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sketchpad.message import Content
+
+# Time from one timeline to the next while nothing but its time changes [s].
+TIMELINE_PERIOD = 0.1
+# Greatest number of frames of a past: a minute at 60 Hz.
+MOST_FRAMES = 3600
+# Time from one past to the next, for all pages together [s]: a past takes some 35 ms of the
+# server's thread.
+PAST_PERIOD = 0.2
+
+
+class TimelineReport:
+    """
+    The status of the timeline that was sent last, and the course of the ghost.
+
+    :param simulation: of the timeline
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._sent: TimelineStatus | None = None
+        self._read_at = 0.0
+        # The course that was left last.
+        self._beside: CourseSpan | None = None
+
+    def take_status(self, frame: Frame, now: float) -> TimelineStatus | None:
+        """
+        Return the status with a frame; None where it need not be sent.
+
+        :param now: steady time [s]
+        """
+        last = self._sent
+        # A running world without requests changes nothing but its time.
+        runs = frame.moved and not frame.answers and frame.speed != 0.0
+        known = last is not None and last.speed == frame.speed
+        if runs and known and now - self._read_at < TIMELINE_PERIOD:
+            return None
+        status = self.read_status(now)
+        return None if status == last else status
+
+    def read_status(self, now: float) -> TimelineStatus:
+        """
+        Return the status, to be sent to all pages.
+
+        :param now: steady time [s]
+        """
+        self._sent = status = self._simulation.status
+        self._read_at = now
+        self._beside = max(status.courses, key=lambda each: each.number, default=None)
+        return status
+
+    def ghost(self, snapshot: Snapshot) -> Snapshot | None:
+        """Return the snapshot of the course that was left last at the time of a snapshot."""
+        course, seconds = self._beside, snapshot.stamp * 1e-9
+        if course is None or not course.begins <= seconds <= course.ends:
+            return None
+        return self._simulation.past.ghost(course.number, seconds)
+
+
+def timeline_content(status: TimelineStatus) -> dict[str, Any]:
+    """Return the message of a status; times in [s]."""
+    return {
+        'type': 'timeline',
+        'state': status.state,
+        'speed': status.speed,
+        'oldest': status.oldest,
+        'now': status.now,
+        'newest': status.newest,
+        'course': status.course,
+        'undo': status.undo,
+        'redo': status.redo,
+        'courses': [
+            {'id': each.number, 'from': each.begins, 'to': each.ends} for each in status.courses
+        ],
+    }
+
+
+class BodyPasts:
+    """
+    The pasts of bodies that pages ask for, sent one after the other.
+
+    A page that asks for several meanwhile gets the last.
+
+    :param simulation: with the past
+    :param send: sends a message to the page of a number
+    """
+
+    def __init__(self, simulation: Simulation, send: Callable[[Content, int], None]) -> None:
+        self._simulation = simulation
+        self._send = send
+        # Body and identifier of the message that asks, by page, in the order of their turns.
+        self._asked: dict[int, tuple[str, str]] = {}
+        # Steady time from which on the next one is sent [s].
+        self._due = 0.0
+
+    def ask(self, page: int, name: str, request_id: str) -> None:
+        """
+        Send a page the past of a body when it is its turn.
+
+        :param name: of the body; '' is no body, and its columns are empty
+        :param request_id: of the message that asks
+        """
+        if name:
+            # A page that asks again keeps its turn.
+            self._asked[page] = (name, request_id)
+            self.send_due(time.monotonic())
+        else:
+            self.forget(page)
+            self._send(partial(_body_content, name, request_id, ()), page)
+
+    def forget(self, page: int) -> None:
+        """Forget the body that a page has asked for."""
+        self._asked.pop(page, None)
+
+    def send_due(self, now: float) -> None:
+        """
+        Send the next past, where one is asked for and due.
+
+        :param now: steady time [s]
+        """
+        if not self._asked or now < self._due:
+            return
+        self._due = now + PAST_PERIOD
+        page = next(iter(self._asked))
+        name, request_id = self._asked.pop(page)
+        simulation = self._simulation
+        snapshots = simulation.past.frames.snapshots(simulation.step, MOST_FRAMES)
+        self._send(partial(_body_content, name, request_id, snapshots), page)
+
+
+def _body_content(name: str, request_id: str, snapshots: Sequence[Snapshot]) -> dict[str, Any]:
+    return {'type': 'body', 'request': request_id, 'name': name, **body_past(snapshots, name)}
+
+
+def body_past(snapshots: Sequence[Snapshot], name: str) -> dict[str, list[float]]:
+    """
+    Return the columns of a body's past: time [s], x, y of its centre of mass [m], yaw, velocities.
+
+    :param snapshots: in the order of time
+    :param name: of the body; of one that was not there the columns are empty
+    """
+    times: list[float] = []
+    columns = [np.empty((0, 6))]
+    row = -1
+    for scene, group in groupby(snapshots, attrgetter('scene')):
+        row = _row_of(name, scene, row)
+        if row >= 0:
+            shown = list(group)
+            times += [each.stamp * 1e-9 for each in shown]
+            poses = np.array([each.poses[row] for each in shown])
+            twists = np.array([each.twists[row] for each in shown])
+            centroid = np.array(scene.bodies[row].shape.form.centroid)
+            centers = poses[:, :2] + rotated_each(centroid, poses[:, 2])
+            columns.append(np.concatenate((centers, poses[:, 2:], twists), axis=1))
+    x, y, yaw, vx, vy, spin = np.concatenate(columns).T.tolist()
+    return {'time': times, 'x': x, 'y': y, 'yaw': yaw, 'vx': vx, 'vy': vy, 'w': spin}
+
+
+def _row_of(name: str, scene: Scene, before: int) -> int:
+    """
+    Return the row of a body in a scene; -1 where it is not there.
+
+    :param before: its row in another scene, which is often its row here
+    """
+    names = scene.names
+    if 0 <= before < len(names) and names[before] == name:
+        return before
+    return names.index(name) if name in names else -1

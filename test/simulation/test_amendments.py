@@ -1,0 +1,274 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Requests of the past are replaced or taken back, as if they had never been; time stays."""
+
+from __future__ import annotations
+
+from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory
+from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.requests import Axle, Configure, Delete, Join, MoveBodies, Request
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.past import past
+from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.request_queue import Amend, TakeBack
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+
+from .driven import FLOOR
+from ..building import BOX, DISC, spawning
+
+LEFT, RIGHT = (-3.0, 5.0, 0.0), (3.0, 5.0, 0.0)
+
+
+def world_after(*timed: tuple[int, str, Request], frames: int = 60) -> Simulation:
+    """Return a world in which people asked for requests before the frame of a number."""
+    simulation = Simulation(settings=FLOOR)
+    for frame in range(frames):
+        for at, author, request in timed:
+            if at == frame:
+                simulation.requests.submit(request, topic='t', author=author)
+        simulation.advance_frame()
+    return simulation
+
+
+# Amending
+
+
+def begun() -> Simulation:
+    return world_after((2, '', spawning('t/0', BOX)), frames=5)
+
+
+def amend(simulation: Simulation, gestures: list[int], requests: list[Request]) -> Frame:
+    """Replace the requests of gestures, and return the frame that shows it."""
+    simulation.requests.submit(Amend(tuple(gestures), tuple(requests)), topic='t', joined=True)
+    frame = simulation.apply_requests()
+    assert frame is not None
+    return frame
+
+
+def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> None:
+    wall, ball = spawning('t/0', BOX, (0.0, 1.0, 0.0), anchored=True), spawning('t/1', DISC)
+    later = spawning('t/2', DISC, (0.1, 3.0, 0.0))
+    straight = world_after((2, '', ball), (30, '', later), frames=90)
+    other = world_after((2, '', wall), frames=10)
+    gesture = other.requests.gesture
+    for frame in range(10, 90):
+        if frame == 30:
+            other.requests.submit(later, topic='t')
+        other.advance_frame()
+
+    amend(other, [gesture], [ball])
+
+    assert other.step == straight.step
+    assert other.world.digest() == straight.world.digest()
+
+
+def test_the_amended_gesture_is_undone_as_one() -> None:
+    simulation = begun()
+    gesture = simulation.requests.gesture
+    simulation.advance_frame()
+
+    amend(simulation, [gesture], [spawning('t/1', DISC), spawning('t/2', DISC)])
+    simulation.undo()
+
+    assert simulation.world.snapshot().scene.names == ()
+
+
+def test_what_the_amended_past_refuses_later_is_dropped() -> None:
+    simulation = begun()
+    gesture = simulation.requests.gesture
+    simulation.requests.submit(Delete(name='t/0'), topic='t')
+    simulation.requests.submit(Configure(changes={'damping': 0.5}), topic='t')
+    simulation.advance_frame()
+
+    amend(simulation, [gesture], [spawning('t/1', DISC)])
+
+    assert simulation.world.snapshot().scene.names == ('t/1',)
+    assert simulation.settings.damping == 0.5
+
+
+def test_a_refused_request_is_answered_and_the_others_hold() -> None:
+    simulation = begun()
+
+    requests = [Delete(name='no/1'), spawning('t/1', DISC)]
+    frame = amend(simulation, [simulation.requests.gesture], requests)
+
+    assert [answer.code for answer in frame.answers] == ['unknown_body', '']
+    assert simulation.world.snapshot().scene.names == ('t/1',)
+
+
+def test_several_gestures_become_one() -> None:
+    simulation = begun()
+    first = simulation.requests.gesture
+    simulation.requests.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), topic='t')
+    second = simulation.requests.gesture
+    simulation.advance_frame()
+
+    amend(simulation, [first, second], [spawning('t/2', DISC)])
+
+    assert simulation.world.snapshot().scene.names == ('t/2',)
+    simulation.undo()
+    assert simulation.world.snapshot().scene.names == ()
+
+
+def test_gestures_that_changed_nothing_are_amended_by_what_is_made_now() -> None:
+    simulation = begun()
+    step = simulation.step
+
+    amend(simulation, [simulation.requests.gesture + 7], [spawning('t/1', DISC)])
+
+    assert simulation.step == step
+    assert simulation.world.snapshot().scene.names == ('t/0', 't/1')
+
+
+# Taking back
+
+ANNA, BEN = (2, 'Anna', spawning('a/0', DISC, LEFT)), (20, 'Ben', spawning('b/0', BOX, RIGHT))
+
+
+def test_what_is_taken_back_has_never_been_and_what_others_did_stays() -> None:
+    simulation, without = world_after(ANNA, BEN), world_after(BEN)
+
+    simulation.take_back('Anna')
+
+    assert simulation.step == without.step
+    assert simulation.world.digest() == without.world.digest()
+    with pytest.raises(OutOfHistory, match='nothing by Anna'):
+        simulation.take_back('Anna')
+
+
+def test_redo_brings_it_back() -> None:
+    simulation = world_after(ANNA, BEN)
+    before = simulation.world.digest()
+
+    simulation.take_back('Anna')
+    simulation.redo()
+
+    assert simulation.world.digest() == before
+
+
+@pytest.mark.parametrize(
+    'use',
+    [
+        MoveBodies(names=('a/0',), by=(0.0, 1.0)),
+        Join(name='j/0', kind=JointKind.ROD, points=((-3.0, 4.0), (0.0, 9.0)), a='a/0'),
+    ],
+)
+def test_what_others_have_used_since_is_not_taken_back(use: Request) -> None:
+    simulation = world_after(ANNA, BEN, (30, 'Ben', use))
+    before = simulation.world.digest()
+
+    with pytest.raises(NotAlone, match='delete it instead'):
+        simulation.take_back('Anna')
+
+    assert simulation.world.digest() == before
+    simulation.take_back('Ben')
+    simulation.take_back('Anna')
+    assert simulation.world.scene.names == ('b/0',)
+
+
+def test_it_is_refused_in_the_past_and_where_it_would_take_long(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    simulation = world_after(ANNA, BEN)
+    end = simulation.world.stamp
+    simulation.seek(500_000_000)
+    with pytest.raises(InPast):
+        simulation.take_back('Anna')
+    simulation.seek(end)
+    monkeypatch.setattr(past, 'LONGEST_AGAIN', 0.5)
+    with pytest.raises(NotAlone, match='ago'):
+        simulation.take_back('Anna')
+    assert simulation.world.scene.names == ('a/0', 'b/0')
+
+
+def test_commands_that_joined_a_gesture_are_not_taken_back_with_it() -> None:
+    simulation = world_after(ANNA)
+    simulation.requests.submit(spawning('c/0', BOX, (0.0, 3.0, 0.0)), topic='t', author='Anna')
+    # As commands of robots do.
+    later = spawning('d/0', BOX, (6.0, 3.0, 0.0))
+    simulation.requests.submit(later, topic='t', joined=True)
+    simulation.advance_frame()
+
+    simulation.take_back('Anna')
+
+    assert simulation.world.scene.names == ('a/0', 'd/0')
+
+
+def test_a_later_moment_of_a_gesture_leaves_the_gestures_between_alone() -> None:
+    simulation = world_after(ANNA)
+    gesture = simulation.requests.gesture
+    queue = simulation.requests
+    queue.submit(spawning('b/0', BOX, RIGHT), topic='t', author='Ben')
+    between = queue.gesture
+    late = spawning('a/1', DISC, (0.0, 9.0, 0.0))
+    queue.submit(late, topic='t', gesture=gesture, author='Anna')
+    simulation.advance_frame()
+    assert queue.gesture == between
+
+    simulation.take_back('Anna')
+
+    assert simulation.world.scene.names == ('b/0',)
+
+
+def test_what_a_person_has_added_and_is_still_there_is_told() -> None:
+    rod = Join(name='j/0', kind=JointKind.ROD, points=((-3.0, 4.0), (0.0, 9.0)), a='a/0')
+    simulation = world_after(ANNA, BEN, (30, 'Anna', rod))
+
+    assert simulation.past.added_by('Anna') == (('a/0',), ('j/0',))
+    assert simulation.past.added_by('Ben') == (('b/0',), ())
+    assert simulation.past.added_by('Cleo') == ((), ())
+
+
+def test_what_a_person_added_is_what_was_added_last_by_them() -> None:
+    again = (30, 'Ben', spawning('a/0', DISC, LEFT))
+    simulation = world_after(ANNA, BEN, (25, 'Anna', Delete(name='a/0')), again)
+    simulation.requests.submit(Axle(point=LEFT[:2]), topic='t', author='Anna')
+    simulation.advance_frame()
+
+    assert simulation.past.added_by('Ben') == (('b/0', 'a/0'), ())
+    bodies, joints = simulation.past.added_by('Anna')
+    assert not bodies
+    assert joints == tuple(joint.name for joint in simulation.world.scene.joints)
+
+
+def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back() -> None:
+    weak = JointProperties(break_force=1.0)
+    hung = Join(
+        name='j/0', kind=JointKind.PIN, points=(RIGHT[:2],), a='b/0', b='world', properties=weak
+    )
+    move = (5, 'Ben', MoveBodies(names=('a/0',), by=(0.0, 1.0)))
+    simulation = world_after(ANNA, move, BEN, (20, 'Ben', hung))
+    assert not simulation.world.scene.joints
+
+    with pytest.raises(NotAlone):
+        simulation.take_back('Anna')
+
+    assert [each.topic for each in simulation.advance_frame().answers] == []
+
+
+@pytest.mark.parametrize('change', [TakeBack(), Amend((2,), (spawning('c/0', DISC),))])
+def test_an_unexpected_error_on_the_way_leaves_the_world_and_its_past_as_they_were(
+    change: TakeBack | Amend, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulation = world_after(ANNA, BEN)
+    simulation.past.boundary = ErrorBoundary(lambda _: None)
+    before, users = simulation.world.digest(), simulation.past.tree.tip.users
+    simulation.undo()
+    simulation.redo()
+
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Cursor, 'advance', fail)
+        simulation.requests.submit(change, topic='t', author='Anna')
+        frame = simulation.apply_requests()
+
+    assert frame is not None
+    assert [each.code for each in frame.answers] == ['failed']
+    assert simulation.world.digest() == before
+    assert simulation.past.tree.tip.users == users
+    assert simulation.undo().startswith('undid spawn b/0')

@@ -1,0 +1,179 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The page by keys, with words at its icons, hints that learn, and a screen reader."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import re
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet
+
+# The page's clock runs ten times faster than before.
+SLOWED = """() => {
+    const now = performance.now.bind(performance), begin = now();
+    performance.now = () => begin + 10 * (now() - begin);
+}"""
+FOCUSED = "document.activeElement.getAttribute('aria-label')"
+ENOUGH = 8
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    yield sheet
+    sheet.close()
+
+
+def tab_to(sheet: Sheet, name: str) -> list[str]:
+    """Press Tab until something has the focus, and return the names on the way."""
+    names: list[str] = []
+    while not names or names[-1] != name:
+        assert len(names) < ENOUGH, names
+        sheet.page.keyboard.press('Tab')
+        names.append(sheet.page.evaluate(FOCUSED))
+    return names
+
+
+def keys(sheet: Sheet, *pressed: str) -> list[str]:
+    """Press keys, and return what has the focus after each."""
+    names = []
+    for key in pressed:
+        sheet.page.keyboard.press(key)
+        names.append(sheet.page.evaluate(FOCUSED))
+    return names
+
+
+def test_tab_comes_to_play_in_five_steps(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address)
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length > 0')
+    assert len(tab_to(sheet, 'Play')) <= 5
+    assert keys(sheet, 'ArrowRight', 'ArrowLeft', 'End', 'Home') == [
+        'Fast forward',
+        'Play',
+        'Step',
+        'Fast rewind',
+    ]
+    # Back and forth, Tab comes to the button that was reached last.
+    assert keys(sheet, 'Tab', 'Shift+Tab')[-1] == 'Fast rewind'
+    sheet.close()
+
+
+def test_arrow_keys_move_in_the_columns_of_tools(sheet: Sheet) -> None:
+    sheet.page.evaluate('document.activeElement.blur()')
+    tab_to(sheet, 'Pen')
+    assert keys(sheet, 'ArrowRight', 'ArrowDown', 'ArrowLeft', 'ArrowDown', 'Enter') == [
+        'Hand',
+        'Circle by diameter',
+        'Circle',
+        'Rectangle',
+        'Rectangle',
+    ]
+    rectangle = sheet.page.get_by_role('button', name='Rectangle', exact=True)
+    assert rectangle.get_attribute('aria-pressed') == 'true'
+
+
+def test_a_toolbar_has_one_stop_also_where_its_buttons_come_and_go(sheet: Sheet) -> None:
+    sheet.press('Show forces')
+    sheet.press('Show velocities')
+    stops = sheet.page.locator('#legend button[tabindex="0"]')
+    assert stops.count() == 1
+    sheet.press('Show forces')
+    assert stops.count() == 1
+
+
+def test_words_stand_at_icons_where_somebody_wants_them(sheet: Sheet) -> None:
+    word = sheet.page.get_by_role('button', name='Spring', exact=True).get_by_text('Spring')
+    assert not word.is_visible()
+    sheet.press('Help')
+    sheet.page.get_by_label('Words at icons').check()
+    sheet.page.keyboard.press('Escape')
+    word.wait_for()
+    sheet.page.reload()
+    word.wait_for()
+
+
+def test_a_zoom_is_told_in_per_cent(sheet: Sheet) -> None:
+    frame = sheet.page.get_by_role('button', name='Frame the world', exact=True)
+    frame.get_by_text('100 %').wait_for()
+    sheet.page.keyboard.press('+')
+    frame.get_by_text('125 %').wait_for()
+    frame.click()
+    frame.get_by_text('100 %').wait_for()
+
+
+def test_a_hint_that_was_followed_twice_is_not_given_again(sheet: Sheet) -> None:
+    hint = sheet.page.locator('#hint:not(.faded)').get_by_text('drag from point to point')
+    for time in range(3):
+        sheet.press('Ruler')
+        # Chosen again without a use, it is told again.
+        sheet.press('Pen')
+        sheet.press('Ruler')
+        sheet.wait('true')
+        assert hint.is_visible() == (time < 2)
+        sheet.drag((-2.0, 5.0), (2.0, 5.0))
+        sheet.press('Pen')
+
+
+def test_a_screen_reader_is_told_what_the_selected_body_does(sheet: Sheet) -> None:
+    log = sheet.page.get_by_role('log', name='What moves')
+    sheet.press('Hand')
+    sheet.drag((0.0, 0.5), (0.0, 4.0))
+    sheet.wait("physsim.bodies['ball/0'][1] > 3")
+    sheet.page.mouse.click(*sheet.place(*sheet.pose('ball/0')[:2]))
+    sheet.page.get_by_role('complementary', name='Body').wait_for()
+    sheet.press('Play')
+    log.get_by_text('ball/0 touches a wall at').wait_for()
+    log.get_by_text('ball/0 rests at').wait_for()
+    sheet.press('Pause')
+
+
+def test_a_screen_reader_is_told_of_all_bodies_where_somebody_asks(sheet: Sheet) -> None:
+    log = sheet.page.get_by_role('log', name='What moves')
+    sheet.press('Help')
+    sheet.page.get_by_label('Tell what moves, for screen readers').check()
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Play')
+    log.get_by_text('box/0 touches a wall at').wait_for()
+    sheet.press('Pause')
+
+
+def test_buttons_of_the_legend_are_as_large_as_a_finger(chromium: Any, address: str) -> None:
+    for width, height in ((1200, 800), (390, 844), (844, 390)):
+        size = {'width': width, 'height': height}
+        sheet = Sheet(chromium, address, viewport=size, has_touch=True, is_mobile=True)
+        sheet.press('Show forces')
+        boxes = [each.bounding_box() for each in sheet.page.locator('#legend button').all()]
+        assert boxes
+        assert all(min(box['width'], box['height']) >= 44 for box in boxes)
+        sheet.close()
+
+
+def test_the_reason_of_a_slow_world_is_told_once(sheet: Sheet) -> None:
+    # Frames that come ten times too late: their clock says so, not the machine of the test.
+    sheet.page.evaluate(SLOWED)
+    sheet.press('Play')
+    sheet.wait("heard.notes.some((note) => note.startsWith('Slower than 1×: 3 bodies'))")
+    speed = sheet.page.locator('#speed.slow')
+    speed.wait_for()
+    sheet.press('Pause')
+    assert sheet.page.evaluate("heard.notes.filter((note) => note.includes('Slower')).length") == 1
+
+
+def test_rings_of_the_time_line_end_with_their_world(sheet: Sheet) -> None:
+    rings = sheet.page.locator('#marks button')
+    sheet.play_until(1.0)
+    sheet.seek(0.5)
+    sheet.press('Circle')
+    sheet.drag((2.0, 5.0), (2.7, 5.0))
+    rings.first.wait_for()
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name=re.compile('^1\\. ')).click()
+    sheet.page.get_by_role('heading', name='Free fall').wait_for()
+    sheet.wait("document.querySelectorAll('#marks button').length === 0")

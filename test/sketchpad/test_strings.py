@@ -1,0 +1,203 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The texts of the page, and their translations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import json
+from pathlib import Path
+import re
+from typing import Any
+
+from physsim_ros.model import errors
+from physsim_ros.sketchpad.page_handlers import PAGE
+import pytest
+
+from .chromium import Sheet
+from .scripts import texts_of
+
+LANGUAGES = sorted(PAGE.glob('languages/*.json'))
+SCRIPTS = sorted(PAGE.rglob('*.js'))
+# What people read in HTML: text between tags, and attributes that are read out.
+HTML = re.compile(r'>([^<>]*[a-z]{2}[^<>]*)<|(?:aria-label|alt|title|placeholder)="([^"]+)"')
+# A text that looks like one for people: words beside each other, or a capital at the begin.
+WORDS = re.compile(r'[A-Za-z]{2,} [A-Za-z(]|^\W*[A-Z][a-z]+')
+# What looks like one, and is none: names of files and keys, styles, queries, words of the server,
+# heads of tables that other programs read, names of languages, errors for developers.
+OTHER = re.compile(
+    r"""\.js(on)?$ | system-ui | \((max|min)-width | ^[#.\[] | ^format: | ^Content-Type$ |
+    ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End|Shift\+[JL]|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
+    ^(Arrow|Page|Key)[A-Z] | ^\^\(Arrow | ^W\ A\ S\ D | ^(Teacher|Rerun|Deutsch|English)$ |
+    ^(in\ the\ past|set\ velocity\ of|(all|several)\ bodies|all\ joints)$ | \[[NJ]\]$ |
+    ^(cards\ lessons|row\ legend|normal\ force|force\ of\ joints|sum\ of\ forces)$ |
+    ^(another\ version\ of\ frames|the\ world\ of\ this\ link|no\ $|\ on\ this\ page$)""",
+    re.VERBOSE,
+)
+# Every text of the page, each as its own translation, in brackets.
+MARKED = '⟦{}⟧'
+
+
+def html_texts(path: Path) -> set[str]:
+    """Return the texts that an HTML file shows."""
+    found = HTML.findall(path.read_text(encoding='utf-8'))
+    return {(text or attribute).strip() for text, attribute in found}
+
+
+def page_texts() -> set[str]:
+    """Return all texts of the page that are translated."""
+    texts = {
+        text.text
+        for path in SCRIPTS
+        for text in texts_of(path.read_text(encoding='utf-8'))
+        if text.translated
+    }
+    return texts.union(*map(html_texts, PAGE.glob('*.html')))
+
+
+def test_a_text_is_found_where_a_script_has_one() -> None:
+    script = """
+        // a comment 'with quotes'
+        const word = t('Open {name}'), rule = /it's/;
+        call(`Opened ${name ? `the ${t('world')}` : 'it\\'s'} now`);
+    """
+    found = [(text.text, text.translated) for text in texts_of(script) if text.text]
+    assert found == [
+        ('Open {name}', True),
+        ('Opened ', False),
+        ('the ', False),
+        ('world', True),
+        ("it's", False),
+        (' now', False),
+    ]
+
+
+@pytest.mark.parametrize('path', LANGUAGES, ids=lambda path: path.stem)
+def test_a_language_has_every_text_and_no_other(path: Path) -> None:
+    texts = json.loads(path.read_text(encoding='utf-8'))['texts']
+    assert sorted(texts) == sorted(page_texts())
+    for text, translation in texts.items():
+        values = re.findall(r'\{\w+\}|\$\d', text)
+        assert sorted(values) == sorted(re.findall(r'\{\w+\}|\$\d', translation)), text
+
+
+@pytest.mark.parametrize('path', LANGUAGES, ids=lambda path: path.stem)
+def test_a_language_tells_every_refusal(path: Path) -> None:
+    codes = {
+        each.code
+        for each in vars(errors).values()
+        if isinstance(each, type) and issubclass(each, errors.Refusal)
+    }
+    refusals = json.loads(path.read_text(encoding='utf-8'))['refusals']
+    # Refused by the server of the page, or by the reader of drawings.
+    assert codes <= refusals.keys()
+    assert all(set(re.findall(r'\{(\w+)\}', each)) <= {'message'} for each in refusals.values())
+
+
+@pytest.mark.parametrize('path', SCRIPTS, ids=lambda path: path.name)
+def test_no_text_for_people_is_left_in_a_script(path: Path) -> None:
+    left = [
+        f'line {text.line}: {text.text}'
+        for text in texts_of(path.read_text(encoding='utf-8'))
+        if not text.translated and WORDS.search(text.text) and not OTHER.search(text.text)
+    ]
+    # Such a text is written t('…'), and has a translation in each file of languages/.
+    assert left == []
+
+
+# Texts and attributes that people read, of what is on the page now, and texts on its canvases.
+SEEN = """() => {
+    const texts = [...window.written];
+    for (const element of document.querySelectorAll('body *')) {
+        for (const name of ['aria-label', 'title', 'placeholder', 'alt', 'aria-valuetext']) {
+            texts.push(element.getAttribute(name) ?? '');
+        }
+        for (const node of element.childNodes) {
+            if (node.nodeType === Node.TEXT_NODE) texts.push(node.nodeValue);
+        }
+    }
+    return texts;
+}"""
+CANVAS = """
+window.written = new Set();
+for (const name of ['fillText', 'strokeText']) {
+    const write = CanvasRenderingContext2D.prototype[name];
+    CanvasRenderingContext2D.prototype[name] = function (text, ...rest) {
+        window.written.add(text);
+        return write.call(this, text, ...rest);
+    };
+}"""
+# What no language has: names of bodies and worlds, units, keys, names of languages.
+NAMED = re.compile(
+    r"""\b(ball|box|shelf)/\d | \b(Deutsch|English|Enter|Rerun|physsim|QR)\b |
+    \b(kg|rad|Ctrl|Shift|vx|vy|px|py|ax|ay)\b | \(\w+(\+\w+)?\) | \bW\ A\ S\ D\b""",
+    re.VERBOSE,
+)
+
+
+@pytest.fixture
+def marked(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page in a language in which each text is its own translation, marked."""
+    sheet = Sheet(chromium, 'about:blank', locale='de-DE')
+    texts = {text: MARKED.format(text) for text in page_texts()}
+    table = json.dumps({'texts': texts, 'refusals': {}})
+    sheet.context.add_init_script(CANVAS)
+    sheet.page.route('**/languages/de.json', lambda route: route.fulfill(body=table))
+    sheet.page.goto(address)
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
+    yield sheet
+    sheet.close()
+
+
+def press(sheet: Sheet, name: str) -> None:
+    sheet.press(MARKED.format(name))
+
+
+def unmarked(sheet: Sheet) -> set[str]:
+    """Return the texts that the page shows and that do not come from its table."""
+    left = set()
+    for text in sheet.page.evaluate(SEEN):
+        other = text
+        # A text may stand in another one.
+        while '⟦' in other:
+            other = re.sub(r'⟦[^⟦⟧]*⟧', '', other)
+        if re.search(r'[A-Za-z]{2,}', NAMED.sub('', other)):
+            left.add(text)
+    return left
+
+
+def test_all_that_the_page_shows_comes_from_its_table(marked: Sheet) -> None:
+    press(marked, 'Pause')
+    press(marked, 'Show velocities')
+    press(marked, 'Show forces')
+    press(marked, 'Hand')
+    marked.page.mouse.click(*marked.place(*marked.pose('ball/0')[:2]))
+    marked.page.get_by_text(MARKED.format('Label')).wait_for()
+    press(marked, 'Large plot')
+    assert unmarked(marked) == set()
+    press(marked, 'Close the plot')
+    for panel in ('Material', 'Measure'):
+        press(marked, panel)
+        assert unmarked(marked) == set()
+    for dialog in ('Help', 'Save'):
+        press(marked, dialog)
+        assert unmarked(marked) == set()
+        marked.page.keyboard.press('Escape')
+
+
+def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
+    assert sheet.page.locator('html').get_attribute('lang') == 'de'
+    sheet.press('Pause')
+    sheet.press('Befestigen')
+    sheet.page.mouse.click(*sheet.place(-2.0, 6.0))
+    sheet.page.get_by_role('status').get_by_text('Hier ist kein Körper', exact=True).wait_for()
+    sheet.press('Hilfe')
+    sheet.page.get_by_label('Sprache').select_option('English')
+    sheet.page.get_by_role('button', name='Anchor', exact=True).wait_for()
+    assert sheet.page.locator('html').get_attribute('lang') == 'en'
+    sheet.close()
