@@ -103,7 +103,7 @@ def copy(name: str, position: Point, scene: SceneQuery) -> Spawn:
     :raises UnknownBody: there is no such body
     """
     (name,) = _known((name,), scene, 'name')
-    return _copy(scene.next_body(), scene.body(name), (*position, scene.pose(name)[2]))
+    return copy_of(scene.next_body(), scene.body(name), (*position, scene.pose(name)[2]))
 
 
 def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Request, ...]:
@@ -124,7 +124,7 @@ def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Re
     copies = {WORLD: WORLD}
     for each, (name, (x, y, yaw)) in enumerate(poses.items(), number):
         copies[name] = copied = f'{DRAWN}/{each}'
-        requests.append(_copy(copied, scene.body(name), (x + by[0], y + by[1], yaw)))
+        requests.append(copy_of(copied, scene.body(name), (x + by[0], y + by[1], yaw)))
     _, number = split_name(scene.next_joint())
     among = (joint for joint in scene.joints if joint.a in copies and joint.b in copies)
     for each, joint in enumerate(among, number):
@@ -159,7 +159,7 @@ def _known(names: Sequence[str], scene: SceneQuery, field: str) -> Sequence[str]
     return names
 
 
-def _copy(name: str, body: Body, pose: Pose) -> Spawn:
+def copy_of(name: str, body: Body, pose: Pose) -> Spawn:
     """
     Return the request for a copy of a body, at rest and without a lifetime.
 

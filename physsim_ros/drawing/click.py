@@ -47,6 +47,8 @@ class Tool(StrEnum):
     CHAIN = 'chain'
     VELOCITY = 'velocity'
     GRAVITY = 'gravity'
+    FORCE = 'force'
+    KNIFE = 'knife'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,7 @@ from functools import partial
 import math
 
 import numpy as np
-from physsim_ros.drawing import body_requests, chains
+from physsim_ros.drawing import body_requests, chains, knife
 from physsim_ros.drawing.click import (
     checked_distance,
     checked_length,
@@ -27,6 +27,8 @@ from physsim_ros.drawing.click import (
 )
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.model.applied_forces import AppliedForce
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_point
 from physsim_ros.model.errors import Anchored, BadOutline, NothingThere
 from physsim_ros.model.joints import JointKind
@@ -34,6 +36,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
+    ChangeBody,
     Command,
     Configure,
     Delete,
@@ -47,6 +50,8 @@ from physsim_ros.model.snapshot import Line, Preview
 from physsim_ros.model.transform import Point
 
 Draw = Callable[[Sequence[Click], SceneQuery, DrawingSettings], ClickResult]
+# Force of an arrow of 1 m [N]: nearly the weight of 1 kg.
+_NEWTONS = 10.0
 # Number of corners of the circle around the first corner of a polygon.
 _CIRCLE_CORNERS = 24
 
@@ -145,6 +150,33 @@ def gravity(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSetting
     return _finished(Configure(changes={'gravity': turned}))
 
 
+def force(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Add a constant force: its point on a body, then the tip of an arrow, 1 m for 10 N."""
+    name = clicks[0].hit_body(scene)
+    if len(clicks) < 2:
+        return _next_click(f'the force acts on {name}', 'the tip of its arrow, 1 m for 10 N')
+    tail, tip, body = clicks[0].current_point(scene), clicks[1].point, scene.body(name)
+    checked_distance(tail, tip, settings, 'the arrow')
+    form, at = body.shape.form, clicks[0].local
+    # Near the centre of mass, that is meant.
+    is_central = math.dist(at, form.centroid) <= min(settings.snap, form.inner / 2)
+    added = AppliedForce(
+        force=(_NEWTONS * (tip[0] - tail[0]), _NEWTONS * (tip[1] - tail[1])),
+        at=None if is_central else at,
+    )
+    return _finished(ChangeBody(name=name, properties=Properties(forces=(*body.forces, added))))
+
+
+def cut(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Cut bodies with a knife: from one end of a stroke right through them to the other."""
+    if len(clicks) < 2:
+        return _next_click('the cut begins there', 'its other end, beyond the bodies')
+    start, end = _points(clicks)
+    checked_distance(start, end, settings, 'the cut')
+    requests = knife.cut(start, end, scene)
+    return ClickResult(requests=requests, message=knife.message(requests))
+
+
 def request_at(
     request: Callable[..., Request],
     clicks: Sequence[Click],
@@ -202,6 +234,8 @@ TOOLS: dict[Tool, Draw] = {
     Tool.CHAIN: chain,
     Tool.VELOCITY: velocity,
     Tool.GRAVITY: gravity,
+    Tool.FORCE: force,
+    Tool.KNIFE: cut,
 }
 
 

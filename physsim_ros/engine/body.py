@@ -19,6 +19,7 @@ import operator
 
 from physsim_ros.engine.layout import address_of
 from physsim_ros.model.actors import ActorState, WAITING
+from physsim_ros.model.applied_forces import wrench_of
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.robot_states import RobotState, SPAWNED
 from physsim_ros.model.scene import Body
@@ -42,6 +43,8 @@ from pymunk._chipmunk_cffi import lib
 # impact on a row acts on all discs at once. Ten times the rounding of a position within a
 # kilometre of the origin (1.1e-13 m).
 GRAZE = 1e-12
+# What the engine's objects of a body do not depend on.
+_OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'
 # Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9
 
@@ -115,7 +118,11 @@ class RigidBody:
 
     def lead(self, gravity: Point, dt: float) -> Twist:
         """Return how far the engine's velocity is ahead of the true one in free flight."""
-        return lead_of(self.body, self.wrench, gravity, dt)
+        return lead_of(self.body, self.wrench, self.pm_body.angle, gravity, dt)
+
+    def steady_lead(self, gravity: Point, dt: float) -> Twist:
+        """Return the part of `lead` that does not depend on the pose: without applied forces."""
+        return lead_of(replace(self.body, forces=()), self.wrench, 0.0, gravity, dt)
 
     def twist(self, gravity: Point, dt: float, *, free: bool) -> Twist:
         """
@@ -161,11 +168,17 @@ def offset_of(body: Body) -> Point:
     return (0.0, 0.0) if body.anchored else body.shape.form.centroid
 
 
-def lead_of(body: Body, wrench: Wrench, gravity: Point, dt: float) -> Twist:
-    """Return the half-step lead of a body in free flight."""
+def lead_of(body: Body, wrench: Wrench, yaw: float, gravity: Point, dt: float) -> Twist:
+    """
+    Return the half-step lead of a body in free flight.
+
+    :param wrench: of a command, beside the applied forces of the body
+    :param yaw: of the body [rad]
+    """
     if not body.dynamic:
         return REST
-    fx, fy, torque = wrench
+    applied = wrench_of(body.forces, body.shape.form.centroid, yaw)
+    fx, fy, torque = map(operator.add, wrench, applied)
     half, mass = dt / 2, body.total_mass
     return (
         (gravity[0] + fx / mass) * half,
@@ -177,7 +190,7 @@ def lead_of(body: Body, wrench: Wrench, gravity: Point, dt: float) -> Twist:
 def engine_motion(state: BodyState, settings: WorldSettings, dt: float) -> Motion:
     """Return the engine's numbers of a body by its pose and twist; it is in free flight."""
     body, pose = state.body, state.pose
-    ahead = lead_of(body, state.wrench, settings.gravity, dt)
+    ahead = lead_of(body, state.wrench, pose[2], settings.gravity, dt)
     vx, vy, spin = map(operator.add, state.twist, ahead)
     x, y = local_to_world(offset_of(body), pose)
     return Motion(x, y, pose[2], vx, vy, spin, free=True)
@@ -234,7 +247,7 @@ def _set_neighbors(segments: list[pymunk.Segment]) -> None:
 
 def same_in_engine(a: Body, b: Body) -> bool:
     """Return whether two bodies have the same objects in the engine."""
-    ours = {name: getattr(a, name) for name in ('color', 'expires', 'robot', 'label', 'actor')}
+    ours = {name: getattr(a, name) for name in _OURS}
     return a == replace(b, **ours)
 
 

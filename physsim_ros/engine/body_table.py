@@ -69,7 +69,9 @@ class BodyTable:
         """Set the wrench of a body, and the lead of its velocity in free flight."""
         rigid = self.bodies[row]
         self.records['wrench'][row] = rigid.wrench
-        self.records['lead'][row] = rigid.lead(gravity, dt)
+        # The core adds the part of applied forces, which depends on the pose.
+        for lead in ('lead', 'steady_lead'):
+            self.records[lead][row] = rigid.steady_lead(gravity, dt)
 
     def store(self) -> None:
         """Write to each body what outlives the table, before that is dropped."""

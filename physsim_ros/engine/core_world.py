@@ -72,6 +72,7 @@ class CoreWorld:
         """
         self.drop_joints()
         self.use_grips(np.zeros(0, dtype_of('Grip')))
+        self.use_forces(np.zeros(0, dtype_of('AppliedForce')))
         self.use_robots(np.zeros(0, dtype_of('Robot')))
         self.use_actors(np.zeros(0, dtype_of('Actor')))
         places = np.array(former, np.int32)
@@ -96,6 +97,11 @@ class CoreWorld:
         """Have the core draw bodies to hands, `Grip`."""
         self._world.grips, self._world.grip_count = _pointer_and_count(grips, 'Grip')
         self._tables['grips'] = (grips,)
+
+    def use_forces(self, forces: Table) -> None:
+        """Have the core apply constant forces, `AppliedForce`, in the order of their bodies."""
+        self._world.forces, self._world.force_count = _pointer_and_count(forces, 'AppliedForce')
+        self._tables['forces'] = (forces,)
 
     def use_robots(self, robots: Table) -> None:
         """Have the core drive robots, `Robot`, in the order of their bodies."""

@@ -28,17 +28,19 @@ SAFE_SHARE = 0.25
 # does not depend on the corners.
 ROUND_COST = 4
 _BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
+_FORCE = dtype_of('AppliedForce')
 
 
 class SceneColumns(NamedTuple):
     """
-    The columns of a scene, for n bodies, r robots and a actors.
+    The columns of a scene, for n bodies, f applied forces, r robots and a actors.
 
     :ivar rows: name -> row
     :ivar moving: whether there is a body that is not anchored; else a step changes nothing
     :ivar expiries: step -> names of the bodies that are removed at its end
     :ivar bodies: (n + 1,) `Body`: the fields that follow from the scene; the last one is the
         background
+    :ivar forces: (f,) `AppliedForce`, in the order of their bodies
     :ivar robots: (r,) `Robot`: the same
     :ivar actors: (a,) `Actor`: the same
     :ivar tracks: their points, which the records refer to
@@ -48,6 +50,7 @@ class SceneColumns(NamedTuple):
     moving: bool
     expiries: dict[int, list[str]]
     bodies: Table
+    forces: Table
     robots: Table
     actors: Table
     tracks: tuple[Floats, ...]
@@ -74,6 +77,7 @@ def columns_of(scene: Scene, dt: float) -> SceneColumns:
         moving=not all(body.anchored for body in scene.bodies),
         expiries=expiries,
         bodies=_body_records(scene, rows, dt),
+        forces=_force_records(scene),
         robots=_robot_records(scene),
         actors=_actor_records(scene, rows, tracks, dt),
         tracks=tracks,
@@ -101,7 +105,7 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     own['safe_depth'] = [_safe_depth(body) for body in bodies]
     own['slop'] = [_slop(body) for body in bodies]
     gravity = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
-    own['lead'][:] = np.where(dynamic[:, None], gravity, 0.0)
+    own['lead'][:] = own['steady_lead'][:] = np.where(dynamic[:, None], gravity, 0.0)
     own['floor_friction'] = scene.floor_friction
     for row in np.flatnonzero(own['floor_friction']).tolist():
         robot = bodies[row].robot
@@ -173,6 +177,16 @@ def _mark_sprung(records: Table, joints: Sequence[Joint], rows: dict[str, int]) 
     sprung = hung & springy
     for row in {row for _, *pair in ends for row in pair} if sprung else ():
         records[row]['sprung'] = bool(dynamic[row]) and root(row) in sprung
+
+
+def _force_records(scene: Scene) -> Table:
+    found = [
+        (row, each.axes == 'body', each.force, each.arm(body.shape.form.centroid))
+        for row, body in enumerate(scene.bodies)
+        for each in body.forces
+        if body.dynamic and any(each.force)
+    ]
+    return np.array(found, _FORCE)
 
 
 def _robot_records(scene: Scene) -> Table:

@@ -110,6 +110,7 @@ class Space:
         rigids, background = tuple(self.bodies.by_name.values()), self.pm_space.static_body
         self._table = table = BodyTable(scene, rigids, background, self.dt)
         self.core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
+        self.core.use_forces(table.columns.forces)
         self.core.use_robots(table.robots)
         self.core.use_actors(table.actors)
         self._background = len(rigids)

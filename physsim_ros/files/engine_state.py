@@ -204,7 +204,8 @@ def with_saved_motion(
     if state.body.anchored and any(twist):
         return None
     # In free flight the engine's velocity is half a sub-step ahead of the reported one.
-    lead = lead_of(state.body, state.wrench, gravity, sub_step_of(physics_rate))
+    sub_step = sub_step_of(physics_rate)
+    lead = lead_of(state.body, state.wrench, pose[2], gravity, sub_step)
     engine_twist = map(operator.add, twist, lead if motion.free else REST)
     state = replace(state, pose=pose, twist=twist, motion=motion)
     if not _is_motion(motion, (*_engine_pose(state), *engine_twist)):

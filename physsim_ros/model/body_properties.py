@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from physsim_ros.model.actors import Actor, actor_from
+from physsim_ros.model.applied_forces import AppliedForce, forces_from
 from physsim_ros.model.checks import (
     FASTEST,
     flag,
@@ -94,6 +95,11 @@ class Properties(Checked):
     ] = None
     actor: Annotated[
         Actor | None, actor_from, 'moves it on its own: a mapping of a path or a model of people'
+    ] = None
+    forces: Annotated[
+        tuple[AppliedForce, ...] | None,
+        forces_from,
+        'constant forces on it, a list of mappings; `[]` is none',
     ] = None
     label: Annotated[
         str | None,

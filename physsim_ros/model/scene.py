@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from physsim_ros.model.actors import Actor
+from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
@@ -58,6 +59,7 @@ class Body:
     robot: Robot | None = field(default=None, repr=False)
     label: str = field(default='', repr=False)
     actor: Actor | None = field(default=None, repr=False)
+    forces: tuple[AppliedForce, ...] = field(default=(), repr=False)
 
     @property
     def total_mass(self) -> float:
@@ -189,7 +191,8 @@ class Scene:
         floor = (self.settings.floor_friction, self.settings.seed, robots)
         labels = [(body.name, body.label) for body in self.bodies if body.label]
         actors = [(body.name, body.actor) for body in self.bodies if body.actor is not None]
-        parts += ''.join(repr(each) for each in (floor, labels, actors) if any(each))
+        forces = [(body.name, body.forces) for body in self.bodies if body.forces]
+        parts += ''.join(repr(each) for each in (floor, labels, actors, forces) if any(each))
         return parts.encode()
 
     @cached_property

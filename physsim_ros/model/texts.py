@@ -48,6 +48,7 @@ EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
     'color': ('colour', 'rgb', 'rgba'),
     'circle': ('disc', 'disk', 'sphere', 'radius', 'diameter'),
     'box': ('rectangle', 'cube', 'size', 'width', 'height'),
+    'forces': ('force', 'applied_force', 'thrust', 'thruster', 'wind', 'push'),
     'label': ('text', 'caption', 'note', 'title'),
     'lower': ('min', 'minimum', 'from'),
     'upper': ('max', 'maximum', 'to'),

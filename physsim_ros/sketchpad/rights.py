@@ -135,6 +135,8 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
     match request:
         case requests.MoveBodies(names=names) | requests.DeleteBodies(names=names):
             return names
+        case requests.Command(names=names):
+            return names
         case requests.Spawn(name=name) | requests.ChangeBody(name=name):
             return (name,)
         case requests.Delete(name=name) | requests.DriveRobot(name=name):

@@ -107,6 +107,7 @@ def body_entry(body: Body) -> dict[str, Any]:
         'label': body.label,
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
         **({} if body.actor is None else {'actor': body.actor.entry()}),
+        **({'forces': [each.entry() for each in body.forces]} if body.forces else {}),
     }
 
 

@@ -31,6 +31,8 @@ Tool = Literal[
     'chain',
     'velocity',
     'gravity',
+    'force',
+    'knife',
 ]
 # end: made by `make tables`
 

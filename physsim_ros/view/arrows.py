@@ -6,7 +6,7 @@ Forces and velocities: arrows over the bodies, and the legend of forces.
 
 A contact is an arrow at its point, the force on a body, as long as the force is great. Of two
 dynamic bodies that is the force on the later spawned one. A velocity is the way of the next fifth
-of a second.
+of a second. Of applied forces, the arrow of the greatest one has the length of the legend's arrow.
 """
 
 from __future__ import annotations
@@ -20,13 +20,14 @@ from physsim_ros.appearance import full_scale_force, nice_number, PULL, PUSH, SL
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Contacts
+from physsim_ros.model.transform import norms, rotated_each
 from physsim_ros.view.bodies import sampling_period
 from physsim_ros.view.frame_batch import Change, FrameBatch
 from physsim_ros.view.scenery import ARROWS, IMAGE_LABELS, PIXELS
 import rerun as rr
 
-CONTACTS, VELOCITIES = 'world/contacts', 'world/velocities'
-CONTACT_COLOR, _VELOCITY_COLOR = (214, 39, 40), (44, 120, 60)
+CONTACTS, VELOCITIES, FORCES = 'world/contacts', 'world/velocities', 'world/forces'
+CONTACT_COLOR, _VELOCITY_COLOR, _FORCE_COLOR = (214, 39, 40), (44, 120, 60), (74, 106, 0)
 # Length of the arrow of the force that the legend tells [units], and the greatest one in lengths
 # of that: arrows of impacts are cut.
 LENGTH, CUT = 1.2, 1.5
@@ -143,6 +144,44 @@ class VelocityArrows:
         lengths = [len(moving)] * len(chosen)
         arrows = _arrow_columns(origins, ways, ARROWS * change.unit, lengths)
         self._recording.send_columns(VELOCITIES, batch.times_at(chosen), arrows)
+
+
+class AppliedArrows:
+    """
+    Sends the applied forces of bodies that forces move.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        self._shown = False
+        _log_style(recording, FORCES, _FORCE_COLOR)
+
+    def send(self, batch: FrameBatch, change: Change) -> None:
+        """Send the forces of a batch: an empty row after the last one."""
+        found = [
+            (row, each, body.shape.form.centroid)
+            for row, body in enumerate(batch.scene.bodies)
+            for each in body.forces
+            if body.dynamic
+        ]
+        chosen = batch.sampled(sampling_period(len(found))) if found or self._shown else []
+        if not chosen:
+            return
+        poses = batch.poses[chosen][:, [row for row, *_ in found]]
+        points = [centroid if each.at is None else each.at for _, each, centroid in found]
+        forces = np.array([each.force for _, each, _ in found]).reshape(-1, 2)
+        turning = np.array([each.axes == 'body' for _, each, _ in found], np.float64)
+        origins = poses[..., :2] + rotated_each(np.array(points).reshape(-1, 2), poses[..., 2])
+        ways = rotated_each(forces, poses[..., 2] * turning)
+        ways *= LENGTH * change.unit / max(norms(forces).max(initial=0.0), 1e-9)
+        lengths = [len(found)] * len(chosen)
+        arrows = _arrow_columns(
+            origins.reshape(-1, 2), ways.reshape(-1, 2), ARROWS * change.unit, lengths
+        )
+        self._recording.send_columns(FORCES, batch.times_at(chosen), arrows)
+        self._shown = bool(found)
 
 
 class _Legend:

@@ -63,6 +63,7 @@ class FrameRecorder:
             Joints(recording),
             arrows.ContactArrows(recording),
             arrows.VelocityArrows(recording),
+            arrows.AppliedArrows(recording),
             robots.ScanPoints(recording),
             robots.RobotWays(recording),
             PreviewLines(recording),

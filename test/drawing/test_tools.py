@@ -29,6 +29,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
+    ChangeBody,
     Command,
     Configure,
     Delete,
@@ -308,6 +309,20 @@ def test_an_arrow_from_a_body_is_its_velocity_and_its_spin_stays() -> None:
     assert requests == (Command(names=('a/0',), twists=((0.0, -1.5, 2.0),)),)
 
 
+@pytest.mark.parametrize(
+    ('point', 'at'), [((0.25, 0.0), (0.25, 0.0)), ((0.05, 0.05), None)], ids=['arm', 'centre']
+)
+def test_an_arrow_of_the_tool_force_is_a_force_more(point: Point, at: Point | None) -> None:
+    world = populated(disc('a/0', 0.0, 0.0, forces=({'force': (1.0, 0.0)},)))
+    tip = point[0], point[1] - 0.5
+    (request,) = draw(Tool.FORCE, point, tip, world=world)
+    assert isinstance(request, ChangeBody)
+    old, new = request.properties.forces
+    assert (old.force, old.at) == ((1.0, 0.0), None)
+    assert new.force == pytest.approx((0.0, -5.0))
+    assert (new.at, new.axes) == (at, 'world')
+
+
 def test_gravity_is_turned_along_an_arrow_and_stays_as_strong() -> None:
     world = World()
     (request,) = draw(Tool.GRAVITY, (1.0, 1.0), (1.3, 1.4), world=world)
@@ -351,6 +366,9 @@ def test_without_a_tool_a_click_is_ignored() -> None:
         (Tool.VELOCITY, [(0, 0), (0, 0)], BadSize),
         (Tool.VELOCITY, [(0, 0), (2e5, 0)], BadProperty),
         (Tool.GRAVITY, [(1, 1), (1, 1)], BadSize),
+        (Tool.FORCE, [(9, 9)], NothingThere),
+        (Tool.FORCE, [(0, 0), (0, 0)], BadSize),
+        (Tool.KNIFE, [(0, 0), (3, 0)], NothingThere),
     ],
 )
 def test_a_gesture_that_is_nothing_is_refused_and_the_tool_starts_afresh(
@@ -479,7 +497,7 @@ def test_a_half_drawn_polygon_shows_its_sides_and_where_a_click_closes_it() -> N
 def test_looking_changes_nothing() -> None:
     world = populated(disc('a/0', 0.0, 0.0, velocity=(1.0, 0.0)), disc('a/1', 3.0, 0.0))
     before = world.digest()
-    for tool in set(TOOLS) - {Tool.GRAVITY}:
+    for tool in set(TOOLS) - {Tool.GRAVITY, Tool.KNIFE}:
         hand = pen(tool)
         for point in ((0.0, 0.0), (3.0, 0.0)):
             hand.click(point, '', world.snapshot())

@@ -66,6 +66,7 @@ def test_every_shape_round_trips_in_every_role(
      {'mass': 1 / 3}, {'density': 1e-3}, {'friction': 0.1 + 0.2}, {'elasticity': 2 / 3},
      {'group': -(2**31)}, {'group': 7}, {'label': 'm₁: "#{x}"\n\ufeff 2'},
      {'velocity': (1e-7, 1e5)}, {'spin': -1e5},
+     {'forces': [{'force': [1 / 3, -2], 'at': [0.1, 1e-7], 'axes': 'body'}, {'force': [0, 1]}]},
      {'lifetime': 1 / 240}, {'lifetime': 1e7 + 1 / 240}, {'lifetime': 1e9}],
 )  # fmt: skip
 def test_every_property_round_trips(said: dict[str, Any], folder: Path) -> None:

@@ -24,7 +24,7 @@ KEYS = {each.name for kind in (Properties, JointProperties) for each in fields(k
      ('weight', 'mass'), ('speed', 'velocity'), ('angular velocity', 'spin'),
      ('fixed', 'anchored'), ('static', 'anchored'), ('rough', 'friction'),
      ('is-trigger', 'sensor'),
-     ('layer', 'group'), ('caption', 'label')],
+     ('layer', 'group'), ('caption', 'label'), ('thruster', 'forces')],
 )  # fmt: skip
 def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, name: str) -> None:
     with pytest.raises(UnknownProperty) as refused:

@@ -52,7 +52,7 @@ NASTY_TEXTS = [
     '{<<: {mass: 1}}', '[' * 2000, '{a: ' * 600, 'x' * 10_001, '\N{SNOWMAN}: 1', '{mass: \x85}',
 ]  # fmt: skip
 KEYS = ['mass', 'density', 'friction', 'elasticity', 'velocity', 'spin', 'anchored', 'kinematic',
-        'group', 'sensor', 'label', 'color']  # fmt: skip
+        'group', 'sensor', 'forces', 'label', 'color']  # fmt: skip
 VALUES = ['0', '1', '-1', '0.5', '1e5', '1e-9', '1e12', '.nan', '.inf', 'true', 'false', '[1, 2]',
           '[-1e5, 0]', '[1]', '[]', '~', 'x', '{}', '12345678901234567890']  # fmt: skip
 NAMES = ['a/0', 'a/1', 'b/0', 'body/0']

@@ -88,6 +88,8 @@ def test_numbers_are_those_of_yaml_1_2(text: str, value: float) -> None:
         ('{velocity: [1]}', 'malformed', 'velocity'),
         ('{anchored: yes}', 'bad_property', 'anchored'),
         ('{kinematic: no}', 'bad_property', 'kinematic'),
+        ('{forces: {force: [1, 0]}}', 'bad_property', 'forces'),
+        ('{forces: [{at: [0, 0]}]}', 'bad_property', 'force'),
         ('{group: 1.0}', 'bad_property', 'group'),
         ('{mass: 1, density: 1}', 'bad_property', 'mass'),
         ('{mass: 2001-01-01}', 'bad_property', 'mass'),

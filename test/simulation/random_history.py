@@ -19,6 +19,7 @@ from typing import Any
 
 from physsim_ros.files import load_world, shipped_worlds, worlds_in
 from physsim_ros.model.actors import actor_from
+from physsim_ros.model.applied_forces import forces_from
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.joints import JointKind, JointProperties
@@ -74,6 +75,15 @@ ROBOTS = tuple(
     )
 )
 
+# Applied forces: none, one of a fixed direction at an arm, a thruster.
+FORCES = tuple(
+    forces_from(each, 'forces')
+    for each in (
+        [],
+        [{'force': [2.0, 0.0], 'at': [0.1, 0.2]}],
+        [{'force': [0.0, 5.0], 'axes': 'body'}, {'force': [1.0, 1.0]}],
+    )
+)
 # Each kind of actor, and of start.
 ACTORS = tuple(
     actor_from(each, 'actor')
@@ -310,6 +320,7 @@ def request_of(rng: Choices) -> Request:
             {'sensor': rng.random() < 0.5},
             {'sensor': True, 'surface_velocity': (1.0, 0.0)},
             {'label': 'two\nlines'},
+            {'forces': rng.choice(FORCES)},
         )
     )
     makers: list[tuple[int, Callable[[], Request]]] = [

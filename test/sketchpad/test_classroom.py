@@ -121,6 +121,7 @@ def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
         ('click', {'tool': 'chain', 'point': [0, 5]}),
         ('change', {'name': 'a/0', 'properties': {'mass': 2}}),
         ('move_bodies', {'names': ['b/0', 'a/0'], 'by': [1, 0]}),
+        ('place', {'names': ['b/0', 'a/0'], 'poses': [[0, 0, 0], [1, 0, 0]]}),
         ('delete', {'names': ['a/0']}),
         ('grab', {'point': [0, 5]}),
         ('click', {'tool': 'anchor', 'point': [0, 5]}),

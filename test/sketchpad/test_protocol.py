@@ -348,6 +348,11 @@ def test_a_body_is_spawned_changed_moved_and_deleted_by_name(browser: Browser) -
     assert physsim.pose('box/0') == pytest.approx((0, 7, 0.5))
     assert page.ask('change', name='box/0', properties={'anchored': True})['ok']
     assert [physsim.pose(name).y for name in ('box/1', 'box/2')] == [8, 8]
+    assert page.ask('place', names=['box/1', 'box/2'], poses=[[1, 2, 0.5], [3, 4, 0]])['ok']
+    assert [physsim.pose(name) for name in ('box/1', 'box/2')] == [(1, 2, 0.5), (3, 4, 0)]
+    for wrong in ([[1, 2, 0]], [[1, 2, 0], [3, 4]], [[1, 2, 0], [3, 4, None]], 7, [7, 8]):
+        refused = page.ask('place', names=['box/1', 'box/2'], poses=wrong)
+        assert refused['code'] in ('malformed', 'bad_property')
     assert page.ask('delete', names=['box/1', 'box/2'])['ok']
     assert physsim.names == ('box/0',)
     assert page.ask('service', name='undo')['ok']

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.snapshot import Contacts, NO_PREVIEW, Preview
 from physsim_ros.view.arrows import CUT
 from physsim_ros.view.preview import LINGER
@@ -54,6 +55,23 @@ def contacts(*impulses, pair=(0, -1)):
         normals=np.array([[0.0, -1.0]] * count).reshape(-1, 2),
         impulses=np.array(impulses, dtype=np.float64).reshape(-1, 2),
     )
+
+
+def test_applied_forces_are_arrows_at_their_points_that_turn_with_thrusters(recording):
+    wind = AppliedForce(force=(0.0, -4.0))
+    thruster = AppliedForce(force=(2.0, 0.0), at=(1.0, 0.0), axes='body')
+    pushed = scene(body(forces=(wind, thruster)))
+
+    recording.draw(frame(pushed, [(5.0, 0.0, math.pi / 2)]))
+    recording.draw(frame(scene(body()), [(5.0, 0.0, 0.0)], step=4))
+
+    origins = recording.rows('world/forces', 'Arrows3D:origins')
+    vectors = recording.rows('world/forces', 'Arrows3D:vectors')
+    assert [len(row.value) for row in origins] == [2, 0]
+    assert origins[0].value[:, :2] == pytest.approx(np.array(((5.0, 0.0), (5.0, 1.0))), abs=1e-6)
+    down, up = vectors[0].value[:, :2]
+    assert down == pytest.approx((0.0, -2 * up[1]), abs=1e-6)
+    assert up[0] == pytest.approx(0.0, abs=1e-6)
 
 
 def test_contacts_are_arrows_by_force_on_the_movable_body_as_long_as_they_last(recording):

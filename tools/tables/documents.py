@@ -17,6 +17,7 @@ from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.actors import ACTORS, Start
+from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
@@ -51,6 +52,7 @@ def files() -> dict[Path, str]:
     tables = {
         'interface/properties': {
             'properties of a body': _table(Properties.FIELDS.values()),
+            'keys of a force': _keys_of_a_force(),
             'kinds of joints': _joint_kinds(),
             'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
             'keys of a robot': _robot_keys(),
@@ -105,6 +107,11 @@ def _table(declarations: Any, default: Any = None) -> str:
         for each in declarations
     ]
     return _rows(columns, *rows)
+
+
+def _keys_of_a_force() -> str:
+    rows = (_row(each) for each in AppliedForce.FIELDS.values())
+    return _rows(('key', 'default', 'range', 'meaning'), *rows)
 
 
 def _joint_kinds() -> str:

@@ -50,7 +50,8 @@ typedef struct Body {
     double corners;        // of its pieces, the cost of continuous collision
     double pieces;         // count of its pieces
     int64_t group;         // bodies of one group pass through each other; 0 is none
-    Twist lead;            // half a step of gravity and wrench: the lead of its velocity in free flight
+    Twist lead;            // half a step of gravity and all forces: the lead of its velocity in free flight
+    Twist steady_lead;     // the same without applied forces, which depend on its pose
     Twist wrench;          // force [N] and torque [N m] that act on it
     double floor_friction; // coefficient of friction with the floor; 0 where none acts
     double lever;          // mean distance of the points that bear it on the floor [m]
@@ -80,6 +81,14 @@ typedef struct Grip {
     cpVect anchor; // in the body's frame, its origin the centre of mass [m]
     cpVect target; // of the hand in the world [m]
 } Grip;
+
+// A constant force on a body that forces move.
+typedef struct AppliedForce {
+    int32_t body;
+    uint8_t turns; // with the body; else it is along the axes of the world
+    cpVect force;  // [N]
+    cpVect arm;    // from the centre of mass to where it acts, in the axes of the body [m]
+} AppliedForce;
 
 // A robot: its drive, and what its wheels and its odometry have done.
 typedef struct Robot {
@@ -288,9 +297,10 @@ typedef struct World {
     Part *parts;
     Row *rows;
     Grip *grips;
+    AppliedForce *forces; // in the order of their bodies
     Robot *robots;
     Actor *actors;
-    int32_t body_count, joint_count, part_count, row_count, grip_count, robot_count, actor_count;
+    int32_t body_count, joint_count, part_count, row_count, grip_count, force_count, robot_count, actor_count;
     // These fields are results of the last steps.
     uint8_t has_broken; // a joint
     uint8_t has_lost;   // a body has left the range of numbers

@@ -108,6 +108,7 @@ static void find_unsupported(World *world, uint8_t *unsupported) {
 
 // Find the free flight that the next step begins with, and the bodies whose support was removed (body_count).
 static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
+    find_leads(world);
     bool released = false;
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;

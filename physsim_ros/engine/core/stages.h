@@ -11,6 +11,10 @@
 // Wrenches of commands, and free flight of bodies that requests have changed (`half_step.c`).
 void begin_half_step(World *world);
 
+// Constant forces on bodies, and their part of the lead of a body in free flight (`applied_forces.c`).
+void apply_forces(World *world);
+void find_leads(World *world);
+
 // Forces of hands (`mouse_joints.c`).
 void pull_grips(World *world);
 

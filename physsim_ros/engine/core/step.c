@@ -58,6 +58,7 @@ static void step(World *world) {
     arena_reset(&world->own->arena);
     begin_half_step(world);
     begin_bodies(world);
+    apply_forces(world);
     pull_grips(world);
     pull_by_floor(world);
     clamp_moves(world);
@@ -67,6 +68,7 @@ static void step(World *world) {
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
+    find_leads(world);
     forgive_trembling(world);
     solve_joints(world);
     add_totals(world);

@@ -11,13 +11,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import pair, Within
-from physsim_ros.model.errors import no_joint
+from physsim_ros.model.errors import BadProperty, no_joint
 from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.requests import (
     ChangeBody,
+    Command,
     Configure,
     DeleteBodies,
     DriveRobot,
@@ -29,7 +31,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
-from physsim_ros.model.transform import Point, REST, Twist
+from physsim_ros.model.transform import Point, Pose, REST, Twist
 from physsim_ros.simulation.world.joint_requests import drawn_points
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
@@ -64,6 +66,12 @@ def _velocity(value: object, name: str) -> Twist:
     return fields.three(value, name, 'forward', 'left', 'turn')
 
 
+def _poses(value: object, name: str) -> list[Pose]:
+    if not isinstance(value, list):
+        raise BadProperty(f'{name} must be a list of poses', field=name)
+    return [fields.three(each, name, 'x', 'y', 'yaw') for each in value]
+
+
 def _followed(value: object, name: str) -> frozenset[str]:
     return frozenset(fields.names(value, name) if value else ())
 
@@ -87,6 +95,12 @@ def change(page: PageSession, origin: Origin, name: str, properties: dict[str, A
 def move_bodies(page: PageSession, origin: Origin, names: tuple[str, ...], by: Point) -> None:
     """Move bodies by a vector [m]."""
     page.submit(origin, (MoveBodies(names=names, by=by),))
+
+
+@message('place', '~/command', names=fields.names, poses=_poses)
+def place(page: PageSession, origin: Origin, names: tuple[str, ...], poses: list[Pose]) -> None:
+    """Set the poses of several bodies, one for each name."""
+    page.submit(origin, (Command(names=names, poses=np.array(poses)),))
 
 
 @message('copy', '~/spawn', name=fields.text, to=fields.point)

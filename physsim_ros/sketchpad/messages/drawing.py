@@ -145,7 +145,9 @@ def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
     """Add a point [m] to the gesture of a tool; another tool than before drops the gesture."""
     page.drawing.tool = tool
     result = page.drawing.click(point, '', page.world.current_snapshot())
-    requests = page.with_material(result.requests)
+    # Pieces are of the material of their body.
+    is_new = tool is not Tool.KNIFE
+    requests = page.with_material(result.requests) if is_new else result.requests
     page.submit(origin, requests, message=result.message, values=result.values)
 
 

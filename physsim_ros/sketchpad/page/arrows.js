@@ -9,6 +9,7 @@
  */
 
 import {createElement, elementOf, textButton, toggling} from './dom.js';
+import {drawApplied} from './force_fields.js';
 import {bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {roundUp, threeDigits} from './rounding.js';
 import {t} from './strings.js';
@@ -25,7 +26,7 @@ const LEAST_SPEED = 5; // m/s: that there is always room for
 const FEW = 12; // bodies that move, of which all forces are shown where none is selected
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
 /** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
-const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'), air: t('air'), sum: t('sum')};
+const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'), applied: t('applied force'), air: t('air'), sum: t('sum')};
 
 /**
  * @typedef {{from: Point, x: number, y: number, scale: ArrowScale, color: string, text: string, width?: number, unit?: string,
@@ -117,7 +118,8 @@ export class Arrows {
     this.#fitSpeeds(room);
     if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
     this.hint.textContent = '';
-    if (this.forces && world.count) this.#drawForces(view, room);
+    if (!this.forces) drawApplied(this.app, view);
+    else if (world.count) this.#drawForces(view, room);
     for (const [unit, scale] of /** @type {[string, ArrowScale][]} */ ([['m/s', this.speeds], ['N s', this.impulses], ['N', this.newtons]])) {
       const bar = this.bars[unit], text = `${scale.unit} ${unit}`;
       if (bar && bar.textContent !== text) bar.textContent = text;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The forces on bodies in newtons: weight, normal force and friction of contacts, joints, air, and their sum.
+ * The forces on bodies in newtons: weight, constant forces, normal force and friction of contacts, joints, air, and
+ * their sum.
  *
  * A contact's impulse is divided by the simulated time that it was summed over, so that a force does not
  * depend on how fast the world plays. Hands and commanded wrenches are not among them.
  */
+
+import {appliedTo} from './force_fields.js';
 
 /** @import {Force, Point, WorldState} from './types.js' */
 
@@ -33,6 +36,7 @@ export function forcesOf(world) {
   for (let row = 0; row < world.count; row++) {
     const {mass, centroid} = bodies[row], at = world.place(row, centroid);
     add('weight', row, at, mass * gx, mass * gy);
+    for (const {at: point, force: [x, y]} of appliedTo(world, row)) add('applied', row, point, x, y);
     if (!velocities || !(damping > 0 && damping < 1)) continue;
     const rate = mass * Math.log(1 - damping);
     add('air', row, at, rate * velocities.x[row], rate * velocities.y[row]);

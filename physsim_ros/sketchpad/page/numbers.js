@@ -231,7 +231,7 @@ function tell(element, text) {
 
 /** Kinds of forces, as they are recorded, with their names on axes and in tables. */
 export const FORCES = {weight: [t('Weight'), 'weight'], normal: [t('Normal force'), 'normal force'], friction: [t('Friction'), 'friction'],
-  joint: [t('Force of joints'), 'force of joints'], sum: [t('Sum of forces'), 'sum of forces']};
+  joint: [t('Force of joints'), 'force of joints'], applied: [t('Applied force'), 'applied force'], sum: [t('Sum of forces'), 'sum of forces']};
 
 /** By key, in the order of the columns. @type {Record<string, Quantity>} */
 export const QUANTITIES = {

@@ -6,8 +6,10 @@
  * of a body while time runs or the large plot is open, it is folded to its first lines.
  */
 
+import {arrangeButtons} from './align.js';
 import {checkField, createElement, elementOf, iconButton, inRow, textButton, textField, textOf} from './dom.js';
 import {actorLines, drawWay} from './driving.js';
+import {forceFields} from './force_fields.js';
 import {sizeOf} from './label_view.js';
 import {t} from './strings.js';
 import {sendNote} from './tools/note.js';
@@ -162,6 +164,7 @@ export function bodyContent(app, name) {
       createElement('label', {}, t('Label'), label),
       // A robot is neither.
       ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})), checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
+      ...forceFields(app, body, change),
       inRow(
         textButton(t('Copy'), () => copy(app, name)),
         textButton(t('Delete body'), () => app.selection.deleteBodies(), 'danger')),
@@ -187,7 +190,8 @@ export function severalContent(app, names) {
     inRow(textButton(t('Copy beside'), () => {
       const [left, , right] = app.world.boundsOfAll(names);
       app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
-    }), textButton(t('Plot them'), () => app.plotWindow.open(names)), textButton(t('Delete bodies'), () => app.selection.deleteBodies(), 'danger'))]};
+    }), textButton(t('Plot them'), () => app.plotWindow.open(names)), textButton(t('Delete bodies'), () => app.selection.deleteBodies(), 'danger')),
+    ...arrangeButtons(app, names)]};
 }
 
 /**

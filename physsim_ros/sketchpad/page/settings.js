@@ -44,7 +44,7 @@ export class Settings {
 }
 
 const KEY = 'physsim-theme';
-const NAMES = ['paper', 'minor', 'major', 'faint', 'ink', 'accent', 'force', 'warn', 'weight', 'friction', 'joint', 'air', 'momentum'];
+const NAMES = ['paper', 'minor', 'major', 'faint', 'ink', 'accent', 'force', 'warn', 'weight', 'friction', 'joint', 'air', 'applied', 'momentum'];
 
 /** @returns {Palette} */
 export function readPalette() {

@@ -38,6 +38,8 @@ export const TOOLS = [[
 ], [
   ['velocity', t('Velocity'), 'v', t('drag an arrow from a body: 1 m is 1 m/s')],
   ['gravity', t('Gravity'), 'u', t('drag an arrow: that way is down')],
+  ['force', t('Force'), '1', t('drag an arrow from a point of a body: 1 m is a constant force of 10 N')],
+  ['knife', t('Knife'), '2', t('drag right through bodies: they are cut')],
   ['delete', t('Delete'), 't', t('remove a body')],
 ], [
   ['ruler', t('Ruler'), 'm', t('drag from point to point; tap it to remove it')],

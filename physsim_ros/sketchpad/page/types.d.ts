@@ -45,6 +45,7 @@ export interface Body {
   elasticity: number;
   centroid: Point;
   robot?: Robot;
+  forces?: AppliedForce[];
   actor?: Actor;
 }
 
@@ -57,6 +58,15 @@ export interface Actor {
   speed?: number;
   repeat?: 'once' | 'loop' | 'to_and_fro';
   start?: {gate?: string, near?: string, distance?: number, time?: number};
+}
+
+/** A constant force on a body. */
+export interface AppliedForce {
+  /** [N] */
+  force: Point;
+  /** Where it acts, in the frame of the body [m]; its centre of mass, if it is not given. */
+  at?: Point;
+  axes?: 'world' | 'body';
 }
 
 export interface Robot {
@@ -154,7 +164,7 @@ export interface Sample {
 
 /** On the body of a row. */
 export interface Force {
-  kind: 'weight' | 'normal' | 'friction' | 'joint' | 'air' | 'sum';
+  kind: 'weight' | 'normal' | 'friction' | 'joint' | 'applied' | 'air' | 'sum';
   row: number;
   /** [m] */
   at: Point;
@@ -233,6 +243,7 @@ export interface Palette {
   friction: string;
   joint: string;
   air: string;
+  applied: string;
   momentum: string;
 }
 

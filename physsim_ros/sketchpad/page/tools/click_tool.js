@@ -13,11 +13,12 @@ import {t} from '../strings.js';
 const DRAG = 6; // px: farther than that, letting go is a click too
 const MARK = 4; // px: radius of a point that was clicked
 const CLOSE = 12; // px around the first corner of a polygon
+const NEWTONS = 10; // N: of an arrow of 1 m, as in `drawing/tools.py`
 /** @type {Record<string, number>} */
 const CLICKS = {rectangle: 3, polygon: Infinity, anchor: 1, release: 1, pin: 1, axle: 1, delete: 1};
 /** Tools whose second point is at a multiple of an angle from the first, while the key of the grid is held. */
-const ANGLED = ['rectangle', 'wall', 'velocity', 'gravity'], STEP = Math.PI / 12; // rad
-const ARROWS = ['velocity', 'gravity'], JOINTS = ['spring', 'rod', 'rope', 'chain'];
+const ANGLED = ['rectangle', 'wall', 'velocity', 'gravity', 'force', 'knife'], STEP = Math.PI / 12; // rad
+const ARROWS = ['velocity', 'gravity', 'force'], JOINTS = ['spring', 'rod', 'rope', 'chain'];
 
 export class ClickTool {
   /**
@@ -29,7 +30,7 @@ export class ClickTool {
     this.id = id;
     this.clicks = CLICKS[id] ?? 2;
     /** @type {'accent' | 'warn' | undefined} */
-    this.aims = id === 'delete' ? 'warn' : this.clicks === 1 || id === 'velocity' ? 'accent' : undefined;
+    this.aims = id === 'delete' ? 'warn' : this.clicks === 1 || id === 'velocity' || id === 'force' ? 'accent' : undefined;
     /** @type {Touch[]} */
     this.points = [];
     /** @type {?Touch} */
@@ -174,6 +175,7 @@ export class ClickTool {
       case 'circle': return t('radius {length} m', {length: threeDigits(length)});
       case 'circle_diameter': return t('diameter {length} m', {length: threeDigits(length)});
       case 'velocity': return `${threeDigits(length)} m/s, ${degrees}°`;
+      case 'force': return `${threeDigits(NEWTONS * length)} N, ${degrees}°`;
       case 'gravity': return `${degrees}°`;
       case 'rectangle': if (r && side) {
         const across = Math.abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / side;
