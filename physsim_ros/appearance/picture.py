@@ -16,7 +16,6 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import ORIGIN, Point, Pose, rotated_each
-from PIL import Image, ImageDraw
 
 # Light grey, as the page has it; and the edge of a body.
 _PAPER, _EDGE = (246, 247, 249), (46, 52, 64)
@@ -55,7 +54,7 @@ def picture_of(
         pen.line(points, color)
     for place, color in crosses:
         pen.cross(place, color)
-    return np.asarray(pen.image.resize((width, height), Image.Resampling.BOX))
+    return np.asarray(pen.image.resize((width, height), pen.box))
 
 
 class _Pen:
@@ -68,9 +67,13 @@ class _Pen:
     :param scale: of the finished picture [pixels/m]
 
     :ivar image: at `_FINE` times the size
+    :ivar box: Pillow's name of the filter that scales it down
     """
 
     def __init__(self, width: int, height: int, corner: Point, scale: float) -> None:
+        from PIL import Image, ImageDraw  # noqa: PLC0415 - few programs draw pictures
+
+        self.box = Image.Resampling.BOX
         self.image = Image.new('RGB', (width * _FINE, height * _FINE), _PAPER)
         # Colours are mixed with what is there by their opacity.
         self._draw = ImageDraw.Draw(self.image, 'RGBA')

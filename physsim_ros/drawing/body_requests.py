@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Requests for drawn bodies, from their geometry in the world, and for the joints that wait for them.
+Requests for drawn bodies, from their geometry in the world, for copies, and for waiting joints.
 
 A request leaves density, friction and elasticity to the defaults of the world. The origin of a
 body lies at its centre of mass. A joint that is drawn before its second body is fixed to the
@@ -15,18 +15,22 @@ of that joint. Otherwise the two bodies of one machine would collide.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 import math
+from typing import Any
 
 import numpy as np
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.errors import Malformed, no_body
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import Box, Chain, contains_each, Disc, Polygon, Shape
 from physsim_ros.model.transform import Point, Pose, rotated_each
+from physsim_ros.simulation.world.joint_requests import drawn_points
 
 # Kinds of joints whose end on the background is a point that a body can cover.
 _KINDS = {JointKind.AXLE, JointKind.PIN, JointKind.ROD, JointKind.ROPE, JointKind.SPRING}
@@ -90,33 +94,84 @@ def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn
     )
 
 
-def copy(name: str, body: Body, pose: Pose) -> Spawn:
+def copy(name: str, position: Point, scene: SceneQuery) -> Spawn:
+    """
+    Return the request for a copy of a body, at rest.
+
+    :param name: of the body
+    :param position: of the copy [m]
+    :raises UnknownBody: there is no such body
+    """
+    (name,) = _known((name,), scene, 'name')
+    return copy_of(scene.next_body(), scene.body(name), (*position, scene.pose(name)[2]))
+
+
+def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Request, ...]:
+    """
+    Return the requests for copies of bodies, at rest, and of the joints among them.
+
+    A joint to the background is copied with its body. Limits of a copied joint count from where
+    its bodies are now.
+
+    :param names: of the bodies
+    :param by: vector from each body to its copy [m]
+    :raises UnknownBody: there is no such body
+    :raises Malformed: one is named twice
+    """
+    requests: list[Request] = []
+    poses = {name: scene.pose(name) for name in _known(names, scene, 'names')}
+    _, number = split_name(scene.next_body())
+    copies = {WORLD: WORLD}
+    for each, (name, (x, y, yaw)) in enumerate(poses.items(), number):
+        copies[name] = copied = f'{DRAWN}/{each}'
+        requests.append(copy_of(copied, scene.body(name), (x + by[0], y + by[1], yaw)))
+    _, number = split_name(scene.next_joint())
+    among = (joint for joint in scene.joints if joint.a in copies and joint.b in copies)
+    for each, joint in enumerate(among, number):
+        points, lengths = drawn_points(joint, poses), joint.drawn_values()
+        join = Join(
+            name=f'{DRAWN}/{each}',
+            kind=joint.kind,
+            points=tuple((x + by[0], y + by[1]) for x, y in points),
+            a=copies[joint.a],
+            b=copies[joint.b],
+            # Lengths that were measured when it was drawn are those of the copy, too.
+            properties=replace(joint.properties, **dict[str, Any](lengths)),
+        )
+        requests.append(join)
+    return tuple(requests)
+
+
+def _known(names: Sequence[str], scene: SceneQuery, field: str) -> Sequence[str]:
+    """
+    Return names of bodies.
+
+    :param field: of the message that has them
+    :raises UnknownBody: there is no such body
+    :raises Malformed: one is named twice
+    """
+    known = set(scene.names)
+    for name in names:
+        if name not in known:
+            raise no_body(name, scene.names, field)
+    if len(set(names)) < len(names):
+        raise Malformed('a body is named twice', field=field)
+    return names
+
+
+def copy_of(name: str, body: Body, pose: Pose) -> Spawn:
     """
     Return the request for a copy of a body, at rest and without a lifetime.
 
+    The namespace of a robot is that of its new name.
+
     :param name: of the new body
-    :param body: that is copied
     :param pose: of the new body's origin [m, rad]
     """
-    return Spawn(
-        name=name,
-        shape=body.shape,
-        pose=pose,
-        color=body.color,
-        properties=Properties(
-            mass=body.mass,
-            density=body.density if body.mass is None else None,
-            friction=body.friction,
-            elasticity=body.elasticity,
-            anchored=body.anchored,
-            kinematic=body.kinematic,
-            group=body.group,
-            sensor=body.sensor,
-            surface_velocity=body.surface_velocity,
-            forces=body.forces,
-            label=body.label,
-        ),
-    )
+    properties = Properties.from_mapping(body.entry())
+    if properties.robot is not None:
+        properties = replace(properties, robot=replace(properties.robot, namespace=None))
+    return Spawn(name=name, shape=body.shape, pose=pose, color=body.color, properties=properties)
 
 
 def _dynamic_body(name: str, shape: Shape, pose: Pose, settings: DrawingSettings) -> Spawn:

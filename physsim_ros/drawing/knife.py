@@ -205,7 +205,7 @@ def _spawns(name: str, shapes: dict[str, Polygon], scene: SceneQuery) -> Iterato
         if each == name:
             yield Spawn(name=name, shape=shape, pose=pose, properties=Properties(**said))
             continue
-        piece = body_requests.copy(each, body, pose)
+        piece = body_requests.copy_of(each, body, pose)
         properties = replace(piece.properties, label='', **said)
         yield replace(piece, shape=shape, properties=properties)
 

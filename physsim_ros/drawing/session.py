@@ -13,7 +13,6 @@ from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 import math
-from typing import Any
 
 import numpy as np
 from physsim_ros.drawing import body_requests
@@ -33,14 +32,13 @@ from physsim_ros.drawing.strokes.reading import Guess, not_recognised, Reading, 
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.tools import Gesture
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import Malformed, no_body, NotRecognised
-from physsim_ros.model.names import split_name, WORLD
+from physsim_ros.model.errors import NotRecognised
+from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, request_count, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world.joint_requests import drawn_points
 
 # The least confidence in a runner-up that the label of a preview mentions.
 _MENTIONED = 0.05
@@ -190,12 +188,7 @@ class DrawingSession:
         :param snapshot: of the world
         :raises UnknownBody: there is no such body
         """
-        scene = self._query(snapshot)
-        if name not in scene.names:
-            raise no_body(name, scene.names, 'name')
-        request = body_requests.copy(
-            scene.next_body(), scene.body(name), (*position, scene.pose(name)[2])
-        )
+        request = body_requests.copy(name, position, self._query(snapshot))
         self._reserve_names((request,))
         return request
 
@@ -205,40 +198,15 @@ class DrawingSession:
         """
         Return the requests for copies of bodies, at rest, and of the joints among them.
 
-        A joint to the background is copied with its body. Limits of a copied joint count from
-        where its bodies are now.
-
         :param names: of the bodies
         :param by: vector from each body to its copy [m]
         :param snapshot: of the world
         :raises UnknownBody: there is no such body
         :raises Malformed: one is named twice
         """
-        scene, requests = self._query(snapshot), list[Request]()
-        poses = {name: scene.pose(name) for name in _known(names, scene)}
-        _, number = split_name(scene.next_body())
-        copies = {WORLD: WORLD}
-        for each, (name, (x, y, yaw)) in enumerate(poses.items(), number):
-            copies[name] = copied = f'{DRAWN}/{each}'
-            pose = x + by[0], y + by[1], yaw
-            requests.append(body_requests.copy(copied, scene.body(name), pose))
-        _, number = split_name(scene.next_joint())
-        for joint in scene.joints:
-            if joint.a in copies and joint.b in copies:
-                points, lengths = drawn_points(joint, poses), joint.drawn_values()
-                join = Join(
-                    name=f'{DRAWN}/{number}',
-                    kind=joint.kind,
-                    points=tuple((x + by[0], y + by[1]) for x, y in points),
-                    a=copies[joint.a],
-                    b=copies[joint.b],
-                    # Lengths that were measured when it was drawn are those of the copy, too.
-                    properties=replace(joint.properties, **dict[str, Any](lengths)),
-                )
-                number += 1
-                requests.append(join)
+        requests = body_requests.copy_machine(names, by, self._query(snapshot))
         self._reserve_names(requests)
-        return tuple(requests)
+        return requests
 
     def _query(self, snapshot: Snapshot) -> SceneQuery:
         return SceneQuery(snapshot, first=self._next_body, first_joint=self._next_joint)
@@ -251,22 +219,6 @@ class DrawingSession:
                     self._next_body = max(self._next_body, 1 + split_name(name)[1])
                 case Join(name=name) if split_name(name)[0] == DRAWN:
                     self._next_joint = max(self._next_joint, 1 + split_name(name)[1])
-
-
-def _known(names: Sequence[str], scene: SceneQuery) -> Sequence[str]:
-    """
-    Return names of bodies.
-
-    :raises UnknownBody: there is no such body
-    :raises Malformed: one is named twice
-    """
-    known = set(scene.names)
-    for name in names:
-        if name not in known:
-            raise no_body(name, scene.names, 'names')
-    if len(set(names)) < len(names):
-        raise Malformed('a body is named twice', field='names')
-    return names
 
 
 def submit_reading(

@@ -11,24 +11,21 @@ all texts are quoted; a number has a point before its exponent, as readers of YA
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, MISSING
 import json
 import math
 import re
 
 from physsim_ros.files.engine_state import state_entry
 from physsim_ros.files.impulse_cache import cache_entry
-from physsim_ros.files.world_schema import FORMAT, PROPERTIES, SETTINGS
+from physsim_ros.files.world_schema import FORMAT, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.colors import Color, color_from
 from physsim_ros.model.declarations import entry_of
 from physsim_ros.model.errors import WorldFull
-from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world.joint_requests import drawn_points
 
-# Of the fields of a body, for those that are left out.
-_DEFAULTS = {each.name: each.default for each in fields(Body)}
 # Quoted texts, and whole numbers with an exponent.
 _TEXT_OR_POWER = re.compile(r'("(?:[^"\\]|\\.)*")|(?<![\d.])(\d+)(?=e)')
 # Characters that are printable in JSON but not in YAML.
@@ -89,26 +86,13 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         body.shape.KEY: body.shape.entry(),
         'at': list(state.pose),
         'color': _color_entry(body.color),
-        **_properties_entry(state),
+        **body.entry(),
     }
+    if not body.anchored:
+        entry |= {'velocity': list(state.twist[:2]), 'spin': state.twist[2]}
     if body.expires is not None:
         entry['lifetime'] = body.expires / physics_rate
     return entry | state_entry(state, physics_rate)
-
-
-def _properties_entry(state: BodyState) -> dict[str, object]:
-    """Return the properties of a body that are not those of any body."""
-    body = state.body
-    values = {name: getattr(body, name) for name in _DEFAULTS}
-    if body.mass is not None:
-        del values['density']
-    if not body.anchored:
-        values |= {'velocity': state.twist[:2], 'spin': state.twist[2]}
-    return {
-        name: entry_of(values[name])
-        for name in PROPERTIES
-        if name in values and values[name] != _DEFAULTS.get(name, MISSING)
-    }
 
 
 def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:

@@ -26,6 +26,9 @@ _TABLEAU10 = (
     '#eeca3b', '#b279a2', '#ff9da6', '#9d755d', '#bab0ac',
 )  # fmt: skip
 
+# The least luminance on which a dark line has more contrast than a light one.
+_BRIGHT = 0.35
+
 
 def color_from(text: str) -> Color:
     """
@@ -65,3 +68,10 @@ def color_of(name: str) -> Color:
     number = zlib.crc32(namespace.encode()) + id_
     red, green, blue = bytes.fromhex(_TABLEAU10[number % len(_TABLEAU10)][1:])
     return red / 255, green / 255, blue / 255, 1.0
+
+
+def is_bright(color: Color) -> bool:
+    """Return whether a dark mark on a colour has more contrast than a light one."""
+    red, green, blue, _ = color
+    # Luminance as of ITU-R BT.601.
+    return 0.299 * red + 0.587 * green + 0.114 * blue > _BRIGHT

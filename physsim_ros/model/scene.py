@@ -9,15 +9,17 @@ Law: everything here is immutable, and constant while the world steps.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from physsim_ros.model.actors import Actor
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.arrays import Floats, Ints
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
+from physsim_ros.model.declarations import entry_of
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.names import WORLD
@@ -68,6 +70,21 @@ class Body:
     def dynamic(self) -> bool:
         """Whether forces move it: it is neither anchored nor kinematic."""
         return not (self.anchored or self.kinematic)
+
+    def entry(self) -> dict[str, Any]:
+        """Return its properties, but those of any body, as the mapping that sets them."""
+        values = {name: getattr(self, name) for name in _HELD}
+        if self.mass is not None:
+            del values['density']
+        return {
+            name: entry_of(value) for name, value in values.items() if value != BODY_DEFAULTS[name]
+        }
+
+
+# Of the fields of a body; MISSING where the world or the request has it.
+BODY_DEFAULTS = {each.name: each.default for each in fields(Body)}
+# Its properties, in the order of their declarations.
+_HELD = [name for name in Properties.FIELDS if name in BODY_DEFAULTS]
 
 
 class Seat(NamedTuple):

@@ -77,6 +77,8 @@ class FrameLoop:
         request_time = _RequestTime(self._rest_ns)
         # While time goes back, no command counts, and controllers may be silent.
         if self._simulation.speed < 0.0 or not self._fleet.is_waiting:
+            # Parts of a seek or an amendment are no frames, which controllers answer one by one.
+            self.finish_short_seek()
             frames = self._simulation.advance(
                 now_ns,
                 is_overdue=lambda: self._fleet.in_lockstep or _is_overdue(began),

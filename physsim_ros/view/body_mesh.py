@@ -15,7 +15,7 @@ from itertools import pairwise
 import math
 
 import numpy as np
-from physsim_ros.model.colors import Color
+from physsim_ros.model.colors import Color, is_bright
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Disc, Piece, Polygon, Triangles
 from physsim_ros.model.transform import Point
@@ -50,8 +50,7 @@ def body_mesh(body: Body, unit: float) -> Mesh:
     form = body.shape.form
     red, green, blue, _ = body.color
     color, dark = (red, green, blue, 1.0), (_DARKER * red, _DARKER * green, _DARKER * blue, 1.0)
-    # Luminance of the NTSC standard, in rounded weights.
-    ink = _DARK if 0.3 * red + 0.6 * green + 0.1 * blue > 0.35 else _LIGHT
+    ink = _DARK if is_bright(body.color) else _LIGHT
     if body.kinematic:
         width, edge = min(_WIDE * unit, 2 * _OUTLINE_SHARE * form.inner), ink
     else:

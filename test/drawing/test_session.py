@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 import itertools
 import math
 
@@ -15,6 +16,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, UnknownBody
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Configure, Join, MoveBodies, Request
+from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
@@ -367,3 +369,19 @@ def test_a_machine_is_copied_with_the_joints_among_its_bodies() -> None:
     assert (rope.kind, rope.a, rope.b) == (JointKind.ROPE, 'drawn/0', 'world')
     with pytest.raises(UnknownBody, match=r"'x/0'; nearest is '[abc]/0'"):
         session.copy_machine(('a/0', 'x/0'), (1.0, 0.0), sim.world.snapshot())
+
+
+def test_a_copy_has_all_properties_of_its_body_and_a_namespace_of_its_own() -> None:
+    sim = Simulation()
+    disc, belt = Disc(radius=0.3), {'surface_velocity': (1.0, 0.0), 'sensor': True}
+    drive = {'drive': {'kind': 'omni'}}
+    sim.perform(spawning('a/0', disc, mass=3.0, group=5, label='m', **belt))
+    sim.perform(spawning('b/0', disc, (3.0, 0.0, 0.0), robot={**drive, 'namespace': 'tb'}))
+    session = DrawingSession(DrawingSettings())
+
+    for name in ('a/0', 'b/0'):
+        sim.perform(session.copy(name, (9.0, 0.0), sim.world.snapshot()))
+
+    one, robot, copied, other = sim.world.scene.bodies
+    assert copied == replace(one, name=copied.name)
+    assert other == replace(robot, name=other.name, robot=Robot.from_mapping(drive))

@@ -3,8 +3,10 @@
 
 """The joints of a world file, saved and written by hand."""
 
+from collections.abc import Callable
 import math
 from pathlib import Path
+from typing import Any
 
 from physsim_ros.files import (
     load_world,
@@ -17,9 +19,8 @@ from physsim_ros.model.requests import Command, Join, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
 import pytest
-import yaml
 
-from .world_files import assert_round_trip, edited, load, RATE, restored, save
+from .world_files import assert_round_trip, edited, load, RATE, restored, rewrite, save
 from ..building import BOX, DISC, pose, spawn
 
 MACHINE = """format: 1
@@ -179,14 +180,12 @@ def test_what_does_not_move_a_body_leaves_its_joints_where_they_were(
     world.apply(axle)
     world.step(60)
     path = save(world, folder)
-    content = yaml.safe_load(path.read_text())
-    if change == 'velocity':
-        content['bodies'][0]['velocity'] = [0.0, 0.0]
-    elif change == 'gravity':
-        content['gravity'] = [0.0, -5.0]
-    path.write_text(yaml.safe_dump(content))
-
-    again = load(path, rate=480.0 if change == 'rate' else RATE)
+    changes: dict[str, Callable[[dict[str, Any]], object]] = {
+        'velocity': lambda content: content['bodies'][0].update(velocity=[0.0, 0.0]),
+        'gravity': lambda content: content.update(gravity=[0.0, -5.0]),
+        'rate': lambda _: None,
+    }
+    again = rewrite(path, changes[change], rate=480.0 if change == 'rate' else RATE)
 
     assert again.joints == world.save().joints
 

@@ -3,6 +3,7 @@
 
 """Worlds written to files and loaded from them, as the tests of world files do."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -52,13 +53,23 @@ def save(world: World | WorldState, folder: Path, name: str = 'w') -> Path:
     return save_world(state, name, world_dir=folder, physics_rate=RATE)
 
 
-def edited(path: Path, changes: dict[str, Any], name: str = 'a/0') -> World:
+def rewrite(path: Path, change: Callable[[dict[str, Any]], object], **load_as: Any) -> WorldState:
+    """Change the content of a file, and return the state that it then has."""
     content = yaml.safe_load(path.read_text())
-    for entry in content['bodies']:
-        if entry['name'] == name:
-            entry.update(changes)
+    change(content)
     path.write_text(yaml.safe_dump(content, sort_keys=False))
-    return restored(load(path))
+    return load(path, **load_as)
+
+
+def edited(path: Path, changes: dict[str, Any], name: str = 'a/0') -> World:
+    """Return a world that goes on from a file with changes of a body."""
+
+    def change(content: dict[str, Any]) -> None:
+        for entry in content['bodies']:
+            if entry['name'] == name:
+                entry.update(changes)
+
+    return restored(rewrite(path, change))
 
 
 def refusal_of(text: str, folder: Path, **settings: Any) -> BadWorldFile:

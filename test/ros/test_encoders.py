@@ -22,6 +22,7 @@ from geometry_msgs.msg import (
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
@@ -343,6 +344,24 @@ def test_the_text_of_a_marker_gives_back_the_properties_of_its_body(body, role):
     assert body_request(marker, frame_id='world').properties.explicit() == expected
     # PyYAML by itself reads YAML 1.1, in which 1e-09 is a string.
     assert yaml.safe_load(marker.text) == expected
+
+
+ROBOT = {'drive': {'kind': 'omni'}, 'sensors': [{'kind': 'laser', 'noise': 1e-9}, {'kind': 'imu'}]}
+ACTOR = {'kind': 'path', 'points': [[0, 0], [1, 2]], 'speed': 1e5, 'start': {'gate': 'a [{b/0'}}
+
+
+@pytest.mark.parametrize(
+    'said',
+    [{'surface_velocity': (1e-9, 1.0), 'sensor': True}, {'robot': ROBOT}, {'actor': ACTOR}],
+)
+def test_a_body_in_a_role_is_made_again_by_its_marker(said):
+    properties = Properties(**said)
+    body = replace(PLAIN, **properties.explicit())
+    marker, *_ = picture(MarkersEncoder('world'), snapshot_of([body]))
+    again = body_request(marker, frame_id='world').properties
+    assert again == replace(
+        properties, density=PLAIN.density, friction=PLAIN.friction, elasticity=PLAIN.elasticity
+    )
 
 
 @pytest.mark.parametrize(

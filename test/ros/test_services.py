@@ -15,51 +15,34 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
+from .journey import Journey
 from ..client import Client, Event, failed, parameter, set_parameter, succeeded
 
-# One frame at speed 1 [ns]
-PERIOD = 1e9 / 60.0
 
-
-class Wall:
-    """A clock on the wall that the test turns, and the world that looks at it."""
-
-    def __init__(self, physsim: PhysSim) -> None:
-        self.physsim = physsim
-        self.now = 1e12
-
-    def pass_(self, frames: int) -> list[int]:
-        """Let frames go by, and return the stamps of the world's time after each [steps]."""
-        steps = []
-        for _ in range(frames):
-            self.now += PERIOD
-            self.physsim.node.tick(round(self.now))
-            self.physsim.settle()
-            steps.append(self.physsim.node.simulation.world.step_count)
-        return steps
-
-
-@pytest.fixture
-def wall(physsim: PhysSim, machine_in_time: None) -> Wall:
-    """Let time pass at the speed that is set."""
-    wall = Wall(physsim)
-    wall.pass_(1)
-    return wall
+def steps_after(journey: Journey, frames: int) -> list[int]:
+    """Let frames go by, and return the number of steps of the world after each."""
+    steps = []
+    for _ in range(frames):
+        journey.tick()
+        steps.append(journey.physsim.node.simulation.world.step_count)
+    return steps
 
 
 # Play, pause, step
 
 
-def test_pause_stops_time_and_play_lets_it_run_at_speed_1(wall: Wall, client: Client) -> None:
-    set_parameter(wall.physsim, 'speed', 4.0)
-    assert wall.pass_(3)[-1] > 0
+def test_pause_stops_time_and_play_lets_it_run_at_speed_1(
+    journey: Journey, client: Client
+) -> None:
+    set_parameter(journey.physsim, 'speed', 4.0)
+    assert steps_after(journey, 3)[-1] > 0
     succeeded(client.call('~/pause'))
-    assert parameter(wall.physsim, 'speed') == 0.0
-    assert len(set(wall.pass_(10))) == 1
+    assert parameter(journey.physsim, 'speed') == 0.0
+    assert len(set(steps_after(journey, 10))) == 1
     succeeded(client.call('~/play'))
-    assert parameter(wall.physsim, 'speed') == 1.0
-    wall.pass_(1)
-    steps = wall.pass_(10)
+    assert parameter(journey.physsim, 'speed') == 1.0
+    steps_after(journey, 1)
+    steps = steps_after(journey, 10)
     assert [after - before for before, after in pairwise(steps)] == [4] * 9
 
 
@@ -82,30 +65,32 @@ def test_a_step_is_refused_while_time_runs(physsim: PhysSim, client: Client) -> 
     assert physsim.time == 0.0
 
 
-def test_a_paused_world_takes_and_answers_requests(wall: Wall, client: Client) -> None:
+def test_a_paused_world_takes_and_answers_requests(journey: Journey, client: Client) -> None:
     succeeded(client.call('~/pause'))
     client.publish('~/spawn', box('a/0', at=(1.0, 2.0)))
-    wall.physsim.settle()
-    wall.pass_(2)
+    journey.physsim.settle()
+    steps_after(journey, 2)
     assert [(event.name, event.code) for event in client.events] == [
         ('~/pause', 'ok'),
         ('~/spawn', 'ok'),
     ]
-    assert wall.physsim.pose('a/0') == (1.0, 2.0, 0.0)
-    wall.pass_(5)
-    assert wall.physsim.pose('a/0') == (1.0, 2.0, 0.0)
+    assert journey.physsim.pose('a/0') == (1.0, 2.0, 0.0)
+    steps_after(journey, 5)
+    assert journey.physsim.pose('a/0') == (1.0, 2.0, 0.0)
 
 
 # Speed
 
 
 @pytest.mark.parametrize('speed', [0.25, 64.0])
-def test_time_runs_at_the_speed_that_is_set(wall: Wall, client: Client, speed: float) -> None:
+def test_time_runs_at_the_speed_that_is_set(
+    journey: Journey, client: Client, speed: float
+) -> None:
     (event,) = client.ask('~/speed', Float64(data=speed))
     assert event == Event(0, '~/speed', '', event.message, 'ok', '')
-    assert parameter(wall.physsim, 'speed') == speed
-    wall.pass_(1)
-    steps = wall.pass_(60)
+    assert parameter(journey.physsim, 'speed') == speed
+    steps_after(journey, 1)
+    steps = steps_after(journey, 60)
     # steps: a second of wall time, to a frame
     assert steps[-1] - steps[0] == pytest.approx(59 * 4 * speed, abs=4 * max(1.0, speed))
     if speed.is_integer():

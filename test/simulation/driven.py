@@ -72,6 +72,17 @@ def told(frames: list[Frame], topic: str) -> list[Answer]:
     return [answer for frame in frames for answer in frame.answers if answer.topic == topic]
 
 
+def world_after(*timed: tuple[int, str, Request], frames: int = 60) -> Simulation:
+    """Return a world in which people asked for requests before the frame of a number."""
+    simulation = Simulation(settings=FLOOR)
+    for frame in range(frames):
+        for at, author, request in timed:
+            if at == frame:
+                simulation.requests.submit(request, topic='t', author=author)
+        simulation.advance_frame()
+    return simulation
+
+
 def seen_from_above() -> World:
     """Return a world in which robots and people move on a floor."""
     settings = WorldSettings(gravity=(0.0, 0.0), floor_friction=0.5, seed=3)

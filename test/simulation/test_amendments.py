@@ -16,21 +16,10 @@ from physsim_ros.simulation.request_queue import Amend, TakeBack
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .driven import FLOOR
+from .driven import world_after
 from ..building import BOX, DISC, spawning
 
 LEFT, RIGHT = (-3.0, 5.0, 0.0), (3.0, 5.0, 0.0)
-
-
-def world_after(*timed: tuple[int, str, Request], frames: int = 60) -> Simulation:
-    """Return a world in which people asked for requests before the frame of a number."""
-    simulation = Simulation(settings=FLOOR)
-    for frame in range(frames):
-        for at, author, request in timed:
-            if at == frame:
-                simulation.requests.submit(request, topic='t', author=author)
-        simulation.advance_frame()
-    return simulation
 
 
 # Amending

@@ -11,7 +11,6 @@ import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Refusal, UnknownProperty
 from physsim_ros.model.requests import ChangeBody, DeleteBodies, MoveBodies, Request
-from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
@@ -143,34 +142,6 @@ def test_several_are_deleted_with_one_gesture() -> None:
 
 def spawning_at(number: int) -> Request:
     return spawning(f'a/{number}', BOX, (3.0 * number, 0.0, 0.0))
-
-
-@pytest.mark.parametrize(
-    ('request_', 'code', 'field'),
-    [
-        (ChangeBody(name='z/0', properties=Properties(friction=1.0)), 'unknown_body', 'name'),
-        (ChangeBody(name='a/0', pose=(0.0, 0.0, 0.0), frame='z/0'), 'unknown_frame',
-         'header.frame_id'),
-        (ChangeBody(name='a/1', properties=Properties(spin=1.0)), 'anchored', 'velocity'),
-        (ChangeBody(name='a/0', properties=Properties(density=1e12, friction=0.0)),
-         'bad_property', 'density'),
-        (MoveBodies(names=('a/0', 'z/0'), by=(1.0, 0.0)), 'unknown_body', 'names'),
-        (MoveBodies(names=('a/1', 'a/2'), by=(1e7, 0.0)), 'bad_property', 'by'),
-        (DeleteBodies(names=('a/0', 'z/0')), 'unknown_body', 'names'),
-    ],
-)  # fmt: skip
-def test_what_is_refused_changes_nothing(request_: Request, code: str, field: str) -> None:
-    world = World(settings=NOWHERE)
-    spawn(world, 'a/0', Disc(radius=2.0))
-    spawn(world, 'a/1', BOX, (5.0, 0.0, 0.0), anchored=True)
-    spawn(world, 'a/2', BOX, (9.0, 0.0, 0.0))
-    before = world.digest()
-
-    with pytest.raises(Refusal) as refused:
-        world.apply(request_)
-
-    assert (refused.value.code, refused.value.field) == (code, field)
-    assert world.digest() == before
 
 
 @pytest.mark.parametrize('names', [(), ('a/0', 'a/0')])

@@ -9,6 +9,7 @@ from itertools import pairwise
 import math
 
 from physsim_ros.engine import body as rigid_body
+from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import (
     Anchored,
@@ -23,11 +24,14 @@ from physsim_ros.model.errors import (
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
+    ChangeBody,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    DeleteBodies,
     Join,
+    MoveBodies,
     Release,
     Request,
     Restore,
@@ -222,6 +226,23 @@ REFUSED: dict[str, tuple[Callable[[], Request], type[Refusal], str]] = {
     'a wrench for a kinematic body': (
         lambda: Command(names=('mix/0', 'lift/0'), wrenches=((1.0, 0.0, 0.0),) * 2,
                         twists=((1.0, 0.0, 0.0),) * 2), BadProperty, 'wrench'),
+    'to change nobody': (lambda: ChangeBody(name='nobody/0', properties=Properties(friction=1.0)),
+                         UnknownBody, 'name'),
+    'to change a pose in no frame': (
+        lambda: ChangeBody(name='mix/0', pose=(0.0, 0.0, 0.0), frame='nobody/0'), UnknownFrame,
+        'header.frame_id'),
+    'to spin an anchored body': (
+        lambda: ChangeBody(name='peg/0', properties=Properties(spin=1.0)), Anchored, 'velocity'),
+    'to make a body too heavy': (
+        lambda: ChangeBody(name='large/0', properties=Properties(density=1e12, friction=0.0)),
+        BadProperty, 'density'),
+    'to move one body and nobody': (
+        lambda: MoveBodies(names=('mix/0', 'nobody/0'), by=(1.0, 0.0)), UnknownBody, 'names'),
+    'to move the second too far': (
+        lambda: MoveBodies(names=('mix/0', 'far/0'), by=(FARTHEST - 50.0, 0.0)), BadProperty,
+        'by'),
+    'to delete one body and nobody': (lambda: DeleteBodies(names=('mix/0', 'nobody/0')),
+                                      UnknownBody, 'names'),
     'settings out of range': (lambda: Configure(changes={'friction': 0.1, 'damping': 2.0}),
                               BadProperty, 'damping'),
     'settings that are none': (lambda: Configure(changes={'gravity': (0.0, math.nan)}), Malformed,
@@ -236,6 +257,7 @@ def test_a_refusal_changes_nothing(
     world, other = busy_world(), busy_world()
     for each in (world, other):
         spawn(each, 'far/0', DISC, (100.0, 0.0, 0.0), anchored=True)
+        spawn(each, 'large/0', Disc(radius=2.0), (60.0, 0.0, 0.0))
         spawn(each, 'dense/0', Disc(radius=0.01), (9.0, 9.0, 0.0), density=1e10)
         each.apply(Configure(changes={'max_bodies': len(each)}))
         each.step(30)

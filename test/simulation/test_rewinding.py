@@ -6,13 +6,12 @@
 from __future__ import annotations
 
 import numpy as np
-from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.simulation.simulation import CHECKPOINTS
 from physsim_ros.simulation.world import World
 import pytest
 
 from .driven import Driven, FRAME, SECOND, told
-from ..building import BOX, spawning
+from ..building import spawning
 
 
 @pytest.mark.parametrize('speed', [-1.0, -4.0, -2.0, -64.0])
@@ -119,14 +118,3 @@ def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
     assert len(told(again, 'history')) == 1
     assert not any(frame.moved for frame in again)
     assert driven.run(0.0, 0.5) == []
-
-
-def test_a_request_in_the_past_drops_what_lay_ahead(driven: Driven) -> None:
-    driven.run(-1.0, 1.0)
-    step = driven.simulation.step
-    driven.ask(spawning('other/0', BOX, (5.0, 5.0, 0.0)))
-    frame = driven.apply_requests()
-    assert [answer.topic for answer in frame.answers] == ['~/test', 'branch']
-    assert frame.snapshot.step == step
-    with pytest.raises(OutOfHistory, match='not in the history'):
-        driven.simulation.seek(round((step + FRAME) / 240 * SECOND))

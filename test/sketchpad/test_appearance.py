@@ -16,7 +16,7 @@ BACKGROUND = """name => getComputedStyle(
 
 # The ends of the lines of a grid at a place of the world [m], as they are asked of a canvas [px].
 GRID_LINES = """async at => {
-    const {drawGrid} = await import('/page/grid_view.js'), lines = [];
+    const {drawGrid} = await import('/page/label_view.js'), lines = [];
     const camera = Object.assign(new (await import('/page/camera.js')).Camera(),
         {x: at, y: 5, scale: 60, width: 1200, height: 800});
     const ctx = {beginPath() {}, moveTo() {}, stroke() {}, fillText() {},

@@ -8,10 +8,6 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from physsim_ros.view import Viewer
-import pytest
-
-from .browser import Browser
 from .chromium import circle, Sheet, started_world
 from ..outside import Outside
 
@@ -170,17 +166,3 @@ def test_the_world_is_framed_alike_whatever_message_comes_last(
         sheet.close()
     assert places[0] == places[1]
     other.close()
-
-
-def test_pages_are_told_the_address_of_reruns_page_and_when_it_changes(
-    browser: Browser, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    page = browser.open_page()
-    page.until(lambda: page.of_type('welcome'))
-    assert page.of_type('welcome')[0]['rerun'] == ''
-
-    monkeypatch.setattr(Viewer, 'page_address', 'http://127.0.0.1:9090/')
-    browser.physsim.run(0.1)
-    page.until(lambda: page.of_type('recording'))
-
-    assert page.of_type('recording')[0]['rerun'] == 'http://127.0.0.1:9090/'

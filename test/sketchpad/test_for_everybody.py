@@ -101,11 +101,12 @@ def test_words_stand_at_icons_where_somebody_wants_them(sheet: Sheet) -> None:
 
 def test_a_zoom_is_told_in_per_cent(sheet: Sheet) -> None:
     frame = sheet.page.get_by_role('button', name='Frame the world', exact=True)
-    frame.get_by_text('100 %').wait_for()
+    view = sheet.page.get_by_role('toolbar', name='View')
+    view.get_by_text('100 %').wait_for()
     sheet.page.keyboard.press('+')
-    frame.get_by_text('125 %').wait_for()
+    view.get_by_text('125 %').wait_for()
     frame.click()
-    frame.get_by_text('100 %').wait_for()
+    view.get_by_text('100 %').wait_for()
 
 
 def test_a_hint_that_was_followed_twice_is_not_given_again(sheet: Sheet) -> None:

@@ -54,9 +54,10 @@ def frame(of, poses, *, step=0, **changes):
 class Row:
     """A component of an entity at a frame."""
 
-    recorded: int
-    stamp: int
     value: np.ndarray
+    recorded: int
+    # Of what is not drawn by the time of the world, None.
+    stamp: int | None = None
 
     @property
     def frame(self):
@@ -89,10 +90,14 @@ class Recording:
             table = each.to_record_batch()
             if component not in table.schema.names:
                 continue
-            times = [table.column(name).cast('int64').to_pylist() for name in TIMELINES]
+            times = [
+                table.column(name).cast('int64').to_pylist()
+                for name in TIMELINES
+                if name in table.schema.names
+            ]
             values = table.column(component).to_pylist()
             rows += [
-                Row(*row, np.array(value))
+                Row(np.array(value), *row)
                 for *row, value in zip(*times, values, strict=True)
                 if value is not None
             ]

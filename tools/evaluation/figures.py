@@ -126,6 +126,14 @@ def curve(rng: Random) -> Figure:
     return Figure(kind='line', way=turned(way, rng.uniform(0, 7)), smooth=True)
 
 
+def sag(rng: Random) -> Figure:
+    """Return a line that sags, by 0.15 to 0.6 of the distance of its ends, one end higher."""
+    share = np.linspace(0.0, 1.0, 60)
+    depth, skew = rng.uniform(0.15, 0.6), rng.uniform(-0.2, 0.2)
+    y = rng.normal(0.0, 0.2) * share - 4.0 * depth * share * (1.0 - share) * (1.0 + skew * share)
+    return Figure(kind='line', way=turned(np.column_stack((share, y)), 0.0), smooth=True)
+
+
 def zigzag(rng: Random) -> Figure:
     """Return a spring: teeth, sharp or round, with or without straight ends."""
     return _teeth(rng, int(rng.integers(6, 13)))

@@ -234,6 +234,7 @@ KINDS: tuple[Kind, ...] = (
     Kind('trembling line', figures.trembling_line, 'wall', _nothing),
     Kind('five swings, on a body', figures.five_swings, None, _scribbled),
     Kind('round arrow', arrows.round_arrow, 'motor', _within, axle=True),
+    Kind('sagging line, 2 bodies', figures.sag, 'rope', _at_ends),
 )
 # All meanings of strokes, in the order of their kinds.
 MEANINGS = tuple(dict.fromkeys(kind.meaning for kind in KINDS if kind.meaning is not None))

@@ -12,8 +12,9 @@ among lines and outlines by soft conditions (logistic functions), each 0.5 at it
 becomes a confidence, the share of guesses of that weight that are right, by Platt scaling (Platt,
 1999): a logistic function of the log odds of the weight against the others.
 
-`python -m tools.evaluation.fit` makes the table, and prints the constants of the confidence, from
-hands of the tuning half of `make evaluate`.
+`python -m tools.evaluation.fit` makes the table, from hands of the tuning half of `make evaluate`.
+The constants of the confidence were fitted to the same half, all kinds and all faults, by maximum
+likelihood; `make evaluate` prints how well they hold.
 """
 
 from __future__ import annotations
@@ -29,8 +30,9 @@ from physsim_ros.model.arrays import Floats
 
 # The file of the table, beside this one, and the name of the measure that is 0 for every stroke.
 TABLE, CONSTANT = 'evidence.csv', 'constant'
-# Weight of the possibility that a stroke means nothing.
-DOUBT = 0.02
+# Weight of the possibility that a stroke means nothing, and the share of the weight that no form
+# has that adds to it.
+DOUBT, _UNEXPLAINED = 0.02, 0.3
 # Log odds of a group being right at equal weights, and their growth with the log odds of weights.
 GROUP_BIAS, GROUP_SLOPE = -0.4, 1.9
 # The same for a meaning within its group.
@@ -112,14 +114,16 @@ def _read_table() -> dict[str, list[Term]]:
 _TABLE = _read_table()
 
 
-def group_confidence(weight: float, total: float) -> float:
+def group_confidence(weight: float, total: float, unexplained: float = 0.0) -> float:
     """
     Return the confidence in a group of meanings, 0 .. 1.
 
     :param weight: of the group
     :param total: of all groups
+    :param unexplained: the weight that no form of the stroke has, 0 .. 1
     """
-    return _platt(weight / (total + DOUBT), GROUP_BIAS, GROUP_SLOPE)
+    doubt = DOUBT + _UNEXPLAINED * unexplained
+    return _platt(weight / (total + doubt), GROUP_BIAS, GROUP_SLOPE)
 
 
 def share_confidence(share: float) -> float:

@@ -19,7 +19,6 @@ from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.evidence import falls, LEAST, rises
 from physsim_ros.drawing.strokes.features import Features, loop_roundness
-from physsim_ros.drawing.strokes.fitting import simplified
 from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Form, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
@@ -37,8 +36,8 @@ _LOOP = 0.15
 _NARROW = 0.035
 # The least straightness of a rod: the distance of its ends by its length.
 _STRAIGHT = 0.95
-# The greatest straightness of a rope; an arc as high as a fifth of its chord has 0.9.
-_SAGGING = 0.92
+# The greatest straightness of a rope; an arc as high as a seventh of its chord has 0.95.
+_SAGGING = 0.95
 # The least number of bends, to alternate sides, of a spring.
 _FEWEST_TEETH = 3
 # Factor on the density of a body by each line of its hatching.
@@ -66,7 +65,7 @@ def forms(features: Features, plain: float) -> Iterator[Form]:
         each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
         for each in features.crossings
     )
-    weight = plain * calm * (1.0 - features.closure) * falls(loops, 0.5, 0.2)
+    weight = plain * calm * (1.0 - features.closure) * falls(loops, 0.5, 0.1)
     if weight >= LEAST:
         yield Form(name=LINE, weight=weight, points=bends_of(points))
 
@@ -103,8 +102,7 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     ends = bodies_under.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
-    curved = between and simplified(drawn, points) is not None
-    if curved and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
+    if between and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
     if math.dist(start, end) > _STRAIGHT * float(norms(sides).sum()):
         # A line beside a body that ends on no other is a wall.

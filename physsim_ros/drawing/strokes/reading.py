@@ -164,14 +164,14 @@ def guess_meanings(
             weights[each.name] = weights.get(each.name, 0.0) + each.weight
             if each.name not in best or each.weight > best[each.name].weight:
                 best[each.name] = each
-    # The weight that no form has is that of something else.
-    total = sum(weights.values()) + max(1.0 - sum(form.weight for form in forms), 0.0)
+    total = sum(weights.values())
+    unexplained = max(1.0 - sum(form.weight for form in forms), 0.0)
     guesses: list[Guess] = []
     for meaning, weight in weights.items():
         others = _group_of(meaning)
         # In the order of the meanings: that of a set differs from process to process.
         group = sum(share for each, share in weights.items() if each in others)
-        sure = group_confidence(group, total)
+        sure = group_confidence(group, total, unexplained)
         within = share_confidence(weight / group) if len(others) > 1 else 1.0
         guesses.append(
             Guess(

@@ -13,8 +13,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 import json
 import re
+from typing import Any
 
-from physsim_ros.model.colors import Color
+from physsim_ros.model.colors import Color, is_bright
 from physsim_ros.model.names import (
     CROSS_PREFIX,
     HANDS,
@@ -39,8 +40,6 @@ _HAND = (0.9, 0.2, 0.5, 1.0)
 _DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
 # Opening brackets, and characters that are printable in JSON but not in YAML.
 _ESCAPED = re.compile('[{\\[\ufeff\ufffe\uffff]')
-# The least luminance on which a dark line has more contrast than a light one.
-_BRIGHT = 0.35
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +66,7 @@ def body_symbols(body: Body) -> list[Symbol]:
     """Return the markers of a body: the body, and the x of an anchored one."""
     key = split_name(body.name)
     kind, scale, points = geometry_of(body.shape)
-    symbols = [Symbol(key, kind, scale, points, color=body.color, text=_material(body))]
+    symbols = [Symbol(key, kind, scale, points, color=body.color, text=_yaml(body.entry()))]
     if body.anchored:
         symbols.append(_cross(body, (f'{CROSS_PREFIX}{key[0]}', key[1])))
     return symbols
@@ -112,9 +111,7 @@ def _terms(joint: Joint) -> str:
     terms = [f'kind: {joint.kind}', f'a: {_quoted(joint.a)}', f'b: {_quoted(joint.b)}']
     # Without the values as drawn, the new joint would measure them anew.
     given = joint.properties.explicit() | joint.drawn_values()
-    for key, value in given.items():
-        shown = str(value).lower() if isinstance(value, bool) else _number(value)
-        terms.append(f'{key}: {shown}')
+    terms += [f'{key}: {_yaml(value)}' for key, value in given.items()]
     return f'{{{", ".join(terms)}}}'
 
 
@@ -124,23 +121,19 @@ def _quoted(text: str) -> str:
     return _ESCAPED.sub(lambda found: f'\\u{ord(found[0]):04x}', quoted)
 
 
-def _material(body: Body) -> str:
-    """Return the properties of a body as a YAML mapping, for `text`."""
-    given = {'density': body.density} if body.mass is None else {'mass': body.mass}
-    given |= {'friction': body.friction, 'elasticity': body.elasticity}
-    parts = [f'{key}: {_number(value)}' for key, value in given.items()]
-    parts += [f'{key}: true' for key in ('anchored', 'kinematic', 'sensor') if getattr(body, key)]
-    if body.group:
-        parts.append(f'group: {body.group}')
-    if body.label:
-        parts.append(f'label: {_quoted(body.label)}')
-    return f'{{{", ".join(parts)}}}'
-
-
-def _number(value: float) -> str:
-    """Return a number in YAML 1.1, in which 1e-09 is a string and 1.0e-09 is a number."""
-    text = repr(float(value))
-    return text if '.' in text else text.replace('e', '.0e')
+def _yaml(value: Any) -> str:
+    """Return a value in YAML 1.1, in which 1e-09 is a string and 1.0e-09 is a number."""
+    match value:
+        case dict():
+            return f'{{{", ".join(f"{key}: {_yaml(each)}" for key, each in value.items())}}}'
+        case list():
+            return f'[{", ".join(map(_yaml, value))}]'
+        case str():
+            return _quoted(value)
+        case float():
+            text = repr(float(value))
+            return text if '.' in text else text.replace('e', '.0e')
+    return str(value).lower()
 
 
 def _cross(body: Body, key: Key) -> Symbol:
@@ -155,9 +148,7 @@ def _cross(body: Body, key: Key) -> Symbol:
         (x - reach, y + reach),
         (x + reach, y - reach),
     )
-    red, green, blue, _ = body.color
-    # Luminance as of ITU-R BT.601.
-    color = _DARK if 0.299 * red + 0.587 * green + 0.114 * blue > _BRIGHT else _LIGHT
+    color = _DARK if is_bright(body.color) else _LIGHT
     return Symbol(key, Marker.LINE_LIST, (reach / 4, 0.0, 0.0), points, THIN, color)
 
 

@@ -24,14 +24,13 @@ from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.simulation.past.amendment import Amendment
 from physsim_ros.simulation.past.budget import Budget
 from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.node import CachedFrame, Line, Moment
 from physsim_ros.simulation.past.replay import Replay
-from physsim_ros.simulation.past.status import gesture_phrase, timeline_status
+from physsim_ros.simulation.past.status import gesture_phrase
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -107,15 +106,6 @@ class Past:
     def steps_in(self, seconds: float) -> int:
         """Return the number of steps in a simulation time [s]."""
         return round(seconds * self.physics_rate)
-
-    def status(self, shown: Moment, *, speed: float) -> TimelineStatus:
-        """
-        Return the status of the timeline in force.
-
-        :param shown: the moment that is shown
-        :param speed: simulation seconds a second
-        """
-        return timeline_status(self.tree, shown, speed, self.physics_rate)
 
     def ghost(self, course: int, seconds: float) -> Snapshot | None:
         """

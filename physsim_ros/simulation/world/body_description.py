@@ -10,7 +10,7 @@ body, has the default of the world.
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 from physsim_ros.model.actors import Pedestrian
@@ -19,12 +19,9 @@ from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import Anchored, BadProperty
 from physsim_ros.model.requests import ChangeBody, Spawn
 from physsim_ros.model.robots import check_namespace
-from physsim_ros.model.scene import Body
+from physsim_ros.model.scene import Body, BODY_DEFAULTS
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import REST, Twist
-
-# Of the fields of a body that the world has no defaults of.
-_DEFAULTS = {each.name: each.default for each in fields(Body)}
 
 
 def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tuple[Body, Twist]:
@@ -113,7 +110,7 @@ def _check_role(body: Body) -> None:
 
 def _default(name: str, settings: WorldSettings) -> Any:
     """Return the value of a property of a body that nobody has set."""
-    return getattr(settings, name, _DEFAULTS.get(name))
+    return getattr(settings, name, BODY_DEFAULTS.get(name))
 
 
 def changed_twist(body: Body, twist: Twist, request: Spawn | ChangeBody) -> Twist:

@@ -21,8 +21,7 @@ import {Narrator, Sound} from './narrator.js';
 import {Notes, Refusals} from './notes.js';
 import {Numbers} from './numbers.js';
 import {Panel} from './panel.js';
-import {PlotWindow} from './plot_window.js';
-import {Plots} from './plots.js';
+import {LargePlot, Plots} from './plots.js';
 import {Pointers} from './pointer.js';
 import {Records, Trail} from './records.js';
 import {Room} from './room.js';
@@ -69,7 +68,7 @@ export class App {
     this.sound = new Sound(this);
     this.records = new Records(this);
     this.trail = new Trail(this);
-    this.plotWindow = new PlotWindow(this);
+    this.plotWindow = new LargePlot(this);
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);
     this.panel = new Panel(this);
@@ -133,6 +132,12 @@ export class App {
     this.view.dirty = true;
     // The drag of the air follows from velocities.
     this.connection.send('show', {velocities: velocities || forces || told || this.records.records || this.tool.measures === true, contacts: forces || told || this.sound.on || this.records.recordsForces, forces: true, laser: robot ? name : ''});
+  }
+
+  /** Show the help, whose script is loaded when somebody asks for it first. */
+  async showHelp() {
+    const {showHelp} = await import('./help.js');
+    showHelp(this);
   }
 
   #listBodies() {

@@ -28,6 +28,11 @@ const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of 
 /** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
 const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'), applied: t('applied force'), air: t('air'), sum: t('sum')};
 
+/**
+ * @typedef {{from: Point, x: number, y: number, scale: ArrowScale, color: string, text: string, width?: number, unit?: string,
+ *   named?: boolean}} Arrow from [px]; x, y in units, y up; text: its number; unit: of its components, where they are shown
+ */
+
 /** How many units are a bar's length: 1, 2 or 5 times a power of ten. */
 class ArrowScale {
   constructor() {
@@ -142,16 +147,16 @@ export class Arrows {
    * @param {number} room [px]
    */
   #drawVelocities(view, room) {
-    const {world, camera, panel} = this.app, {velocities} = world.frame;
+    const {world, camera, panel} = this.app, {velocities} = world.frame, {accent, momentum} = view.palette;
     for (let row = 0; velocities && row < world.count; row++) {
       const {anchored, name, centroid, mass} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
       if (anchored) continue;
       const from = camera.toPage(...world.place(row, centroid)), speed = Math.hypot(x, y);
-      if (this.momenta) this.#arrow(view, from, mass * x, mass * y, this.impulses, room, view.palette.momentum, `${threeDigits(mass * speed)} N s`, {width: WIDE});
-      // The arrow of the selected body can be dragged.
-      if (name === panel.name) {
-        if (this.components) this.#components(view, from, x, y, this.speeds, room, view.palette.accent, 'm/s');
-      } else this.#arrow(view, from, x, y, this.speeds, room, view.palette.accent, `${threeDigits(speed)} m/s`, {unit: 'm/s'});
+      if (this.momenta) this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.impulses, color: momentum, text: `${threeDigits(mass * speed)} N s`, width: WIDE});
+      const velocity = {from, x, y, scale: this.speeds, color: accent, text: `${threeDigits(speed)} m/s`, unit: 'm/s'};
+      // The arrow of the selected body can be dragged (handles.js).
+      if (name !== panel.name) this.#arrow(view, room, velocity);
+      else if (this.components) this.#components(view, room, velocity);
     }
   }
 
@@ -173,7 +178,7 @@ export class Arrows {
       const {kind, row, at, x, y} = force, named = some && isSelected(force), color = colorOf(kind, view.palette);
       const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${NAMES[kind]} ${size}` : size;
       const width = some && !named ? NARROW : kind === 'sum' ? WIDE : USUAL;
-      const to = this.#arrow(view, from, x, y, this.newtons, room, color, text, {width, unit: named || !some ? 'N' : '', named});
+      const to = this.#arrow(view, room, {from, x, y, scale: this.newtons, color, text, width, unit: named || !some ? 'N' : '', named});
       if (!to && kind === 'sum' && named) view.number({text: `${NAMES.sum} 0 N`, color, tip: [from[0], from[1] - BAR / 2], along: [0, -1], named});
       this.drawn.push({name: bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
     }
@@ -181,23 +186,18 @@ export class Arrows {
 
   /**
    * @param {SceneView} view
-   * @param {Point} from [px]
-   * @param {number} x in units, y up
-   * @param {number} y
-   * @param {ArrowScale} scale
    * @param {number} room [px]: a much longer arrow is cut
-   * @param {string} color
-   * @param {string} text its number
-   * @param {{width?: number, unit?: string, named?: boolean}} how  unit: of its components, where they are shown
+   * @param {Arrow} arrow
    * @returns {?Point} its tip [px]; null where the arrow is too short to be seen
    */
-  #arrow(view, from, x, y, scale, room, color, text, {width = USUAL, unit = '', named = false} = {}) {
+  #arrow(view, room, arrow) {
+    const {from, x, y, scale, color, text, width = USUAL, unit = '', named = false} = arrow;
     const size = Math.hypot(x, y), whole = scale.length(size), most = CUT * room;
     if (!(whole >= LEAST)) return null;
     const length = Math.min(whole, most), ux = x / size, uy = -y / size;
     /** @type {Point} */
     const tip = [from[0] + ux * length, from[1] + uy * length];
-    if (unit && this.components && whole <= most) this.#components(view, from, x, y, scale, room, color, unit);
+    if (unit && this.components && whole <= most) this.#components(view, room, arrow);
     view.arrow(from, tip, color, {width, cut: whole > most});
     view.number({text, color, from, tip, along: [ux, uy], named});
     return tip;
@@ -205,15 +205,10 @@ export class Arrows {
 
   /**
    * @param {SceneView} view
-   * @param {Point} from [px]
-   * @param {number} x in units, y up
-   * @param {number} y
-   * @param {ArrowScale} scale
    * @param {number} room [px]
-   * @param {string} color
-   * @param {string} unit
+   * @param {Arrow} arrow
    */
-  #components(view, from, x, y, scale, room, color, unit) {
+  #components(view, room, {from, x, y, scale, color, unit = ''}) {
     const [dx, dy] = [scale.length(x), -scale.length(y)];
     if (Math.min(Math.abs(dx), Math.abs(dy)) < LEAST || Math.hypot(dx, dy) > CUT * room) return;
     const {ctx} = view;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The keys of the page, which `?` shows, and the cursor on the canvas that they move. */
 
-import {showHelp} from './help.js';
 import {TOOLS} from './toolbar.js';
 
 /** @import {App, Point, SceneView, Touch} from './types.js' */
@@ -32,7 +31,7 @@ export class Keyboard {
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
     this.keys = {
-      '?': () => showHelp(app), f: () => app.room.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      '?': () => app.showHelp(), f: () => app.room.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => app.selection.deleteBodies(), Backspace: () => app.selection.deleteBodies(), Escape: () => this.#drop(),

@@ -20,19 +20,21 @@ export class Lessons {
     /** @type {{name: string, number: number, title: string, question: string}[]} in their order */
     this.list = [];
     this.card = elementOf('lesson', HTMLDetailsElement);
-    this.shown = ''; // the lesson of the card, as JSON
+    /** @type {string | undefined} */
+    this.shown = ''; // title of the lesson of the card
     /** @type {?{lesson: string, answer: string, right: boolean}} the last one of this page */
     this.answered = null;
     // The server knows this page as a new one.
     app.connection.on('welcome', () => this.answered && app.connection.send('answered', this.answered));
     /** @type {Set<string>} */
     this.solved = new Set(JSON.parse(localStorage.getItem(SOLVED) ?? '[]'));
-    app.connection.on('scene', ({lesson}) => this.#show(lesson));
+    app.connection.on('scene', ({lesson}) => lesson?.title === this.shown || this.#show(lesson));
+    app.connection.on('world', () => this.#show(app.world.scene.lesson));
     app.connection.on('worlds', ({lessons}) => {
       const first = !this.list.length;
       this.list = lessons;
       // The card names the next lesson.
-      this.#show(app.world.scene.lesson, first);
+      if (first) this.#show(app.world.scene.lesson);
       if (first) this.#offerLink();
     });
     addEventListener('hashchange', () => this.#offerLink());
@@ -69,14 +71,10 @@ export class Lessons {
     else gallery.show(lesson.title, createElement('p', {textContent: lesson.question}), inRow(textButton(t('Open the lesson'), () => this.#open(name))));
   }
 
-  /**
-   * @param {?Lesson | undefined} lesson
-   * @param {boolean} again whether its card is made anew
-   */
-  #show(lesson, again = false) {
-    const text = JSON.stringify(lesson), {card, app} = this;
-    if (text === this.shown && !again) return;
-    this.shown = text;
+  /** @param {?Lesson | undefined} lesson whose card is made anew */
+  #show(lesson) {
+    const {card, app} = this;
+    this.shown = lesson?.title;
     card.hidden = !lesson;
     card.open = true;
     if (lesson) {

@@ -2,9 +2,8 @@
 /** The canvas: grid, bodies, ghost, joints, arrows, and on top what the tool in hand draws. */
 
 import {BodyView} from './body_view.js';
-import {drawGrid, drawScan} from './grid_view.js';
 import {JointView} from './joint_view.js';
-import {drawLabels, drawNumbers} from './label_view.js';
+import {drawGrid, drawLabels, drawNumbers, drawScan} from './label_view.js';
 import {readPalette, watchTheme} from './settings.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from './types.js' */

@@ -45,9 +45,8 @@ export class TimeBar {
     this.shown = ''; // speed
     /** @type {[number, number, number][]} wall time [ms], simulation time [s] and speed of the last frames */
     this.paces = [];
-    this.reason = ''; // why the world is slower than asked for
     this.slowSince = 0; // [ms]; 0 where it is not
-    this.explained = -1; // epoch of the scene for which that was told
+    this.explained = false; // whether that was told in this world
     this.rate = 1; // of playing, as this page has chosen it
     this.held = false; // by a finger or the mouse
     this.busy = false; // a seek is on its way
@@ -60,6 +59,7 @@ export class TimeBar {
     this.speed.addEventListener('click', () => this.#changeSpeed());
     app.connection.on('timeline', () => this.showTimeline());
     app.connection.on('frame', ({ghost}) => ghost || this.#measurePace());
+    app.connection.on('world', () => { this.explained = false; });
     app.connection.on('open', () => {
       this.busy = false;
       this.asked = 0;
@@ -135,29 +135,27 @@ export class TimeBar {
 
   /** @param {number} speed */
   #showSpeed(speed) {
-    const pace = this.#slowPace, {bodies} = this.app.world.scene;
-    const text = `${Number((pace || speed).toFixed(2))}×`.replace('-', '−');
-    this.#tellSlow(pace > 0);
+    const pace = this.#slowPace, text = `${Number((pace || speed).toFixed(2))}×`.replace('-', '−');
+    const reason = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: this.app.world.scene.bodies.length}) : '';
+    this.#explain(reason);
     if (text === this.shown) return;
     this.shown = text;
     this.speed.textContent = text;
     this.speed.classList.toggle('slow', pace > 0);
     this.speed.setAttribute('aria-label', pace ? t('Speed {pace}, slower than {speed}×', {pace: text, speed}) : t('Speed {pace}', {pace: text}));
-    this.reason = t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: bodies.length});
-    this.speed.title = pace ? this.reason : t('Speed of playing');
+    this.speed.title = reason || t('Speed of playing');
   }
 
   /**
    * Tell why the speed is red, once for a world that stays slow.
-   * @param {boolean} slow
+   * @param {string} reason '' where it is not slow
    */
-  #tellSlow(slow) {
-    const now = performance.now(), {epoch} = this.app.world.scene;
-    if (!slow) this.slowSince = 0;
-    else this.slowSince ||= now;
-    if (!this.slowSince || now - this.slowSince < EXPLAINED || this.explained === epoch) return;
-    this.explained = epoch;
-    this.app.notes.pin(() => null, [this.reason], {kind: 'docked'});
+  #explain(reason) {
+    const now = performance.now();
+    this.slowSince = reason ? this.slowSince || now : 0;
+    if (!reason || this.explained || now - this.slowSince < EXPLAINED) return;
+    this.explained = true;
+    this.app.notes.pin(() => null, [reason], {kind: 'docked'});
   }
 
   #showTime() {

@@ -5,7 +5,6 @@
  */
 
 import {createElement, elementOf, iconButton, toggling} from './dom.js';
-import {showHelp} from './help.js';
 import {switchTheme} from './settings.js';
 import {t} from './strings.js';
 import {ClickTool} from './tools/click_tool.js';
@@ -100,9 +99,7 @@ export class TopBar {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    const zoom = createElement('span', {className: 'zoom', 'aria-hidden': true});
-    const frame = iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)'));
-    frame.append(zoom);
+    const zoom = createElement('span', {className: 'zoom'});
     app.view.overlays.push(() => {
       const share = `${Math.round(100 * app.camera.scale / app.camera.whole)} %`;
       if (zoom.textContent !== share) zoom.textContent = share;
@@ -119,9 +116,9 @@ export class TopBar {
         app.selection.select([]);
         app.panel.show('world');
       }, t('Material of new bodies; gravity')),
-      frame,
+      iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)')), zoom,
       iconButton(t('Light or dark'), 'theme', switchTheme),
-      iconButton(t('Help'), 'help', () => showHelp(app), t('Help: keys and gestures (?)')));
+      iconButton(t('Help'), 'help', () => app.showHelp(), t('Help: keys and gestures (?)')));
     elementOf('looks', HTMLElement).after(this.recording);
     app.connection.on('recording', ({rerun}) => this.#link(rerun));
     app.connection.on('welcome', ({rerun}) => this.#link(rerun));

@@ -13,7 +13,7 @@ from physsim_ros.model.shapes import Box, Disc, Polygon
 from physsim_ros.simulation.world import World
 import pytest
 
-from .ways import carry_out, circle, draw, round_arrow, square, zigzag
+from .ways import carry_out, circle, draw, joined, round_arrow, square, zigzag
 from ...building import DISC, spawn
 
 
@@ -25,8 +25,7 @@ def test_a_line_from_body_to_body_is_a_rod(world: World) -> None:
 
     assert reading.meaning == 'rod'
     assert reading.runner_up == 'wall'
-    (join,) = reading.requests
-    assert isinstance(join, Join)
+    join = joined(reading)
     assert (join.kind, join.a, join.b) == (JointKind.ROD, 'a/0', 'b/0')
     assert join.points[0] == pytest.approx((0.3, 0.1), abs=0.03)
 
@@ -67,8 +66,7 @@ def test_a_zigzag_from_body_to_body_is_a_spring(world: World, teeth: int) -> Non
     reading = draw(world, zigzag((0.0, 3.7), (0.1, 0.4), teeth))
 
     assert reading.meaning == 'spring'
-    (join,) = reading.requests
-    assert isinstance(join, Join)
+    join = joined(reading)
     assert (join.kind, join.a, join.b) == (JointKind.SPRING, 'b/0', 'a/0')
 
 
@@ -89,8 +87,7 @@ def test_a_circle_within_a_body_is_an_axle_to_the_background(world: World) -> No
     reading = draw(world, circle(1.0, 0.0, 0.12))
 
     assert reading.meaning == 'axle'
-    (axle,) = reading.requests
-    assert isinstance(axle, Join)
+    axle = joined(reading)
     assert (axle.kind, axle.b) == (JointKind.AXLE, 'world')
     assert axle.points[0] == pytest.approx((1.0, 0.0), abs=0.01)
     assert 'background' in reading.message
@@ -105,8 +102,7 @@ def test_a_small_circle_over_two_bodies_is_an_axle_in_the_middle_of_the_wheel(
     reading = draw(world, circle(1.25, -0.35, 0.15))
 
     assert reading.meaning == 'axle'
-    (axle,) = reading.requests
-    assert isinstance(axle, Join)
+    axle = joined(reading)
     assert (axle.kind, axle.a, axle.b) == (JointKind.AXLE, 'wheel/0', 'car/0')
     assert axle.points[0] == pytest.approx((1.2, -0.4), abs=1e-12)
     assert 'wheel/0 and car/0' in reading.message
@@ -201,6 +197,13 @@ def test_a_curved_line_from_body_to_body_is_a_rope_as_long_as_it_was_drawn(world
     assert joint.kind is JointKind.ROPE
     # m: half of an ellipse of 2 m and 1.5 m, by Ramanujan
     assert joint.rest_length == pytest.approx(5.52, rel=0.03)
+
+
+def test_a_bent_line_from_body_to_body_is_a_rope(world: World) -> None:
+    spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
+    spawn(world, 'b/0', DISC, (4.0, 0.0, 0.0))
+
+    assert draw(world, [(0.0, 0.0), (2.0, -1.2), (4.0, 0.0)]).meaning == 'rope'
 
 
 @pytest.mark.parametrize('sweep', [4.5, -3.0, 2.4, 5.4])

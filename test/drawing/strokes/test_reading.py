@@ -17,7 +17,7 @@ from physsim_ros.model.shapes import Box, Chain, Disc, Polygon
 from physsim_ros.simulation.world import World
 import pytest
 
-from .ways import ANGLE, carry_out, circle, draw, rectangle, SETTINGS, Way
+from .ways import ANGLE, built, carry_out, circle, draw, rectangle, SETTINGS, Way
 from ..single_stroke import interpret_stroke
 from ...building import body_at, spawn
 
@@ -29,9 +29,7 @@ def test_a_circle_in_the_open_is_a_disc(world: World) -> None:
 
     assert reading.meaning == 'disc'
     assert reading.confidence > 0.85
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Disc)
+    request = built(reading, Disc)
     assert request.shape.radius == pytest.approx(0.5, abs=0.01)
     assert request.pose == pytest.approx((3.0, 4.0, 0.0), abs=0.01)
     assert reading.subject == request.name == 'drawn/0'
@@ -42,9 +40,7 @@ def test_a_crooked_rectangle_is_made_level(world: World) -> None:
     reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1))
 
     assert reading.meaning == 'rectangle'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Box)
+    request = built(reading, Box)
     assert request.pose[2] == 0.0
     assert request.shape.width == pytest.approx(3.0, abs=0.05)
     assert request.shape.height == pytest.approx(0.95, abs=0.05)
@@ -72,9 +68,7 @@ def test_raw_geometry_can_be_asked_for(world: World) -> None:
     reading = draw(world, rectangle(0.0, 0.0, 3.0, 1.0, skew=0.1), beautify=0.0)
 
     assert reading.meaning == 'rectangle'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Polygon)
+    request = built(reading, Polygon)
     placed = {
         (round(x + request.pose[0], 2), round(y + request.pose[1], 2))
         for x, y in request.shape.outline
@@ -86,9 +80,7 @@ def test_a_triangle_is_a_polygon_about_its_centre_of_mass(world: World) -> None:
     reading = draw(world, [(0, 0), (3, 0.05), (0, 2), (0, 0)])
 
     assert reading.meaning == 'polygon'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Polygon)
+    request = built(reading, Polygon)
     assert len(request.shape.outline) == 3
     assert request.shape.form.centroid == pytest.approx((0.0, 0.0), abs=1e-9)
     # The right angle is right.
@@ -110,8 +102,7 @@ def test_what_is_drawn_takes_velocity_and_colour_from_the_settings(world: World)
         world, circle(0, 0, 1), draw_velocity=(1.0, 2.0), draw_color=(1.0, 0.0, 0.0, 1.0)
     )
 
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
+    request = built(reading)
     assert request.properties.velocity == (1.0, 2.0)
     assert request.color == (1.0, 0.0, 0.0, 1.0)
 
@@ -130,9 +121,7 @@ def test_a_line_in_the_open_is_a_level_wall(world: World) -> None:
     reading = draw(world, [(0, 0), (5, 0.2)], wall_thickness=0.05)
 
     assert reading.meaning == 'wall'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Chain)
+    request = built(reading, Chain)
     assert request.properties.anchored
     assert request.shape.thickness == 0.05
     assert request.pose == pytest.approx((2.5, 0.1, 0.0), abs=0.01)
@@ -231,17 +220,32 @@ def test_two_lines_across_each_other_on_a_body_are_an_x(world: World) -> None:
         assert reading.meaning == 'anchor'
 
 
-def test_a_shaft_and_a_head_are_an_arrow_in_two_strokes_and_in_three(world: World) -> None:
+@pytest.mark.parametrize('barb', [0.7, 1.6, 2.9])
+@pytest.mark.parametrize('gap', [-0.2, 0.0, 0.4])
+def test_a_shaft_and_a_head_are_an_arrow_in_either_order_and_direction(
+    world: World, barb: float, gap: float
+) -> None:
+    """The shaft is 3 m long; it ends before the tip of the head, at it, or beyond it."""
     shaft = np.linspace((0.0, 0.0), (0.0, -3.0), 40)
-    left, right = (np.linspace((0.0, -3.0), (x, -2.4), 15) for x in (-0.4, 0.4))
-    head = np.vstack((left[::-1], right))
+    along, across = barb * math.cos(0.5), barb * math.sin(0.5)
+    left, right = (np.linspace((x, along), (0.0, 0.0), 20) for x in (-across, across))
+    head = np.vstack((left, right[::-1])) - (0.0, 3.0 + gap)
 
-    for strokes in ([shaft, head], [head, shaft], [shaft, left, right], [right, shaft, left]):
+    for strokes in ([shaft, head], [head, shaft], [shaft[::-1], head], [head[::-1], shaft[::-1]]):
         reading = interpret_stroke(joined_strokes(strokes), SceneQuery(world.snapshot()), SETTINGS)
         assert reading.meaning == 'gravity'
         (request,) = reading.requests
         assert isinstance(request, Configure)
         assert request.changes['gravity'] == pytest.approx((0.0, -9.81), abs=1e-9)
+
+
+def test_a_shaft_and_two_barbs_are_an_arrow(world: World) -> None:
+    shaft = np.linspace((0.0, 0.0), (0.0, -3.0), 40)
+    left, right = (np.linspace((0.0, -3.0), (x, -2.4), 15) for x in (-0.4, 0.4))
+
+    for strokes in ([shaft, left, right], [right, shaft, left]):
+        reading = interpret_stroke(joined_strokes(strokes), SceneQuery(world.snapshot()), SETTINGS)
+        assert reading.meaning == 'gravity'
 
 
 def test_seven_lines_are_a_polygon(world: World) -> None:
@@ -253,9 +257,7 @@ def test_seven_lines_are_a_polygon(world: World) -> None:
     )
 
     assert reading.meaning == 'polygon'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
-    assert isinstance(request.shape, Polygon)
+    request = built(reading, Polygon)
     assert len(request.shape.outline) == 7
 
 
@@ -270,9 +272,7 @@ def test_every_guess_can_be_built_and_the_first_is_the_reading(world: World) -> 
 
     assert [guess.meaning for guess in reading.guesses] == ['rod', 'wall']
     assert reading.guesses[0].build().requests == reading.requests
-    (wall,) = reading.guesses[1].build().requests
-    assert isinstance(wall, Spawn)
-    assert isinstance(wall.shape, Chain)
+    assert isinstance(reading.guesses[1].build().requests[0], Spawn)
 
 
 def test_below_the_confidence_asked_for_nothing_is_built_and_what_it_might_be_is_said(
@@ -289,8 +289,9 @@ def test_below_the_confidence_asked_for_nothing_is_built_and_what_it_might_be_is
     [
         np.column_stack((np.sin(ANGLE), np.sin(2 * ANGLE))),
         np.column_stack((ANGLE * np.cos(2.5 * ANGLE), ANGLE * np.sin(2.5 * ANGLE))),
+        np.column_stack((0.4 * (ANGLE - math.pi) + np.sin(ANGLE), np.cos(ANGLE))),
     ],
-    ids=['an eight', 'a spiral'],
+    ids=['an eight', 'a spiral', 'a pigtail'],
 )
 def test_what_is_no_figure_is_not_recognised(world: World, way: Floats) -> None:
     with pytest.raises(NotRecognised):

@@ -9,13 +9,13 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.requests import Anchor, Configure, Delete, Join, Spawn
+from physsim_ros.model.requests import Anchor, Configure, Delete, Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 import pytest
 
-from .ways import carry_out, cross, draw, scribble
+from .ways import built, carry_out, cross, draw, scribble
 from ...building import DISC, NOWHERE, spawn
 
 
@@ -145,8 +145,7 @@ def test_a_pentagram_and_a_zigzag_of_five_lines_over_a_body_delete_nothing(
     zigzag = draw(world, [(size * (n / 5 - 0.5), 0.4 * size * (-1) ** n) for n in range(6)])
 
     assert reading.meaning == 'polygon'
-    (request,) = reading.requests
-    assert isinstance(request, Spawn)
+    built(reading)
     assert not any(isinstance(each, Delete) for each in zigzag.requests)
 
 

@@ -40,6 +40,17 @@ def found(samples: Floats) -> Floats:
     return made[np.argsort(angle)]
 
 
+@pytest.mark.parametrize('bow', [-0.15, -0.1, 0.0, 0.1, 0.2])
+def test_a_check_with_bowed_arms_has_one_bend(bow: float) -> None:
+    x = np.linspace(0.0, 1.0, 40)
+    arm = np.column_stack((x, x + 4.0 * bow * x * (1.0 - x)))
+    check = np.vstack((0.5 * arm[::-1] * (-1.0, 1.0), arm))
+
+    assert bends_of(resample_stroke(check).points) == pytest.approx(
+        np.array([(-0.5, 0.5), (0.0, 0.0), (1.0, 1.0)]), abs=0.15
+    )
+
+
 @pytest.mark.parametrize('count', [5, 21, 60, 1003, 100_000])
 def test_the_corners_of_a_square_do_not_depend_on_how_often_it_was_sampled(count: int) -> None:
     samples = SQUARE if count == 5 else along(SQUARE, count)

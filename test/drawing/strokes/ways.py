@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.reading import (
-    Reading,
-)
+from physsim_ros.drawing.strokes.reading import Reading
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.simulation.world import World
 
 from ..single_stroke import interpret_stroke
@@ -36,6 +35,21 @@ def draw(world: World, way: Way | Floats, **said: Any) -> Reading:
         return interpret_stroke(points, SceneQuery(world.snapshot()), DrawingSettings(**said))
     finally:
         assert world.digest() == before
+
+
+def built(reading: Reading, shape: type = object) -> Spawn:
+    """Return the only request of a reading: a body of a shape."""
+    (request,) = reading.requests
+    assert isinstance(request, Spawn)
+    assert isinstance(request.shape, shape)
+    return request
+
+
+def joined(reading: Reading) -> Join:
+    """Return the only request of a reading: a joint."""
+    (request,) = reading.requests
+    assert isinstance(request, Join)
+    return request
 
 
 def carry_out(world: World, reading: Reading) -> None:

@@ -13,9 +13,11 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.requests import DriveRobot, Spawn
+from physsim_ros.model.shapes import Disc
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.ros.robots import Fleet
+from physsim_ros.simulation.request_queue import RequestQueue, TakeBack
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
 import rclpy
@@ -473,6 +475,23 @@ def test_each_scan_is_waited_for_once(waiting: PhysSim) -> None:
     waiting.run(0.2)
     set_parameter(waiting, 'lockstep', 1e3)
     assert waiting.node.fleet.is_waiting
+
+
+def test_a_past_that_is_simulated_again_is_no_row_of_frames_for_controllers(
+    flat: PhysSim, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    simulation = flat.node.simulation
+    spawn = Spawn(name='a/0', shape=Disc(radius=0.1))
+    simulation.requests.submit(spawn, topic='~/spawn', author='Anna')
+    flat.run(10.0)
+    monkeypatch.setattr(Fleet, 'in_lockstep', True)
+    simulation.requests.submit(TakeBack(), topic='~/undo', author='Anna')
+    ticks = 0
+    while simulation.past.cursor.is_amending or len(simulation.world):
+        flat.node.loop.tick(ticks * SECOND // 60)
+        ticks += 1
+    # Of 600 frames; a tick makes as many as there is time for.
+    assert ticks < 100
 
 
 def test_a_rewind_does_not_wait_for_a_controller_that_is_silent(waiting: PhysSim) -> None:
