@@ -22,10 +22,10 @@ SHARE = f'share/{PACKAGE}'
 # colcon --symlink-install runs a link to this file from its build tree, where no README is.
 SOURCE = Path(__file__).resolve().parent
 
-# The repository: package.xml tells it.
-(HOME,) = re.findall(
-    r'<url type="repository">(.*)</url>', (SOURCE / 'package.xml').read_text('utf-8')
-)
+# The address of the repository and of its maintainers: package.xml alone has them.
+MANIFEST = (SOURCE / 'package.xml').read_text('utf-8')
+(HOME,) = re.findall('<url type="repository">(.*)</url>', MANIFEST)
+((EMAIL, AUTHOR),) = re.findall('<maintainer email="(.*)">(.*)</maintainer>', MANIFEST)
 
 # The core of the engine: a plain shared library, without any Python in it.
 CORE = f'{PACKAGE}/engine/core'
@@ -120,10 +120,10 @@ setup(
     description='A two-dimensional physics world on the ROS 2 graph, with exact rewind',
     long_description=read_me(),
     long_description_content_type='text/markdown',
-    author='physsim_ros maintainers',
-    author_email='maintainers@physsim.example',
-    maintainer='physsim_ros maintainers',
-    maintainer_email='maintainers@physsim.example',
+    author=AUTHOR,
+    author_email=EMAIL,
+    maintainer=AUTHOR,
+    maintainer_email=EMAIL,
     license='Apache-2.0',
     url=HOME,
     project_urls={

@@ -31,6 +31,7 @@ html_title = f'physsim_ros {release}'
 # Tables that a phone can show.
 html_static_path = ['_static']
 html_css_files = ['narrow.css']
+html_js_files = ['labels.js']
 # Pages come before names of the code, and reference before what else says the word.
 html_search_scorer = str(ROOT / 'docs' / 'search_scorer.js')
 

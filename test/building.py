@@ -89,7 +89,7 @@ def spawning(
     lifetime: float = 0.0,
     **said: Any,
 ) -> Spawn:
-    """Return the request; what is said of material and motion by keyword."""
+    """Return the request of a body; keywords are its properties."""
     return Spawn(
         name=name,
         shape=shape,
@@ -153,7 +153,7 @@ def stack(world: World, count: int) -> None:
 
 
 def swing(*, link: float, ball: float, radius: float) -> World:
-    """Return a ball on 20 links of 0.15 m and so many kg each, let go at 45 degrees."""
+    """Return a ball on 20 links of 0.15 m, of a mass each [kg], let go at 45 degrees."""
     world, count, length, lean = World(), 20, 0.15, math.radians(45.0)
     way = np.array((math.sin(lean), -math.cos(lean)))
     shape = Box(width=length, height=0.03)

@@ -90,7 +90,7 @@ class Program:
                 return line
 
     def finish(self, timeout: float = PATIENCE) -> int:
-        """Wait for the end, take in what is left to read, and return the exit code."""
+        """Wait for the end, read the remaining lines, and return the exit code."""
         code = self.process.wait(timeout)
         self._reader.join(timeout)
         while not self._queue.empty():

@@ -29,7 +29,7 @@ def has_vulkan() -> bool:
 
 @contextmanager
 def headless_viewer(width: int, height: int) -> Iterator[HeadlessViewer]:
-    """Start a viewer with a window of so many pixels, and end it."""
+    """Start a viewer with a window of a size [pixels], and end it."""
     port = free_port()
     process = rerun(
         '--headless', f'--port={port}', f'--window-size={width}x{height}', '--hide-welcome-screen'
@@ -46,13 +46,13 @@ def headless_viewer(width: int, height: int) -> Iterator[HeadlessViewer]:
 
 
 class HeadlessViewer:
-    """A viewer and what it shows."""
+    """A viewer and its recording."""
 
     def __init__(self, client: ViewerClient) -> None:
         self.client = client
 
     def open_recording(self, path: Path) -> None:
-        """Show a recording, instead of another."""
+        """Show a recording in place of the last one."""
         if self.client.get_state().recordings:
             self.client.close('all')
         self.client.open(str(path))

@@ -30,7 +30,7 @@ def _not_source(folder: str, names: list[str]) -> set[str]:
 
 
 def copy_source(place: Path) -> Path:
-    """Copy what a clone has, but for hidden files, to a folder that is not there yet."""
+    """Copy the files of a clone, without hidden ones, to a new folder."""
     return Path(shutil.copytree(ROOT, place, ignore=_not_source))
 
 

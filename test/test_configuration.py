@@ -28,7 +28,7 @@ LAUNCH = ROOT / 'launch' / 'physsim.launch.py'
 PICTURES = {'/physsim/markers', '/physsim/preview'}
 # The topics of a body robot/0, and the map.
 OF_ROBOTS = {'/physsim/map', '/robot_0/ground_truth', '/robot_0/odom', '/robot_0/scan'}
-# What displays of RViz show.
+# Topics that displays of RViz show.
 KINDS = {'LaserScan': LaserScan, 'Map': OccupancyGrid, 'Odometry': Odometry}
 
 

@@ -50,7 +50,7 @@ EXIT = 60
 
 
 def _run(*command, **options):
-    """Run a command to its end; what it printed is the message where it fails."""
+    """Run a command to its end; its output is the message of a failure."""
     done = subprocess.run(  # noqa: PLW1510  the assertion below says more than check would
         command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options
     )
@@ -77,7 +77,7 @@ def colcon():
 
 @pytest.fixture(scope='module')
 def overlay(workspace, colcon):
-    """Build the workspace; give the environment that its local_setup leaves."""
+    """Build the workspace, and return the environment that its local_setup makes."""
     _run(colcon, 'build', cwd=workspace, timeout=BUILD)
     # The plain sh file cannot find out where it lies.
     printed = _run(
@@ -92,7 +92,7 @@ def overlay(workspace, colcon):
 
 @contextmanager
 def _running(*command, **options):
-    """Start a program; its lines come through the queue, then None. Killed if still there."""
+    """Start a program, and yield a queue of its lines, then None; kill it at the end."""
     lines = queue.SimpleQueue()
 
     def read():
@@ -218,7 +218,7 @@ def test_pip_installs_every_world_and_example_the_manifest_and_the_marker(instal
     assert (share / 'ament_index/resource_index/packages/physsim_ros').is_file()
 
 
-# What is packed
+# The packed distributions
 
 
 @pytest.fixture(scope='module')
@@ -378,7 +378,7 @@ INSTALL = 500
 
 @pytest.fixture(scope='module')
 def empty_environment(workspace, tmp_path_factory):
-    """Build the wheel, and let pip install it with ROS into an environment that has nothing."""
+    """Build the wheel, and let pip install it with ROS into an empty environment."""
     dist, environment = tmp_path_factory.mktemp('dist'), tmp_path_factory.mktemp('environment')
     source = workspace / 'src' / 'physsim_ros'
     build = ['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', dist, source]

@@ -50,5 +50,5 @@ class DrawingSettings(Checked):
     draw_color: Annotated[
         Color | None,
         check_color,
-        "colour of new drawn bodies: `'#rrggbb'`, `'#rrggbbaa'`, or `auto`, another one for each",
+        "colour of drawn bodies: `'#rrggbb'`, `'#rrggbbaa'`, or `auto`, a different one for each",
     ] = None

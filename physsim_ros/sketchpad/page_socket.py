@@ -112,7 +112,11 @@ class PageSocket(GuardedSocket):
 def _show(
     *, velocities: bool = False, contacts: bool = False, forces: bool = False, laser: str = ''
 ) -> tuple[Show, str]:
-    """Return the parts of a frame that a page asks for, and the robot whose laser it shows."""
+    """
+    Choose what the frames of this page have: by default poses, and no robot's laser.
+
+    :returns: the parts of a frame, and the name of the robot
+    """
     parts = (
         (Show.VELOCITIES if velocities else Show.POSES)
         | (Show.CONTACTS if contacts else Show.POSES)
@@ -123,5 +127,5 @@ def _show(
 
 @message('here', '', Right.DRAW, point=fields.point)
 def _here(*, point: Point) -> Point:
-    """Return where the cursor of a page is [m]."""
+    """Show all pages where the cursor of this one is [m]."""
     return point

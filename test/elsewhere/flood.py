@@ -30,7 +30,7 @@ def main() -> None:
     visitor.greet(events, spawn)
 
     def flood(topic: str) -> dict[str, object]:
-        """Send a burst, and return how it was answered."""
+        """Send a burst, and return its answers."""
         # Far apart, so that the flood alone is what costs.
         markers = [disc(topic, number, number * 0.5, 0.0, 0.2) for number in range(count)]
         began = time.monotonic()

@@ -70,7 +70,7 @@ class Visitor:
     def listen_if(
         self, kind: type, topic: str, wanted: Callable[[Any], bool], qos: QoSProfile = ALL
     ) -> list[Any]:
-        """Return the list that some of the messages come into, once both ends have met."""
+        """Return the list that chosen messages come into, once both ends have met."""
         received: list[Any] = []
 
         def receive(message: Any) -> None:
@@ -90,7 +90,7 @@ class Visitor:
         return received[0]
 
     def greet(self, events: list[DiagnosticStatus], publisher: Any) -> None:
-        """Ask for what is not there until that is answered: then both directions have met."""
+        """Send refused requests until one is answered: then both directions have met."""
         numbers = count()
         while not events:
             last = f'nobody/{(number := next(numbers))}'
@@ -102,7 +102,7 @@ class Visitor:
         events.clear()
 
     def client(self, kind: Any, service: str) -> None:
-        """Become a client of a service, before anything else."""
+        """Create the client of a service, so that discovery begins."""
         self._clients[service] = self.node.create_client(kind, service)
 
     def request(self, service: str, request: Any) -> Any:
@@ -119,7 +119,7 @@ class Visitor:
         return response.success, response.message
 
     def finish(self, **results: object) -> None:
-        """Print what was seen, as the last line, and end."""
+        """Print the observations as the last line, and end."""
         foreign = [name for name in sys.modules if name.partition('.')[0] == 'physsim_ros']
         assert foreign == [], 'this program was to know the topics alone'
         print('RESULT ' + json.dumps(results), flush=True)  # noqa: T201 - that is the answer

@@ -33,7 +33,7 @@ PERIOD = 1e9 / 60.0
 
 def rows_below(heading: str) -> list[list[str]]:
     """Return the cells of the table below a heading of the contract."""
-    text = (ROOT / 'docs' / 'interface.md').read_text(encoding='utf-8')
+    text = (ROOT / 'docs' / 'interface' / 'topics.md').read_text(encoding='utf-8')
     section = text.partition(f'\n## {heading}\n')[2].partition('\n#')[0]
     return [line.strip('|').split(' | ') for line in section.splitlines() if line[:3] == '| `']
 
@@ -50,10 +50,8 @@ def type_name(cell: str) -> str:
 
 TYPES = {resolved(topic): type_name(kind) for topic, kind, *_ in rows_below('Output')}
 QOS = {resolved(topic): qos for topic, _, qos, *_ in rows_below('Output')}
-# Topics have three columns, services two.
-_REQUESTS = rows_below('Requests')
-REQUESTS = {resolved(row[0]): type_name(row[1]) for row in _REQUESTS if len(row) == 3}
-SERVICES = {resolved(name) for row in _REQUESTS if len(row) == 2 for name in row[0].split(', ')}
+REQUESTS = {resolved(topic): type_name(kind) for topic, kind, _ in rows_below('Requests')}
+SERVICES = {resolved(name) for row in rows_below('Services') for name in row[0].split(', ')}
 # In the order in which the program outside spawns them.
 NAMES = ['floor/0', 'ball/7', 'ball/6', 'ball/5']
 

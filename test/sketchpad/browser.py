@@ -63,7 +63,7 @@ def decoded(message: bytes) -> Picture:
 
 
 class Page:
-    """An open socket, with all that came from it."""
+    """An open socket and all messages from it."""
 
     def __init__(self, browser: Browser, socket: WebSocketClientConnection) -> None:
         self.browser = browser
@@ -108,7 +108,7 @@ class Page:
         return [each for each in self.of_type('answer') if each['request'] == id_]
 
     def ask(self, kind: str, **fields: Any) -> dict[str, Any]:
-        """Send a message, and return its last answer, when the first is there."""
+        """Send a message, and return its last answer once an answer has arrived."""
         id_ = self.send(kind, **fields)
         self.browser.until(lambda: self.answers(id_))
         return self.answers(id_)[-1]
@@ -164,7 +164,7 @@ class Browser:
     async def begin_fetch(
         self, path: str, *, cookie: str | None = None, **options: Any
     ) -> HTTPResponse:
-        """Return the response to a request, while others do what it needs."""
+        """Return the response to a request, as a coroutine."""
         headers = {'Cookie': self.cookie if cookie is None else cookie}
         return await AsyncHTTPClient().fetch(
             self.base + path,

@@ -21,15 +21,12 @@ from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
 from physsim_ros.sketchpad.page_handlers import PAGE
-from physsim_ros.sketchpad.rights import Right
 from physsim_ros.testing import PhysSim
 import pytest
 from rclpy.parameter import Parameter
 
 from .browser import Browser, Page
 from ..outside import PATIENCE
-
-PROTOCOL = Path(__file__).parents[2] / 'docs' / 'page_protocol.md'
 
 
 def circle(x: float, y: float, radius: float) -> list[list[float]]:
@@ -41,21 +38,11 @@ def grips(physsim: PhysSim) -> tuple[Grip, ...]:
     return physsim.node.simulation.world.snapshot().grips
 
 
-def test_a_kind_of_message_has_the_fields_of_its_function_and_is_documented() -> None:
-    documented = PROTOCOL.read_text(encoding='utf-8')
+def test_a_kind_of_message_has_the_fields_of_its_function() -> None:
     for name, kind in KINDS.items():
         parameters = {*inspect.signature(kind.handle).parameters} - {'page', 'origin'}
         # Those of `draw_with` are properties of bodies.
         assert kind.fields.keys() == parameters or parameters == {'color', 'properties'}, name
-        assert f'`{name}`' in documented
-    for right, who in (
-        (Right.LOOK, 'every page'),
-        (Right.DRAW, 'a page that draws, frozen or not'),
-        (Right.TEACH, "a teacher's page"),
-    ):
-        (names,) = re.findall(rf'^\| {who} \| (.*) \|$', documented, re.MULTILINE)
-        of_right = {name for name, kind in KINDS.items() if kind.right is right}
-        assert {*re.findall('`(.*?)`', names)} == of_right
 
 
 def test_a_page_gets_the_poses_of_the_world(browser: Browser) -> None:

@@ -58,10 +58,21 @@ def _named_paths(text):
 
 @pytest.mark.linter
 @pytest.mark.parametrize('document', DOCUMENTS, ids=lambda path: path.name)
-def test_every_link_of_a_document_to_a_file_leads_somewhere(document):
-    targets = re.findall(r'\]\((?!https?://)([^)#\s]+)', document.read_text(encoding='utf-8'))
+def test_every_link_of_a_document_leads_to_a_file_and_a_heading(document):
+    links = re.findall(
+        r'\]\((?!https?://)([^)#\s]*)(?:#([\w-]+))?\)', document.read_text(encoding='utf-8')
+    )
 
-    assert [each for each in targets if not (document.parent / each).exists()] == []
+    for target, anchor in links:
+        path = document.parent / target if target else document
+        assert path.exists(), target
+        assert not anchor or anchor in _anchors(path), f'{target}#{anchor}'
+
+
+def _anchors(document):
+    """Return the names by which links lead to the headings of a document, as GitHub makes them."""
+    headings = re.findall(r'^#+ (.*)$', document.read_text(encoding='utf-8'), re.MULTILINE)
+    return {re.sub(r'[^\w -]', '', heading.lower()).replace(' ', '-') for heading in headings}
 
 
 @pytest.mark.linter
@@ -100,10 +111,10 @@ def test_every_page_is_in_a_table_of_contents():
     assert pages - listed == {DOCS / 'index.md'}
 
 
-def _section(heading):
-    """Return the text of the interface below a heading, to the next one."""
-    _, _, text = (DOCS / 'interface.md').read_text(encoding='utf-8').partition(heading)
-    return text.partition('\n#')[0]
+def _section(page, heading):
+    """Return the text of a page of the interface below a heading, to the next one."""
+    text = (DOCS / 'interface' / f'{page}.md').read_text(encoding='utf-8')
+    return text.partition(f'{heading}\n')[2].partition('\n#')[0]
 
 
 @pytest.mark.linter
@@ -121,7 +132,7 @@ def test_the_table_of_codes_has_every_refusal():
     def codes(kind):
         return {kind.code}.union(*(codes(each) for each in kind.__subclasses__()))
 
-    answers = _section('\n### Answers\n')
+    answers = _section('codes', '## Codes')
     missing = {code for code in codes(Refusal) if f'`{code}`' not in answers}
     assert missing <= {Refusal.code}
 
@@ -129,7 +140,9 @@ def test_the_table_of_codes_has_every_refusal():
 @pytest.mark.linter
 def test_the_table_of_world_files_has_every_key():
     joint = {*world_schema.OWN_JOINT_KEYS, *JOINT_KEYS} - {*JointProperties.__slots__}
-    rows = re.findall(r'^\| (\w+) \| (`.*?) \|', _section('\n## World files\n'), re.MULTILINE)
+    rows = re.findall(
+        r'^\| (\w+) \| (`.*?) \|', _section('world_files', '# World files'), re.MULTILINE
+    )
 
     for of, keys in {
         'world': world_schema.WORLD_KEYS,
@@ -146,7 +159,9 @@ def test_the_limits_of_values_are_those_of_the_code():
         return re.sub(r'e(-?)\+?0*', r'e\1', f'{value:.0e}')
 
     rows = dict(
-        re.findall(r'^\| (.*?) \| (.*) \|$', _section('\n### Limits of values\n'), re.MULTILINE)
+        re.findall(
+            r'^\| (.*?) \| (.*) \|$', _section('properties', '## Limits of values'), re.MULTILINE
+        )
     )
     for what, numbers in {
         'points of a shape, centres of a compound': [f'{MOST_POINTS:,}'],
@@ -156,3 +171,13 @@ def test_the_limits_of_values_are_those_of_the_code():
         'a name': [f'{LONGEST_NAME:,} printable'],
     }.items():
         assert [number for number in numbers if number not in rows[what]] == []
+
+
+@pytest.mark.linter
+def test_the_address_of_the_project_is_written_in_its_manifest_alone():
+    manifest = (ROOT / 'package.xml').read_text('utf-8')
+    (home,) = re.findall('<url type="repository">https://([^/]+)', manifest)
+    texts = [ROOT / 'setup.py', ROOT / 'CITATION.cff', ROOT / 'SECURITY.md', *DOCUMENTS]
+    texts += [*(ROOT / '.github').rglob('*.y*ml')]
+
+    assert [path for path in texts if home in path.read_text('utf-8')] == []

@@ -63,7 +63,7 @@ def _is_left_out(path):
     """Return whether .dockerignore names a path or a folder above it."""
     for pattern in (ROOT / '.dockerignore').read_text('utf-8').splitlines():
         for each in (path, *path.parents):
-            # What begins with **/ is meant at any depth, all else at the top.
+            # A pattern that begins with **/ holds at any depth, every other one at the top.
             if each.match(pattern[3:]) if pattern.startswith('**/') else str(each) == pattern:
                 return True
     return False

@@ -16,7 +16,7 @@ from .stages import Stage, switched_off
 
 # A checkpoint is taken in these frames.
 PILE, LINKS, FRAMES = 300, 30, 190
-# The least time of so many counts.
+# Number of runs, of which the fastest counts.
 ROUNDS = 3
 
 

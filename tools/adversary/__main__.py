@@ -32,7 +32,7 @@ from .monitor import Monitor
 # Disturbances in a round, and how long a world is left alone after them [s].
 ROUND = 25
 QUIET = 4.0
-# Of the past [MB]: resets and courses that were left fill it within minutes.
+# Memory of the past [MB]: resets and courses that were left fill it within minutes.
 BUDGET = 24.0
 SCENES = (
     scenes.one_pose,

@@ -53,7 +53,7 @@ class Driver:
         self.codes: Counter[str] = Counter()
         self.values: dict[str, str] = {}
         self.divergences: list[str] = []
-        # Bodies of a scene that nothing was heard of.
+        # Bodies of a scene whose answers are missing.
         self._unanswered: set[str] = set()
         self.node = NodeWithoutQosEvents('driver')
         self._executor = EventsExecutor()

@@ -16,7 +16,7 @@ import psutil
 # Memory that a run may gain between its middle and its end [MB], without that of the past, which
 # has a budget: pages of allocators.
 MEMORY_GAIN = 40.0
-# Share of its budget from which on the past is full: what goes at once may be a part of it.
+# Share of its budget from which on the past is full: a part of it may be dropped at once.
 FULL = 0.75
 # Threads and descriptors more than in the first third: those of discovered participants come late.
 COUNT_GAIN = 4

@@ -30,7 +30,7 @@ from . import (
     startup,
 )
 
-# As the node does: what has been imported stays, and the collector need not look at it.
+# The garbage collector skips imported modules, as in the node.
 gc.collect()
 gc.freeze()
 _TABLES = {

@@ -19,9 +19,9 @@ from physsim_ros.simulation.world import World
 import pymunk
 
 SETTLE = 20.0  # simulated seconds in which a pile of a thousand comes to rest
-# Bodies in a column of those that are laid down.
+# Bodies in a column of the resting ones.
 HIGH = 4
-# Wider than the farthest body of the greatest count [m].
+# Half the width of the floor [m], beyond the farthest body.
 GROUND = 2000.0
 
 

@@ -14,11 +14,11 @@ from physsim_ros.simulation.world import World
 from .bodies import Bare, falling, laid, timed
 from .frames import naive_message
 
-# Counts that are tried: a quarter of an octave apart.
+# The tried counts of bodies are a quarter of an octave apart.
 COUNTS = [round(250 * 2 ** (quarter / 4)) for quarter in range(21)]
 BUDGET = 1e3 / 60  # ms
 FRAMES = 40
-# Frames before those that are measured: bodies are on one another by then, or asleep.
+# Frames before the measured ones: bodies lie on one another by then, or sleep.
 BEFORE = 40
 
 

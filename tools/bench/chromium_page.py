@@ -110,7 +110,7 @@ def hand_times(sheet: Sheet) -> list[float]:
     times = []
     with sheet.dragging((x, y), (x + 0.3, y)):
         for number in range(REPEATS):
-            # It is at rest where the hand was.
+            # The body rests at the last place of the hand.
             sheet.page.wait_for_timeout(700)
             sheet.page.evaluate(WATCH, ['pointermove', 'x', 0.01])
             mouse.move(*sheet.place(x + (0.3 if number % 2 else -0.3), y))

@@ -23,9 +23,9 @@ import pytest
 from .bodies import Bare
 
 COUNTS = (0, 10, 100)
-# A frame of the simulation lasts so long [ms].
+# Duration of a frame of the simulation [ms].
 FRAME = 1000 / 60
-# Frames in a row of each, and how often: three checkpoints.
+# Frames in a row, and rows of each world: they contain three checkpoints.
 TURN, TURNS = 60, 9
 # Speed of discs that roll [m/s], their distance and radius [m].
 SPEED, APART, RADIUS = 0.2, 1.0, 0.25

@@ -32,14 +32,13 @@ from rclpy.parameter import Parameter
 from .bodies import Bare, fill, SETTLE, timed
 
 FRAMES = 200
-# Before them: a checkpoint is among these, the first of so many bodies.
+# Frames before the measured ones, with the first checkpoint of this number of bodies.
 WARM = 100
-# Frames in a row of each: one alone would leave what is to be sent to the others' time.
+# Frames in a row of each: a single frame would be sent during the others' time.
 TURN = 20
 PERIOD = 16_666_667  # ns
 TOPICS = ('clock', 'poses', 'states', 'contacts', 'markers', 'events', 'diagnostics')
-# Subscribes to topics from another process, as serialised bytes: what a viewer costs is its own
-# affair.
+# Subscribes to topics as serialised bytes, in another process, so that its cost is not counted.
 LISTENER = """
 import sys, rclpy, rclpy.executors
 from rclpy.experimental import EventsExecutor

@@ -55,7 +55,7 @@ def frames(world: World) -> tuple[float, float]:
         began = time.perf_counter_ns()
         simulation.advance_frame()
         costs.append((time.perf_counter_ns() - began) * 1e-6)
-    # The first makes the tables of joints.
+    # The first step makes the tables of joints.
     return statistics.median(costs), max(costs[1:])
 
 

@@ -32,7 +32,7 @@ from .frames import LISTENER, TOPICS
 from .startup import executable
 
 COUNT = 1000
-# Simulated time that is measured [s].
+# Measured simulation time [s].
 SECONDS = 6.0
 
 
@@ -94,7 +94,7 @@ def measure(name: str, world: World) -> None:
         given = {'world_file': path, 'record_file': Path(directory) / 'all.rrd', 'speed': 0.0}
         try:
             with executable(domain, **given) as process:
-                # The listener, and for the clock this process.
+                # Subscribers are the listener, and this process for the clock.
                 remote.spin_until(lambda: remote.node.count_subscribers('/diagnostics'))
                 remote.spin_until(lambda: remote.node.count_publishers('/physsim/states'))
                 time.sleep(1.0)

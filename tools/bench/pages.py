@@ -27,11 +27,11 @@ from rclpy.parameter import Parameter
 
 from .bodies import fill, SETTLE
 
-# None shows how equal the two worlds are.
+# Zero pages show how equal the two worlds are.
 COUNTS = (0, 1, 20)
-# Frames that are compared, and those before them that do not count.
+# Number of compared frames, and of frames before them that do not count.
 FRAMES, WARM = 360, 30
-# From a frame of one world to that of the other: what the pages cost beside the loop is done then.
+# Pause between the frames of the two worlds, in which pages do their work beside the loop.
 PERIOD = 1 / 60
 STROKES = 20
 # Opens pages; prints the mean bytes of their frames, then how long each stroke took [ms].
@@ -168,7 +168,7 @@ def measure_strokes(bodies: int) -> None:
     node = served_world(bodies)
     clients = Clients(node, 1, STROKES)
     try:
-        # A tick a frame; the client is done long before them.
+        # Each frame has a tick; the client has finished long before.
         ticks((node,), WARM + 60 * STROKES // 3)
         assert clients.read_line() == ['open']
         took = [float(clients.read_line()[0]) for _ in range(STROKES)]

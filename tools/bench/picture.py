@@ -27,10 +27,10 @@ import rerun as rr
 from .bodies import fill
 
 BODIES, SECONDS = 1000, 10
-# Before the viewer joins [s].
+# Simulation time before the viewer joins [s].
 LATE = 5
 FRAMES = 60
-# Frames in a batch: of a file, and of a viewer.
+# Frames in a batch of a file, and of a viewer.
 FILED, SHOWN = 60, 6
 CONTEXT = FrameContext(real_time_factor=1.0)
 

@@ -37,9 +37,9 @@ from .outside import cpu_seconds, Remote
 from .startup import executable
 
 WALLS = 50
-# In the fixture; in the whole node.
+# Numbers of robots in the fixture, and in the whole node.
 COUNTS, MANY = (1, 10), 50
-# They stand so far apart [m], and drive on circles of 0.1 m.
+# Distance between robots [m], which drive on circles of 0.1 m.
 APART, SPEED, TURN = 1.0, 0.1, 1.0
 # Simulated time of a turn [s]; turns, the fastest of which counts.
 SECONDS, TURNS = 2.0, 5

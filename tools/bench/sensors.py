@@ -20,7 +20,7 @@ from physsim_ros.simulation.world import World
 import pymunk
 
 SHAPES = 1000
-# Half the side of the square that they are in [m], and of the clearing for robots.
+# Half the side of the square of bodies [m], and of the clearing for robots.
 HALF, CLEARING = 12.0, 0.5
 LASER = Laser(beams=720, range=(0.1, 12.0))
 SCANS = 50

@@ -101,7 +101,7 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
     habits have longer tails. Those of `strangers` have another mechanism.
     """
     corners = max(turning(figure.way) / (math.pi / 2) if figure.smooth else len(figure.way), 3)
-    # Whoever draws something thin takes more care, if not enough.
+    # People draw thin shapes with more care, if not enough.
     care = min(1.0, math.sqrt(figure.thin / 0.25))
     # Seconds a corner. A pen in a hurry cuts corners.
     pace = math.exp(_habit(rng, math.log(0.1), math.log(0.7), half))

@@ -27,7 +27,7 @@ from .page import draw_page
 DOCS = Path(__file__).parents[2] / 'docs'
 # Window of the pictures [pixels]: the world in it is 16 : 9.
 WIDTH, HEIGHT = 1400, 920
-# Simulation time of the picture of a scene [s], where most is going on.
+# Simulation time of the picture of a scene [s], at the moment of most motion.
 TIMES = {
     'drawings/catapult': 0.5,
     'drawings/cradle': 1.0,

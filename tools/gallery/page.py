@@ -34,7 +34,7 @@ RATE, FRAMES, NARROW = 12, 5, 800
 TURN, BACK, END = 3.2, 0.8, 2.8
 # A wall that hangs over the road, and the distance by which it is moved down [m].
 WALL, DOWN = ((4.6, 6.4), (4.6, 4.4)), 2.8
-# How long the first and the last picture stay [ms].
+# Duration of the first and of the last picture [ms].
 REST = 900
 
 
@@ -116,7 +116,7 @@ class Film:
         sheet.press('Lasso')
         x, y = WALL[0][0], (WALL[0][1] + WALL[1][1]) / 2
         sheet.drag((x, y))
-        # Until the panel of the wall has opened.
+        # The panel of the wall has opened then.
         sheet.page.wait_for_timeout(500)
         self.shoot()
         self._drag(line((x, y), (x, y - DOWN)), every=2)

@@ -4,7 +4,7 @@
 """
 The files that repeat declarations: tables of the interface, the file of parameters, their types.
 
-In the interface and in the types, such a part lies between two comments, which name it.
+In the interface and in the types, such a part stands between two comments, which name it.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import textwrap
 from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
+from physsim_ros.model.actors import ACTORS, Start
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
@@ -23,6 +24,7 @@ from physsim_ros.model.robots import DRIVES, Odometry, Robot
 from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.parameters import NodeSettings, Spec, SPECS
+from physsim_ros.sketchpad.message import KINDS, Optional
 
 ROOT = Path(__file__).parents[2]
 # Columns of a comment in YAML.
@@ -47,17 +49,24 @@ _GROUPS: Mapping[str, type[Checked]] = {
 def files() -> dict[Path, str]:
     """Return the text that each file must have, by its path."""
     tables = {
-        'properties of a body': _table(Properties.FIELDS.values()),
-        'kinds of joints': _joint_kinds(),
-        'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
-        'keys of a robot': _robot_keys(),
-        'keys of a sensor': _sensor_keys(),
-        'parameters': _parameters(),
+        'interface/properties': {
+            'properties of a body': _table(Properties.FIELDS.values()),
+            'kinds of joints': _joint_kinds(),
+            'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
+            'keys of a robot': _robot_keys(),
+            'keys of a sensor': _sensor_keys(),
+            'keys of an actor': _actor_keys(),
+        },
+        'interface/parameters': {'parameters': _parameters()},
+        'page_protocol': {'messages of a page': _page_messages()},
     }
-    interface = ROOT / 'docs' / 'interface.md'
+    pages = {ROOT / 'docs' / f'{name}.md': parts for name, parts in tables.items()}
     types = ROOT / 'physsim_ros' / 'testing' / 'parameters.py'
     return {
-        interface: _with_parts(interface, tables, '<!-- {}: made by `make tables` -->'),
+        **{
+            page: _with_parts(page, parts, '<!-- {}: made by `make tables` -->')
+            for page, parts in pages.items()
+        },
         types: _with_parts(types, _types(), '# {}: made by `make tables`'),
         ROOT / 'config' / 'physsim.yaml': _YAML_HEAD + '\n'.join(_yaml()),
     }
@@ -123,10 +132,7 @@ def _robot_keys() -> str:
     rows = [('robot', *_row(each)) for each in Robot.FIELDS.values()]
     kinds = ', '.join(f'`{kind}`' for kind in DRIVES)
     rows.append(('drive', '`kind`', 'needed', '', f'one of {kinds}'))
-    # Which kinds have a field: all, unless it is named.
-    drives = {name: each for kind in DRIVES.values() for name, each in kind.FIELDS.items()}
-    for name, each in drives.items():
-        with_it = [kind for kind, drive in DRIVES.items() if name in drive.FIELDS]
+    for each, with_it in _by_kinds(DRIVES):
         key, default, span, meaning = _row(each)
         if len(with_it) < len(DRIVES):
             meaning = f'of {", ".join(f"`{kind}`" for kind in with_it)}: {meaning}'
@@ -147,6 +153,42 @@ def _sensor_keys() -> str:
             if name != 'at':
                 rows.append((f'`{kind}`', key, default, span, meaning))
     return _rows(('kind', 'key', 'default', 'range', 'meaning'), *rows)
+
+
+def _actor_keys() -> str:
+    rows = [
+        (
+            'all' if len(kinds) == len(ACTORS) else ', '.join(f'`{kind}`' for kind in kinds),
+            *_row(each),
+        )
+        for each, kinds in _by_kinds(ACTORS)
+    ]
+    rows += [('start', *_row(each)) for each in Start.FIELDS.values()]
+    return _rows(('of', 'key', 'default', 'range', 'meaning'), *rows)
+
+
+def _by_kinds(
+    kinds: Mapping[str, type[Checked]],
+) -> Iterator[tuple[Declaration, tuple[str, ...]]]:
+    """Yield each different declaration of some kinds of value, with the words for those kinds."""
+    found: dict[tuple[str, str], tuple[Declaration, tuple[str, ...]]] = {}
+    for word, kind in kinds.items():
+        for name, each in kind.FIELDS.items():
+            key = name, each.sentence
+            first, words = found.get(key, (each, ()))
+            found[key] = first, (*words, word)
+    yield from found.values()
+
+
+def _page_messages() -> str:
+    rows = []
+    for type_, kind in sorted(KINDS.items()):
+        meaning = (kind.handle.__doc__ or '').strip().partition('\n')[0].rstrip('.')
+        fields = [
+            f'`{name}`' + '?' * isinstance(read, Optional) for name, read in kind.fields.items()
+        ]
+        rows.append((f'`{type_}`', kind.right.name.lower(), ', '.join(fields), meaning))
+    return _rows(('type', 'right', 'fields', 'meaning'), *rows)
 
 
 def _row(each: Declaration) -> tuple[str, str, str, str]:

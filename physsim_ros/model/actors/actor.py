@@ -91,16 +91,20 @@ class Start(Checked):
     by: Annotated[
         str | None,
         _name,
-        'name of that other body; None is any that is neither anchored nor a sensor',
+        'name of that other body; by default any that is neither anchored nor a sensor',
     ] = None
     near: Annotated[
         str | None,
         _name,
         'name of a body; waits until their centres of mass are within `distance`',
     ] = None
-    distance: Annotated[float | None, Within(0.0, 1e7, 'm'), 'of their centres of mass'] = None
+    distance: Annotated[
+        float | None, Within(0.0, 1e7, 'm'), 'between the centres of mass of `near` and the actor'
+    ] = None
     time: Annotated[
-        float | None, Within(0.0, LONGEST, 's'), 'after that, or after the actor was spawned'
+        float | None,
+        Within(0.0, LONGEST, 's'),
+        'time to wait after that, or after the actor was spawned',
     ] = None
 
     def __post_init__(self) -> None:
@@ -130,20 +134,22 @@ class Actor(Checked, ABC):
     """
 
     points: Annotated[
-        tuple[Waypoint, ...], _points, 'x, y [m] in the world, of a path also yaw [rad]'
+        tuple[Waypoint, ...],
+        _points,
+        '1 to 1,000: `[x, y]` in the world [m]; of a path also `[x, y, yaw]`',
     ]
     repeat: Annotated[
         str,
         OneOf(REPEATS),
-        'what follows the last point: `once` nothing, `loop` the first point, `to_and_fro` the '
-        'way back',
+        'after the last point: `once` it stays, `loop` goes on to the first one, `to_and_fro` '
+        'goes back',
     ] = 'once'
     start: Annotated[Start, Start.from_value, 'what it waits for'] = field(default_factory=Start)
     traction: Annotated[
         float,
         Within(0.0, 10.0),
-        'coefficient of friction with the floor, which moves it; a kinematic body moves whatever '
-        'it touches, and a robot by its drive',
+        'coefficient of friction with the floor, which moves an actor that is neither kinematic '
+        'nor a robot',
     ] = 0.8
 
     @property
@@ -170,9 +176,10 @@ class Path(Actor):
     times: Annotated[
         tuple[float, ...] | None,
         _times,
-        'of the points, since it started [s]; of a `loop` one more, of its first point',
+        'of the points, since it started [s], increasing; of a `loop` one more, of its first '
+        'point',
     ] = None
-    speed: Annotated[float | None, PACE, 'excludes times'] = None
+    speed: Annotated[float | None, PACE, 'between all points; excludes `times`'] = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)

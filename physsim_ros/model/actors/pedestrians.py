@@ -22,8 +22,8 @@ _STRENGTH = Within(0.0, _STRONG, 'm²/s²')
 class Pedestrian(Actor):
     """Somebody who walks from point to point; `points` have no yaw."""
 
-    speed: Annotated[float, PACE, 'desired'] = 1.34
-    max_speed: Annotated[float | None, PACE, 'greatest; None is 1.3 times the desired one'] = None
+    speed: Annotated[float, PACE, 'desired speed'] = 1.34
+    max_speed: Annotated[float | None, PACE, 'greatest speed; by default 1.3 `speed`'] = None
     goal_radius: Annotated[float, _LENGTH, 'distance at which a point counts as reached'] = 0.3
 
     def __post_init__(self) -> None:
@@ -59,16 +59,14 @@ class SocialForce(Pedestrian):
 
     KIND: ClassVar = 'social_force'
 
-    relaxation_time: Annotated[float, _TIME, 'in which it approaches its desired velocity: τ'] = (
-        0.5
-    )
+    relaxation_time: Annotated[float, _TIME, 'time to approach the desired velocity: τ'] = 0.5
     repulsion: Annotated[float, _STRENGTH, 'potential of other pedestrians: V⁰'] = 2.1
-    repulsion_range: Annotated[float, _LENGTH, 'distance over which that decays: σ'] = 0.3
-    step_time: Annotated[float, _TIME, 'for which others are expected to walk on: Δt'] = 0.5
+    repulsion_range: Annotated[float, _LENGTH, 'distance over which `repulsion` decays: σ'] = 0.3
+    step_time: Annotated[float, _TIME, 'time for which others are expected to walk on: Δt'] = 0.5
     wall_repulsion: Annotated[
         float, _STRENGTH, 'potential of walls and of bodies that do not walk: U⁰'
     ] = 10.0
-    wall_range: Annotated[float, _LENGTH, 'distance over which that decays: R'] = 0.2
+    wall_range: Annotated[float, _LENGTH, 'distance over which `wall_repulsion` decays: R'] = 0.2
     sight: Annotated[float, Within(0.0, math.pi, 'rad'), 'half the angle of view: φ'] = (
         math.radians(100.0)
     )
@@ -106,9 +104,7 @@ class Orca(Pedestrian):
         _TIME,
         'time for which its velocity is free of collisions with bodies that move: τ',
     ] = 2.0
-    wall_horizon: Annotated[
-        float, _TIME, 'the same for those that are anchored, and for walls'
-    ] = 0.5
+    wall_horizon: Annotated[float, _TIME, 'the same for anchored bodies and walls'] = 0.5
 
     @property
     def parameters(self) -> tuple[float, ...]:

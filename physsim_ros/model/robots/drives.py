@@ -45,7 +45,7 @@ class Drive(Checked, ABC):
         2.0
     )
     acceleration: Annotated[
-        float, Within(0.0, _STRONGEST, 'm/s²'), 'greatest one of the rim of a wheel'
+        float, Within(0.0, _STRONGEST, 'm/s²'), 'greatest acceleration of the rim of a wheel'
     ] = 2.0
     traction: Annotated[
         float, Within(0.0, 10.0), 'coefficient of friction between wheels and floor'
@@ -58,10 +58,10 @@ class Drive(Checked, ABC):
     track: Annotated[
         float,
         LENGTH,
-        'from left to right wheel; of `omni` the diameter of the circle that its three wheels are '
-        'on',
+        'distance of left and right wheel; of `omni` the diameter of the circle of its three '
+        'wheels',
     ] = 0.2
-    wheel_radius: Annotated[float, LENGTH, 'of its wheels'] = 0.03
+    wheel_radius: Annotated[float, LENGTH, 'radius of its wheels'] = 0.03
 
     @property
     @abstractmethod

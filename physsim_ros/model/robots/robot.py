@@ -97,7 +97,7 @@ class Robot(Checked):
 
     drive: Annotated[Drive, drive_from, 'how it moves: a mapping, see below']
     odometry: Annotated[
-        Odometry, Odometry.from_value, 'how often and how exact: a mapping, see below'
+        Odometry, Odometry.from_value, 'rate and errors of `odom`: a mapping, see below'
     ] = field(default_factory=Odometry)
     sensors: Annotated[
         tuple[Sensor, ...],
@@ -107,9 +107,9 @@ class Robot(Checked):
     namespace: Annotated[
         str | None,
         check_namespace,
-        'of its topics; may be empty; no two robots of a world have the same one, or another '
-        'topic or frame in common (a sensor `x/odom` in `tb`, a robot in `tb/x`); by default the '
-        'name of the body, with `_` for `/`',
+        'namespace of topics; may be empty; by default the name of the body, with `_` for `/`. '
+        'No two robots of a world have the same one, or a topic or frame in common (a sensor '
+        '`x/odom` in `tb`, a robot in `tb/x`)',
     ] = None
 
     def __post_init__(self) -> None:

@@ -128,8 +128,8 @@ class NodeSettings(Checked):
     lockstep: Annotated[
         float,
         Within(0.0, 3600.0, 's'),
-        'longest wait, by the wall, for the `TwistStamped` that answers a scan, its stamp or a '
-        'later one on it; 0 is no wait',
+        'longest wait of wall time, after each scan, for a `TwistStamped` with the stamp of the '
+        'scan or a later one; 0 is no wait',
     ] = 0.0
     viewer: Annotated[
         str,

@@ -6,7 +6,7 @@ The kinds of messages of a page: one function a kind, on the world's thread.
 
 The decorator of a function declares the type of the message, the topic of its answers, the right
 that a page needs and the checks of its fields. A new kind is one such function, in the file of
-its subject, and a row of docs/page_protocol.md.
+its subject; `make tables` adds it to docs/page_protocol.md.
 
 Not here: the reading of messages (`message`), the session that the functions work on
 (`page_session`). `show`, the parts of frames that a page receives, concerns the server's thread

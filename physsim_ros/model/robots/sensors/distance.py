@@ -41,12 +41,12 @@ class Laser(Sensor):
     KIND: ClassVar = 'laser'
 
     name: str = 'scan'
-    beams: Annotated[int, Whole(1, MOST_BEAMS), 'their number'] = 360
+    beams: Annotated[int, Whole(1, MOST_BEAMS), 'number of beams'] = 360
     angle: Annotated[
         Point,
         angles,
-        'of the first and the last beam, counter-clockwise, at most a full turn apart [rad]; of a '
-        'full turn the last one is an increment before the first',
+        'angles of the first and the last beam, counter-clockwise, at most a full turn apart '
+        '[rad]; of a full turn the last one is an increment before the first',
     ] = (0.0, math.tau)
     range: Annotated[  # noqa: A003 - a word of the interface
         Point, distances, 'least and greatest distance: nearer is -inf, further +inf (REP 117) [m]'
@@ -105,15 +105,15 @@ class RangeFinder(Sensor):
     name: str = 'range'
     radiation: Annotated[Radiation, _radiation, '`infrared` or `sonar`'] = Radiation.INFRARED
     cone: Annotated[
-        float, Within(0.0, _WIDEST, 'rad'), 'opening about its axis; 0 is a single ray'
+        float, Within(0.0, _WIDEST, 'rad'), 'opening of the cone; 0 is a single ray'
     ] = 0.2
     rays: Annotated[
         int,
         Whole(1, _MOST_RAYS),
-        'at equal angles in the cone, of which the nearest one counts',
+        'number of rays at equal angles in the cone, of which the nearest counts',
     ] = 15
     range: Annotated[  # noqa: A003 - a word of the interface
-        Point, distances, 'as of a laser [m]'
+        Point, distances, 'least and greatest distance, as of a laser [m]'
     ] = (0.02, 1.0)
     noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
 

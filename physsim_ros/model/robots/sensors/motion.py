@@ -91,5 +91,7 @@ class FloorEye(Sensor):
     name: str = 'floor'
     rate: float = 30.0
     pixels: Annotated[int, Whole(1, _MOST_PIXELS), 'number of photodiodes'] = 8
-    width: Annotated[float, LENGTH, 'from the first, on the left, to the last'] = 0.1
+    width: Annotated[
+        float, LENGTH, 'distance from the first photodiode, on the left, to the last'
+    ] = 0.1
     noise: Annotated[float, Within(0.0, 1.0), 'standard deviation of a channel, of 0 .. 1'] = 0.0
