@@ -349,6 +349,13 @@ def request_of(rng: Choices) -> Request:
                 frame=frame_of(rng),
             ),
         ),
+        (
+            2,
+            lambda: ChangeBody(
+                name=rng.choice(rng.names),
+                unset=tuple(rng.some(list(Properties.FIELDS), 3)),
+            ),
+        ),
         (3, lambda: MoveBodies(names=(rng.choice(rng.names),), by=(number_of(rng), 1.0))),
     ]
     weights = [weight for weight, _ in makers]
