@@ -129,8 +129,9 @@ def test_an_action(
     doors.go_on()
 
 
-def test_an_upload(doors: Doors) -> None:
-    doors.fail(sketchpad, 'state_from')
+@pytest.mark.parametrize('part', ['state_from', 'check_locked'])
+def test_an_upload(doors: Doors, part: str) -> None:
+    doors.fail(sketchpad, part)
     upload = doors.browser.fetch(
         '/world', method='POST', body=WORLD, headers={'Origin': doors.browser.base}
     )
