@@ -123,9 +123,11 @@ def test_a_message_that_is_read(doors: Doors) -> None:
 def test_an_action(
     doors: Doors, kind: str, fields: dict[str, Any], where: object, name: str
 ) -> None:
-    page = doors.browser.open_page()
+    page, node = doors.browser.open_page(), doors.browser.physsim.node
+    world_file = node.get_parameter('world_file').value
     doors.fail(where, name)
     assert_failed(page.ask(kind, **fields))
+    assert node.get_parameter('world_file').value == world_file
     doors.go_on()
 
 
