@@ -29,7 +29,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, WorldFull
 from physsim_ros.model.names import split_name, WORLD
-from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.requests import ChangeBody, Join, Request, Spawn
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import Box, contains, Disc, Polygon
 from physsim_ros.model.transform import cross, dots, Point, rotated
@@ -61,9 +61,7 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> tuple[Request, ...]:
         raise NothingThere(
             'the stroke passes right through no disc, rectangle or polygon', field='point'
         )
-    count, most = sum(len(each) - 1 for each in pieces.values()), scene.settings.max_bodies
-    if len(scene.names) + count > most:
-        raise WorldFull(f'{count} pieces more are too many: max_bodies is {most}', field='point')
+    _check_room(pieces, scene)
     _, number = split_name(scene.next_body())
     requests: list[Request] = []
     names: dict[str, dict[str, Polygon]] = {}
@@ -78,9 +76,27 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> tuple[Request, ...]:
     return tuple(requests)
 
 
+def _check_room(pieces: dict[str, list[Polygon]], scene: SceneQuery) -> None:
+    """
+    Refuse pieces, the shapes by the names of their bodies, of which the world has no room for all.
+
+    :raises WorldFull: it would have too many bodies, or convex pieces
+    """
+    count, most = sum(len(each) - 1 for each in pieces.values()), scene.settings.max_bodies
+    if len(scene.names) + count > most:
+        raise WorldFull(f'{count} pieces more are too many: max_bodies is {most}', field='point')
+    shapes = [pieces.get(name, [scene.body(name).shape]) for name in scene.names]
+    convex = sum(len(shape.form.pieces) for each in shapes for shape in each)
+    if convex > scene.settings.max_shapes:
+        raise WorldFull(
+            f'{convex} convex pieces are too many: max_shapes is {scene.settings.max_shapes}',
+            field='point',
+        )
+
+
 def message(requests: Iterable[Request]) -> str:
     """Return what the requests of a cut make together."""
-    pieces = sum(isinstance(request, Spawn) for request in requests)
+    pieces = sum(isinstance(request, ChangeBody | Spawn) for request in requests)
     return f'cut into {pieces} pieces'
 
 
@@ -186,7 +202,9 @@ def _outline(body: Body) -> Floats | None:
     return None
 
 
-def _spawns(name: str, shapes: dict[str, Polygon], scene: SceneQuery) -> Iterator[Spawn]:
+def _spawns(
+    name: str, shapes: dict[str, Polygon], scene: SceneQuery
+) -> Iterator[ChangeBody | Spawn]:
     """Yield the requests for the pieces of a body, by name: itself, and new ones."""
     body, pose = scene.body(name), scene.pose(name)
     vx, vy, spin = scene.twist(name)
@@ -203,7 +221,8 @@ def _spawns(name: str, shapes: dict[str, Polygon], scene: SceneQuery) -> Iterato
             force for force in body.forces if _holder(force, shapes, name) == each
         )
         if each == name:
-            yield Spawn(name=name, shape=shape, pose=pose, properties=Properties(**said))
+            # Without the body of before there is nothing to cut.
+            yield ChangeBody(name=name, shape=shape, properties=Properties(**said))
             continue
         piece = body_requests.copy_of(each, body, pose)
         properties = replace(piece.properties, label='', **said)

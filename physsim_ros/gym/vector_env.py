@@ -62,7 +62,7 @@ class RobotVectorEnv(VectorEnv[Observation, Action, NDArray[Any]]):
         """
         if seed is None or isinstance(seed, int):
             seed = [None if seed is None else seed + k for k in range(self.num_envs)]
-        pairs = zip(self.envs, seed, strict=True)
+        pairs = [*zip(self.envs, seed, strict=True)]
         begun = [env.reset(seed=each, options=options) for env, each in pairs]
         self._ended[:] = False
         observations, infos = zip(*begun, strict=True)
@@ -78,9 +78,8 @@ class RobotVectorEnv(VectorEnv[Observation, Action, NDArray[Any]]):
         :return: observations, rewards, whether episodes are over, whether they are cut off, and
             under `seed` the seeds of those that began, by the flags under `_seed`
         """
-        of_worlds = zip(
-            self.envs, self._ended.tolist(), iterate(self.action_space, actions), strict=True
-        )
+        each_action = iterate(self.action_space, actions)
+        of_worlds = [*zip(self.envs, self._ended.tolist(), each_action, strict=True)]
         steps = [_begun(env) if ended else env.step(action) for env, ended, action in of_worlds]
         observations, rewards, overs, cuts, infos = zip(*steps, strict=True)
         over, cut = np.array(overs, np.bool_), np.array(cuts, np.bool_)
@@ -100,7 +99,7 @@ class RobotVectorEnv(VectorEnv[Observation, Action, NDArray[Any]]):
         :raises Malformed: one is no saved episode; then no world has changed
         """
         episodes = [check_episode(episode) for episode, _ in saved]
-        pairs = zip(self.envs, episodes, strict=True)
+        pairs = [*zip(self.envs, episodes, strict=True)]
         observations = [env.restore(episode) for env, episode in pairs]
         self._ended = np.array([ended for _, ended in saved])
         return self._batch(observations)

@@ -152,13 +152,16 @@ class Spawn(Checked):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChangeBody(Checked):
     """
-    Change the properties of a body that are set or unset here; everything else is kept.
+    Change what is set or unset here of a body that is there; everything else is kept.
 
     :raises Malformed: a number is not finite, or an array has the wrong length
     :raises BadProperty: a pose or colour is out of range
     """
 
     name: Annotated[str, text, 'of the body']
+    shape: Annotated[
+        Shape | None, OfClass(Shape), 'geometry in the frame of the body; None keeps it'
+    ] = None
     properties: Annotated[Properties, OfClass(Properties), 'that are set'] = field(
         default_factory=Properties
     )

@@ -15,7 +15,7 @@ from typing import Any
 
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import PhysSimError, Running
+from physsim_ros.model.errors import Running
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, run_state, Snapshot
 from physsim_ros.ros import parameters
@@ -148,7 +148,7 @@ class NodeControl:
         self.set_parameter('world_file', world)
         try:
             return self.services[service].perform()
-        except PhysSimError:
+        except Exception:
             self.set_parameter('world_file', before)
             raise
 

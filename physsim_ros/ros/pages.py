@@ -44,8 +44,9 @@ class Pages:
         self._outputs = outputs
         self._control = control
         self._loop = loop
-        live.prepare['sketchpad'] = self.open_for
         live.prepare['sketchpad_locked'] = self.check_locks
+        # The last one: what it has opened stays open.
+        live.prepare['sketchpad'] = self.open_for
         live.effects['sketchpad'] = self.update
         self.open_for(control.values['sketchpad'])
         self.update()

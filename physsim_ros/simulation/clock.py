@@ -12,6 +12,10 @@ from __future__ import annotations
 
 import math
 
+from physsim_ros.model.checks import Within
+
+# Check of a speed [simulation seconds a second].
+SPEED = Within(-64.0, 64.0)
 # Frames by which simulation time may be late before it slows down: a tenth of a second at 60 Hz,
 # longer than a garbage collection, and hardly seen.
 MOST_BEHIND = 6
@@ -24,12 +28,14 @@ class Clock:
     :param physics_rate: steps a second at speed 1 [Hz]
     :param frame_steps: steps in a publish period
     :param speed: simulation seconds a second
+    :raises BadProperty: the speed is out of range
+    :raises Malformed: it is not finite
     """
 
     def __init__(self, *, physics_rate: float, frame_steps: int, speed: float = 1.0) -> None:
         self._physics_rate = physics_rate
         self._frame_steps = frame_steps
-        self._speed = float(speed)
+        self._speed = SPEED(speed, 'speed')
         # Steady time [ns] and step from which steps are counted.
         self._anchor: tuple[int, float] | None = None
         # Count of frames that were due and could not be made in time.
@@ -42,7 +48,7 @@ class Clock:
 
     @speed.setter
     def speed(self, speed: float) -> None:
-        self._speed = float(speed)
+        self._speed = SPEED(speed, 'speed')
         self._anchor = None
 
     def restart(self) -> None:

@@ -69,10 +69,10 @@ class FrameMaker:
 
     @speed.setter
     def speed(self, speed: float) -> None:
-        if speed < 0.0:
+        self.playback.speed = speed
+        if self.playback.speed < 0.0:
             self.requests.hands.clear()
             self.let_go()
-        self.playback.speed = speed
 
     def let_go(self) -> None:
         """End what `Robot.drive` has robots do; their last commands end with their timeouts."""

@@ -52,10 +52,10 @@ class Playback:
 
     @speed.setter
     def speed(self, speed: float) -> None:
-        self.changed |= speed != self.clock.speed
-        if speed:
+        before, self.clock.speed = self.clock.speed, speed
+        self.changed |= self.clock.speed != before
+        if self.clock.speed:
             self.frames_due = 0
-        self.clock.speed = speed
         self._complete_frame()
 
     def note_reporting(self, reports_contacts: bool) -> None:  # noqa: FBT001 - a state

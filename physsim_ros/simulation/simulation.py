@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from numbers import Integral
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.checks import shown, Within
+from physsim_ros.model.checks import number, shown, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
 from physsim_ros.model.requests import DriveRobot, Request, Restore
@@ -65,8 +65,8 @@ class Simulation(FrameMaker):
     :param history_memory: budget of the past [MB]; when it is spent, the oldest is dropped
     :param checkpoints: from one checkpoint to the next [s]
     :param boundary: of the requests; None lets unexpected errors pass
-    :raises BadProperty: a rate or the memory is out of range, or publish_rate does not divide
-        physics_rate
+    :raises BadProperty: a number is out of range, or publish_rate does not divide physics_rate
+    :raises Malformed: a number is not finite
     """
 
     def __init__(
@@ -119,11 +119,16 @@ class Simulation(FrameMaker):
         return self.past.tree.tip.loaded.state
 
     def limit_history(self, seconds: float) -> None:
-        """Set the length of the past that is kept [s of simulation time]."""
+        """
+        Set the length of the past that is kept [s of simulation time].
+
+        :raises Refusal: it is out of range
+        """
+        length = self.past.steps_of('history', seconds)
         self.playback.seek_shown()
         # The times of a paused world are told anew.
         self.playback.changed = True
-        if not self.past.cursor.keep_within(self.past.steps_in(seconds)):
+        if not self.past.cursor.keep_within(length):
             self.playback.note_jump()
             self.requests.report_oldest()
 
@@ -297,9 +302,11 @@ class Simulation(FrameMaker):
 
         :raises OutOfHistory: the time is no longer kept, or in the future
         :raises BadProperty: it is no whole number, as of seconds
+        :raises Malformed: it is beyond all numbers
         """
         if not isinstance(stamp, Integral):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
+        number(stamp, 'clock')
         self.requests.apply_waiting()
         self.let_go()
         return self.requests.seek(stamp)

@@ -17,7 +17,7 @@ import time
 from typing import Any
 
 from physsim_ros.files import OwnWorlds, state_from, text_of
-from physsim_ros.model.errors import Busy, Frozen
+from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import Wait
@@ -219,10 +219,11 @@ class Sketchpad:
             return [answer]
 
         try:
-            check_right(Right.CHANGE, upload.role, frozen=self._world.is_frozen)
-            check_locked(upload.role, (DeleteAll(),), self._world)
-            self._world.submit_call(answers, Wait.FOR_SEEK)
-        except (Busy, Frozen) as refusal:
+            with self._boundary.message(origin.topic):
+                check_right(Right.CHANGE, upload.role, frozen=self._world.is_frozen)
+                check_locked(upload.role, (DeleteAll(),), self._world)
+                self._world.submit_call(answers, Wait.FOR_SEEK)
+        except Refusal as refusal:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
             simulation.requests.refuse(refusal, topic=origin.topic, subject='')
 

@@ -9,7 +9,7 @@ import numpy as np
 from physsim_ros.drawing import knife
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import BadSize, NothingThere, WorldFull
+from physsim_ros.model.errors import BadSize, NotAlone, NothingThere, WorldFull
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.settings import WorldSettings
@@ -151,11 +151,34 @@ def test_a_piece_that_would_be_too_thin_is_refused():
     assert (refused.value.field, refused.value.body) == ('point', 'a/0')
 
 
-def test_more_pieces_than_the_world_can_have_are_refused():
-    simulation = Simulation(settings=WorldSettings(max_bodies=1))
+@pytest.mark.parametrize('most', ['max_bodies', 'max_shapes'])
+def test_more_pieces_than_the_world_can_have_are_refused_and_the_body_stays_whole(most):
+    simulation = Simulation(settings=WorldSettings(**{most: 1}))
     simulation.perform(Spawn(name='a/0', shape=Box(width=2.0, height=1.0)))
-    with pytest.raises(WorldFull):
+    before = simulation.world.digest()
+    with pytest.raises(WorldFull, match=most):
         cut(simulation, (0.0, -2.0), (0.0, 2.0))
+    assert simulation.world.digest() == before
+
+
+def test_a_body_that_somebody_has_cut_is_neither_taken_back_nor_theirs():
+    simulation = Simulation(settings=WorldSettings(gravity=(0.0, 0.0)))
+    queue = simulation.requests
+    box = Spawn(name='a/0', shape=Box(width=2.0, height=1.0), properties=Properties(friction=0.1))
+    queue.submit(box, topic='~/spawn', author='ann')
+    simulation.advance_frame()
+    scene = SceneQuery(simulation.world.snapshot())
+    for number, request in enumerate(knife.cut((0.3, -2.0), (0.3, 2.0), scene)):
+        queue.submit(request, topic='~/click', joined=number > 0, author='ben')
+    simulation.advance_frame()
+    before = simulation.world.digest()
+
+    with pytest.raises(NotAlone):
+        simulation.take_back('ann')
+
+    assert simulation.world.digest() == before
+    assert simulation.past.added_by('ann') == (('a/0',), ())
+    assert simulation.past.added_by('ben') == (('drawn/0',), ())
 
 
 def test_pieces_do_not_stir_where_they_were_at_rest():

@@ -55,8 +55,12 @@ def test_saved_worlds_continue_to_the_bit_ended_ones_too() -> None:
             [tuple(each.tolist() for each in many.step(actions(step))[:4]) for step in range(45)]
         )
     assert told[0] == told[1]
+    steps = [env.robot.simulation.step for env in many.envs]
     with pytest.raises(ValueError, match='zip'):
         many.restore(saved[:-1])
+    with pytest.raises(ValueError, match='zip'):
+        many.reset(seed=[1])
+    assert [env.robot.simulation.step for env in many.envs] == steps
     with pytest.raises(Malformed, match='saved must be of class SavedEpisode, not None'):
         many.restore([*saved[:-1], (None, False)])
 

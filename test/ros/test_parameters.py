@@ -17,6 +17,7 @@ from physsim_ros.ros import parameters
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.requests.parameter_services import MOST_PARAMETERS
 from physsim_ros.sketchpad import listening
+from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.testing import box, disc, own_context, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -271,6 +272,21 @@ def test_a_page_that_cannot_be_served_is_refused_and_the_node_goes_on(
             assert result.successful
             assert event.code == 'ok'
             assert parameter(physsim, 'sketchpad') == 'serve'
+
+
+def test_no_page_is_served_where_another_parameter_beside_it_is_refused(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
+    too_many = ','.join(f'b{number}/*' for number in range(MOST_PATTERNS + 1))
+    values = {'world_dir': str(tmp_path), 'sketchpad_port': 0}
+    with own_context(monkeypatch) as context, PhysSim(context, **values) as physsim:
+        wanted = [made('sketchpad', 'serve'), made('sketchpad_locked', too_many)]
+        result = physsim.node.set_parameters_atomically(wanted)
+        assert not result.successful
+        assert 'wildcards' in result.reason
+        assert parameter(physsim, 'sketchpad') == 'none'
+        assert physsim.node.outputs.sketchpad is None
 
 
 # Conversions

@@ -343,9 +343,17 @@ def request_of(rng: Choices) -> Request:
             2,
             lambda: ChangeBody(
                 name=rng.choice(rng.names),
+                shape=rng.choice((None, *SHAPES)),
                 color=(0.9, 0.5, 0.1, 1.0),
                 pose=(*point_of(rng), number_of(rng)),
                 frame=frame_of(rng),
+            ),
+        ),
+        (
+            2,
+            lambda: ChangeBody(
+                name=rng.choice(rng.names),
+                unset=tuple(rng.some(list(Properties.FIELDS), 3)),
             ),
         ),
         (3, lambda: MoveBodies(names=(rng.choice(rng.names),), by=(number_of(rng), 1.0))),

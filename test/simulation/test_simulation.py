@@ -3,6 +3,8 @@
 
 """Requests go in and are answered, in order, one each; frames come out, at their time."""
 
+import math
+
 import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, NothingThere, UnknownBody
 from physsim_ros.model.requests import (
@@ -11,6 +13,7 @@ from physsim_ros.model.requests import (
     Configure,
     Delete,
     DeleteAll,
+    DriveRobot,
     join_from,
 )
 from physsim_ros.model.settings import WorldSettings
@@ -51,6 +54,27 @@ def test_a_publish_rate_has_to_divide_the_physics_rate() -> None:
         with pytest.raises(BadProperty) as refused:
             Simulation(physics_rate=physics_rate, publish_rate=publish_rate)
         assert refused.value.field == 'publish_rate'
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf, 1e300, -65.0])
+def test_times_and_speeds_out_of_range_are_refused_and_change_nothing(value: float) -> None:
+    for name in ('history', 'checkpoints', 'speed'):
+        with pytest.raises((BadProperty, Malformed)) as refused:
+            Simulation(**{name: value})
+        assert refused.value.field == name
+    sim = Simulation()
+    drive = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
+    sim.held['robot/0'] = drive
+    with pytest.raises((BadProperty, Malformed), match='speed'):
+        sim.speed = value
+    with pytest.raises((BadProperty, Malformed), match='history'):
+        sim.limit_history(value)
+    assert (sim.speed, sim.held) == (1.0, {'robot/0': drive})
+
+
+def test_a_time_beyond_all_numbers_is_refused() -> None:
+    with pytest.raises(Malformed, match='clock'):
+        Simulation().seek(10**400)
 
 
 def test_a_time_in_seconds_is_refused() -> None:

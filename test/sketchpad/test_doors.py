@@ -123,14 +123,17 @@ def test_a_message_that_is_read(doors: Doors) -> None:
 def test_an_action(
     doors: Doors, kind: str, fields: dict[str, Any], where: object, name: str
 ) -> None:
-    page = doors.browser.open_page()
+    page, node = doors.browser.open_page(), doors.browser.physsim.node
+    world_file = node.get_parameter('world_file').value
     doors.fail(where, name)
     assert_failed(page.ask(kind, **fields))
+    assert node.get_parameter('world_file').value == world_file
     doors.go_on()
 
 
-def test_an_upload(doors: Doors) -> None:
-    doors.fail(sketchpad, 'state_from')
+@pytest.mark.parametrize('part', ['state_from', 'check_locked'])
+def test_an_upload(doors: Doors, part: str) -> None:
+    doors.fail(sketchpad, part)
     upload = doors.browser.fetch(
         '/world', method='POST', body=WORLD, headers={'Origin': doors.browser.base}
     )

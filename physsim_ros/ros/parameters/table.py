@@ -16,6 +16,7 @@ from physsim_ros.model.checks import flag, OneOf, text, Vector, Whole, Within
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.robots.frames import RobotTf
+from physsim_ros.simulation.clock import SPEED
 from physsim_ros.simulation.past import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
 from physsim_ros.view import ViewerMode
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor
@@ -71,7 +72,7 @@ class NodeSettings(Checked):
     ] = 60.0
     speed: Annotated[
         float,
-        Within(-64.0, 64.0),
+        SPEED,
         'simulated seconds a second; 0 is paused, negative goes back',
     ] = 1.0
     fast_speed: Annotated[

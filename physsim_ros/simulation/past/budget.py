@@ -12,7 +12,15 @@ from __future__ import annotations
 
 from physsim_ros.model.checkpoint import Checkpoint
 from physsim_ros.model.checks import Within
-from physsim_ros.model.requests import Command, DeleteBodies, MoveBodies, Request, Restore, Spawn
+from physsim_ros.model.requests import (
+    ChangeBody,
+    Command,
+    DeleteBodies,
+    MoveBodies,
+    Request,
+    Restore,
+    Spawn,
+)
 from physsim_ros.model.shapes import Convex, Shape
 from physsim_ros.model.snapshot import Contacts, Snapshot
 
@@ -38,7 +46,7 @@ def request_size(request: Request) -> int:
             return _VALUE + request.nbytes + _NAME * len(names)
         case MoveBodies(names=names) | DeleteBodies(names=names):
             return _VALUE + _NAME * len(names)
-        case Spawn(shape=shape):
+        case Spawn(shape=shape) | ChangeBody(shape=shape) if shape is not None:
             return _VALUE + _shape_size(shape)
         case Restore(state=state):
             shapes = sum(_shape_size(each.body.shape) for each in state.bodies)

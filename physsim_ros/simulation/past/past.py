@@ -19,6 +19,7 @@ from collections.abc import Generator, Sequence
 from dataclasses import replace
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.checks import LONGEST, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
@@ -36,6 +37,8 @@ from physsim_ros.simulation.world import World
 
 # Greatest simulation time that is simulated again where a gesture is taken back [s].
 LONGEST_AGAIN = 60.0
+# Check of the times of a past [s].
+_SPAN = Within(0.0, LONGEST, 's')
 # Share of the budget below which the next loss is reported again [1].
 _RELIEF = 1 / 2
 
@@ -54,7 +57,8 @@ class Past:
     :param checkpoints: from one checkpoint to the next [s]
     :param memory: the budget [MB]
     :param boundary: of the requests
-    :raises BadProperty: the memory is out of range
+    :raises BadProperty: the memory or a time is out of range
+    :raises Malformed: one of them is not finite
 
     :ivar boundary: of the requests
     :ivar budget: of all that is kept
@@ -81,7 +85,9 @@ class Past:
         self.budget = Budget(memory)
         self.reports: list[Answer] = []
         self.tree = Tree(
-            self.budget, length=self.steps_in(length), spacing=self.steps_in(checkpoints)
+            self.budget,
+            length=self.steps_of('history', length),
+            spacing=self.steps_of('checkpoints', checkpoints),
         )
         # The world of the cursor, and the one that replays cached frames.
         self._worlds = tuple(
@@ -106,6 +112,16 @@ class Past:
     def steps_in(self, seconds: float) -> int:
         """Return the number of steps in a simulation time [s]."""
         return round(seconds * self.physics_rate)
+
+    def steps_of(self, name: str, seconds: float) -> int:
+        """
+        Return the number of steps in a setting of the past [s].
+
+        :param name: of the setting, for the refusal
+        :raises BadProperty: it is out of range
+        :raises Malformed: it is not finite
+        """
+        return self.steps_in(_SPAN(seconds, name))
 
     def ghost(self, course: int, seconds: float) -> Snapshot | None:
         """

@@ -32,23 +32,19 @@ def new_body(request: Spawn, settings: WorldSettings, expires: int | None) -> tu
     :param expires: step at whose end it is removed; None is never
     :raises Refusal: the body cannot be simulated
     """
-    changes = spawn_changes(request, expires)
+    changes = fields_set_by(request, expires)
     body = changed_body(_default_body(request, settings), changes, request, settings)
     return body, changed_twist(body, REST, request)
 
 
-def spawn_changes(request: Spawn, expires: int | None) -> dict[str, Any]:
+def fields_set_by(request: Spawn | ChangeBody, expires: int | None = None) -> dict[str, Any]:
     """
-    Return the fields of a body that a spawn request sets, by name, without its properties.
+    Return the fields of a body that a request sets, by name, without its properties.
 
     :param expires: step at whose end it is removed; None leaves it unchanged
     """
-    changes: dict[str, Any] = {'shape': request.shape}
-    if request.color is not None:
-        changes['color'] = request.color
-    if expires is not None:
-        changes['expires'] = expires
-    return changes
+    values = {'shape': request.shape, 'color': request.color, 'expires': expires}
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def changed_body(

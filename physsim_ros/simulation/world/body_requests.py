@@ -43,8 +43,8 @@ from physsim_ros.simulation.world import joint_requests
 from physsim_ros.simulation.world.body_description import (
     changed_body,
     changed_twist,
+    fields_set_by,
     new_body,
-    spawn_changes,
 )
 from physsim_ros.simulation.world.live_space import (
     body_of_name,
@@ -62,7 +62,7 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
     pose = pose_in_world(space, request.pose, request.frame)
     expires = live.step_after(request.lifetime)
     if old is not None:
-        _change(live, old, spawn_changes(request, expires), pose, request)
+        _change(live, old, fields_set_by(request, expires), pose, request)
         return Answer(subject=name, message=f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
     check_robot(space, body)
@@ -74,14 +74,13 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
 
 
 def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
-    """Change the properties of a body that a request names."""
+    """Change what a request names of a body."""
     space, name = live.space, request.name
     rigid = body_of_name(space, name)
     pose = rigid.pose
     if request.pose is not None:
         pose = pose_in_world(space, request.pose, request.frame)
-    changes = {} if request.color is None else {'color': request.color}
-    _change(live, rigid, changes, pose, request)
+    _change(live, rigid, fields_set_by(request), pose, request)
     return Answer(subject=name, message=f'changed {name}')
 
 
