@@ -30,8 +30,7 @@ from physsim_ros.simulation.simulation import Simulation
 _PACKAGE = Path(__file__).resolve().parents[1]
 # Past that a run keeps beyond the moment to which a failed one returns [s].
 _MARGIN = 0.5
-# Ranges of the times of an experiment; the past of a run is kept whole up to an hour.
-# Of parameters that may be given by keyword.
+# Kinds of parameters that may be given by keyword.
 _NAMED = (Parameter.POSITIONAL_OR_KEYWORD, Parameter.KEYWORD_ONLY)
 
 

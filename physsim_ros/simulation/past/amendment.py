@@ -68,6 +68,8 @@ class Amendment:
         """
         Carry it out; yield after each frame and each request.
 
+        While others act, the line ends where it will end, as the time line and seeks have it.
+
         :raises NotAlone: a later request is refused, and it is to stand alone
         """
         tree = self._tree
