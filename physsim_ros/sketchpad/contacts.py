@@ -110,21 +110,22 @@ def _rows_of(before: Snapshot, now: Snapshot) -> tuple[Ints, Flags]:
 
 
 def touches_content(
-    frame: Frame, followed: frozenset[str], physics_rate: float
+    snapshot: Snapshot, contacts: Contacts | None, followed: frozenset[str], physics_rate: float
 ) -> dict[str, Any] | None:
     """
     Return the message of the touches of followed bodies that began during a frame.
 
+    :param snapshot: of the frame
+    :param contacts: of it
     :param followed: names of the bodies
     :param physics_rate: steps a second of simulation
     :return: None where there is none
     """
-    contacts = frame.contacts
     if contacts is None or not len(contacts.begun):
         return None
     # Row -1 is a wall of the bounds.
-    names = [*frame.snapshot.scene.names, '']
-    first = frame.snapshot.step - contacts.steps
+    names = [*snapshot.scene.names, '']
+    first = snapshot.step - contacts.steps
     pairs = zip(contacts.begun.tolist(), contacts.begun_at.tolist(), strict=True)
     found = [
         (names[one], names[other], (first + time) / physics_rate)

@@ -27,7 +27,7 @@ from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, Content, KINDS, Message, Origin
-from physsim_ros.sketchpad.past import BodyPasts
+from physsim_ros.sketchpad.past import BodyPasts, PastTouches
 from physsim_ros.sketchpad.rights import check_locked, check_right, Role
 from physsim_ros.sketchpad.world_control import WorldControl
 
@@ -49,6 +49,7 @@ class PageSession:
     :param world: that it draws in
     :param send: sends a message to the page of a number, or to all
     :param pasts: of bodies, for all pages
+    :param past_touches: of bodies that pages begin to follow, for all pages
     :param own_worlds: of the user
     :param autosave: of the world
     :param list_worlds: sends the list of worlds to the page of a number, or to all
@@ -75,6 +76,7 @@ class PageSession:
         *,
         send: Callable[[Content, int | None], None],
         pasts: BodyPasts,
+        past_touches: PastTouches,
         own_worlds: OwnWorlds,
         autosave: Autosave,
         list_worlds: Callable[[int | None], None],
@@ -87,6 +89,7 @@ class PageSession:
         self.world = world
         self._send = send
         self.pasts = pasts
+        self.past_touches = past_touches
         self.own_worlds = own_worlds
         self.autosave = autosave
         self.list_worlds = list_worlds
@@ -129,13 +132,14 @@ class PageSession:
         """Tell the page which of the bodies that it follows were touched in a frame, and when."""
         if self.followed:
             rate = self.world.simulation.physics_rate
-            content = touches_content(frame, self.followed, rate)
+            content = touches_content(frame.snapshot, frame.contacts, self.followed, rate)
             if content is not None:
                 self.send(content)
 
     def close(self) -> None:
         """Let go with the hand of the page, and forget the pasts that it has asked for."""
         self.pasts.forget(self.number)
+        self.past_touches.ask(self.number, frozenset())
         if self._hand_used is not None:
             self._submit_unasked(LetGo(hand=self.hand))
 

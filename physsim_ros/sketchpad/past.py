@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The past for pages: the timeline with the ghost of a course that was left, and pasts of bodies.
+The past for pages: timeline, ghost of a course that was left, pasts of bodies, earlier touches.
 
 Laws: the timeline is sent at once where more than its time changes, else each 0.1 s. The world's
-thread only looks up the snapshots of a body's past; the server's thread makes its columns.
+thread only looks up the snapshots of a body's past; the server's thread makes its columns. Touches
+of the past are those of a replay, so that a gate that is chosen after a run tells the same times.
 """
 
 from __future__ import annotations
@@ -22,11 +23,15 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.model.transform import rotated_each
+from physsim_ros.simulation.past.node import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.message import Content
 
 # Time from one timeline to the next while nothing but its time changes [s].
 TIMELINE_PERIOD = 0.1
+# Time of a replay in a period of publishing [s]: a quarter of one of 60 Hz.
+REPLAY_TIME = 0.004
 # Greatest number of frames of a past: a minute at 60 Hz.
 MOST_FRAMES = 3600
 # Time from one past to the next, for all pages together [s]: a past takes some 35 ms of the
@@ -98,6 +103,60 @@ def timeline_content(status: TimelineStatus) -> dict[str, Any]:
             {'id': each.number, 'from': each.begins, 'to': each.ends} for each in status.courses
         ],
     }
+
+
+class PastTouches:
+    """
+    The touches before pages began to follow bodies, as a replay of the line in force finds them.
+
+    Frames without contacts are replayed, a part at each call, while the world does not go back.
+
+    :param simulation: with the past
+    :param send: sends a message to the page of a number
+    """
+
+    def __init__(self, simulation: Simulation, send: Callable[[Content, int], None]) -> None:
+        self._simulation = simulation
+        self._send = send
+        # Bodies, the last step that was looked at, and the last to look at, by page.
+        self._asked: dict[int, tuple[frozenset[str], int, int]] = {}
+
+    def ask(self, page: int, names: frozenset[str]) -> None:
+        """Send a page the touches of bodies from the oldest step on; no names end that."""
+        tree = self._simulation.past.tree
+        self._asked.pop(page, None)
+        if names:
+            self._asked[page] = names, tree.oldest, self._simulation.step
+
+    def send_due(self) -> None:
+        """Look at the next frames of the past, for a few milliseconds."""
+        simulation = self._simulation
+        past = simulation.past
+        # Until contacts are reported, cached frames are taken as they are, without contacts.
+        if not self._asked or simulation.speed < 0.0 or not past.reports_contacts:
+            return
+        if past.cursor.is_working:
+            return
+        begin = time.monotonic()
+        while self._asked and time.monotonic() - begin < REPLAY_TIME:
+            page = next(iter(self._asked))
+            names, step, end = self._asked.pop(page)
+            end, step = min(end, past.tree.head), max(step, past.tree.oldest)
+            if step >= end:
+                continue
+            wanted = min(end, step - step % past.frame_steps + past.frame_steps)
+            if past.frames.frame_at(wanted) is not None:
+                self._send_touches(page, names, past.frames.frames_after(step, wanted))
+                step = wanted
+            self._asked = {page: (names, step, end), **self._asked}
+
+    def _send_touches(
+        self, page: int, names: frozenset[str], frames: Sequence[CachedFrame]
+    ) -> None:
+        for snapshot, contacts in frames:
+            content = touches_content(snapshot, contacts, names, self._simulation.physics_rate)
+            if content is not None:
+                self._send(content, page)
 
 
 class BodyPasts:

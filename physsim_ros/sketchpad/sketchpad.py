@@ -27,7 +27,7 @@ from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession
-from physsim_ros.sketchpad.past import BodyPasts, timeline_content, TimelineReport
+from physsim_ros.sketchpad.past import BodyPasts, PastTouches, timeline_content, TimelineReport
 from physsim_ros.sketchpad.rights import check_locked, check_right, Right, Role
 from physsim_ros.sketchpad.server import Server
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -77,6 +77,7 @@ class Sketchpad:
             boundary=self._boundary,
         )
         self._pasts = BodyPasts(world.simulation, self._server.send)
+        self._past_touches = PastTouches(world.simulation, self._server.send)
         self._sessions: dict[int, PageSession] = {}
         # The last one; None before the first.
         self._frame: Frame | None = None
@@ -156,6 +157,7 @@ class Sketchpad:
         for session in self._sessions.values():
             session.keep_hand(now)
         self._pasts.send_due(now)
+        self._past_touches.send_due()
         if self._autosave.is_due(now):
             # Where too many requests wait, the world is saved later.
             with suppress(Busy):
@@ -233,6 +235,7 @@ class Sketchpad:
             self._world,
             send=self._server.send,
             pasts=self._pasts,
+            past_touches=self._past_touches,
             own_worlds=self._own_worlds,
             autosave=self._autosave,
             list_worlds=self._server.list_worlds,

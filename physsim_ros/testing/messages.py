@@ -49,6 +49,7 @@ class BodyProperties(TypedDict, total=False):
     surface_velocity: Numbers
     robot: str | Mapping[str, Any]
     actor: Mapping[str, Any]
+    forces: Sequence[Mapping[str, Any]]
     label: str
 
 

@@ -195,6 +195,16 @@ def test_gates_start_and_stop_the_clock_to_the_step(sheet: Sheet) -> None:
     sheet.until(lambda: panel.inner_text() == first, 'the same times')
 
 
+def test_gates_that_are_chosen_after_the_run_tell_the_same_time(sheet: Sheet) -> None:
+    sheet.play_until(3.0)
+    sheet.press('Measure')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_label('Starts when touched').select_option('gate/0')
+    panel.get_by_label('Stops when touched').select_option('gate/1')
+    clock = panel.get_by_label('Stopwatch', exact=True)
+    sheet.until(lambda: clock.inner_text() == '1.4000 s', '2.1 m at 1.5 m/s')
+
+
 def test_collisions_of_a_body_are_counted(sheet: Sheet) -> None:
     sheet.press('Measure')
     panel = sheet.page.get_by_role('complementary', name='Body')

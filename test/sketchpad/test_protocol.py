@@ -439,6 +439,30 @@ def test_touches_of_a_body_that_a_page_follows_have_the_time_of_the_first_touch(
     assert page.ask('follow', names='gate/0')['code'] == 'bad_property'
 
 
+def test_a_gate_that_is_followed_after_the_run_tells_the_touches_of_the_past(
+    browser: Browser,
+) -> None:
+    physsim, page, late = browser.physsim, browser.open_page(), browser.open_page()
+    assert page.ask('gravity', gravity=[0, 0])['ok']
+    for name, x in (('gate/0', 1.0), ('gate/1', 6.0)):
+        gate = {'name': name, 'box': {'width': 0.2, 'height': 2}, 'at': [x, 0], 'sensor': True}
+        assert page.ask('spawn', body=gate | {'anchored': True})['ok']
+    ball = {'name': 'ball/0', 'circle': {'radius': 0.3}, 'at': [0, 0], 'velocity': [1, 0]}
+    assert page.ask('spawn', body=ball)['ok']
+    assert page.ask('follow', names=['gate/0'])['ok']
+    physsim.run(7.0)
+    assert late.ask('follow', names=['gate/0', 'gate/1'])['ok']
+
+    late.until(lambda: physsim.step() or len(late.of_type('touches')) == 2)
+
+    (live,) = page.of_type('touches')
+    first, second = (each['touches'][0] for each in late.of_type('touches'))
+    assert first == pytest.approx(live['touches'][0])
+    assert first[2] == pytest.approx(0.6, abs=1e-4)
+    assert second[:2] == ['gate/1', 'ball/0']
+    assert second[2] == pytest.approx(5.6, abs=1e-4)
+
+
 def spawned_robot(page: Page) -> None:
     body = {'name': 'tb3/0', 'robot': 'turtlebot3_burger', 'at': [0, 0]}
     assert page.ask('gravity', gravity=[0, 0])['ok']
@@ -555,7 +579,7 @@ def test_the_page_is_small_on_its_way_and_sent_once(browser: Browser) -> None:
         assert browser.fetch(address, headers=known).code == 304
     assert len(files) > 30
     # Of the first visit [bytes].
-    assert size < 97e3
+    assert size < 100e3
 
 
 def test_pages_are_told_the_address_of_reruns_page_and_when_it_changes(

@@ -31,7 +31,7 @@ OTHER = re.compile(
     ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End|Shift\+[JL]|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
     ^(Arrow|Page|Key)[A-Z] | ^\^\(Arrow | ^W\ A\ S\ D | ^(Teacher|Rerun|Deutsch|English)$ |
     ^(in\ the\ past|set\ (velocity|motion)\ of|(all|several)\ bodies|all\ joints)$ | \[[NJ]\]$ |
-    ^(cards\ lessons|row\ legend|normal\ force|applied\ force|force\ of\ joints|sum\ of\ forces)$ |
+    ^(cards\ lessons|row\ legend|(normal|applied)\ force|force\ of\ joints|sum\ of\ forces)$ |
     ^(another\ version\ of\ frames|the\ world\ of\ this\ link|no\ $|\ on\ this\ page$)""",
     re.VERBOSE,
 )
@@ -221,6 +221,8 @@ def test_all_that_the_page_tells_comes_from_its_table(marked: Sheet) -> None:
     press(marked, 'Undo')
     press(marked, 'Undo')
     marked.wait('[...window.told].some((text) => /Undone.*several bodies/.test(text))')
+    press(marked, 'Measure')
+    marked.page.get_by_label(MARKED.format('Stops when touched')).select_option('ball/0')
     press(marked, 'Reset')
     marked.wait('Object.keys(physsim.bodies).length === 3')
     assert unmarked(marked, '() => [...window.told]') == set()

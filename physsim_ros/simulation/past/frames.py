@@ -84,6 +84,11 @@ class FrameCache:
         steps = self._steps[: bisect_right(self._steps, end)]
         return [self._frames[step].snapshot for step in steps[-count:]]
 
+    def frames_after(self, step: int, end: int) -> list[CachedFrame]:
+        """Return the cached frames after a step, up to another one, in the order of time."""
+        first, last = bisect_right(self._steps, step), bisect_right(self._steps, end)
+        return [self._frames[each].copy() for each in self._steps[first:last]]
+
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown; to a past without length none is added."""
         if not self._tree.length:

@@ -131,7 +131,8 @@ def watch(page: PageSession, origin: Origin, name: str) -> None:
 
 @message('follow', 'page', Right.LOOK, names=_followed)
 def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
-    """Tell the page from now on when other bodies begin to touch these; none is no body."""
+    """Tell the page when other bodies began to touch these, and begin to; none is no body."""
+    page.past_touches.ask(page.number, names)
     page.followed = names
     page.answer_page(origin, f'following {counted(len(names), "body")}')
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
  * The stopwatch that gates start and stop, and the counter of collisions: within the step, as the server tells
- * touches; and a stopwatch by hand, in the time of the world, with laps.
+ * touches, also those before a gate was chosen; and a stopwatch by hand, in the time of the world, with laps.
  */
 
 import {choice, createElement, inRow, textButton} from './dom.js';
@@ -25,6 +25,7 @@ export class Stopwatch {
     this.touches = [];
     this.shown = 0; // time [s]
     this.following = false;
+    this.since = -1; // [s] from which on collisions are counted
     /** @type {?number} when the one by hand was started [s] */
     this.began = null;
     /** @type {?number} when it was stopped [s] */
@@ -43,7 +44,9 @@ export class Stopwatch {
       this.start = this.stop = this.counted = '';
       [this.began, this.ended, this.laps] = [null, null, []];
       this.#follow();
-      this.#clear();
+      this.touches = [];
+      this.since = -1;
+      this.#update();
     });
   }
 
@@ -61,7 +64,10 @@ export class Stopwatch {
       inRow(textButton(t('Start or stop (7)'), () => this.press()), textButton(t('Lap (6)'), () => this.lap())),
       createElement('h3', {textContent: t('Collisions')}),
       this.#chooser('counted', t('Collisions of'), t('no body')),
-      this.count, inRow(textButton(t('Count from here'), () => this.#clear()))]};
+      this.count, inRow(textButton(t('Count from here'), () => {
+        this.since = this.shown;
+        this.#update();
+      }))]};
   }
 
   /**
@@ -98,7 +104,10 @@ export class Stopwatch {
   /** @param {number} time [s] that is shown */
   #goTo(time) {
     // What lies ahead has not happened any more: it may go otherwise.
-    if (time < this.shown) this.touches = this.touches.filter((each) => each.time <= time + SAME);
+    if (time < this.shown) {
+      this.touches = this.touches.filter((each) => each.time <= time + SAME);
+      this.since = Math.min(this.since, time);
+    }
     this.shown = time;
     this.#update();
   }
@@ -123,11 +132,6 @@ export class Stopwatch {
     return this.laps.map((time, i) => `${(time - (i ? this.laps[i - 1] : this.began ?? 0)).toFixed(3)} s`);
   }
 
-  #clear() {
-    this.touches = [];
-    this.#update();
-  }
-
   #update() {
     const {start, stop} = this.#run(), begin = this.start ? start?.time : 0;
     const end = stop?.time ?? (this.stop ? this.shown : undefined);
@@ -137,7 +141,7 @@ export class Stopwatch {
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
     this.details.textContent = [start && t('started at {time} s by {name}', {time: start.time.toFixed(4), name: start.other || t('a wall')}),
       stop && t('stopped at {time} s by {name}', {time: stop.time.toFixed(4), name: stop.other || t('a wall')})].filter(Boolean).join(', ');
-    this.count.textContent = this.counted ? String(this.touches.filter(({name}) => name === this.counted).length) : '–';
+    this.count.textContent = this.counted ? String(this.touches.filter(({name, time}) => name === this.counted && time > this.since).length) : '–';
   }
 
   /** @returns {{start?: Touched, stop?: Touched}} the last run from gate to gate of one body, else the first that goes on */
