@@ -31,6 +31,7 @@ OTHER = re.compile(
     ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End|Shift\+[JL]|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
     ^(Arrow|Page|Key)[A-Z] | ^\^\(Arrow | ^W\ A\ S\ D | ^(Teacher|Rerun|Deutsch|English)$ |
     ^(in\ the\ past|set\ (velocity|motion)\ of|(all|several)\ bodies|all\ joints)$ | \[[NJ]\]$ |
+    ^the\ stroke\ passes\  |
     ^(cards\ lessons|row\ legend|(normal|applied)\ force|force\ of\ joints|sum\ of\ forces)$ |
     ^(another\ version\ of\ frames|the\ world\ of\ this\ link|no\ $|\ on\ this\ page$)""",
     re.VERBOSE,

@@ -63,7 +63,7 @@ _PHRASES = {
     requests.MoveBodies: ('move', 'several bodies'),
     requests.Pin: ('join pin', ''),
     requests.Restore: ('load', 'world'),
-    requests.Unjoin: ('delete', ''),
+    requests.Unjoin: ('delete joint', ''),
     requests.UnjoinAll: ('delete', 'all joints'),
 }
 
