@@ -4,6 +4,7 @@
 """Undo and redo name a gesture by a verb and its object."""
 
 from physsim_ros.model.requests import (
+    Axle,
     ChangeBody,
     Configure,
     Delete,
@@ -35,6 +36,7 @@ def sim() -> Simulation:
     ('request_', 'phrase'),
     [
         (ChangeBody(name='a/0', color=(1.0, 0.0, 0.0, 1.0)), 'change a/0'),
+        (Axle(point=(0.0, 0.0)), 'join axle axle/0'),
         (Configure(changes={'damping': 0.5}), 'change settings'),
         (Delete(name='a/0'), 'delete a/0'),
         (DeleteBodies(names=('a/0',)), 'delete a/0'),

@@ -92,9 +92,17 @@ def test_no_panel_lies_on_the_world(sheet: Sheet) -> None:
 
 def test_the_answer_to_a_lesson_is_in_sight(sheet: Sheet) -> None:
     field = sheet.page.get_by_role('textbox', name='Your answer')
-    box, card = field.bounding_box(), sheet.page.locator('#lesson').bounding_box()
-    assert card['y'] < box['y']
-    assert box['y'] + box['height'] < card['y'] + card['height']
+    field.fill('1')
+    sheet.press('Check')
+    verdict = sheet.page.get_by_text('Not yet.')
+    verdict.wait_for()
+    # As before it was scrolled to be pressed.
+    card = sheet.page.locator('#lesson')
+    card.evaluate('(element) => element.scrollTo(0, 0)')
+    y, height = (card.bounding_box()[key] for key in ('y', 'height'))
+    for box in (field.bounding_box(), verdict.bounding_box()):
+        assert y < box['y']
+        assert box['y'] + box['height'] < y + height
 
 
 def test_the_plot_stands_beside_the_world(sheet: Sheet) -> None:

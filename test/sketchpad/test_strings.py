@@ -30,7 +30,8 @@ OTHER = re.compile(
     r"""\.js(on)?$ | system-ui | \((max|min)-width | ^[#.\[] | ^format: | ^Content-Type$ |
     ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End|Shift\+[JL]|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
     ^(Arrow|Page|Key)[A-Z] | ^\^\(Arrow | ^W\ A\ S\ D | ^(Teacher|Rerun|Deutsch|English)$ |
-    ^(in\ the\ past|set\ velocity\ of|(all|several)\ bodies|all\ joints)$ | \[[NJ]\]$ |
+    ^(in\ the\ past|set\ (velocity|motion)\ of|(all|several)\ bodies|all\ joints)$ | \[[NJ]\]$ |
+    ^the\ stroke\ passes\  |
     ^(cards\ lessons|row\ legend|(normal|applied)\ force|force\ of\ joints|sum\ of\ forces)$ |
     ^(another\ version\ of\ frames|the\ world\ of\ this\ link|no\ $|\ on\ this\ page$)""",
     re.VERBOSE,
@@ -154,10 +155,10 @@ def press(sheet: Sheet, name: str) -> None:
     sheet.press(MARKED.format(name))
 
 
-def unmarked(sheet: Sheet) -> set[str]:
-    """Return the texts that the page shows and that do not come from its table."""
+def unmarked(sheet: Sheet, texts: str = SEEN) -> set[str]:
+    """Return the texts of the page that do not come from its table."""
     left = set()
-    for text in sheet.page.evaluate(SEEN):
+    for text in sheet.page.evaluate(texts):
         other = text
         # A text may stand in another one.
         while '⟦' in other:
@@ -184,6 +185,48 @@ def test_all_that_the_page_shows_comes_from_its_table(marked: Sheet) -> None:
         press(marked, dialog)
         assert unmarked(marked) == set()
         marked.page.keyboard.press('Escape')
+
+
+# What the page has told since, and how it names what can be undone.
+TOLD = """() => {
+    window.told = new Set();
+    const watch = (element, tell) => new MutationObserver(() => window.told.add(tell(element)))
+        .observe(element, {attributes: true, childList: true});
+    watch(document.getElementById('status'), ({textContent}) => textContent);
+    watch(document.querySelector('#edit button'), ({title}) => title);
+}"""
+
+
+def test_all_that_the_page_tells_comes_from_its_table(marked: Sheet) -> None:
+    press(marked, 'Pause')
+    marked.page.evaluate(TOLD)
+    for tool, *points in (
+        ('Circle', (-3.0, 6.0), (-2.5, 6.0)),
+        ('Rectangle', (0.0, 5.0), (2.0, 5.0), (2.0, 7.0)),
+        ('Spring', (-3.0, 6.0), (1.0, 6.0)),
+        ('Axle', (-3.0, 6.0)),
+        ('Velocity', (1.0, 6.0), (2.0, 6.0)),
+        ('Force', (1.0, 6.0), (2.0, 6.0)),
+        ('Knife', (-1.0, 6.2), (3.0, 6.4)),
+    ):
+        press(marked, tool)
+        before = marked.page.evaluate('window.told.size')
+        for point in points:
+            marked.page.mouse.click(*marked.place(*point))
+        marked.wait('before => window.told.size > before + 1', before)
+    press(marked, 'Undo')
+    press(marked, 'Lasso')
+    marked.drag((-5.0, 4.0), (4.0, 4.0), (4.0, 8.0), (-5.0, 8.0), (-5.0, 4.0))
+    for button in ('Bottom', 'Copy beside'):
+        press(marked, button)
+    press(marked, 'Undo')
+    press(marked, 'Undo')
+    marked.wait('[...window.told].some((text) => /Undone.*several bodies/.test(text))')
+    press(marked, 'Measure')
+    marked.page.get_by_label(MARKED.format('Stops when touched')).select_option('ball/0')
+    press(marked, 'Reset')
+    marked.wait('Object.keys(physsim.bodies).length === 3')
+    assert unmarked(marked, '() => [...window.told]') == set()
 
 
 def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(

@@ -50,6 +50,7 @@ def timeline_status(tree: Tree, shown: Moment, speed: float, rate: float) -> Tim
 # Verb of the requests whose class name is no verb, and object of those that concern no single body
 # or joint.
 _PHRASES = {
+    requests.Axle: ('join axle', ''),
     requests.ChangeBody: ('change', ''),
     requests.Command: ('set motion of', 'several bodies'),
     requests.Configure: ('change', 'settings'),
@@ -60,8 +61,9 @@ _PHRASES = {
     requests.GrabToPlace: ('place', ''),
     requests.LetGo: ('drag', ''),
     requests.MoveBodies: ('move', 'several bodies'),
+    requests.Pin: ('join pin', ''),
     requests.Restore: ('load', 'world'),
-    requests.Unjoin: ('delete', ''),
+    requests.Unjoin: ('delete joint', ''),
     requests.UnjoinAll: ('delete', 'all joints'),
 }
 
@@ -75,6 +77,8 @@ def gesture_phrase(first: Node, count: int) -> str:
     """
     request = first.request
     verb, several = _PHRASES.get(type(request), (type(request).__name__.lower(), ''))
+    if isinstance(request, requests.Join):
+        verb = f'join {request.kind}'
     phrase = f'{verb} {first.subject or several}'.rstrip()
     namespace = getattr(request, 'namespace', None)
     if namespace is not None:

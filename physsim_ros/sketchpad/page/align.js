@@ -22,7 +22,9 @@ export function arrangeButtons(app, names) {
     return boxes.map((box) => along(axis, at - edge(box, axis, share)));
   })));
   const distribute = DISTRIBUTIONS.map(([label, axis]) => textButton(label, () => place(app, names, (boxes) => distances(boxes, axis))));
-  return [createElement('h3', {textContent: t('Align')}), inRow(...align), createElement('h3', {textContent: t('Equal gaps')}), inRow(...distribute)];
+  // Two bodies have one gap.
+  const gaps = names.length > 2 ? [createElement('h3', {textContent: t('Equal gaps')}), inRow(...distribute)] : [];
+  return [createElement('h3', {textContent: t('Align')}), inRow(...align), ...gaps];
 }
 
 /** @typedef {number[]} Box xmin, ymin, xmax, ymax [m] */

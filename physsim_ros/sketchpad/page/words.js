@@ -19,16 +19,28 @@ const VERBS = new Map([['spawned', t('{thing} added')], ['changed', t('{thing} c
   ['anchored', t('{thing} anchored')], ['released', t('{thing} released')], ['set velocity of', t('{thing} has a new velocity')]]);
 /** Verbs of what is undone, and how that is told. */
 const GESTURES = new Map([['spawn', t('add {thing}')], ['change', t('change {thing}')], ['delete', t('delete {thing}')], ['move', t('move {thing}')],
-  ['drag', t('drag {thing}')], ['place', t('place {thing}')], ['anchor', t('anchor {thing}')], ['release', t('release {thing}')], ['join', t('join {thing}')]]);
+  ['drag', t('drag {thing}')], ['place', t('place {thing}')], ['anchor', t('anchor {thing}')], ['release', t('release {thing}')],
+  ['join', t('add {thing}')], ['set motion of', t('change {thing}')], ['drive', t('drive {thing}')], ['load', t('open {thing}')]]);
+/** A joint that is added, by its kind: its name is often that of a body, too. */
+const JOINED = /(^|: )join (\w+) .+?(?= and \d+ more$|$)/;
 const GESTURE = new RegExp(`(^|: )(${[...GESTURES.keys()].join('|')}) (.+?)( and \\d+ more)?$`);
 /** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
 const SENTENCES = [
   [/^saved .* to (.+)\.yaml(.*)/, t('Saved as $1$2')], [/^loaded .* from (.+)\.yaml/, t('Opened $1')], [/^loaded 0 bodies$/, t('An empty world')],
   [/^discarded the unsaved world$/, t('Unsaved world discarded')], [/^deleted the world (.+)/, t('World $1 deleted')], [/^put back the world (.+)/, t('World $1 is back')], [/^renamed .* to (.+)/, t('Renamed to $1')], [/^set gravity$/, t('Gravity set')], [/^set damping$/, t('Air drag set')],
   [/^paused$/, t('paused')], [/^playing$/, t('playing')], [/^rewinding$/, t('rewinding')], [/^playing at (.+)/, `${t('playing')}, $1×`], [/^rewinding at (.+)/, `${t('rewinding')}, $1×`],
-  [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')], [/^moved (\d+) bodies$/, t('Moved $1 bodies')], [/^loaded (\d+) bod(y|ies)/, t('Loaded $1 bodies')],
+  [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')], [/^(?:moved|set pose of) (\d+) bodies$/, t('Moved $1 bodies')], [/^copied (\d+) bodies$/, t('Copied $1 bodies')], [/^cut into (\d+) pieces$/, t('Cut into $1 pieces')], [/^loaded (\d+) bod(y|ies)/, t('Loaded $1 bodies')],
+  [/^deleted joint .*/, t('{thing} deleted', {thing: capital(thingWord('joint'))})], [/^the material of what is drawn next$/, t('Material of new bodies')],
+  [/^you are (.+)/, t('You are $1')], [/^your hand is raised$/, t('Your hand is raised')], [/^your hand is down$/, t('Your hand is down')],
+  [/^the pages are frozen$/, t('All pupils are frozen')], [/^the pages are no longer frozen$/, t('All pupils can draw again')],
+  [/^locked (.+)/, t('Locked: {names}', {names: '$1'})], [/^no body is locked$/, t('No body is locked')],
   [/^on course \d+, at .*/, t('Back on the other course')],
-  [/^course \d+ begins at .*/, t('A new course begins here')], [/^speed (.+)/, t('Speed $1×')], [/^.*; next: /, `${t('Next:')} `],
+  [/^course \d+ begins at .*/, t('A new course begins here')], [/^speed (.+)/, t('Speed $1×')], [/^dropped what was unfinished$/, t('Begun anew')],
+  [/(?<=; next: )a point on the rim$/, t('a point on the rim')], [/(?<=; next: )(its|the) other end$/, t('the other end')],
+  [/(?<=; next: )its other end, beyond the bodies$/, t('the other end, beyond the bodies')], [/(?<=; next: )the next corner$/, t('the next corner')],
+  [/(?<=; next: )the next corner, or .*/, t('the next corner, or the first one again')], [/(?<=; next: )a point of the side across$/, t('a point of the side across')],
+  [/(?<=; next: )its tip$/, t('the tip')], [/(?<=; next: )its tip, 1 m for 1 m\/s$/, t('the tip, 1 m for 1 m/s')],
+  [/(?<=; next: )the tip of its arrow, 1 m for 10 N$/, t('the tip, 1 m for 10 N')], [/^.*; next: /, `${t('Next:')} `],
   [/^a chain of (\d+) links from .+/, t('Chain of $1 links added')], [/^pose is /, t('position is') + ' '], [/^the yaw of pose /, t('the angle') + ' '], [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')], [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')], [/^redid .*/, t('Redone')], [/^(back )?at the beginning, .*/, t('Back at the beginning')],
   [/ at \([^)]*\)$/, ` ${t('here')}`],
 ];
@@ -96,6 +108,8 @@ export class Words {
     if (joint) return said('changed', capital(thingWord(joint)));
     if (verb.startsWith('joined')) return said('spawned', capital(thingWord(/ by (\w+) /.exec(message)?.[1] ?? 'joint')));
     if (VERBS.has(verb)) return said(verb, this.title(subject));
+    // There may be a body there, which the knife has not passed.
+    if (message.startsWith('the stroke passes right through no ')) return t('The stroke does not pass right through a circle, rectangle or polygon');
     const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message)));
     return ok ? told : refusalText(code, told);
   }
@@ -105,8 +119,11 @@ export class Words {
    * @returns {string} with words for those that nobody chose
    */
   phrase(text) {
-    return text.replace(/\S+/g, (word) => shorten(word)).replace(DRAWN, (_, kind, name) => t('the {thing}', {thing: kind ? thingWord(kind) : this.of(name)}))
-      .replace(GESTURE, (_, before, verb, thing, more = '') => before + filled(GESTURES.get(verb), THINGS.get(thing) ?? thing) + more.replace(/ and (\d+) more/, ` ${t('and $1 more')}`));
+    return text.replace(JOINED, (_, before, kind) => `${before}join ${t('the {thing}', {thing: thingWord(kind)})}`)
+      .replace(/\S+/g, (word) => shorten(word)).replace(DRAWN, (_, kind, name) => t('the {thing}', {thing: kind ? thingWord(kind) : this.of(name)}))
+      .replace(GESTURE, (_, before, verb, thing, more = '') =>
+        before + filled(GESTURES.get(verb), (THINGS.get(thing) ?? thing) + (more ? ` ${t('and {count} more', {count: more.replace(/\D/g, '')})}` : '')))
+      .replace(/(^|: )reset$/, `$1${t('Reset')}`);
   }
 }
 
