@@ -95,7 +95,7 @@ def _check_room(pieces: dict[str, list[Polygon]], scene: SceneQuery) -> None:
 
 
 def message(requests: Iterable[Request]) -> str:
-    """Return what the requests of a cut make together."""
+    """Return the message of a cut, whose requests have one answer together."""
     pieces = sum(isinstance(request, ChangeBody | Spawn) for request in requests)
     return f'cut into {pieces} pieces'
 

@@ -43,7 +43,7 @@ from pymunk._chipmunk_cffi import lib
 # impact on a row acts on all discs at once. Ten times the rounding of a position within a
 # kilometre of the origin (1.1e-13 m).
 GRAZE = 1e-12
-# What the engine's objects of a body do not depend on.
+# Properties on which the engine's objects of a body do not depend.
 _OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'
 # Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9

@@ -113,7 +113,7 @@ def _saved(kind: type[_Saved], value: object, name: str) -> _Saved:
 
 
 def state_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
-    """Return what the node alone writes of a body."""
+    """Return the entries of a body that the node alone writes."""
     entry: dict[str, object] = {}
     if state.wrench != NO_WRENCH:
         steps = state.wrench_steps

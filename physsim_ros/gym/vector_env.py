@@ -118,7 +118,7 @@ def _begun(env: RobotEnv) -> tuple[Observation, float, bool, bool, dict[str, Any
 
 
 def _infos(infos: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Return what worlds tell of the episodes that began, as Gymnasium has it for many worlds."""
+    """Return the `info` of all worlds, as Gymnasium has it of those whose episodes began."""
     began = np.array(['seed' in info for info in infos])
     if not began.any():
         return {}

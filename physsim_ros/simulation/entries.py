@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What waits in the queue of requests: changes of the world and of the past, seeks, calls."""
+"""Entries of the queue of requests: changes of the world and of the past, seeks, calls."""
 
 from __future__ import annotations
 

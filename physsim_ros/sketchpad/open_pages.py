@@ -125,7 +125,7 @@ class OpenPages:
         self._loop = loop
         self._pages: dict[int, OpenPage] = {}
         self._last_number = 0
-        # Where cursors have moved to that were not sent yet [m], by page.
+        # Points of cursors that moved and were not sent yet [m], by page.
         self._cursors: dict[int, Point] = {}
 
     def __len__(self) -> int:

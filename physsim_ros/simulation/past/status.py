@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What people are told of the past: the status of the timeline, and phrases for gestures."""
+"""Texts about the past for people: the status of the timeline, and phrases for gestures."""
 
 from __future__ import annotations
 
