@@ -166,7 +166,7 @@ def test_a_button_says_what_it_does_as_soon_as_it_is_pointed_at(
     button.hover()
     tip.get_by_text('from corner to corner').wait_for()
     button.focus()
-    sheet.page.keyboard.press('Tab')
+    sheet.page.keyboard.press('ArrowRight')
     tip.get_by_text('Polygon (G)').wait_for()
     sheet.press('Circle')
     assert tip.count() == 0

@@ -56,7 +56,8 @@ MESSAGES: list[tuple[str, dict[str, Any]]] = [
     ('change', {'name': 'b/0', 'properties': {'density': 2.0}}),
     ('move_bodies', {'names': NAMES, 'by': [0.01, 0.0]}),
     ('move_bodies', {'names': UNKNOWN, 'by': [0.01, 0.0]}),
-    ('place', {'names': UNKNOWN, 'poses': [[0.0, 0.0, 0.0]] * len(UNKNOWN)}),
+    # As many as a message of this size names with their poses.
+    ('place', {'names': UNKNOWN[:30_000], 'poses': [[0.0, 0.0, 0.0]] * 30_000}),
     ('copy', {'name': 'b/0', 'to': [0.0, 400.0]}),
     ('copy_machine', {'names': NAMES, 'by': [0.0, 500.0]}),
     ('copy_machine', {'names': ['b/0'] * 100_000, 'by': [0.0, 500.0]}),
