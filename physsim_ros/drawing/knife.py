@@ -69,7 +69,7 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> tuple[Request, ...]:
         new = [f'{DRAWN}/{number + each}' for each in range(len(shapes) - 1)]
         number += len(new)
         names[name] = dict(zip((name, *new), shapes, strict=True))
-        requests += _spawns(name, names[name], scene)
+        requests += _requests_of(name, names[name], scene)
     requests += (
         join for joint in scene.joints if (join := _moved_joint(joint, names, scene)) is not None
     )
@@ -114,7 +114,7 @@ def split(outline: Floats, start: Floats, end: Floats) -> list[Floats]:
     across = cross(np.broadcast_to(along, outline.shape), outline - start)
     across[np.abs(across) < _ON_LINE] = 0.0
     points: list[Floats] = []
-    # Where the line crosses an edge: numbers in `points`, and distances from the start.
+    # Crossings of the line and the edges: distances from the start, and numbers in `points`.
     crossings: list[tuple[float, int]] = []
     for corner, (here, after) in enumerate(zip(across, np.roll(across, -1), strict=True)):
         points.append(outline[corner])
@@ -202,7 +202,7 @@ def _outline(body: Body) -> Floats | None:
     return None
 
 
-def _spawns(
+def _requests_of(
     name: str, shapes: dict[str, Polygon], scene: SceneQuery
 ) -> Iterator[ChangeBody | Spawn]:
     """Yield the requests for the pieces of a body, by name: itself, and new ones."""

@@ -148,8 +148,6 @@ class _Watch(GuardedSocket):
     The world sends it as many frames as are watched, and it is nobody there (`/ws?watch`).
     """
 
-    too_many = ''
-
     def initialize(self, seats: Seats) -> None:  # type: ignore[override]
         """Set the seats."""
         super().initialize()

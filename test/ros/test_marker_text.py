@@ -77,7 +77,7 @@ def test_numbers_are_those_of_yaml_1_2(text: str, value: float) -> None:
     assert properties_of(f'{{density: {text}}}').density == value
 
 
-# What a property may be is tested in `test/model`; here is what YAML makes of a text.
+# Tests of the values of properties are in `test/model`; these are of what YAML makes of a text.
 @pytest.mark.parametrize(
     ('text', 'code', 'field'),
     [

@@ -557,7 +557,7 @@ def loaded_files() -> set[Path]:
     while ahead:
         path = ahead.pop()
         text = path.read_text(encoding='utf-8')
-        # What is imported by a call is loaded when somebody asks for it.
+        # Scripts that a call imports are loaded when somebody asks for them.
         names = re.findall(r"^import .* from '(.*)'", text, re.MULTILINE)
         names += [f'./{name}' for name in re.findall(r'"/page/(\S+)"', text)]
         new = {(path.parent / name).resolve() for name in names} - found

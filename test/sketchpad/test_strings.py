@@ -20,12 +20,13 @@ from .scripts import texts_of
 
 LANGUAGES = sorted(PAGE.glob('languages/*.json'))
 SCRIPTS = sorted(PAGE.rglob('*.js'))
-# What people read in HTML: text between tags, and attributes that are read out.
+# Texts of HTML for people: those between tags, and attributes that are read out.
 HTML = re.compile(r'>([^<>]*[a-z]{2}[^<>]*)<|(?:aria-label|alt|title|placeholder)="([^"]+)"')
 # A text that looks like one for people: words beside each other, or a capital at the begin.
 WORDS = re.compile(r'[A-Za-z]{2,} [A-Za-z(]|^\W*[A-Z][a-z]+')
-# What looks like one, and is none: names of files and keys, styles, queries, words of the server,
-# heads of tables that other programs read, names of languages, errors for developers.
+# Strings that look like texts for people, and are none: names of files and keys, styles, queries,
+# words of the server, heads of tables that other programs read, names of languages, errors for
+# developers.
 OTHER = re.compile(
     r"""\.js(on)?$ | system-ui | \((max|min)-width | ^[#.\[] | ^format: | ^Content-Type$ |
     ^(Escape|Enter|Tab|Delete|Backspace|Esc|Home|End|Shift\+[JL]|Ctrl\+[YZ]|[RN],\ Shift\+[RN])$ |
@@ -129,7 +130,7 @@ for (const name of ['fillText', 'strokeText']) {
         return write.call(this, text, ...rest);
     };
 }"""
-# What no language has: names of bodies and worlds, units, keys, names of languages.
+# Words that no language translates: names of bodies and worlds, units, keys, names of languages.
 NAMED = re.compile(
     r"""\b(ball|box|shelf)/\d | \b(Deutsch|English|Enter|Rerun|physsim|QR)\b |
     \b(kg|rad|Ctrl|Shift|vx|vy|px|py|ax|ay)\b | \(\w+(\+\w+)?\) | \bW\ A\ S\ D\b""",
@@ -187,7 +188,7 @@ def test_all_that_the_page_shows_comes_from_its_table(marked: Sheet) -> None:
         marked.page.keyboard.press('Escape')
 
 
-# What the page has told since, and how it names what can be undone.
+# Texts that the page has told since then, and phrases of what can be undone.
 TOLD = """() => {
     window.told = new Set();
     const watch = (element, tell) => new MutationObserver(() => window.told.add(tell(element)))

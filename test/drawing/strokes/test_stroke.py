@@ -221,7 +221,7 @@ def test_the_first_step_of_a_finger_is_kept(way: str, share: float) -> None:
 
 def test_of_a_stroke_sent_as_its_corners_all_is_kept() -> None:
     ends = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0), (0.0, 0.02)]
-    # Where the hand trembles at a corner, more samples remain.
+    # More samples remain where the hand trembles at a corner.
     corners = np.vstack([np.add(at, [(0.0, 0.0), (0.03, 0.02), (0.05, -0.02)]) for at in ends])
 
     assert (clean_samples(corners) == corners).all()
