@@ -115,9 +115,7 @@ class FrameLoop:
         if frame is not None:
             self._outputs.show(frame)
             return frame.answers
-        answers = self._report_answers()
-        self._outputs.flush_events()
-        return answers
+        return self._report_answers()
 
     def apply_up_to_seek(self) -> bool:
         """
