@@ -18,7 +18,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at
+from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at, UnknownBody
 from physsim_ros.model.names import names_in
 from physsim_ros.model.requests import (
     Anchor,
@@ -53,6 +53,9 @@ from physsim_ros.simulation.world.live_space import (
     points_in_world,
     pose_in_world,
 )
+
+# Number of robots that a refusal names.
+_MOST_NAMED = 10
 
 
 def spawn(live: LiveSpace, request: Spawn) -> Answer:
@@ -260,10 +263,14 @@ def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
     :raises UnknownBody: there is no such body
     :raises BadProperty: it is no robot
     """
-    rigid = body_of_name(space, name)
-    if rigid.body.robot is None:
-        raise BadProperty(f'{name} is not a robot', field='name')
-    return rigid, rigid.body.robot
+    rigid = space.bodies.by_name.get(name)
+    if rigid is not None and rigid.body.robot is not None:
+        return rigid, rigid.body.robot
+    robots = [each for each, found in space.bodies.by_name.items() if found.body.robot is not None]
+    hint = f'; robots: {", ".join(robots[:_MOST_NAMED]) or "none"}'
+    if rigid is None:
+        raise UnknownBody(f'there is no robot {name!r}{hint}', field='name')
+    raise BadProperty(f'{name} is not a robot{hint}', field='name')
 
 
 def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
