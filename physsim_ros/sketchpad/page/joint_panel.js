@@ -56,7 +56,7 @@ export class JointPanel {
       ...limits.map(([key, label]) =>
         createElement('label', {}, label, numberField(joint[key] ?? null, (value) => change({[key]: value}), {placeholder: t('none')}))),
       inRow(textButton(t('Delete joint'), () => this.delete(), 'danger')),
-    ], place: () => this.app.world.place(joint.a, joint.points[0])};
+    ]};
   }
 
   delete() {
