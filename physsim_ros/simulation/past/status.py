@@ -54,6 +54,7 @@ _PHRASES = {
     requests.ChangeBody: ('change', ''),
     requests.Command: ('set motion of', 'several bodies'),
     requests.Configure: ('change', 'settings'),
+    requests.Cut: ('cut', 'several bodies'),
     requests.DeleteAll: ('delete', 'all bodies'),
     requests.DeleteBodies: ('delete', 'several bodies'),
     requests.DriveRobot: ('drive', ''),
