@@ -219,7 +219,7 @@ class Delete(Checked):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeleteBodies(Checked):
     """
-    Remove several bodies with their joints, and other joints; if one is not there, none is removed.
+    Remove bodies with their joints, and other joints; if one is not there, none is removed.
 
     :raises Malformed: nothing is named, or something twice
     """
@@ -403,29 +403,6 @@ class Join(Checked):
             raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
 
 
-def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
-    """Return a check of a tuple of requests of some kinds."""
-
-    def check(value: object, name: str) -> tuple[Any, ...]:
-        if not isinstance(value, tuple) or not all(isinstance(each, kinds) for each in value):
-            raise Malformed(f'{name} must be a tuple of requests, not {shown(value)}', field=name)
-        return value
-
-    return check
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Cut(Checked):
-    """Cut bodies into pieces; if a part of it is refused, nothing is cut."""
-
-    pieces: Annotated[
-        tuple[ChangeBody | Spawn, ...],
-        _parts(ChangeBody, Spawn),
-        'a change of each body into its largest piece, and the other pieces',
-    ]
-    joints: Annotated[tuple[Join, ...], _parts(Join), 'joints that are then on another piece'] = ()
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Pin(AtPoint):
     """Weld the two topmost bodies at a point, or the only one to the background."""
@@ -441,6 +418,32 @@ class Unjoin(Checked):
     """Remove the joint of that name."""
 
     name: Annotated[str, text, 'of the joint']
+
+
+def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
+    """Return a check of a tuple of requests of some kinds."""
+
+    def check(value: object, name: str) -> tuple[Any, ...]:
+        if not isinstance(value, tuple) or not all(isinstance(each, kinds) for each in value):
+            raise Malformed(f'{name} must be a tuple of requests, not {shown(value)}', field=name)
+        return value
+
+    return check
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cut(Checked):
+    """Cut bodies into pieces, and joints through; if a part of it is refused, nothing is cut."""
+
+    pieces: Annotated[
+        tuple[ChangeBody | Spawn, ...],
+        _parts(ChangeBody, Spawn),
+        'a change of each body into its largest piece, and the other pieces',
+    ]
+    joints: Annotated[tuple[Join, ...], _parts(Join), 'joints that are then on another piece'] = ()
+    severed: Annotated[
+        tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
+    ] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

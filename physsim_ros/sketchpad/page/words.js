@@ -109,7 +109,7 @@ export class Words {
     if (verb.startsWith('joined')) return said('spawned', capital(thingWord(/ by (\w+) /.exec(message)?.[1] ?? 'joint')));
     if (VERBS.has(verb)) return said(verb, this.title(subject));
     // There may be a body there, which the knife has not passed.
-    if (message.startsWith('the stroke passes right through no ')) return t('The stroke does not pass right through a circle, rectangle or polygon');
+    if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
     const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message)));
     return ok ? told : refusalText(code, told);
   }
