@@ -126,7 +126,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._session = DrawingSession(
             parameters.drawing_settings(values), Tool(values['tool']), clock=time.thread_time
         )
-        self.world_files = WorldFiles(self.simulation, values, self.get_logger().info)
+        self.world_files = WorldFiles(self.simulation, values)
         if values['world_file']:
             with self.boundary.reading('world_file'):
                 self.world_files.begin_with()
