@@ -163,7 +163,7 @@ class FrameLoop:
 
     def _note_contacts(self) -> None:
         """Record contacts while there is a subscriber, a viewer or a page that shows them."""
-        wanted = self._outputs.wants_contacts or self._fleet.wants_contacts()
+        wanted = self._outputs.wants_contacts or self._fleet.wants_contacts
         self._simulation.reports_contacts = wanted
 
     def _report_answers(self) -> tuple[Answer, ...]:
