@@ -4,8 +4,9 @@
 """
 The exact state of a body in a world file: `motion`, `wrench`, `driven`, `acting`.
 
-Laws: numbers are loaded as they were saved, to the bit. The motion counts where nobody has edited
-pose or velocity since. An entry that the node has not written is refused.
+Laws: numbers are loaded as they were saved, to the bit. The motion, the engine's own numbers,
+counts while pose and velocity in the file are as they were saved. An entry that the node cannot
+have written is refused.
 """
 
 from collections.abc import Mapping
@@ -95,7 +96,7 @@ _Saved = TypeVar('_Saved', bound=Checked)
 
 
 def _saved(kind: type[_Saved], value: object, name: str) -> _Saved:
-    """Return the value of an entry, in which null means that something has no end."""
+    """Return the value of an entry; null is as good as a key that is left out."""
     if isinstance(value, dict):
         value = {key: each for key, each in value.items() if each is not None}
     return kind.from_value(value, name)

@@ -4,15 +4,13 @@
 """
 A YAML loader with the numbers of YAML 1.2 (1e5 is one), no dates and no custom tags.
 
-In world files, lines of bodies and joints may be JSON.
+Lines of bodies and joints in world files may be JSON, and the node writes them so: JSON takes a
+thirtieth of the time of YAML, and a tenth of the memory, since PyYAML keeps an object for each
+number until the end of the text.
 
-Laws: keys are texts, so that no two differ only by their hashes; what aliases repeat is counted
-while the text is read, and ends it beyond `MOST_REPEATED`. A line is read as JSON only where YAML
-reads the same from it: as an entry of a list, and not as a part of a text. The node writes such
-lines.
-
-JSON is read in a thirtieth of the time that YAML takes, and with a tenth of the memory: PyYAML
-keeps an object for each number until the end of the text.
+Laws: keys are texts, since hashes of numbers can be made to collide; values that aliases repeat
+are counted while the text is read, and more than `MOST_REPEATED` are an error; a line is read as
+JSON only where YAML reads the same from it: as an entry of a list, and not as a part of a text.
 """
 
 from __future__ import annotations
@@ -31,7 +29,7 @@ from yaml.composer import Composer
 _TAG = 'tag:yaml.org,2002:'
 # Tag of the scalar that stands for a line of JSON, whose number it has; files do not use it.
 _JSON_LINE = '!line'
-# Scalars, lists and mappings that aliases repeat: 300 outlines of 100 points.
+# Greatest number of scalars, lists and mappings that aliases repeat: 300 outlines of 100 points.
 MOST_REPEATED = 100_000
 
 
@@ -92,9 +90,9 @@ class Loader(Composer, yaml.CSafeLoader):
         yaml.CSafeLoader.__init__(self, text)
         Composer.__init__(self)
         self.entries = entries
-        # Nodes up to now, those of aliases too, and of these alone.
+        # Number of nodes up to now, with those that aliases repeat; and of these alone.
         self._nodes = self._repeated = 0
-        # Number of nodes below the anchor of each name, itself included.
+        # Number of nodes of each anchor, with those below it.
         self._sizes: dict[str, int] = {}
 
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
@@ -104,7 +102,7 @@ class Loader(Composer, yaml.CSafeLoader):
         anchor = getattr(event, 'anchor', None)
         node = super().compose_node(parent, index)
         if isinstance(event, yaml.AliasEvent):
-            # Where an alias is a part of what it stands for, that has no size yet.
+            # An alias within its own anchor, whose size is not known yet, repeats without end.
             self._repeated += self._sizes.get(str(anchor), MOST_REPEATED + 1)
             self._nodes += self._sizes.get(str(anchor), 0)
         else:
