@@ -174,7 +174,7 @@ export function totalsOf(world, names) {
  * @param {number[]} gravity [m/s²]
  * @returns {[number, number]} energy of motion, and of height above the origin [J]
  */
-export function energiesOf({mass, moment}, {x, y, vx, vy, spin}, [gx, gy]) {
+function energiesOf({mass, moment}, {x, y, vx, vy, spin}, [gx, gy]) {
   return [mass * (vx * vx + vy * vy) / 2 + moment * spin * spin / 2, -mass * (gx * x + gy * y)];
 }
 
@@ -211,7 +211,7 @@ function number(value) {
 }
 
 /** @param {Point} momentum [N s] */
-export function momentumText([px, py]) {
+function momentumText([px, py]) {
   return `${number(Math.hypot(px, py))} N s ${t('({x}, {y})', {x: number(px), y: number(py)})}`;
 }
 
