@@ -200,8 +200,6 @@ setup(
         'pymunk>=7.3,<8',
         'PyYAML',
         'rerun-sdk>=0.41,<0.42',
-        # Partitions maps into rectangles.
-        'scipy>=1.13',
         # Serves the page; needs nothing itself. Earlier ones have known holes.
         'tornado>=6.5.10,<7',
     ],

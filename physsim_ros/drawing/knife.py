@@ -16,7 +16,7 @@ body of before, changed in place; joints and forces stay at their points.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 import math
 from typing import Any
@@ -27,9 +27,9 @@ from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, WorldFull
+from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
 from physsim_ros.model.names import split_name, WORLD
-from physsim_ros.model.requests import ChangeBody, Join, Request, Spawn
+from physsim_ros.model.requests import ChangeBody, Cut, Join, Spawn
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import Box, contains, Disc, Polygon
 from physsim_ros.model.transform import cross, dots, Point, rotated
@@ -44,15 +44,14 @@ _ON_LINE = 1e-6
 _ROUNDING = 1e-9
 
 
-def cut(start: Point, end: Point, scene: SceneQuery) -> tuple[Request, ...]:
+def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     """
-    Return the requests that cut all bodies which a stroke passes right through.
+    Return the request that cuts all bodies which a stroke passes right through.
 
     :param start: of the stroke in the world [m]
     :param end: of it [m]
     :raises NothingThere: it passes right through no body that can be cut
     :raises BadSize: a piece would be too thin
-    :raises WorldFull: the world cannot have the pieces
     """
     pieces = {
         name: each for name in scene.names if len(each := _pieces(name, start, end, scene)) > 1
@@ -61,43 +60,16 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> tuple[Request, ...]:
         raise NothingThere(
             'the stroke passes right through no disc, rectangle or polygon', field='point'
         )
-    _check_room(pieces, scene)
     _, number = split_name(scene.next_body())
-    requests: list[Request] = []
+    parts: list[ChangeBody | Spawn] = []
     names: dict[str, dict[str, Polygon]] = {}
     for name, shapes in pieces.items():
         new = [f'{DRAWN}/{number + each}' for each in range(len(shapes) - 1)]
         number += len(new)
         names[name] = dict(zip((name, *new), shapes, strict=True))
-        requests += _requests_of(name, names[name], scene)
-    requests += (
-        join for joint in scene.joints if (join := _moved_joint(joint, names, scene)) is not None
-    )
-    return tuple(requests)
-
-
-def _check_room(pieces: dict[str, list[Polygon]], scene: SceneQuery) -> None:
-    """
-    Refuse pieces, the shapes by the names of their bodies, of which the world has no room for all.
-
-    :raises WorldFull: it would have too many bodies, or convex pieces
-    """
-    count, most = sum(len(each) - 1 for each in pieces.values()), scene.settings.max_bodies
-    if len(scene.names) + count > most:
-        raise WorldFull(f'{count} pieces more are too many: max_bodies is {most}', field='point')
-    shapes = [pieces.get(name, [scene.body(name).shape]) for name in scene.names]
-    convex = sum(len(shape.form.pieces) for each in shapes for shape in each)
-    if convex > scene.settings.max_shapes:
-        raise WorldFull(
-            f'{convex} convex pieces are too many: max_shapes is {scene.settings.max_shapes}',
-            field='point',
-        )
-
-
-def message(requests: Iterable[Request]) -> str:
-    """Return the message of a cut, whose requests have one answer together."""
-    pieces = sum(isinstance(request, ChangeBody | Spawn) for request in requests)
-    return f'cut into {pieces} pieces'
+        parts += _requests_of(name, names[name], scene)
+    moved = (_moved_joint(joint, names, scene) for joint in scene.joints)
+    return Cut(pieces=tuple(parts), joints=tuple(join for join in moved if join is not None))
 
 
 def split(outline: Floats, start: Floats, end: Floats) -> list[Floats]:

@@ -33,10 +33,7 @@ def world_of(shape, **properties):
 
 def cut(simulation, start, end):
     scene = SceneQuery(simulation.world.snapshot())
-    requests = knife.cut(start, end, scene)
-    for request in requests:
-        simulation.perform(request)
-    return requests
+    return simulation.perform(knife.cut(start, end, scene))
 
 
 def in_world(simulation, *points):
@@ -138,10 +135,11 @@ def test_one_stroke_cuts_all_bodies_on_its_way_but_those_that_are_not_outlines()
     for number, shape in enumerate((Box(width=1.0, height=1.0), compound, Disc(radius=0.5))):
         simulation.perform(Spawn(name=f'a/{number}', shape=shape, pose=(2.0 * number, 0.0, 0.0)))
 
-    requests = cut(simulation, (-3.0, 0.1), (9.0, 0.1))
+    answer = cut(simulation, (-3.0, 0.1), (9.0, 0.1))
 
     assert simulation.world.snapshot().scene.names == ('a/0', 'a/1', 'a/2', 'drawn/0', 'drawn/1')
-    assert knife.message(requests) == 'cut into 4 pieces'
+    assert answer == 'cut into 4 pieces'
+    assert simulation.status.undo == 'undo cut several bodies'
 
 
 def test_a_piece_that_would_be_too_thin_is_refused():
@@ -151,14 +149,16 @@ def test_a_piece_that_would_be_too_thin_is_refused():
     assert (refused.value.field, refused.value.body) == ('point', 'a/0')
 
 
-@pytest.mark.parametrize('most', ['max_bodies', 'max_shapes'])
-def test_more_pieces_than_the_world_can_have_are_refused_and_the_body_stays_whole(most):
-    simulation = Simulation(settings=WorldSettings(**{most: 1}))
-    simulation.perform(Spawn(name='a/0', shape=Box(width=2.0, height=1.0)))
+@pytest.mark.parametrize('most', ['max_bodies', 'max_shapes', 'max_overlaps'])
+def test_more_pieces_than_the_world_can_have_are_refused_and_the_bodies_stay_whole(most):
+    simulation = Simulation(settings=WorldSettings(**{most: 3}))
+    for name in ('a/0', 'a/1', 'a/2'):
+        simulation.perform(Spawn(name=name, shape=Box(width=2.0, height=1.0)))
     before = simulation.world.digest()
     with pytest.raises(WorldFull, match=most):
         cut(simulation, (0.0, -2.0), (0.0, 2.0))
     assert simulation.world.digest() == before
+    assert simulation.status.undo == 'undo spawn a/2'
 
 
 def test_a_body_that_somebody_has_cut_is_neither_taken_back_nor_theirs():
@@ -166,18 +166,22 @@ def test_a_body_that_somebody_has_cut_is_neither_taken_back_nor_theirs():
     queue = simulation.requests
     box = Spawn(name='a/0', shape=Box(width=2.0, height=1.0), properties=Properties(friction=0.1))
     queue.submit(box, topic='~/spawn', author='ann')
+    axle = Join(name='j/0', kind=JointKind.AXLE, points=((0.9, 0.0),), a='a/0', b='world')
+    queue.submit(axle, topic='~/join', author='ann')
     simulation.advance_frame()
     scene = SceneQuery(simulation.world.snapshot())
-    for number, request in enumerate(knife.cut((0.3, -2.0), (0.3, 2.0), scene)):
-        queue.submit(request, topic='~/click', joined=number > 0, author='ben')
+    queue.submit(knife.cut((0.3, -2.0), (0.3, 2.0), scene), topic='~/click', author='ben')
     simulation.advance_frame()
+    assert simulation.world.scene.joints[0].a == 'drawn/0'
+    assert simulation.past.added_by('ann') == (('a/0',), ('j/0',))
+    assert simulation.take_back('ann') == 'undid join axle j/0'
+    assert simulation.world.scene.joints == ()
     before = simulation.world.digest()
 
     with pytest.raises(NotAlone):
         simulation.take_back('ann')
 
     assert simulation.world.digest() == before
-    assert simulation.past.added_by('ann') == (('a/0',), ())
     assert simulation.past.added_by('ben') == (('drawn/0',), ())
 
 

@@ -127,7 +127,7 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
 
 
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
-    """Draw the whole window, the tracks of time in it, and the animation of the world."""
+    """Draw the whole window, the track of time in it, and the animation of the world."""
     recording = Recording(directory / 'car.rrd')
     times = [recording.draw([frame]) for frame in car_story()]
     recording.close()
