@@ -7,13 +7,15 @@ Kinds of joints and their properties: one table of properties, one table of kind
 Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its glyph (`view`).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 from physsim_ros.model.checks import brief, FASTEST, flag, HEAVIEST, shown, Within
-from physsim_ros.model.declarations import Checked
+from physsim_ros.model.declarations import check_key, Checked
 from physsim_ros.model.errors import BadProperty, UnknownProperty
+from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.texts import name_meant, nearest_name
 
@@ -285,3 +287,24 @@ DEFAULTS = {
     for note in each.notes
     if isinstance(note, Else)
 }
+
+
+def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
+    """
+    Return kind, names of the bodies a and b, and properties of a YAML mapping.
+
+    :raises Refusal: a key is unknown, or a value is out of range
+    """
+    for key in mapping:
+        check_key(key, JOINT_KEYS)
+    properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
+    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    kind = kind_from(mapping.get('kind'))
+    return kind, a, WORLD if a and not b else b, JointProperties.from_mapping(properties)
+
+
+def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
+    name = mapping.get(key, '')
+    if not isinstance(name, str):
+        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
+    return name

@@ -7,18 +7,18 @@ Requests: everything that can be asked of a world, as frozen values.
 A constructor checks types and values of its request alone; the world checks them against its
 bodies when it applies the request. Poses are (x, y, yaw) in metres and radians, in the world or,
 where `frame` names a body, relative to that body as it is when the request is applied. Bodies come
-first, then robots, joints, hands and the world. A new request is a class here, a member of
-`Request`, and a line in the table of handlers in `simulation.world.world`.
+first, then robots, joints, hands and the world. A new request is a class here, a handler, and its
+line in the table of handlers in `simulation.world.world`.
 """
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 import math
 import sys
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 import numpy as np
-from physsim_ros.model.arrays import Floats, greatest
+from physsim_ros.model.arrays import checked_rows, Floats, greatest, no_rows
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import (
@@ -35,10 +35,10 @@ from physsim_ros.model.checks import (
     text,
 )
 from physsim_ros.model.colors import check_color, Color
-from physsim_ros.model.declarations import check_key, Checked
+from physsim_ros.model.declarations import check_key, Checked, without_unset
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
 from physsim_ros.model.joints import (
-    JOINT_KEYS,
+    joined_from,
     JointKind,
     JointProperties,
     kind_from,
@@ -48,15 +48,36 @@ from physsim_ros.model.settings import check_setting
 from physsim_ros.model.shapes import Shape
 from physsim_ros.model.transform import ORIGIN, Point, Pose, Twist
 
-_NO_ROWS: Floats = np.empty((0, 3))
-_NO_ROWS.flags.writeable = False
-
-
-def _no_rows() -> Floats:
-    return _NO_ROWS
-
-
 _UNSET = 'names of the properties that get their defaults again'
+
+
+class Request(Checked):
+    """
+    The base of requests.
+
+    :cvar VERB: for it in phrases of undo and redo; '' is the name of its class
+    :cvar OBJECT: that it concerns where that is no single body or joint
+    """
+
+    __slots__ = ()
+    VERB: ClassVar[str] = ''
+    OBJECT: ClassVar[str] = ''
+
+    @property
+    def subject(self) -> str:
+        """Return the one body or joint that it names, or ''."""
+        names: tuple[str, ...] = getattr(self, 'names', ())
+        name: str = getattr(self, 'name', names[0] if len(names) == 1 else '')
+        return name
+
+    def phrase(self, subject: str) -> str:
+        """
+        Return the phrase for it, by which undo and redo name it: `spawn ball/0`.
+
+        :param subject: name of the body or joint concerned, or ''
+        """
+        verb = self.VERB or type(self).__name__.lower()
+        return f'{verb} {subject or self.OBJECT}'.rstrip()
 
 
 # Checks of fields that only requests have.
@@ -125,7 +146,7 @@ def _changes(value: object, name: str) -> dict[str, Any]:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Spawn(Checked):
+class Spawn(Request):
     """
     Add a body, or change the body of that name in place.
 
@@ -155,13 +176,15 @@ class Spawn(Checked):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ChangeBody(Checked):
+class ChangeBody(Request):
     """
     Change what is set or unset here of a body that is there; everything else is kept.
 
     :raises Malformed: a number is not finite, or an array has the wrong length
     :raises BadProperty: a pose or colour is out of range
     """
+
+    VERB = 'change'
 
     name: Annotated[str, text, 'of the body']
     shape: Annotated[
@@ -179,7 +202,7 @@ class ChangeBody(Checked):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MoveBodies(Checked):
+class MoveBodies(Request):
     """
     Move bodies by one vector; velocities are kept. If one is refused, none is moved.
 
@@ -187,12 +210,15 @@ class MoveBodies(Checked):
     :raises BadProperty: the vector is too long
     """
 
+    VERB = 'move'
+    OBJECT = 'several bodies'
+
     names: Annotated[tuple[str, ...], _names, 'the bodies, each once']
     by: Annotated[Point, check_point, 'vector of the world [m]']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AtPoint(Checked):
+class AtPoint(Request):
     """A request for the topmost bodies, or joints, at a point [m]."""
 
     point: Annotated[Point, check_point, 'where they are [m]']
@@ -210,19 +236,22 @@ class Release(AtPoint):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Delete(Checked):
+class Delete(Request):
     """Remove the body of that name, and its joints."""
 
     name: Annotated[str, text, 'of the body']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DeleteBodies(Checked):
+class DeleteBodies(Request):
     """
-    Remove several bodies with their joints, and other joints; if one is not there, none is removed.
+    Remove several bodies with their joints, and other joints; if one is not there, none goes.
 
     :raises Malformed: nothing is named, or something twice
     """
+
+    VERB = 'delete'
+    OBJECT = 'several bodies'
 
     names: Annotated[tuple[str, ...], _each_once, 'the bodies']
     joints: Annotated[tuple[str, ...], _each_once, 'the joints'] = ()
@@ -234,18 +263,31 @@ class DeleteBodies(Checked):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DeleteAll(Checked):
-    """Remove all bodies, or all of a namespace, and their joints."""
+class OfNamespace(Request):
+    """A request for all bodies, or joints, of a namespace."""
 
     namespace: Annotated[
-        str | None,
-        text,
-        'of their names, the part before the last slash; None is every body',
+        str | None, text, 'of their names, the part before the last slash; None is every one'
     ] = None
+
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with the namespace if there is one."""
+        phrase = Request.phrase(self, subject)
+        if self.namespace is None:
+            return phrase
+        return f'{phrase} of {self.namespace or "no namespace"}'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DeleteAll(OfNamespace):
+    """Remove all bodies, or all of a namespace, and their joints."""
+
+    VERB = 'delete'
+    OBJECT = 'all bodies'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Command(Checked):
+class Command(Request):
     """
     Set poses, twists or wrenches of named bodies; if one is refused, nothing is set.
 
@@ -255,18 +297,21 @@ class Command(Checked):
     :raises BadProperty: a value is out of range
     """
 
+    VERB = 'set motion of'
+    OBJECT = 'several bodies'
+
     names: Annotated[tuple[str, ...], _as_field('joint_names', _names), 'the bodies, each once']
     poses: Annotated[Floats, '(n, 3) float64: x, y [m], yaw [rad] of each, or empty'] = field(
-        default_factory=_no_rows
+        default_factory=no_rows
     )
     twists: Annotated[
         Floats, '(n, 3) float64: vx, vy [m/s], spin [rad/s], world axes, or empty'
-    ] = field(default_factory=_no_rows)
+    ] = field(default_factory=no_rows)
     wrenches: Annotated[
         Floats,
         '(n, 3) float64: fx, fy [N], torque [N m], world axes, or empty; they act at the centre '
         "of mass until the next one, at most for the world's `command_timeout`",
-    ] = field(default_factory=_no_rows)
+    ] = field(default_factory=no_rows)
     frame: Annotated[str, text, "of the poses: '' for the world, or a body's name"] = ''
 
     def __post_init__(self) -> None:
@@ -274,7 +319,7 @@ class Command(Checked):
         # In memory once for all commands of a publisher.
         object.__setattr__(self, 'names', tuple(sys.intern(str(name)) for name in self.names))
         for array, name in (('poses', 'transforms'), ('twists', 'twist'), ('wrenches', 'wrench')):
-            rows = _checked_rows(getattr(self, array), len(self.names), name)
+            rows = checked_rows(getattr(self, array), len(self.names), name)
             object.__setattr__(self, array, rows)
         if greatest(self.poses[:, :2]) > FARTHEST:
             raise BadProperty(
@@ -308,33 +353,8 @@ class Command(Checked):
         return self.poses, self.twists, self.wrenches
 
 
-def _checked_rows(values: Any, count: int, name: str) -> Floats:
-    """
-    Return a read-only copy of as many rows of three finite numbers, or none.
-
-    :param name: of the field, for the refusal
-    :raises Malformed: they are something else
-    """
-    try:
-        given = np.asarray(values)
-    except ValueError as error:
-        # Rows of different lengths.
-        raise Malformed(f'each {name} needs 3 numbers', field=name) from error
-    if given.ndim and not len(given):
-        return _NO_ROWS
-    if given.ndim != 2 or given.shape[1] != 3 or given.dtype.kind not in 'fiu':
-        raise Malformed(f'each {name} needs 3 numbers', field=name)
-    if len(given) != count:
-        raise Malformed(f'{name} has {len(given)} entries for {count} bodies', field=name)
-    rows = np.array(given, dtype=np.float64)
-    if not np.isfinite(rows).all():
-        raise Malformed(f'{name} is not finite', field=name)
-    rows.flags.writeable = False
-    return rows
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DriveRobot(Checked):
+class DriveRobot(Request):
     """
     Drive at a velocity, until the next command or the timeout of the drive.
 
@@ -343,6 +363,8 @@ class DriveRobot(Checked):
     :raises Malformed: a number is not finite, or there are not three
     :raises BadProperty: it is faster than anything may be
     """
+
+    VERB = 'drive'
 
     name: Annotated[str, text, 'of the body of the robot']
     velocity: Annotated[
@@ -353,7 +375,7 @@ class DriveRobot(Checked):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Join(Checked):
+class Join(Request):
     """
     Join two bodies, or a body and the background; or change the joint of that name in place.
 
@@ -402,6 +424,10 @@ class Join(Checked):
         if least and math.dist(*self.points) < least:
             raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
 
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with its kind."""
+        return f'join {self.kind} {subject}'
+
 
 def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
     """Return a check of a tuple of requests of some kinds."""
@@ -415,8 +441,10 @@ def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Cut(Checked):
+class Cut(Request):
     """Cut bodies into pieces; if a part of it is refused, nothing is cut."""
+
+    OBJECT = 'several bodies'
 
     pieces: Annotated[
         tuple[ChangeBody | Spawn, ...],
@@ -430,28 +458,31 @@ class Cut(Checked):
 class Pin(AtPoint):
     """Weld the two topmost bodies at a point, or the only one to the background."""
 
+    VERB = 'join pin'
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Axle(AtPoint):
     """Join the two topmost bodies at a point by an axle, or the only one to the background."""
 
+    VERB = 'join axle'
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Unjoin(Checked):
+class Unjoin(Request):
     """Remove the joint of that name."""
+
+    VERB = 'delete joint'
 
     name: Annotated[str, text, 'of the joint']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class UnjoinAll(Checked):
+class UnjoinAll(OfNamespace):
     """Remove all joints, or all of a namespace."""
 
-    namespace: Annotated[
-        str | None,
-        text,
-        'of their names, the part before the last slash; None is every joint',
-    ] = None
+    VERB = 'delete'
+    OBJECT = 'all joints'
 
 
 def join_from(
@@ -482,41 +513,8 @@ def join_from(
     )
 
 
-def without_unset(
-    mapping: Mapping[Any, Any], kind: type[Checked]
-) -> tuple[dict[Any, Any], tuple[str, ...]]:
-    """
-    Return a YAML mapping without the properties that are null, and their names.
-
-    :param kind: of the properties
-    """
-    unset = tuple(name for name in kind.FIELDS if mapping.get(name, name) is None)
-    return {key: mapping[key] for key in mapping if key not in unset}, unset
-
-
-def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
-    """
-    Return kind, names of the bodies a and b, and properties of a YAML mapping.
-
-    :raises Refusal: a key is unknown, or a value is out of range
-    """
-    for key in mapping:
-        check_key(key, JOINT_KEYS)
-    properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
-    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
-    kind = kind_from(mapping.get('kind'))
-    return kind, a, WORLD if a and not b else b, JointProperties.from_mapping(properties)
-
-
-def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
-    name = mapping.get(key, '')
-    if not isinstance(name, str):
-        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
-    return name
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
-class OfHand(Checked):
+class HandRequest(Request):
     """
     A request of a hand.
 
@@ -529,8 +527,10 @@ class OfHand(Checked):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Grab(OfHand):
+class Grab(HandRequest):
     """Have a hand grab the topmost dynamic body under a point; it lets go of any other body."""
+
+    VERB = 'drag'
 
     point: Annotated[Point, _as_field('mouse_point', check_point), 'position of the hand [m]']
     frame: Annotated[str, text, "of the point: '' for the world, or a body's name"] = ''
@@ -540,9 +540,11 @@ class Grab(OfHand):
 class GrabToPlace(Grab):
     """`Grab` in a paused world: where no dynamic body is under the point, any body is grabbed."""
 
+    VERB = 'place'
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MoveHand(OfHand):
+class MoveHand(HandRequest):
     """Move a hand, and draw the body to it that it has grabbed."""
 
     point: Annotated[Point, _as_field('mouse_point', check_point), 'new position of the hand [m]']
@@ -560,48 +562,32 @@ class PlaceHand(MoveHand):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class KeepHand(OfHand):
+class KeepHand(HandRequest):
     """Keep a hand that does not move from counting as gone."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LetGo(OfHand):
+class LetGo(HandRequest):
     """Have a hand let go of its body, which flies on."""
+
+    VERB = 'drag'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Configure(Checked):
+class Configure(Request):
     """Change settings of the world."""
+
+    VERB = 'change'
+    OBJECT = 'settings'
 
     changes: Annotated[Mapping[str, Any], _changes, 'new values by the field of WorldSettings']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Restore(Checked):
+class Restore(Request):
     """Replace all bodies, joints and settings by those of a saved state."""
 
+    VERB = 'load'
+    OBJECT = 'world'
+
     state: Annotated[WorldState, OfClass(WorldState), 'that is restored']
-
-
-HandRequest = Grab | GrabToPlace | MoveHand | PlaceHand | KeepHand | LetGo
-Request = (
-    Spawn
-    | ChangeBody
-    | MoveBodies
-    | Command
-    | Anchor
-    | Release
-    | Delete
-    | DeleteBodies
-    | DeleteAll
-    | Join
-    | Cut
-    | Unjoin
-    | UnjoinAll
-    | Pin
-    | Axle
-    | HandRequest
-    | DriveRobot
-    | Configure
-    | Restore
-)

@@ -32,7 +32,6 @@ from physsim_ros.simulation.entries import (
     Entry,
     Seek,
     size_of,
-    subject_of,
     TakeBack,
     Unread,
     Wait,
@@ -115,7 +114,7 @@ class RequestQueue:
         size = size_of(request)
         if gesture is None:
             gesture = self.gesture if joined else self.begin_gesture()
-        subject = subject_of(request)
+        subject = request.subject if isinstance(request, Request | Unread) else ''
         entry = Entry(request, topic, subject, gesture, field, asker, size, author)
         if busy := self._busy(size):
             self._add_answer(replace(entry, request=busy, size=0))

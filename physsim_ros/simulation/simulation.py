@@ -25,7 +25,7 @@ from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
-from physsim_ros.simulation.past import DEFAULT_MEMORY, Past, timeline_status
+from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.world import forces_now
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
@@ -111,7 +111,7 @@ class Simulation(FrameMaker):
     @property
     def status(self) -> TimelineStatus:
         """Return the status of the timeline at the moment that is shown."""
-        return timeline_status(self.past.tree, self.playback.moment, self.speed, self.physics_rate)
+        return self.playback.status
 
     @property
     def loaded(self) -> WorldState:

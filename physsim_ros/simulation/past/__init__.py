@@ -19,7 +19,6 @@ from physsim_ros.simulation.past.budget import (
 )
 from physsim_ros.simulation.past.node import CachedFrame, Moment
 from physsim_ros.simulation.past.past import Past
-from physsim_ros.simulation.past.status import timeline_status
 
 __all__ = [
     'DEFAULT_MEMORY',
@@ -31,5 +30,4 @@ __all__ = [
     'Past',
     'frame_size',
     'request_size',
-    'timeline_status',
 ]

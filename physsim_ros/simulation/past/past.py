@@ -31,7 +31,6 @@ from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.node import CachedFrame, Line, Moment
 from physsim_ros.simulation.past.replay import Replay
-from physsim_ros.simulation.past.status import gesture_phrase
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -232,7 +231,7 @@ class Past:
             raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
         amendment = Amendment(cursor, tree, (first.gesture,), (), stands_alone=True)
         before = yield from self._carry_out(amendment)
-        before.words = gesture_phrase(first, 1)
+        before.words = first.phrase(1)
         tree.undone.append(before)
         return before.words
 
@@ -314,23 +313,36 @@ class Past:
         tree.course, tree.era = self._courses, tree.era + 1
         return True
 
+    def words(self, moment: Moment) -> tuple[str, str]:
+        """
+        Return the phrases for what undo and redo would change at a moment; '' is nothing.
+
+        :param moment: that is shown
+        """
+        tree, (_, serial) = self.tree, moment
+        redo = tree.undone[-1].words if tree.has_undone else ''
+        if gesture := tree.last_gesture(serial):
+            first, count = gesture
+            return first.phrase(count), redo
+        return 'reset' if tree.undoes_reset(serial) else '', redo
+
     def undo(self) -> str:
         """
         Go back to the moment before the last gesture, and return the phrase for it.
 
         :raises OutOfHistory: there is none that is kept
         """
-        tree, serial = self.tree, self.cursor.moment[1]
-        gesture = tree.last_gesture(serial)
-        if gesture is not None:
-            first, count = gesture
-            words, before = gesture_phrase(first, count), tree.node(first.serial - 1)
-            goal = tree.line_to(before, first.step, (first.step, before.serial))
-        elif tree.undoes_reset(serial):
-            # The requests since a reset are undone before it, though they are no longer kept.
-            words, goal = 'reset', tree.resets[-1]
-        else:
+        tree, moment = self.tree, self.cursor.moment
+        words, _ = self.words(moment)
+        if not words:
             raise OutOfHistory('there is nothing to undo', field='history')
+        if gesture := tree.last_gesture(moment[1]):
+            first, _ = gesture
+            before = tree.node(first.serial - 1)
+            goal = tree.line_to(before, first.step, (first.step, before.serial))
+        else:
+            # The requests since a reset are undone before it, though they are no longer kept.
+            goal = tree.resets[-1]
         left, _ = self._go_to(goal)
         left.words = words
         tree.undone.append(left)
