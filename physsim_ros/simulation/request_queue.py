@@ -295,16 +295,14 @@ class RequestQueue:
 
     def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
         """Change the past in parts, and collect the answers."""
+        past, author = self._past, entry.author
         results: list[Answer | Refusal]
         try:
-            with self._past.boundary.reading(entry.topic):
+            with past.boundary.reading(entry.topic):
                 if isinstance(change, Amend):
-                    results = yield from self._past.amend(
-                        change.gestures, change.requests, entry.author
-                    )
+                    results = yield from past.amend(change.gestures, change.requests, author)
                 else:
-                    phrase = yield from self._past.take_back(entry.author)
-                    results = [Answer(message=f'undid {phrase}')]
+                    results = yield from past.take_back(author)
         except Refusal as refusal:
             results = [refusal]
         self._playback.note_jump()

@@ -10,7 +10,7 @@ replaces it comes after the requests that wait; a refusal changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Integral
@@ -264,16 +264,6 @@ class Simulation(FrameMaker):
             undone = self.past.undo()
         return f'undid {undone}, back at {self.playback.time}'
 
-    def take_back(self, author: str) -> str:
-        """
-        Take back the last gesture of a person, at this time; return a message about it.
-
-        :param author: name of the person
-        :raises Refusal: there is none, or it does not stand alone; nothing is changed
-        """
-        with self._jump():
-            return f'undid {_result(self.past.take_back(author))}'
-
     def redo(self) -> str:
         """
         Return to the moment of the last undo; return a message about it.
@@ -319,12 +309,3 @@ class Simulation(FrameMaker):
         self.playback.seek_shown()
         yield
         self.playback.note_jump()
-
-
-def _result(parts: Generator[None, None, str]) -> str:
-    """Carry out all parts of work, and return its result."""
-    while True:
-        try:
-            next(parts)
-        except StopIteration as end:
-            return str(end.value)

@@ -13,7 +13,7 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from .driven import FLOOR, SECOND, world_after
+from .driven import FLOOR, SECOND, take_back, world_after
 from ..building import DISC, spawning
 
 NAMES = ('Anna', 'Ben')
@@ -286,7 +286,7 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
     steps: list[int],
 ) -> None:
     simulation, other = of_anna_and_ben(seconds=8), of_anna_and_ben(seconds=8)
-    other.take_back('Anna')
+    take_back(other, 'Anna')
     step = simulation.step
     queue = simulation.requests
     queue.submit(TakeBack(), topic='~/undo', author='Anna', asker='anna')

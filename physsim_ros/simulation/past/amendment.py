@@ -104,12 +104,11 @@ class Amendment:
     def _apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
         cursor = self._cursor
         try:
-            with cursor.request(request) as world:
-                answer = world.apply(request)
+            answer = cursor.carry_out(request)
         except Refusal as refusal:
             # The world may have to be rebuilt.
             cursor.finish_work()
             return refusal
-        if world.changed:
+        if cursor.world.changed:
             cursor.log(request, answer.subject, gesture, author)
         return answer

@@ -13,7 +13,6 @@ the world finishes it. Another seek replaces a seek; an amendment is finished fi
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -233,12 +232,10 @@ class Cursor(Replay):
 
     # Going on
 
-    @contextmanager
-    def request(self, request: Request) -> Iterator[World]:
+    def carry_out(self, request: Request) -> Answer:
         """
-        Have the block carry out a request, in the space in which a replay will carry it out.
+        Carry out a request, in the space in which a replay will carry it out.
 
-        :return: the world
         :raises Refusal: the request is refused; where half of it is done, the world is rebuilt
         :raises Failed: in place of an unexpected error; the world is rebuilt
         """
@@ -246,7 +243,7 @@ class Cursor(Replay):
         self._enter_checkpoint()
         try:
             with self._boundary.message(type(request).__name__):
-                yield world
+                return world.apply(request)
         except Refusal as refusal:
             if world.changed or isinstance(refusal, Failed):
                 self.seek_moment(*self.moment, elsewhere=True)

@@ -177,9 +177,8 @@ class Past:
         :raises Refusal: and nothing is changed
         """
         cursor = self.cursor
-        with cursor.request(request) as world:
-            answer = world.apply(request)
-        if world.changed:
+        answer = cursor.carry_out(request)
+        if cursor.world.changed:
             if not cursor.is_newest:
                 self._begin_course()
             cursor.log(request, answer.subject, gesture, author)
@@ -210,14 +209,14 @@ class Past:
         self.tree.drop(before)
         return amendment.done
 
-    def take_back(self, author: str) -> Generator[None, None, str]:
+    def take_back(self, author: str) -> Generator[None, None, list[Answer | Refusal]]:
         """
         Take back the last gesture of a person, and simulate again up to this moment, in parts.
 
         What others have done since is done again as it was asked.
 
         :param author: name of the person
-        :return: the phrase for it
+        :return: the answer
         :raises InPast: the past is shown
         :raises OutOfHistory: the person has done nothing that is kept
         :raises NotAlone: what was done since needs it, or is too much to be done again; nothing is
@@ -233,7 +232,7 @@ class Past:
         before = yield from self._carry_out(amendment)
         before.words = first.phrase(1)
         tree.undone.append(before)
-        return before.words
+        return [Answer(message=f'undid {before.words}')]
 
     def _carry_out(self, amendment: Amendment) -> Generator[None, None, Line]:
         """
