@@ -37,7 +37,7 @@ from physsim_ros.simulation.entries import (
     Wait,
 )
 from physsim_ros.simulation.hands import Hands
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.past import amend, Past, take_back
 from physsim_ros.simulation.playback import Playback
 
 __all__ = ['Amend', 'RequestQueue', 'TakeBack', 'Unread', 'Wait']
@@ -300,9 +300,9 @@ class RequestQueue:
         try:
             with past.boundary.reading(entry.topic):
                 if isinstance(change, Amend):
-                    results = yield from past.amend(change.gestures, change.requests, author)
+                    results = yield from amend(past, change.gestures, change.requests, author)
                 else:
-                    results = yield from past.take_back(author)
+                    results = yield from take_back(past, author)
         except Refusal as refusal:
             results = [refusal]
         self._playback.note_jump()

@@ -9,7 +9,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Axle, Configure, Delete, Join, MoveBodies, Request
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.simulation.past import past
+from physsim_ros.simulation.past import amendment
 from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.request_queue import Amend, TakeBack
 from physsim_ros.simulation.simulation import Simulation
@@ -166,7 +166,7 @@ def test_it_is_refused_in_the_past_and_where_it_would_take_long(
     simulation.seek(500_000_000)
     assert take_back(simulation, 'Anna').code == 'in_past'
     simulation.seek(end)
-    monkeypatch.setattr(past, 'LONGEST_AGAIN', 0.5)
+    monkeypatch.setattr(amendment, 'LONGEST_AGAIN', 0.5)
     answer = take_back(simulation, 'Anna')
     assert answer.code == 'not_alone'
     assert 'ago' in answer.message
@@ -176,7 +176,7 @@ def test_it_is_refused_in_the_past_and_where_it_would_take_long(
 def test_a_reading_that_would_take_long_to_replace_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     simulation = begun()
     gesture, before = simulation.requests.gesture, simulation.world.digest()
-    monkeypatch.setattr(past, 'LONGEST_AGAIN', 0.01)
+    monkeypatch.setattr(amendment, 'LONGEST_AGAIN', 0.01)
 
     frame = amend(simulation, [gesture], [spawning('t/1', DISC)])
 

@@ -9,6 +9,7 @@ Not here: the moment that is shown (`playback`). Start with the theory of operat
 front. Other folders import the names below.
 """
 
+from physsim_ros.simulation.past.amendment import amend, take_back
 from physsim_ros.simulation.past.budget import (
     DEFAULT_MEMORY,
     frame_size,
@@ -28,6 +29,8 @@ __all__ = [
     'CachedFrame',
     'Moment',
     'Past',
+    'amend',
     'frame_size',
     'request_size',
+    'take_back',
 ]

@@ -11,16 +11,86 @@ moment, though not all of it is simulated yet.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 
-from physsim_ros.model.errors import NotAlone, Refusal
+from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.past.node import Line
+from physsim_ros.simulation.past.past import Past
 from physsim_ros.simulation.past.tree import Tree
 
+# Greatest simulation time that is simulated again [s].
+LONGEST_AGAIN = 60.0
 
-class Amendment:
+
+def amend(
+    past: Past, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
+) -> Generator[None, None, list[Answer | Refusal]]:
+    """
+    Replace the requests of earlier gestures, in parts; see `_Amendment`.
+
+    :return: for each request its answer, or its refusal
+    :raises NotAlone: too much would be simulated again; nothing is changed
+    """
+    amendment = _Amendment(past.cursor, past.tree, gestures, requests, author)
+    before = yield from _carry_out(past, amendment)
+    past.tree.drop(before)
+    return amendment.done
+
+
+def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Refusal]]:
+    """
+    Take back the last gesture of a person, and simulate again up to this moment, in parts.
+
+    What others have done since is done again as it was asked.
+
+    :param author: name of the person
+    :return: the answer
+    :raises InPast: the past is shown
+    :raises OutOfHistory: the person has done nothing that is kept
+    :raises NotAlone: what was done since needs it, or is too much to be done again; nothing is
+        changed
+    """
+    cursor, tree = past.cursor, past.tree
+    if not cursor.is_newest:
+        raise InPast('the past is shown; go to its end first', field='history')
+    first = tree.last_gesture_of(author)
+    if first is None:
+        raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
+    amendment = _Amendment(cursor, tree, (first.gesture,), (), stands_alone=True)
+    before = yield from _carry_out(past, amendment)
+    before.words = first.phrase(1)
+    tree.undone.append(before)
+    return [Answer(message=f'undid {before.words}')]
+
+
+def _carry_out(past: Past, amendment: _Amendment) -> Generator[None, None, Line]:
+    """
+    Carry out an amendment; where it fails, the line before is in force again.
+
+    :return: the line before
+    :raises NotAlone: too much would be simulated again
+    """
+    moment = past.cursor.moment
+    if moment[0] - amendment.step > past.steps_in(LONGEST_AGAIN):
+        raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
+    before, told = past.tree.line(moment), len(past.reports)
+    try:
+        yield from amendment.parts()
+    except Exception:
+        # Reports of the way were given the first time.
+        del past.reports[told:]
+        left, _ = past.go_to(before)
+        past.tree.drop(left)
+        raise
+    past.tree.drop_undone()
+    past.frames.drop_from(amendment.step)
+    return before
+
+
+class _Amendment:
     """
     The replacement of the requests of earlier gestures, up to the moment of a cursor.
 
