@@ -30,18 +30,8 @@ _MOST_PHASE = 1e6
 _COMMON = ('max_force', 'break_force', 'collide')
 
 
-@dataclass(frozen=True, slots=True)
-class Else:
-    """
-    A note of a property: its value where nobody sets it.
-
-    :param value: that it then has
-    """
-
-    value: float
-
-
-# A note of a property: the bodies' poses when the joint is made supply its value.
+# The note of a property is its value where nobody sets it: a number, or this, as the poses of the
+# bodies have it when the joint is made.
 AS_DRAWN = 'as drawn'
 
 
@@ -210,16 +200,16 @@ class JointProperties(Checked):
         float | None,
         Within(-FASTEST, FASTEST, 'rad/s'),
         'angular velocity of `a` relative to `b`, counter-clockwise',
-        Else(1.0),
+        1.0,
     ] = None
     max_torque: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', Else(1000.0)
+        float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', 1000.0
     ] = None
     stiffness: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N/m'), 'force for a strain', Else(100.0)
+        float | None, Within(0.0, HEAVIEST, 'N/m'), 'force for a strain', 100.0
     ] = None
     damping: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against a rate', Else(0.0)
+        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against a rate', 0.0
     ] = None
     rest_length: Annotated[
         float | None, Within(0.0, LARGEST, 'm'), 'length of a spring without force', AS_DRAWN
@@ -232,7 +222,7 @@ class JointProperties(Checked):
         _ratio,
         'turns of `a` for one of `b`; negative for opposite directions; '
         f'{brief(1 / _MOST_RATIO)} .. {brief(_MOST_RATIO)}, either sign',
-        Else(1.0),
+        1.0,
     ] = None
     phase: Annotated[
         float | None,
@@ -251,7 +241,7 @@ class JointProperties(Checked):
         'force above which the joint is removed; of a torque, at an arm of 1 m',
     ] = None
     collide: Annotated[
-        bool | None, flag, 'whether the joined bodies collide with each other', Else(False)
+        bool | None, flag, 'whether the joined bodies collide with each other', False
     ] = None
 
     def __post_init__(self) -> None:
@@ -281,11 +271,11 @@ class JointProperties(Checked):
 JOINT_KEYS = ['kind', 'a', 'b', *JointProperties.FIELDS]
 # Values of the properties that nobody sets, by name; those that are not here have no limit, or are
 # as drawn.
-DEFAULTS = {
-    name: note.value
+DEFAULTS: dict[str, float] = {
+    name: note
     for name, each in JointProperties.FIELDS.items()
     for note in each.notes
-    if isinstance(note, Else)
+    if note != AS_DRAWN
 }
 
 

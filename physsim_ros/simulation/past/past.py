@@ -20,7 +20,7 @@ from dataclasses import replace
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import LONGEST, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import OutOfHistory
+from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
@@ -89,7 +89,7 @@ class Past:
             World(physics_rate=physics_rate, frame_steps=frame_steps) for _ in range(2)
         )
         present, shown = self._worlds
-        self.cursor = Cursor(present, self.tree, self.reports, boundary)
+        self.cursor = Cursor(present, self.tree, self.reports)
         self.frames = FrameCache(Replay(shown, self.tree, self.reports), shown, self.tree)
         self.cursor.begin(WorldState(settings=settings))
         self._courses = 1
@@ -173,13 +173,30 @@ class Past:
         :raises Refusal: and nothing is changed
         """
         cursor = self.cursor
-        answer = cursor.carry_out(request)
+        answer = self.carry_out(request)
         if cursor.world.changed:
             if not cursor.is_newest:
                 self._begin_course()
             cursor.log(request, answer.subject, gesture, author)
             self.tree.drop_undone()
         return answer
+
+    def carry_out(self, request: Request) -> Answer:
+        """
+        Carry out a request, in the space in which a replay will carry it out.
+
+        :raises Refusal: the request is refused; where half of it is done, the world is rebuilt
+        :raises Failed: in place of an unexpected error; the world is rebuilt
+        """
+        cursor, world = self.cursor, self.cursor.world
+        cursor.enter_checkpoint()
+        try:
+            with self.boundary.message(type(request).__name__):
+                return world.apply(request)
+        except Refusal as refusal:
+            if world.changed or isinstance(refusal, Failed):
+                cursor.seek_moment(*cursor.moment, elsewhere=True)
+            raise
 
     def _begin_course(self) -> None:
         """Begin a course at this moment, and keep the line that is in force."""
