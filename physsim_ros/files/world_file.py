@@ -218,7 +218,7 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
 
 def hides_shipped(path: Path, *, world_dir: Path) -> bool:
     """
-    Return whether the plain name of a shipped world finds this file instead.
+    Return whether a saved world hides a shipped one: their plain names are the same.
 
     :param path: of a saved world
     :param world_dir: directory of the user's worlds
