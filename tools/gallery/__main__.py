@@ -37,6 +37,7 @@ TIMES = {
     'drawings/marble_run': 6.0,
     'drawings/seesaw': 1.0,
     'drawings/windmill': 0.5,
+    'worlds/boxes': 10.0,
     'worlds/bridge': 4.0,
     'worlds/car': 5.5,
     'worlds/catapult': 1.6,
