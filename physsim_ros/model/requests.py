@@ -74,9 +74,14 @@ def _texts(value: object, name: str) -> tuple[str, ...]:
 
 
 def _names(value: object, name: str) -> tuple[str, ...]:
-    names = _texts(value, name)
+    names = _each_once(value, name)
     if not names:
         raise Malformed('no body is named', field=name)
+    return names
+
+
+def _each_once(value: object, name: str) -> tuple[str, ...]:
+    names = _texts(value, name)
     if len(set(names)) != len(names):
         raise Malformed('a body is named twice', field=name)
     return names
@@ -214,12 +219,18 @@ class Delete(Checked):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeleteBodies(Checked):
     """
-    Remove several bodies, and their joints. If one does not exist, none is removed.
+    Remove bodies with their joints, and other joints; if one is not there, none is removed.
 
-    :raises Malformed: no body is named, or one is named twice
+    :raises Malformed: nothing is named, or something twice
     """
 
-    names: Annotated[tuple[str, ...], _names, 'the bodies, each once']
+    names: Annotated[tuple[str, ...], _each_once, 'the bodies']
+    joints: Annotated[tuple[str, ...], _each_once, 'the joints'] = ()
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        if not self.names and not self.joints:
+            raise Malformed('no body is named', field='names')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -409,6 +420,32 @@ class Unjoin(Checked):
     name: Annotated[str, text, 'of the joint']
 
 
+def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
+    """Return a check of a tuple of requests of some kinds."""
+
+    def check(value: object, name: str) -> tuple[Any, ...]:
+        if not isinstance(value, tuple) or not all(isinstance(each, kinds) for each in value):
+            raise Malformed(f'{name} must be a tuple of requests, not {shown(value)}', field=name)
+        return value
+
+    return check
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cut(Checked):
+    """Cut bodies into pieces, and joints through; if a part of it is refused, nothing is cut."""
+
+    pieces: Annotated[
+        tuple[ChangeBody | Spawn, ...],
+        _parts(ChangeBody, Spawn),
+        'a change of each body into its largest piece, and the other pieces',
+    ]
+    joints: Annotated[tuple[Join, ...], _parts(Join), 'joints that are then on another piece'] = ()
+    severed: Annotated[
+        tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
+    ] = ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnjoinAll(Checked):
     """Remove all joints, or all of a namespace."""
@@ -561,6 +598,7 @@ Request = (
     | DeleteBodies
     | DeleteAll
     | Join
+    | Cut
     | Unjoin
     | UnjoinAll
     | Pin

@@ -173,6 +173,17 @@ def test_it_is_refused_in_the_past_and_where_it_would_take_long(
     assert simulation.world.scene.names == ('a/0', 'b/0')
 
 
+def test_a_reading_that_would_take_long_to_replace_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    simulation = begun()
+    gesture, before = simulation.requests.gesture, simulation.world.digest()
+    monkeypatch.setattr(past, 'LONGEST_AGAIN', 0.01)
+
+    frame = amend(simulation, [gesture], [spawning('t/1', DISC)])
+
+    assert [answer.code for answer in frame.answers] == ['not_alone']
+    assert simulation.world.digest() == before
+
+
 def test_commands_that_joined_a_gesture_are_not_taken_back_with_it() -> None:
     simulation = world_after(ANNA)
     simulation.requests.submit(spawning('c/0', BOX, (0.0, 3.0, 0.0)), topic='t', author='Anna')

@@ -10,13 +10,17 @@ import numpy as np
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import (
     UnknownBody,
+    UnknownJoint,
     WorldFull,
 )
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Command,
     Configure,
     Delete,
     DeleteAll,
+    DeleteBodies,
+    Join,
     Request,
 )
 from physsim_ros.model.scene import Body
@@ -144,6 +148,22 @@ def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world: World) -> No
     assert names(world) == ('b/0', 'ab/0', 'a/b/0')
     assert world.apply(DeleteAll(namespace='ab')) == Answer(message='deleted 1 body')
     assert world.apply(DeleteAll(namespace='nobody')) == Answer(message='deleted 0 bodies')
+
+
+def test_bodies_and_joints_are_deleted_together_or_not_at_all(world: World) -> None:
+    for number in range(3):
+        spawn(world, f'a/{number}', DISC, (3.0 * number, 0.0, 0.0))
+        point = (3.0 * number, 0.0)
+        world.apply(Join(name=f'j/{number}', kind=JointKind.PIN, points=(point,), b='world'))
+
+    with pytest.raises(UnknownJoint) as refused:
+        world.apply(DeleteBodies(names=('a/0',), joints=('j/1', 'j/9')))
+    assert (refused.value.field, len(world.scene.joints)) == ('joints', 3)
+    assert world.apply(DeleteBodies(names=('a/0',), joints=('j/0', 'j/1'))).subject == 'a/0'
+
+    assert names(world) == ('a/1', 'a/2')
+    assert [joint.name for joint in world.scene.joints] == ['j/2']
+    assert world.apply(DeleteBodies(names=(), joints=('j/2',))).message == 'deleted 1 joint'
 
 
 def test_everything_is_deleted_and_the_world_goes_on(world: World) -> None:

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import Failed, OutOfHistory
+from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
@@ -239,16 +239,17 @@ class Cursor(Replay):
         Have the block carry out a request, in the space in which a replay will carry it out.
 
         :return: the world
-        :raises Failed: in place of an unexpected error; the world is rebuilt, since half of the
-            request may be done
+        :raises Refusal: the request is refused; where half of it is done, the world is rebuilt
+        :raises Failed: in place of an unexpected error; the world is rebuilt
         """
         world = self.world
         self._enter_checkpoint()
         try:
             with self._boundary.message(type(request).__name__):
                 yield world
-        except Failed:
-            self.seek_moment(*self.moment, elsewhere=True)
+        except Refusal as refusal:
+            if world.changed or isinstance(refusal, Failed):
+                self.seek_moment(*self.moment, elsewhere=True)
             raise
 
     def log(self, request: Request, subject: str, gesture: int, author: str) -> None:

@@ -204,6 +204,7 @@ class Past:
         Replace the requests of earlier gestures, in parts; see `Amendment`.
 
         :return: for each request its answer, or its refusal
+        :raises NotAlone: too much would be simulated again; nothing is changed
         """
         amendment = Amendment(self.cursor, self.tree, gestures, requests, author)
         before = yield from self._carry_out(amendment)
@@ -229,8 +230,6 @@ class Past:
         first = tree.last_gesture_of(author)
         if first is None:
             raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
-        if cursor.moment[0] - first.step > self.steps_in(LONGEST_AGAIN):
-            raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
         amendment = Amendment(cursor, tree, (first.gesture,), (), stands_alone=True)
         before = yield from self._carry_out(amendment)
         before.words = gesture_phrase(first, 1)
@@ -242,7 +241,10 @@ class Past:
         Carry out an amendment; where it fails, the line before is in force again.
 
         :return: the line before
+        :raises NotAlone: too much would be simulated again
         """
+        if self.cursor.moment[0] - amendment.step > self.steps_in(LONGEST_AGAIN):
+            raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
         before, told = self.tree.line(self.cursor.moment), len(self.reports)
         try:
             yield from amendment.parts()

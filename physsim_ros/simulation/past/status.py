@@ -54,6 +54,7 @@ _PHRASES = {
     requests.ChangeBody: ('change', ''),
     requests.Command: ('set motion of', 'several bodies'),
     requests.Configure: ('change', 'settings'),
+    requests.Cut: ('cut', 'several bodies'),
     requests.DeleteAll: ('delete', 'all bodies'),
     requests.DeleteBodies: ('delete', 'several bodies'),
     requests.DriveRobot: ('drive', ''),
@@ -83,9 +84,6 @@ def gesture_phrase(first: Node, count: int) -> str:
     namespace = getattr(request, 'namespace', None)
     if namespace is not None:
         phrase += f' of {namespace or "no namespace"}'
-    # The other requests of a cut add its pieces; all moves of a hand are one drag.
-    is_cut = isinstance(request, requests.ChangeBody) and request.shape is not None
-    if is_cut and count > 1:
-        phrase = f'cut {first.subject}'
-    more = count > 1 and not is_cut and not isinstance(request, requests.Grab)
+    # All moves of a hand are one drag.
+    more = count > 1 and not isinstance(request, requests.Grab)
     return f'{phrase} and {count - 1} more' if more else phrase

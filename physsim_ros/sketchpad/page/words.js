@@ -31,7 +31,7 @@ const SENTENCES = [
   [/^saved .* to (.+)\.yaml(.*)/, t('Saved as $1$2')], [/^loaded .* from (.+)\.yaml/, t('Opened $1')], [/^loaded 0 bodies$/, t('An empty world')],
   [/^discarded the unsaved world$/, t('Unsaved world discarded')], [/^deleted the world (.+)/, t('World $1 deleted')], [/^put back the world (.+)/, t('World $1 is back')], [/^renamed .* to (.+)/, t('Renamed to $1')], [/^set gravity$/, t('Gravity set')], [/^set damping$/, t('Air drag set')],
   [/^paused$/, t('paused')], [/^playing$/, t('playing')], [/^rewinding$/, t('rewinding')], [/^playing at (.+)/, `${t('playing')}, $1×`], [/^rewinding at (.+)/, `${t('rewinding')}, $1×`],
-  [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')], [/^(?:moved|set pose of) (\d+) bodies$/, t('Moved $1 bodies')], [/^copied (\d+) bodies$/, t('Copied $1 bodies')], [/^cut into (\d+) pieces$/, t('Cut into $1 pieces')], [/^loaded (\d+) bod(y|ies)/, t('Loaded $1 bodies')],
+  [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')], [/^(?:moved|set pose of) (\d+) bodies$/, t('Moved $1 bodies')], [/^copied (\d+) bodies$/, t('Copied $1 bodies')], [/^cut into (\d+) pieces.*/, t('Cut into $1 pieces')], [/^cut .*/, t('Cut through')], [/^loaded (\d+) bod(y|ies)/, t('Loaded $1 bodies')],
   [/^deleted joint .*/, t('{thing} deleted', {thing: capital(thingWord('joint'))})], [/^the material of what is drawn next$/, t('Material of new bodies')],
   [/^you are (.+)/, t('You are $1')], [/^your hand is raised$/, t('Your hand is raised')], [/^your hand is down$/, t('Your hand is down')],
   [/^the pages are frozen$/, t('All pupils are frozen')], [/^the pages are no longer frozen$/, t('All pupils can draw again')],
@@ -112,7 +112,7 @@ export class Words {
     if (verb.startsWith('joined')) return said('spawned', capital(thingWord(/ by (\w+) /.exec(message)?.[1] ?? 'joint')));
     if (VERBS.has(verb)) return said(verb, this.title(subject));
     // There may be a body there, which the knife has not passed.
-    if (message.startsWith('the stroke passes right through no ')) return t('The stroke does not pass right through a circle, rectangle or polygon');
+    if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
     const named = message.replace(/^\w+(?= is )/, (word) => NUMBERS.get(word) ?? word);
     const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), named))).replace(/\d\.\d/g, localized);
     return ok ? told : refusalText(code, told);
