@@ -76,12 +76,3 @@ def test_requests_of_one_gesture_are_counted() -> None:
         )
     sim.apply_requests()
     assert sim.status.undo == 'undo spawn a/0 and 2 more'
-
-
-def test_a_cut_is_named_by_the_body_that_was_cut() -> None:
-    sim = Simulation(speed=0.0)
-    sim.perform(spawning('a/0'))
-    sim.requests.submit(ChangeBody(name='a/0', shape=BOX), topic='')
-    sim.requests.submit(spawning('drawn/0', BOX, (4.0, 0, 0)), topic='', joined=True)
-    sim.apply_requests()
-    assert sim.status.undo == 'undo cut a/0'
