@@ -127,14 +127,13 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
 
 
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
-    """Draw the whole window, the track of time in it, and the animation of the world."""
+    """Draw the whole window, and the animation of the world."""
     recording = Recording(directory / 'car.rrd')
     times = [recording.draw([frame]) for frame in car_story()]
     recording.close()
     viewer.open_recording(recording.path)
     window = viewer.picture(times[-1], view='')
     window.crop((0, TITLE, *window.size)).save(DOCS / 'demo.png', optimize=True)
-    viewer.picture(times[-1], view='Time').save(DOCS / 'time.png', optimize=True)
     pictures = [viewer.picture(time) for time in times[:: 60 // RATE]]
     size = (NARROW, round(NARROW * pictures[0].height / pictures[0].width))
     small = [picture.resize(size, Image.Resampling.LANCZOS) for picture in pictures]
@@ -158,7 +157,7 @@ def main(chosen: list[str]) -> None:
         'window': draw_window,
     }
     if not chosen or 'page' in chosen:
-        draw_page(DOCS / 'page.webp')
+        draw_page(DOCS / 'page.webp', DOCS / 'time.png')
         print('page', flush=True)
     names = [name for name in (*SCENES, *pictures) if not chosen or Path(name).name in chosen]
     if not names:
