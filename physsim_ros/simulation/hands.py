@@ -131,9 +131,8 @@ class Hands:
 def _placing(request: HandRequest) -> HandRequest:
     """Return the request of a hand in a paused world, in which it places bodies."""
     match request:
-        case GrabToPlace() | PlaceHand() | KeepHand() | LetGo():
-            return request
         case Grab(hand=hand, point=point, frame=frame):
             return GrabToPlace(hand=hand, point=point, frame=frame)
         case MoveHand(hand=hand, point=point, yaw=yaw, frame=frame):
             return PlaceHand(hand=hand, point=point, yaw=yaw, frame=frame)
+    return request

@@ -32,13 +32,12 @@ from physsim_ros.simulation.entries import (
     Entry,
     Seek,
     size_of,
-    subject_of,
     TakeBack,
     Unread,
     Wait,
 )
 from physsim_ros.simulation.hands import Hands
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.past import amend, Past, take_back
 from physsim_ros.simulation.playback import Playback
 
 __all__ = ['Amend', 'RequestQueue', 'TakeBack', 'Unread', 'Wait']
@@ -115,7 +114,7 @@ class RequestQueue:
         size = size_of(request)
         if gesture is None:
             gesture = self.gesture if joined else self.begin_gesture()
-        subject = subject_of(request)
+        subject = request.subject if isinstance(request, Request | Unread) else ''
         entry = Entry(request, topic, subject, gesture, field, asker, size, author)
         if busy := self._busy(size):
             self._add_answer(replace(entry, request=busy, size=0))
@@ -296,16 +295,14 @@ class RequestQueue:
 
     def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
         """Change the past in parts, and collect the answers."""
+        past, author = self._past, entry.author
         results: list[Answer | Refusal]
         try:
-            with self._past.boundary.reading(entry.topic):
+            with past.boundary.reading(entry.topic):
                 if isinstance(change, Amend):
-                    results = yield from self._past.amend(
-                        change.gestures, change.requests, entry.author
-                    )
+                    results = yield from amend(past, change.gestures, change.requests, author)
                 else:
-                    phrase = yield from self._past.take_back(entry.author)
-                    results = [Answer(message=f'undid {phrase}')]
+                    results = yield from take_back(past, author)
         except Refusal as refusal:
             results = [refusal]
         self._playback.note_jump()

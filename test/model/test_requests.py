@@ -7,7 +7,7 @@ from dataclasses import fields, FrozenInstanceError
 import itertools
 import math
 import re
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
@@ -113,7 +113,7 @@ def field_of(kind: type[Request], name: str) -> str:
     return 'client_id' if name == 'hand' else name
 
 
-@pytest.mark.parametrize('kind', get_args(Request))
+@pytest.mark.parametrize('kind', arguments())
 def test_a_field_of_another_type_is_malformed(kind: type[Request]) -> None:
     known = arguments()[kind]
     kind(**known)

@@ -90,6 +90,10 @@ def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
 
 def cut(live: LiveSpace, request: Cut) -> Answer:
     """Cut bodies into pieces, and put the joints that are there on them; may end half done."""
+    joints = live.space.joints.by_name
+    severed = [each.name for each in request.severed if each.name in joints]
+    for name in severed:
+        live.space.unjoin(name)
     whole = []
     for piece in request.pieces:
         if isinstance(piece, Spawn):
@@ -97,10 +101,12 @@ def cut(live: LiveSpace, request: Cut) -> Answer:
         else:
             whole.append(change_body(live, piece).subject)
     for joint in request.joints:
-        if joint.name in live.space.joints.by_name:
+        if joint.name in joints:
             joint_requests.join(live, joint)
-    subject = whole[0] if len(whole) == 1 else ''
-    return Answer(subject=subject, message=f'cut into {len(request.pieces)} pieces')
+    subjects = whole + severed
+    subject = subjects[0] if len(subjects) == 1 else ''
+    cuts = [f'into {len(request.pieces)} pieces'] * bool(whole) + severed
+    return Answer(subject=subject, message=f'cut {", ".join(cuts)}')
 
 
 def move_bodies(live: LiveSpace, request: MoveBodies) -> Answer:

@@ -15,6 +15,7 @@ import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import pair, Within
+from physsim_ros.model.declarations import without_unset
 from physsim_ros.model.errors import BadProperty, no_joint
 from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.requests import (
@@ -27,7 +28,6 @@ from physsim_ros.model.requests import (
     MoveBodies,
     Spawn,
     Unjoin,
-    without_unset,
 )
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
