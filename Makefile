@@ -153,7 +153,7 @@ clean:  ## remove .venv and all that was built
 PROGRESS := sed -u -n -E '/^ *(Collecting|Downloading|Building|Installing|Successfully|ERROR)/ s/^ *(.{1,120}).*/  \1/p'
 
 # Modules are compiled when they are first imported: most never are.
-PIP = set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --no-compile
+PIP = set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --no-compile --use-pep517
 # The step is compiled by the machine's compiler; where there is none, by that of a wheel of 101 MB.
 COMPILER := $(shell command -v cc gcc clang)
 
