@@ -130,6 +130,8 @@ docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
 # With BUMP=patch, minor or major, of a new version: of package.xml, setup.py and the changelog, committed and tagged, not
 # pushed. Without it nothing but dist/ changes, and the workflow tries that.
 release: $(TOOLS) $(VENV)/.with-docs  ## build sdist, wheel and site into dist/; BUMP=minor first raises the version
+	@if [ -n '$(BUMP)' ] && grep -q '\.invalid"' package.xml; then \
+	  echo 'package.xml has a placeholder in place of the address of the maintainers.' >&2; exit 1; fi
 	@[ -z '$(BUMP)' ] || $(BIN)/catkin_prepare_release --bump $(BUMP) --no-push --non-interactive
 	@$(MAKE) --no-print-directory docs
 	@rm -rf dist

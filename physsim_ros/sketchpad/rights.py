@@ -143,8 +143,8 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
                 for name, point in ((a, points[0]), (b, points[-1]))
                 for each in ((name,) if name else query.bodies_at(point)[:1])
             )
-        case requests.Cut(pieces=pieces, joints=moved):
-            parts = (_bodies_of(each, snapshot) for each in (*pieces, *moved))
+        case requests.Cut(pieces=pieces, joints=moved, severed=severed):
+            parts = (_bodies_of(each, snapshot) for each in (*pieces, *moved, *severed))
             return tuple(name for names in parts for name in names)
         case requests.Unjoin(name=name):
             joints = (each for each in query.joints if each.name == name)

@@ -6,19 +6,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from itertools import count
 import math
 from pathlib import Path
 from typing import Any, Self, Unpack
 
 from geometry_msgs.msg import PointStamped
-from physsim_ros.model.texts import nearest_name
+from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
-from physsim_ros.testing.observed_world import ObservedWorld
+from physsim_ros.testing.observed_world import index_of, ObservedWorld
 from physsim_ros.testing.parameters import Parameters
 from physsim_ros.testing.robot import Robot, robot_marker
-from physsim_ros.testing.values import refusals_as_refused, Refused, UnknownName
+from physsim_ros.testing.values import refusals_as_refused, Refused
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -268,9 +269,7 @@ class PhysSim(ObservedWorld):
         :param name: of its body
         :raises UnknownName: there is no such robot
         """
-        robots = self.node.fleet.robots
-        if name not in robots:
-            raise UnknownName(f'there is no robot {name!r}{nearest_name(name, robots)}')
+        index_of(name, (*self.node.fleet.robots,), 'robot')
         return Robot(self.node, name)
 
     def _match_publishers(self, *, new: bool = False) -> None:
@@ -348,6 +347,10 @@ class PhysSim(ObservedWorld):
         """
         simulation = self.node.simulation
         status = simulation.status
+        for robot in self.node.fleet.robots.values():
+            # The last command came too late for the test, and would be refused in the past.
+            with suppress(Refusal):
+                robot.commands.take()
         simulation.seek(round(status.oldest * 1e9))
         self.node.apply_requests()
         self.record(path)

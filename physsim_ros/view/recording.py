@@ -68,7 +68,7 @@ class FrameRecorder:
             robots.RobotWays(recording),
             PreviewLines(recording),
             events.EventLog(recording),
-            events.TimeTracks(recording),
+            events.TimeTrack(recording),
             self._plots,
         ]
 
@@ -158,8 +158,7 @@ def blueprint(*, paced: bool) -> rrb.Blueprint:
     below = rrb.Horizontal(events.time_view(), events.log_view(), column_shares=[1, 2])
     return rrb.Blueprint(
         rrb.Horizontal(
-            # Below, all tracks of time are seen in a window of 900 pixels.
-            rrb.Vertical(world, below, row_shares=[5, 2]),
+            rrb.Vertical(world, below, row_shares=[4, 1]),
             rrb.Vertical(*plot_views(paced=paced)),
             column_shares=[3, 1],
         ),

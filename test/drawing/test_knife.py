@@ -7,13 +7,14 @@ import math
 
 import numpy as np
 from physsim_ros.drawing import knife
+from physsim_ros.drawing.cut_shape import cut_shape
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import BadSize, NothingThere, WorldFull
+from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, WorldFull
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Compound, Disc, Polygon
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.transform import cross
 from physsim_ros.simulation.simulation import Simulation
 import pytest
@@ -54,15 +55,33 @@ def sums(snapshot):
     return np.array((mass.sum(), *momenta.sum(axis=0), turning, *center, snapshot.kinetic_energy))
 
 
+# Three triangles in a row, of which the second and the third share a side at x = 2.
+FAN = Triangles(
+    vertices=((0, 0), (2, 0), (1, 1), (2, 0), (2, 2), (1, 1), (2, 0), (3, 1), (2, 2)),
+)
+BOXES = Compound(element=Box(width=1.0, height=1.0), centers=((0, 0), (1, 0), (2, 0), (1, 1)))
+DUMBBELL = Compound(element=Disc(radius=0.5), centers=((0.0, 0.0), (0.9, 0.0), (1.8, 0.0)))
+
+
 @pytest.mark.parametrize(
     ('shape', 'stroke', 'count', 'tolerance'),
     [
         (Box(width=2.0, height=1.0), [(-0.3, -2.0), (0.6, 2.0)], 2, 1e-12),
+        (Polygon(outline=((0, 0), (2, 0), (0, 1))), [(-1.0, 0.2), (3.0, 0.3)], 2, 1e-12),
         (U_SHAPE, [(-1.0, 2.0), (4.0, 2.5)], 3, 1e-12),
         (U_SHAPE, [(-1.0, 2.0), (1.5, 2.2)], 2, 1e-12),
         # Through corners, and along an edge of the gap.
         (U_SHAPE, [(-1.0, 4.0), (4.0, -1.0)], 3, 1e-12),
         (Disc(radius=0.5), [(-1.0, 0.2), (1.0, 0.1)], 2, 1e-4),
+        (FAN, [(-1.0, 0.6), (4.0, 0.7)], 2, 1e-12),
+        # Along a side that two triangles share.
+        (FAN, [(2.0, -1.0), (2.0, 3.0)], 2, 1e-12),
+        (BOXES, [(-1.0, 0.1), (4.0, 0.2)], 2, 1e-12),
+        # Between two boxes, then through one of them as well.
+        (BOXES, [(0.5, -1.0), (0.5, 0.8)], 2, 1e-12),
+        (BOXES, [(0.5, -1.0), (0.6, 2.0)], 2, 1e-12),
+        (DUMBBELL, [(0.9, -1.0), (0.9, 1.0)], 2, 1e-4),
+        (DUMBBELL, [(-1.0, 0.0), (3.0, 0.0)], 2, 1e-4),
     ],
 )
 @pytest.mark.parametrize('weight', [{'mass': 3.0}, {'density': 2.0}])
@@ -131,17 +150,132 @@ def test_joints_and_forces_stay_at_their_points():
     assert [force.force for force in piece.forces] == [(1, 0)]
 
 
-def test_one_stroke_cuts_all_bodies_on_its_way_but_those_that_are_not_outlines():
+@pytest.mark.parametrize(
+    ('shape', 'start', 'end'),
+    [
+        pytest.param(Box(width=2.0, height=1.0), (-2.0, 0.5), (2.0, 0.5), id='along an edge'),
+        pytest.param(Box(width=2.0, height=1.0), (0.0, 1.5), (2.0, -0.5), id='at a corner'),
+        pytest.param(Disc(radius=0.5), (-2.0, 0.502), (2.0, 0.502), id='tangent'),
+        pytest.param(FAN, (2.0, -1.0), (2.0, 1.0), id='along half a shared side'),
+        pytest.param(
+            Chain(points=((-1, 0), (1, 0)), thickness=0.2), (0, 1), (0, -0.05), id='wall'
+        ),
+    ],
+)
+def test_a_body_that_is_touched_is_not_cut(shape, start, end):
+    simulation = world_of(shape)
+    with pytest.raises(NothingThere, match='right through no body'):
+        cut(simulation, *in_world(simulation, start, end))
+
+
+def test_one_stroke_cuts_all_bodies_on_its_way_but_robots_and_actors():
     simulation = Simulation()
-    compound = Compound(element=Disc(radius=0.2), centers=((0.0, 0.0), (0.3, 0.0)))
-    for number, shape in enumerate((Box(width=1.0, height=1.0), compound, Disc(radius=0.5))):
-        simulation.perform(Spawn(name=f'a/{number}', shape=shape, pose=(2.0 * number, 0.0, 0.0)))
+    disc = Disc(radius=0.5)
+    actor = {'kind': 'path', 'points': [[6, 0], [6, 5]], 'speed': 1.0}
+    for number, (shape, said) in enumerate(
+        [
+            (Box(width=1.0, height=1.0), {}),
+            (disc, {'robot': {'drive': {'kind': 'omni'}}}),
+            (disc, {}),
+            (disc, {'actor': actor}),
+        ]
+    ):
+        pose, properties = (2.0 * number, 0.0, 0.0), Properties.from_mapping(said)
+        simulation.perform(
+            Spawn(name=f'a/{number}', shape=shape, pose=pose, properties=properties)
+        )
 
     answer = cut(simulation, (-3.0, 0.1), (9.0, 0.1))
 
-    assert simulation.world.snapshot().scene.names == ('a/0', 'a/1', 'a/2', 'drawn/0', 'drawn/1')
+    names = simulation.world.snapshot().scene.names
+    assert names == (*(f'a/{number}' for number in range(4)), 'drawn/0', 'drawn/1')
     assert answer == 'cut into 4 pieces'
     assert simulation.status.undo == 'undo cut several bodies'
+    with pytest.raises(NothingThere, match='which no knife cuts') as refused:
+        cut(simulation, (2.0, 1.0), (2.0, -1.0))
+    assert refused.value.body == 'a/1'
+
+
+def test_elements_of_a_compound_stay_round_and_parts_that_nothing_cuts_stay_on_the_largest():
+    apart = Compound(element=Disc(radius=0.3), centers=((0, 0), (0.5, 0), (1, 0), (9, 0)))
+    simulation = world_of(apart)
+
+    cut(simulation, *in_world(simulation, (0.75, -1.0), (0.70, 1.0)))
+
+    kept, piece = simulation.world.snapshot().scene.bodies
+    assert isinstance(piece.shape, Triangles)
+    assert kept.shape.form.area > piece.shape.form.area
+    boxes = Compound(element=Box(width=1, height=1), centers=((0, 0), (1, 0), (2, 0), (9, 0)))
+    whole = world_of(boxes)
+    cut(whole, *in_world(whole, (0.5, -1.0), (0.5, 1.0)))
+    shapes = [body.shape for body in whole.world.snapshot().scene.bodies]
+    assert [shape.centers for shape in shapes] == [((1, 0), (2, 0), (9, 0)), ((0, 0),)]
+
+
+def test_a_chain_is_cut_across_its_line_with_its_mass_and_momenta():
+    line = Chain(points=((0, 0), (4, 0), (4, 3)), thickness=0.2)
+    simulation = world_of(line, density=2.0, **MOTION)
+    before = sums(simulation.world.snapshot())
+
+    cut(simulation, *in_world(simulation, (0.5, -1.0), (5.0, 3.0)))
+
+    snapshot = simulation.world.snapshot()
+    shapes = [body.shape for body in snapshot.scene.bodies]
+    assert [len(shape.points) for shape in shapes] == [3, 2, 2]
+    assert sums(snapshot)[:3] == pytest.approx(before[:3], rel=1e-12)
+
+
+def test_a_ring_is_opened_by_one_cut_and_parted_by_two():
+    ring = Chain(points=((0, 0), (4, 0), (4, 3), (0, 3), (0, 0)), thickness=0.2)
+    simulation = world_of(ring)
+    cut(simulation, *in_world(simulation, (2.0, -1.0), (2.0, 1.0)))
+    (opened,) = simulation.world.snapshot().scene.bodies
+    np.testing.assert_allclose(opened.shape.points[0], (2.1, 0.0), atol=1e-12)
+    np.testing.assert_allclose(opened.shape.points[-1], (1.9, 0.0), atol=1e-12)
+
+    parted = world_of(ring)
+    cut(parted, *in_world(parted, (2.0, -1.0), (2.0, 4.0)))
+    assert len(parted.world.snapshot().scene.bodies) == 2
+
+
+def test_a_rope_is_cut_where_it_is_crossed_beside_its_bodies():
+    simulation = Simulation()
+    for number in range(2):
+        place = Spawn(name=f'a/{number}', shape=Disc(radius=0.5), pose=(4.0 * number, 0.0, 0.0))
+        simulation.perform(place)
+    points = (0.0, 0.0), (4.0, 0.0)
+    for number, kind in enumerate((JointKind.ROPE, JointKind.SPRING, JointKind.ROD)):
+        simulation.perform(Join(name=f'j/{number}', kind=kind, points=points, a='a/0', b='a/1'))
+    cut(simulation, (0.2, 1.0), (0.2, -1.0))
+    assert len(simulation.world.snapshot().scene.joints) == 3
+
+    answer = cut(simulation, (2.0, 1.0), (2.0, -1.0))
+
+    assert simulation.world.snapshot().scene.joints == ()
+    assert answer == 'cut j/0, j/1, j/2'
+
+
+@pytest.mark.parametrize('seed', range(40))
+def test_any_cut_of_any_outline_keeps_its_area_and_centroid(seed):
+    rng = np.random.default_rng(seed)
+    angles = np.sort(rng.uniform(0.0, math.tau, 12))
+    radii = rng.uniform(0.3, 2.0, 12)
+    corners = radii[:, None] * np.column_stack((np.cos(angles), np.sin(angles)))
+    outline = Polygon(outline=tuple(map(tuple, corners.tolist())))
+    # Half of the strokes go through corners of the outline.
+    start, end = rng.uniform(-3.0, 3.0, (2, 2))
+    if seed % 2:
+        start, end = (3 * corners[0] - 2 * corners[6], 3 * corners[6] - 2 * corners[0])
+    try:
+        pieces = cut_shape(outline, tuple(start.tolist()), tuple(end.tolist()))
+    except (BadSize, BadOutline):
+        # A sliver.
+        return
+    areas = np.array([piece.form.area for piece in pieces])
+    centroids = np.array([piece.form.centroid for piece in pieces])
+    assert areas.sum() == pytest.approx(outline.form.area, rel=1e-9)
+    center = (areas[:, None] * centroids).sum(axis=0) / areas.sum()
+    np.testing.assert_allclose(center, outline.form.centroid, atol=1e-9)
 
 
 def test_a_piece_that_would_be_too_thin_is_refused():

@@ -89,6 +89,8 @@ class Film:
             # Strokes that follow each other at once would be read as one figure.
             self._sheet.page.wait_for_timeout(1000)
             self.shoot()
+            # The card of the pen is gone, and its room with it.
+            self._sheet.press('Frame the world')
 
     def step_to(self, end: float) -> None:
         """Step to a simulation time [s]."""

@@ -18,7 +18,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at
+from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at, UnknownBody
 from physsim_ros.model.names import names_in
 from physsim_ros.model.requests import (
     Anchor,
@@ -55,6 +55,9 @@ from physsim_ros.simulation.world.live_space import (
     pose_in_world,
 )
 
+# Number of robots that a refusal names.
+_MOST_NAMED = 10
+
 
 def spawn(live: LiveSpace, request: Spawn) -> Answer:
     """Add a body, or change the one of that name."""
@@ -87,6 +90,10 @@ def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
 
 def cut(live: LiveSpace, request: Cut) -> Answer:
     """Cut bodies into pieces, and put the joints that are there on them; may end half done."""
+    joints = live.space.joints.by_name
+    severed = [each.name for each in request.severed if each.name in joints]
+    for name in severed:
+        live.space.unjoin(name)
     whole = []
     for piece in request.pieces:
         if isinstance(piece, Spawn):
@@ -94,10 +101,12 @@ def cut(live: LiveSpace, request: Cut) -> Answer:
         else:
             whole.append(change_body(live, piece).subject)
     for joint in request.joints:
-        if joint.name in live.space.joints.by_name:
+        if joint.name in joints:
             joint_requests.join(live, joint)
-    subject = whole[0] if len(whole) == 1 else ''
-    return Answer(subject=subject, message=f'cut into {len(request.pieces)} pieces')
+    subjects = whole + severed
+    subject = subjects[0] if len(subjects) == 1 else ''
+    cuts = [f'into {len(request.pieces)} pieces'] * bool(whole) + severed
+    return Answer(subject=subject, message=f'cut {", ".join(cuts)}')
 
 
 def move_bodies(live: LiveSpace, request: MoveBodies) -> Answer:
@@ -283,10 +292,14 @@ def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
     :raises UnknownBody: there is no such body
     :raises BadProperty: it is no robot
     """
-    rigid = body_of_name(space, name)
-    if rigid.body.robot is None:
-        raise BadProperty(f'{name} is not a robot', field='name')
-    return rigid, rigid.body.robot
+    rigid = space.bodies.by_name.get(name)
+    if rigid is not None and rigid.body.robot is not None:
+        return rigid, rigid.body.robot
+    robots = [each for each, found in space.bodies.by_name.items() if found.body.robot is not None]
+    hint = f'; robots: {", ".join(robots[:_MOST_NAMED]) or "none"}'
+    if rigid is None:
+        raise UnknownBody(f'there is no robot {name!r}{hint}', field='name')
+    raise BadProperty(f'{name} is not a robot{hint}', field='name')
 
 
 def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:

@@ -53,7 +53,7 @@ def move_hand(live: LiveSpace, request: MoveHand) -> Answer:
     """Move a hand, which draws its body after it."""
     space = live.space
     (point,) = points_in_world(space, (request.point,), request.frame)
-    grip = space.grip_of(request.hand)
+    grip = space.grips.of(request.hand)
     if grip is None:
         return _holds_nothing(request)
     space.set_grip(grip._replace(target=point))
@@ -68,7 +68,7 @@ def place_hand(live: LiveSpace, request: PlaceHand) -> Answer:
     """
     space = live.space
     x, y, yaw = pose_in_world(space, (*request.point, request.yaw or 0.0), request.frame)
-    grip = space.grip_of(request.hand)
+    grip = space.grips.of(request.hand)
     if grip is None:
         return _holds_nothing(request)
     rigid = space.bodies.by_name[grip.body]
@@ -90,7 +90,7 @@ def keep_hand(_: LiveSpace, request: KeepHand) -> Answer:
 
 def let_go(live: LiveSpace, request: LetGo) -> Answer:
     """Remove the grip of a hand."""
-    grip = live.space.grip_of(request.hand)
+    grip = live.space.grips.of(request.hand)
     if grip is None:
         return _holds_nothing(request)
     live.space.remove_grip(request.hand)

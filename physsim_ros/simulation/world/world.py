@@ -181,7 +181,7 @@ class World(LiveSpace):
     @property
     def grips(self) -> tuple[Grip, ...]:
         """Return the grips of hands on bodies."""
-        return self.space.grips()
+        return tuple(self.space.grips)
 
     def save(self) -> WorldState:
         """Return the saved state of the world."""

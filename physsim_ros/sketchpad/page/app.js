@@ -25,6 +25,7 @@ import {LargePlot, Plots} from './plots.js';
 import {Pointers} from './pointer.js';
 import {Records, Trail} from './records.js';
 import {Room} from './room.js';
+import {fixed} from './rounding.js';
 import {SceneView} from './scene_view.js';
 import {Selection} from './selection.js';
 import {Settings} from './settings.js';
@@ -145,7 +146,7 @@ export class App {
     const texts = bodies.slice(0, LISTED).map((body, row) => {
       const {name, anchored, label} = body;
       const [x, y] = world.place(row, [0, 0]);
-      return `${name}: ${shapeWord(body)}${label && ` ${label}`}${anchored ? `, ${t('anchored')}` : ''}, ${t('at {x}, {y} m', {x: x.toFixed(1), y: y.toFixed(1)})}`;
+      return `${name}: ${shapeWord(body)}${label && ` ${label}`}${anchored ? `, ${t('anchored')}` : ''}, ${t('at {x}, {y} m', {x: fixed(x, 1), y: fixed(y, 1)})}`;
     });
     if (bodies.length > LISTED) texts.push(t('and {count} more', {count: bodies.length - LISTED}));
     const list = elementOf('list', HTMLElement);

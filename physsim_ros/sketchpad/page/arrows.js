@@ -11,7 +11,7 @@
 import {createElement, elementOf, textButton, toggling} from './dom.js';
 import {drawApplied} from './force_fields.js';
 import {bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
-import {roundUp, threeDigits} from './rounding.js';
+import {digits, roundUp, threeDigits} from './rounding.js';
 import {t} from './strings.js';
 
 /** @import {App, Force, Palette, Point, SceneView} from './types.js' */
@@ -121,7 +121,7 @@ export class Arrows {
     if (!this.forces) drawApplied(this.app, view);
     else if (world.count) this.#drawForces(view, room);
     for (const [unit, scale] of /** @type {[string, ArrowScale][]} */ ([['m/s', this.speeds], ['N s', this.impulses], ['N', this.newtons]])) {
-      const bar = this.bars[unit], text = `${scale.unit} ${unit}`;
+      const bar = this.bars[unit], text = `${digits(scale.unit, 2)} ${unit}`;
       if (bar && bar.textContent !== text) bar.textContent = text;
     }
   }

@@ -62,7 +62,7 @@ class Card {
 
   show() {
     const {pupil, world: {scene: {lesson}}} = this, answered = pupil?.answered;
-    this.lesson.textContent = lesson ? `${lesson.number}. ${lesson.title}` : t('no lesson');
+    this.lesson.textContent = lesson ? `${lesson.number}. ${t(lesson.title)}` : t('no lesson');
     this.hand.hidden = !pupil?.raised;
     const known = answered && answered.lesson === lesson?.title;
     this.answer.textContent = known ? `${answered.answer} ${lesson?.unit === '1' ? '' : lesson?.unit} ${answered.right ? t('✓ right') : t('✗ not yet')}` : '';
@@ -115,7 +115,7 @@ function begin(count) {
   const lessons = choice(t('Lesson'), [], '', () => {});
   cards[0].connection.on('worlds', ({lessons: list}) => lessons.replaceChildren(...list.map(
     (/** @type {{name: string, number: number, title: string}} */ each) =>
-      createElement('option', {value: each.name, textContent: `${each.number}. ${each.title}`}))));
+      createElement('option', {value: each.name, textContent: `${each.number}. ${t(each.title)}`}))));
   // A lesson may have been written meanwhile.
   lessons.onpointerdown = () => cards[0].connection.send('list');
   elementOf('all', HTMLElement).append(inRow(lessons,

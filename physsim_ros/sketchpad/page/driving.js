@@ -2,6 +2,7 @@
 /** What moves on its own: a robot, driven by W A S D or by a stick for thumbs in its panel; an actor, with its way in the world. */
 
 import {createElement} from './dom.js';
+import {digits} from './rounding.js';
 import {t} from './strings.js';
 
 /** @import {Actor, App, Point, Robot, SceneView, WorldState} from './types.js' */
@@ -130,7 +131,7 @@ const POINT = 4; // px: radius of a point of the way
 export function actorLines({kind, points, speed, repeat = 'once', start = {}}) {
   const {gate, near, distance, time} = start;
   const texts = [`${KINDS[kind]}, ${REPEATS[repeat]}`, t('{count} points', {count: points.length})];
-  if (speed) texts.push(`${speed} m/s`);
+  if (speed) texts.push(`${digits(speed, 5)} m/s`);
   if (gate) texts.push(t('starts when something is in {name}', {name: gate}));
   if (near) texts.push(t('starts when {name} is within {distance} m', {name: near, distance: distance ?? 0}));
   if (time) texts.push(t('waits {time} s', {time}));

@@ -4,8 +4,8 @@
  * to scale.
  */
 
-import {checkField, createElement, inRow, textButton} from './dom.js';
-import {threeDigits} from './rounding.js';
+import {checkField, createElement, inRow, numberField, textButton} from './dom.js';
+import {numberOf, threeDigits} from './rounding.js';
 import {t} from './strings.js';
 
 /** @import {App, AppliedForce, Body, Point, SceneView, WorldState} from './types.js' */
@@ -26,12 +26,10 @@ export function forceFields({world}, {name, forces = []}, change) {
   const send = (/** @type {AppliedForce[]} */ changed) => change({forces: changed});
   const rows = forces.map(({force: [x, y], axes}, i) => {
     const replaced = (/** @type {Partial<AppliedForce>} */ fields) => send(now().map((each, j) => j === i ? {...each, ...fields} : each));
-    const number = (/** @type {string} */ label, /** @type {number} */ value) => createElement('input', {type: 'number', step: 'any',
-      value: Number(value.toPrecision(5)), 'aria-label': `${label} (${i + 1})`,
-      onchange: () => {
-        const [newtons, degrees] = [Number(size.value), Number(angle.value)];
-        if (size.value && angle.value) replaced({force: [newtons * Math.cos(degrees * DEGREE), newtons * Math.sin(degrees * DEGREE)]});
-      }});
+    const number = (/** @type {string} */ label, /** @type {number} */ value) => numberField(value, () => {
+      const [newtons, degrees] = [numberOf(size.value), numberOf(angle.value)];
+      if (!Number.isNaN(newtons + degrees)) replaced({force: [newtons * Math.cos(degrees * DEGREE), newtons * Math.sin(degrees * DEGREE)]});
+    }, {'aria-label': `${label} (${i + 1})`});
     const size = number(t('Force [N]'), Math.hypot(x, y)), angle = number(t('Direction [°]'), Math.atan2(y, x) / DEGREE);
     const turns = checkField(t('Turns with the body'), axes === 'body', (isOn) => {
       const yaw = world.frame.yaw[world.row(name)], force = now()[i]?.force ?? [x, y];

@@ -84,14 +84,22 @@ export class Gallery {
     ...this.app.lessons.section(), createElement('h3', {textContent: t('To explore, simplest first')}), cards(shipped));
   }
 
+  /**
+   * @param {string} name
+   * @returns {string} as people write it, of a shipped world in the language of the page
+   */
+  #headingOf(name) {
+    return this.worlds.some((each) => each.name === name && each.shipped) ? t(capital(name.replaceAll('_', ' '))) : name;
+  }
+
   /** @param {typeof this.worlds[0]} world */
   #card({name, title, picture, shipped}) {
-    const heading = shipped ? capital(name.replaceAll('_', ' ')) : name;
+    const heading = this.#headingOf(name);
     const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
       picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
       createElement('strong', {textContent: heading}),
       // A title that only repeats the name tells nothing.
-      ...shipped && title !== heading ? [createElement('small', {textContent: title})] : []);
+      ...shipped && t(title) !== heading ? [createElement('small', {textContent: t(title)})] : []);
     if (shipped) return card;
     return createElement('div', {className: 'own'}, card, inRow(
       textButton(t('Rename'), () => this.show(t('Rename {name}', {name}), this.#nameForm(t('New name'), name, t('Rename'), (to) => this.#rename(name, to)))),
@@ -216,7 +224,7 @@ export class Gallery {
     if (!(await this.app.connection.openWorld(name))) return;
     this.dismiss();
     this.app.room.frameNext();
-    this.app.notes.showMessage(t('Opened {name}', {name}));
+    this.app.notes.showMessage(t('Opened {name}', {name: this.#headingOf(name)}));
     this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of a joint that was tapped: its constants, its force now, and deletion. */
 
-import {createElement, inRow, range, textButton} from './dom.js';
+import {createElement, inRow, numberField, range, textButton} from './dom.js';
 import {threeDigits} from './rounding.js';
 import {t} from './strings.js';
 import {capital, isDrawn, thingWord} from './words.js';
@@ -53,13 +53,10 @@ export class JointPanel {
         const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
         return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
       }),
-      ...limits.map(([key, label]) => {
-        const input = createElement('input', {type: 'number', step: 'any', placeholder: t('none'), value: joint[key] ?? '',
-          onchange: () => change({[key]: input.value === '' ? null : Number(input.value)})});
-        return createElement('label', {}, label, input);
-      }),
+      ...limits.map(([key, label]) =>
+        createElement('label', {}, label, numberField(joint[key] ?? null, (value) => change({[key]: value}), {placeholder: t('none')}))),
       inRow(textButton(t('Delete joint'), () => this.delete(), 'danger')),
-    ], place: () => this.app.world.place(joint.a, joint.points[0])};
+    ]};
   }
 
   delete() {

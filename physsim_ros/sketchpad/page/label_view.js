@@ -4,7 +4,7 @@
  * numbers at arrows; and below them the grid in metres, rulers whose steps follow the zoom, and the beams of a laser.
  */
 
-import {multiplesOf} from './rounding.js';
+import {fixed, multiplesOf} from './rounding.js';
 
 /** @import {Camera, Frame, Palette, Point, SceneView} from './types.js' */
 
@@ -159,12 +159,12 @@ export function drawGrid(ctx, camera, palette, insets) {
   ctx.textAlign = 'center';
   for (const value of multiplesOf(step, left, right)) {
     const x = pixelX(value);
-    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(`${value.toFixed(digits)} m`, x, low - 6);
+    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(`${fixed(value, digits)} m`, x, low - 6);
   }
   ctx.textAlign = 'left';
   for (const value of multiplesOf(step, bottom, top)) {
     const y = pixelY(value);
-    if (y > 20 && y < low - 24) ctx.fillText(`${value.toFixed(digits)} m`, insets.left + 6, y - 4);
+    if (y > 20 && y < low - 24) ctx.fillText(`${fixed(value, digits)} m`, insets.left + 6, y - 4);
   }
 }
 

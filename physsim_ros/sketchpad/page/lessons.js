@@ -2,10 +2,12 @@
 /**
  * Lessons: their list, the card of the one that is open, the check of a measured figure, and links.
  *
- * A lesson belongs to its world (`scene.lesson`), so that all pages of the world have its card.
+ * A lesson belongs to its world (`scene.lesson`), so that all pages of the world have its card, each in its own language:
+ * the table of strings has the texts of shipped lessons.
  */
 
 import {createElement, elementOf, fieldForm, icon, inRow, textButton} from './dom.js';
+import {numberOf} from './rounding.js';
 import {t} from './strings.js';
 
 /** @import {App, Lesson} from './types.js' */
@@ -47,8 +49,8 @@ export class Lessons {
     return [createElement('h3', {textContent: t('Lessons')}),
       createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
         createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
-          createElement('strong', {}, number ? `${number}. ${title} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
-          createElement('small', {textContent: question})))))];
+          createElement('strong', {}, number ? `${number}. ${t(title)} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
+          createElement('small', {textContent: t(question)})))))];
   }
 
   /** @param {string} name */
@@ -58,7 +60,7 @@ export class Lessons {
     if (!(await connection.openLesson(name))) return;
     gallery.dismiss();
     this.app.room.frameNext();
-    this.app.notes.showMessage(t('Opened {name}', {name: this.list.find((each) => each.name === name)?.title ?? name}));
+    this.app.notes.showMessage(t('Opened {name}', {name: t(this.list.find((each) => each.name === name)?.title ?? name)}));
   }
 
   /** Offer the lesson of a link: the link of a stranger does not replace the world of a class. */
@@ -68,7 +70,7 @@ export class Lessons {
     if (!name || viewOnly || lesson && lesson.title === world.scene.lesson?.title) return;
     history.replaceState(null, '', location.pathname);
     if (!lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
-    else gallery.show(lesson.title, createElement('p', {textContent: lesson.question}), inRow(textButton(t('Open the lesson'), () => this.#open(name))));
+    else gallery.show(t(lesson.title), createElement('p', {textContent: t(lesson.question)}), inRow(textButton(t('Open the lesson'), () => this.#open(name))));
   }
 
   /** @param {?Lesson | undefined} lesson whose card is made anew */
@@ -78,8 +80,8 @@ export class Lessons {
     card.hidden = !lesson;
     card.open = true;
     if (lesson) {
-      card.replaceChildren(createElement('summary', {}, createElement('h2', {}, `${lesson.number}. ${lesson.title}`)),
-        createElement('p', {textContent: lesson.question}), ...app.viewOnly ? [] : this.#work(lesson));
+      card.replaceChildren(createElement('summary', {}, createElement('h2', {}, `${lesson.number}. ${t(lesson.title)}`)),
+        createElement('p', {textContent: t(lesson.question)}), ...app.viewOnly ? [] : this.#work(lesson));
     }
     app.room.fit();
   }
@@ -91,10 +93,10 @@ export class Lessons {
   #work({title, hint, measure, unit, figure, within, answer}) {
     const result = createElement('p', {'aria-live': 'polite'}), shown = unit === '1' ? '' : unit;
     const input = createElement('input', {inputMode: 'decimal', required: true, autocomplete: 'off', 'aria-label': t('Your answer {unit}', {unit: shown})});
-    const solution = folded(t('Answer'), answer);
+    const solution = folded(t('Answer'), t(answer));
     solution.hidden = true;
     const form = fieldForm(input, t('Check'), (typed) => {
-      const value = Number(typed.replace(',', '.')), right = Math.abs(value - figure) <= within;
+      const value = numberOf(typed), right = Math.abs(value - figure) <= within;
       result.className = right ? 'right' : '';
       result.textContent = right ? t('Right!') : Number.isNaN(value) ? t('That is not a number.') : t('Not yet. Measure again, or look at the hint.');
       this.answered = {lesson: title, answer: typed, right};
@@ -109,8 +111,8 @@ export class Lessons {
     const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
     const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
     if (next) buttons.push(textButton(t('Next lesson'), () => this.#open(next.name)));
-    return [createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${measure}`), createElement('div', {className: 'answer'}, form, result),
-      folded(t('Hint'), hint), solution, inRow(...buttons)];
+    return [createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${t(measure)}`), createElement('div', {className: 'answer'}, form, result),
+      folded(t('Hint'), t(hint)), solution, inRow(...buttons)];
   }
 }
 

@@ -5,6 +5,7 @@
  */
 
 import {elementOf} from './dom.js';
+import {fixed} from './rounding.js';
 import {t} from './strings.js';
 
 /** @import {App, Frame} from './types.js' */
@@ -61,7 +62,7 @@ export class Narrator {
    * @param {number} speed [m/s]
    */
   #followBody(row, speed) {
-    const {world, words} = this.app, {name, centroid} = world.scene.bodies[row], time = this.time.toFixed(1);
+    const {world, words} = this.app, {name, centroid} = world.scene.bodies[row], time = fixed(this.time, 1);
     const motion = this.motions.get(name) ?? {moves: speed > MOVES, since: this.time};
     this.motions.set(name, motion);
     if (speed > RESTS) motion.since = this.time;
@@ -71,7 +72,7 @@ export class Narrator {
     } else if (motion.moves && this.time - motion.since > STILL) {
       motion.moves = false;
       const [x, y] = world.place(row, centroid);
-      this.#tell(t('{name} rests at {x}, {y} m, at {time} s', {name: words.item(name), x: x.toFixed(1), y: y.toFixed(1), time}));
+      this.#tell(t('{name} rests at {x}, {y} m, at {time} s', {name: words.item(name), x: fixed(x, 1), y: fixed(y, 1), time}));
     }
   }
 
@@ -85,7 +86,7 @@ export class Narrator {
       this.touched.set(pair, this.time);
       if (this.time - before < APART) continue;
       this.#tell(t('{name} touches {other} at {time} s', {name: words.item(bodies[one].name),
-        other: bodies[other] ? words.item(bodies[other].name) : t('a wall'), time: this.time.toFixed(1)}));
+        other: bodies[other] ? words.item(bodies[other].name) : t('a wall'), time: fixed(this.time, 1)}));
     }
   }
 

@@ -4,8 +4,8 @@
  * a body at a time: the axes of plots and the columns of tables.
  */
 
-import {createElement} from './dom.js';
-import {threeDigits} from './rounding.js';
+import {createElement, numberField} from './dom.js';
+import {digits, fixed, threeDigits} from './rounding.js';
 import {t} from './strings.js';
 
 /** @import {App, Body, Point, Sample, WorldState} from './types.js' */
@@ -39,8 +39,7 @@ export class Numbers {
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': word}));
     this.labels = ENERGIES.map((word) => createElement('span', {textContent: word}));
     this.values = ENERGIES.map(() => createElement('span'));
-    this.inputs = new Map(TYPED.map(([key]) => [key, createElement('input', {type: 'number', step: 'any',
-      onchange: () => this.#type(key)})]));
+    this.inputs = new Map(TYPED.map(([key]) => [key, numberField(null, (value) => this.#type(key, value))]));
     this.typed = createElement('details', {className: 'typed'}, createElement('summary', {textContent: t('Enter numbers')}),
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
     this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
@@ -108,20 +107,22 @@ export class Numbers {
     TYPED.forEach(([key], i) => {
       // Of what rests, a frame has the rounding errors of the engine.
       const value = Math.abs(values[key]) < NOTHING && key !== 'mass' ? 0 : values[key];
-      const input = this.inputs.get(key), text = String(Number(value.toPrecision(5)));
+      const input = this.inputs.get(key), text = digits(value, 5);
       if (!input || input === document.activeElement) return;
       input.disabled = anchored && i >= AT_REST;
       if (input.value !== text) input.value = text;
     });
   }
 
-  /** @param {string} key of what was typed */
-  async #type(key) {
+  /**
+   * @param {string} key of what was typed
+   * @param {?number} value null where that is nothing
+   */
+  async #type(key, value) {
     const {world, panel: {name}, connection} = this.app, row = world.row(name);
-    const input = this.inputs.get(key);
-    if (row < 0 || !input?.value) return;
-    input.blur();
-    const motion = {...this.ahead?.name === name ? this.ahead.motion : motionOf(world, row), [key]: Number(input.value)};
+    this.inputs.get(key)?.blur();
+    if (row < 0 || value === null) return;
+    const motion = {...this.ahead?.name === name ? this.ahead.motion : motionOf(world, row), [key]: value};
     /** @type {Typed} */
     const typed = {name, motion, answered: false};
     this.ahead = typed;
@@ -199,7 +200,7 @@ export function originOf([cx, cy], [x, y], yaw) {
 export function placed(world, row, by = [0, 0]) {
   const {frame: {yaw, velocities}, scene} = world, {centroid, anchored} = scene.bodies[row];
   const [x, y] = world.place(row, centroid), degrees = Math.round(yaw[row] / DEGREE * 10) / 10;
-  const texts = [t('at {x}, {y} m', {x: number(x + by[0]), y: number(y + by[1])}), `${degrees}°`];
+  const texts = [t('at {x}, {y} m', {x: number(x + by[0]), y: number(y + by[1])}), `${digits(degrees, 6)}°`];
   if (velocities && !anchored) {
     texts.push(`${number(Math.hypot(velocities.x[row], velocities.y[row]))} m/s`, `${number(velocities.spin[row])} rad/s`);
   }
@@ -208,12 +209,12 @@ export function placed(world, row, by = [0, 0]) {
 
 /** @param {number} value */
 function number(value) {
-  return Math.abs(value) < 0.005 ? '0' : value.toFixed(Math.abs(value) < 100 ? 2 : 0);
+  return Math.abs(value) < 0.005 ? '0' : fixed(value, Math.abs(value) < 100 ? 2 : 0);
 }
 
 /** @param {Point} momentum [N s] */
 export function momentumText([px, py]) {
-  return `${number(Math.hypot(px, py))} N s (${number(px)}, ${number(py)})`;
+  return `${number(Math.hypot(px, py))} N s ${t('({x}, {y})', {x: number(px), y: number(py)})}`;
 }
 
 /**

@@ -12,20 +12,18 @@ import {actorLines, drawWay} from './driving.js';
 import {forceFields} from './force_fields.js';
 import {sizeOf} from './label_view.js';
 import {t} from './strings.js';
+import {inclineFields} from './tools/incline.js';
 import {sendNote} from './tools/note.js';
 import {isDrawn} from './words.js';
 import {materialFields, worldContent} from './world_panel.js';
 
-/** @import {App, Point} from './types.js' */
+/** @import {App} from './types.js' */
 
 /** @typedef {'' | 'body' | 'several' | 'joint' | 'world' | 'measure'} Kind '' is a closed panel */
 /**
- * @typedef {{title: string, name?: string, first?: Node[], rest: Node[], place?: () => ?Point}} Content
- *   name: of the subject, where that is not the title; first: lines that are always shown; place: of the subject in
- *   the world [m]
+ * @typedef {{title: string, name?: string, first?: Node[], rest: Node[]}} Content  name: of the subject, where that is
+ *   not the title; first: lines that are always shown
  */
-
-const COVERED = 80; // px: nearer to the edge of the panel, or beneath it, a body is covered
 
 export class Panel {
   /** @param {App} app */
@@ -36,8 +34,6 @@ export class Panel {
     this.kind = '';
     /** @type {string[]} of the subject */
     this.names = [];
-    /** @type {() => ?Point} */
-    this.place = () => null;
     /** @type {?boolean} whether it is folded, where somebody has chosen that for this subject */
     this.chosen = null;
     this.isStale = false; // the scene has changed while somebody worked in it
@@ -100,8 +96,7 @@ export class Panel {
       app.selection.select([]);
       return;
     }
-    const {title, name = '', first = [], rest, place = () => null} = content;
-    this.place = place;
+    const {title, name = '', first = [], rest} = content;
     this.more.hidden = !first.length;
     this.rest.replaceChildren(...rest);
     element.replaceChildren(createElement('header', {},
@@ -124,15 +119,6 @@ export class Panel {
     if (folded === this.isFolded) return;
     element.classList.toggle('folded', folded);
     this.more.setAttribute('aria-expanded', String(!folded));
-  }
-
-  /** Move the view where the panel covers its subject. */
-  uncover() {
-    const {app: {camera}, element} = this, place = element.hidden ? null : this.place();
-    if (!place) return;
-    const {left, top, bottom} = element.getBoundingClientRect(), [x, y] = camera.toPage(...place);
-    if (camera.narrow) camera.pan(0, Math.min(top - COVERED - y, 0));
-    else if (y < bottom) camera.pan(Math.min(left - COVERED - x, 0), 0);
   }
 }
 
@@ -157,7 +143,7 @@ export function bodyContent(app, name) {
   material.find((each) => each.textContent === t('Friction'))?.append(app.numbers.pairs);
   return {
     title: app.words.title(name), name: isDrawn(name) ? name : '',
-    first: [app.numbers.element, ...body.actor ? actorLines(body.actor) : [], ...body.robot ? app.driving.show(body.robot) : []],
+    first: [app.numbers.element, ...inclineFields(app, body), ...body.actor ? actorLines(body.actor) : [], ...body.robot ? app.driving.show(body.robot) : []],
     rest: [
       app.numbers.typed,
       ...material,
@@ -172,10 +158,6 @@ export function bodyContent(app, name) {
       ...app.trail.switches(name),
       app.plots.element,
     ],
-    place: () => {
-      const row = app.world.row(name);
-      return row < 0 ? null : app.world.place(row, app.world.scene.bodies[row].centroid);
-    },
   };
 }
 

@@ -3,7 +3,7 @@
 
 import {createElement, elementOf, inRow, textButton} from './dom.js';
 import {QUANTITIES} from './numbers.js';
-import {multiplesOf, roundUp} from './rounding.js';
+import {digits, multiplesOf, roundUp} from './rounding.js';
 import {t} from './strings.js';
 
 /** @import {App, Palette, Sample} from './types.js' */
@@ -130,12 +130,12 @@ export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, c
   };
   for (const value of multiplesOf(roundUp((most - least) * 2.2 * size / (bottom - top)), least, most)) {
     line([[left, scales.y(value)], [right, scales.y(value)]]);
-    ctx.fillText(text(value), left - size * 0.4, scales.y(value) + size * 0.35);
+    ctx.fillText(digits(value, 4), left - size * 0.4, scales.y(value) + size * 0.35);
   }
   ctx.textAlign = 'center';
   for (const value of multiplesOf(roundUp((end - start) * 5 * size / (right - left)), start, end)) {
     line([[scales.x(value), top], [scales.x(value), bottom]]);
-    ctx.fillText(text(value) + (xLabel ? '' : ' s'), Math.min(scales.x(value), right - size), bottom + size * 1.15);
+    ctx.fillText(digits(value, 4) + (xLabel ? '' : ' s'), Math.min(scales.x(value), right - size), bottom + size * 1.15);
   }
   ctx.save();
   ctx.beginPath();
@@ -167,11 +167,6 @@ function heightsOf(curves) {
   if (least > most) return [0, 1];
   const margin = Math.max((most - least) * MARGIN, Math.abs(most) * 0.02, 0.05);
   return [least - margin, most + margin];
-}
-
-/** @param {number} value */
-function text(value) {
-  return String(Number(value.toPrecision(4)));
 }
 
 /** The large plot, whose script is loaded when it is opened first. */

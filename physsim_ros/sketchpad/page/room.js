@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
  * Where the world lies on the page: in the rectangle in which it is largest and which no panel covers. The
- * legend of arrows and the plot are docked to the edges of that rectangle.
+ * legend of arrows, the plot and notes without a place are docked to the edges of that rectangle.
  *
- * The world is framed there when a panel opens, closes or changes its size, unless somebody has moved the view.
+ * The world is framed there when a panel opens, closes or changes its size, unless somebody has moved the view; not in
+ * the midst of a gesture, but at its end.
  */
 
 import {elementOf} from './dom.js';
@@ -26,6 +27,7 @@ export class Room {
     this.framed = false;
     this.bounds = ''; // of the world that was framed; a world with other bounds is framed again
     this.extent = [0, 0, 0, 0]; // that was framed [m]
+    this.late = false; // whether the world is framed when the gesture ends
     const bar = elementOf('bar', HTMLElement), top = elementOf('top', HTMLElement);
     const sizes = new ResizeObserver(() => {
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
@@ -62,7 +64,7 @@ export class Room {
 
   /** Fit what was framed into the room, and dock legend and plot there. */
   fit() {
-    const {camera, view, panel} = this.app, [xmin, ymin, xmax, ymax] = this.extent;
+    const {camera, view, pointers, tool} = this.app, [xmin, ymin, xmax, ymax] = this.extent;
     const gap = this.isRoomy ? GAP : SMALL_GAP;
     /** How large the world is in a room [px/m]. */
     const scaleIn = (/** @type {Box} */ {left, top, right, bottom}) => Math.min(
@@ -71,12 +73,16 @@ export class Room {
     const room = largestRoom(page, this.#covered(), plot.hidden ? scaleIn : (each) => Math.max(...besidePlot(each).map(scaleIn)));
     if (!plot.hidden) dockPlot(plot, room, scaleIn);
     dockLegend(room);
+    for (const [name, pixels] of Object.entries({ceiling: room.top, middle: (room.left + room.right) / 2, room: room.right - room.left})) {
+      document.documentElement.style.setProperty(`--${name}`, `${pixels}px`);
+    }
     view.insets = {left: room.left, top: room.top, right: camera.width - room.right, bottom: camera.height - room.bottom};
     view.dirty = true;
-    if (camera.fitted) {
+    this.late = camera.fitted && (pointers?.down.size > 0 || tool.open === true);
+    if (camera.fitted && !this.late) {
       const {left, top, right, bottom} = view.insets;
       camera.fit(this.extent, {left: left + gap + LABELS, top: top + gap, right: right + gap, bottom: bottom + gap});
-    } else panel.uncover();
+    }
   }
 
   /** @returns {Box[]} what panels and bars cover */

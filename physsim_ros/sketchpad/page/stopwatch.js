@@ -5,6 +5,7 @@
  */
 
 import {choice, createElement, inRow, textButton} from './dom.js';
+import {fixed} from './rounding.js';
 import {t} from './strings.js';
 
 /** @import {App} from './types.js' */
@@ -129,18 +130,18 @@ export class Stopwatch {
   }
 
   #lapTexts() {
-    return this.laps.map((time, i) => `${(time - (i ? this.laps[i - 1] : this.began ?? 0)).toFixed(3)} s`);
+    return this.laps.map((time, i) => `${fixed(time - (i ? this.laps[i - 1] : this.began ?? 0), 3)} s`);
   }
 
   #update() {
     const {start, stop} = this.#run(), begin = this.start ? start?.time : 0;
     const end = stop?.time ?? (this.stop ? this.shown : undefined);
-    this.time.textContent = begin === undefined || end === undefined ? '–' : `${(end - begin).toFixed(4)} s`;
-    this.byHand.textContent = this.began === null ? '–' : `${((this.ended ?? this.shown) - this.began).toFixed(3)} s`;
+    this.time.textContent = begin === undefined || end === undefined ? '–' : `${fixed(end - begin, 4)} s`;
+    this.byHand.textContent = this.began === null ? '–' : `${fixed((this.ended ?? this.shown) - this.began, 3)} s`;
     this.lapList.textContent = this.#lapTexts().slice(-MOST_LAPS).join(', ');
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
-    this.details.textContent = [start && t('started at {time} s by {name}', {time: start.time.toFixed(4), name: start.other || t('a wall')}),
-      stop && t('stopped at {time} s by {name}', {time: stop.time.toFixed(4), name: stop.other || t('a wall')})].filter(Boolean).join(', ');
+    this.details.textContent = [start && t('started at {time} s by {name}', {time: fixed(start.time, 4), name: start.other || t('a wall')}),
+      stop && t('stopped at {time} s by {name}', {time: fixed(stop.time, 4), name: stop.other || t('a wall')})].filter(Boolean).join(', ');
     this.count.textContent = this.counted ? String(this.touches.filter(({name, time}) => name === this.counted && time > this.since).length) : '–';
   }
 

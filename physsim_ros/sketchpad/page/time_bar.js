@@ -2,7 +2,8 @@
 /** Time: the buttons, the slider over the history, with the courses that were left, the clock. */
 
 import {createElement, elementOf, iconButton} from './dom.js';
-import {t} from './strings.js';
+import {fixed} from './rounding.js';
+import {localized, t} from './strings.js';
 
 /** @import {App} from './types.js' */
 
@@ -135,7 +136,7 @@ export class TimeBar {
 
   /** @param {number} speed */
   #showSpeed(speed) {
-    const pace = this.#slowPace, text = `${Number((pace || speed).toFixed(2))}×`.replace('-', '−');
+    const pace = this.#slowPace, text = `${localized(String(Number((pace || speed).toFixed(2))))}×`.replace('-', '−');
     const reason = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: this.app.world.scene.bodies.length}) : '';
     this.#explain(reason);
     if (text === this.shown) return;
@@ -160,7 +161,7 @@ export class TimeBar {
 
   #showTime() {
     const {frame, timeline} = this.app.world;
-    this.clock.textContent = `${frame.time.toFixed(2)} s`;
+    this.clock.textContent = `${fixed(frame.time, 2)} s`;
     if (!this.held && this.wanted === null && !this.busy) {
       this.slider.max = String(Math.max(timeline.newest, frame.time));
       this.slider.min = String(Math.min(timeline.oldest, frame.time));
@@ -198,7 +199,7 @@ export class TimeBar {
     this.clock.title = STATES.get(state) ?? state;
     const before = this.rings;
     this.rings = new Map(courses.map(({id, from}) => {
-      const name = t('Go back to how it went before, from {time}\u00a0s', {time: from.toFixed(1)}), key = `${id} ${name}`;
+      const name = t('Go back to how it went before, from {time}\u00a0s', {time: fixed(from, 1)}), key = `${id} ${name}`;
       // While time runs it is the same element: one that was made anew could not be pressed.
       const ring = before.get(key) ?? this.marks.appendChild(createElement('button', {type: 'button', 'aria-label': name, title: name,
         onclick: () => this.app.connection.send('course', {course: id})}));

@@ -10,6 +10,7 @@ import {t} from './strings.js';
 import {ClickTool} from './tools/click_tool.js';
 import {Lasso, Pen} from './tools/freehand.js';
 import {Hand} from './tools/hand.js';
+import {InclineTool} from './tools/incline.js';
 import {Protractor, Ruler} from './tools/measuring.js';
 import {Note} from './tools/note.js';
 
@@ -26,6 +27,7 @@ export const TOOLS = [[
   ['rectangle', t('Rectangle'), 'b', t('drag from corner to corner, or click three')],
   ['polygon', t('Polygon'), 'g', t('click each corner; click the first one again to close it')],
   ['wall', t('Wall'), 'w', t('a fixed line')],
+  ['incline', t('Inclined plane'), '3', t('drag along the slope, or tap; its panel has its angle and length')],
 ], [
   ['anchor', t('Anchor'), 'a', t('fix a body to the background')],
   ['release', t('Release'), 'e', t('remove anchor, pins and axles of a body')],
@@ -48,7 +50,7 @@ export const TOOLS = [[
 ]];
 
 /** @type {Record<string, new (app: App) => Tool>} */
-const OWN = {pen: Pen, hand: Hand, lasso: Lasso, note: Note, ruler: Ruler, protractor: Protractor};
+const OWN = {pen: Pen, hand: Hand, lasso: Lasso, incline: InclineTool, note: Note, ruler: Ruler, protractor: Protractor};
 
 export class Toolbar {
   /** @param {App} app */

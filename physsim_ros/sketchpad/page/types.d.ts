@@ -276,6 +276,8 @@ export interface Tool {
   turn?(angle: number): void;
   /** Of a gesture, where it is made by clicks. */
   clicks?: number;
+  /** Whether a gesture is begun, of which clicks are to come. */
+  open?: boolean;
   /** Finish an open gesture; false where there is none. */
   finish?(): boolean;
   /** Whether it tells how fast a body is. */

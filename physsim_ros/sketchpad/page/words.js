@@ -18,7 +18,7 @@ const THINGS = new Map([['disc', t('circle')], ['rectangle', t('rectangle')], ['
 const VERBS = new Map([['spawned', t('{thing} added')], ['changed', t('{thing} changed')], ['moved', t('{thing} moved')], ['deleted', t('{thing} deleted')],
   ['anchored', t('{thing} anchored')], ['released', t('{thing} released')], ['set velocity of', t('{thing} has a new velocity')]]);
 /** Verbs of what is undone, and how that is told. */
-const GESTURES = new Map([['spawn', t('add {thing}')], ['change', t('change {thing}')], ['delete', t('delete {thing}')], ['move', t('move {thing}')],
+const GESTURES = new Map([['spawn', t('add {thing}')], ['change', t('change {thing}')], ['delete', t('delete {thing}')], ['cut', t('cut {thing}')], ['move', t('move {thing}')],
   ['drag', t('drag {thing}')], ['place', t('place {thing}')], ['anchor', t('anchor {thing}')], ['release', t('release {thing}')],
   ['join', t('add {thing}')], ['set motion of', t('change {thing}')], ['drive', t('drive {thing}')], ['load', t('open {thing}')]]);
 /** A joint that is added, by its kind: its name is often that of a body, too. */
@@ -46,8 +46,8 @@ const SENTENCES = [
 ];
 const LISTED = 200; // bodies that can be chosen from
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
-/** Names that nobody chose: of what a pen or a click has drawn. */
-const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((?:drawn|note)\/\d+)/g;
+/** Names that nobody chose: of what a pen, a click or a tool of this page has drawn. */
+const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((?:drawn|note|incline)\/\d+)/g;
 
 export class Words {
   /** @param {Connection} connection */
@@ -109,7 +109,7 @@ export class Words {
     if (verb.startsWith('joined')) return said('spawned', capital(thingWord(/ by (\w+) /.exec(message)?.[1] ?? 'joint')));
     if (VERBS.has(verb)) return said(verb, this.title(subject));
     // There may be a body there, which the knife has not passed.
-    if (message.startsWith('the stroke passes right through no ')) return t('The stroke does not pass right through a circle, rectangle or polygon');
+    if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
     const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message)));
     return ok ? told : refusalText(code, told);
   }
@@ -145,7 +145,7 @@ function said(verb, thing) {
 
 /** @param {string} name of a body */
 export function isDrawn(name) {
-  return /^(drawn|note)\//.test(name);
+  return /^(drawn|note|incline)\//.test(name);
 }
 
 /** @param {string} name which may have 1,000 characters */
@@ -164,6 +164,7 @@ export function capital(text) {
  */
 export function shapeWord({name, shape: {kind, outline, width}}) {
   if (name.startsWith('note/')) return t('note');
+  if (name.startsWith('incline/')) return t('inclined plane');
   if (kind === 'disc') return thingWord('disc');
   if (kind === 'chain') return thingWord('wall');
   if (width) return thingWord('rectangle');

@@ -42,6 +42,10 @@ export class ClickTool {
     });
   }
 
+  get open() {
+    return this.points.length > 0;
+  }
+
   /** @param {Touch} raw */
   down(raw) {
     const touch = this.#onGrid(raw);

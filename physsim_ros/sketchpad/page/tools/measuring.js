@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that measure on the page: a ruler and a protractor, which stay until they are tapped away. */
 
-import {onGrid, threeDigits} from '../rounding.js';
+import {digits, onGrid, threeDigits} from '../rounding.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -144,5 +144,5 @@ function isTap(start, {page: [x, y]}) {
 
 /** @param {number} angle [rad] */
 function degrees(angle) {
-  return `${Math.round(angle * 1800 / Math.PI) / 10}°`;
+  return `${digits(Math.round(angle * 1800 / Math.PI) / 10, 6)}°`;
 }

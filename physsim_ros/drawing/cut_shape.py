@@ -1,0 +1,332 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Cut shapes: the pieces of a shape that is cut from one point to another.
+
+A solid is the outlines of its parts: a disc, a rectangle or a polygon has one, triangles and
+compounds have several. A chord between two points where the cut crosses an outline splits it in
+two. This works for outlines that are not convex, whose pieces clipping by a half plane (Sutherland
+and Hodgman 1974) would leave connected by edges of no width. Parts that touch stay one piece,
+unless they touch only along the cut. Parts of a compound that touch no part which is cut stay on
+the largest piece. A chain is cut across its line, and loses half its thickness on either side, so
+that the round ends of the pieces do not overlap.
+
+Law: the areas and the places of all pieces are those of the shape, those of discs to 1e-4, but for
+what a chain loses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+import itertools
+import math
+
+import numpy as np
+from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.errors import BadSize
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Compound,
+    Disc,
+    Polygon,
+    Shape,
+    signed_area,
+    SMALLEST,
+    Triangles,
+)
+from physsim_ros.model.transform import cross, dots, next_vertices, norms, Point
+
+# Corners of the polygon that a disc is cut as: its rim is off by 0.3 % of the radius.
+_CORNERS = 32
+# Distance of a corner from the line below which it lies on the line [m]; `distinct_points` takes
+# points as near as that for one.
+_ON_LINE = 1e-6
+# Share of the area of a body below which a piece is the rounding of a touch.
+_ROUNDING = 1e-9
+# The greatest gap between parts that touch, in shares of the smaller one's size: discs that touch
+# do so as polygons.
+_TOUCHING = 0.02
+# The greatest share of a piece in triangles that are too thin to be simulated, which are omitted.
+_SLIVERS = 1e-3
+
+
+def cut_shape(shape: Shape, start: Point, end: Point) -> list[Shape]:
+    """
+    Return the pieces of a shape, the largest first; a shape that is not cut is its only piece.
+
+    :param start: of the cut, in the frame of the shape [m]
+    :param end: of it [m]
+    :raises BadSize: a piece would be too thin
+    :raises BadOutline: a piece would be no outline, since it is too thin
+    """
+    if isinstance(shape, Chain):
+        found: list[Shape] = list(_cut_chain(shape, np.array(start), np.array(end)))
+    else:
+        found = _cut_solid(shape, np.array(start), np.array(end))
+    return sorted(found, key=lambda piece: -piece.form.area)
+
+
+def _cut_solid(
+    shape: Disc | Box | Polygon | Triangles | Compound, start: Floats, end: Floats
+) -> list[Shape]:
+    parts = _outlines(shape)
+    least = _ROUNDING * shape.form.area
+    pieces: list[Floats] = []
+    # For each piece the part that it is of.
+    owners: list[int] = []
+    for number, part in enumerate(parts):
+        cut = [each for each in split(part, start, end) if abs(signed_area(each)) > least]
+        pieces += cut if len(cut) > 1 else [part]
+        owners += [number] * max(len(cut), 1)
+    if len(parts) == 1:
+        return [_polygon(each) for each in pieces] if len(pieces) > 1 else [shape]
+    bodies = _kept_together(parts, pieces, owners, start, end)
+    if len(bodies) == 1:
+        return [shape]
+    return [
+        Compound(element=shape.element, centers=tuple(shape.centers[owners[it]] for it in body))
+        if isinstance(shape, Compound) and all(owners.count(owners[it]) == 1 for it in body)
+        else _triangles([pieces[it] for it in body])
+        for body in bodies
+    ]
+
+
+def split(outline: Floats, start: Floats, end: Floats) -> list[Floats]:
+    """
+    Return the pieces of a simple outline that is cut from one point to another.
+
+    :param outline: (n, 2) float64: the vertices in order, either way round
+    :param start: (2,) float64: of the cut, outside
+    :param end: (2,) float64: of it, outside
+    :return: (m, 2) float64 each; none where the cut does not pass through
+    """
+    across, length = _across(outline, start, end), math.dist(start, end)
+    points: list[Floats] = []
+    # Crossings of the line and the edges: distances from the start, and numbers in `points`.
+    crossings: list[tuple[float, int]] = []
+    for corner, (here, after) in enumerate(zip(across, np.roll(across, -1), strict=True)):
+        points.append(outline[corner])
+        if (here >= 0.0) != (after >= 0.0):
+            following = outline[(corner + 1) % len(outline)]
+            point = outline[corner] + (following - outline[corner]) * (here / (here - after))
+            crossings.append((float(dots(point - start, end - start)) / length, len(points)))
+            points.append(point)
+    crossings.sort()
+    partners: dict[int, int] = {}
+    # From the first crossing to the second the line is within, and so on.
+    for (first, a), (second, b) in zip(crossings[::2], crossings[1::2], strict=True):
+        if first >= 0.0 and second <= length:
+            partners |= {a: b, b: a}
+    return [np.array([points[each] for each in walk]) for walk in _walks(len(points), partners)]
+
+
+def _walks(count: int, partners: dict[int, int]) -> Iterator[list[int]]:
+    """
+    Yield the numbers of the points of each piece: along the outline, and over each chord met.
+
+    :param count: of the points of the outline
+    :param partners: the two ends of each chord
+    """
+    left = set(partners)
+    while left:
+        first = at = min(left)
+        walk = []
+        while True:
+            left.discard(at)
+            walk.append(at)
+            at = (at + 1) % count
+            while at not in partners:
+                walk.append(at)
+                at = (at + 1) % count
+            walk.append(at)
+            at = partners[at]
+            if at == first:
+                break
+        yield walk
+
+
+def _across(points: Floats, start: Floats, end: Floats) -> Floats:
+    """Return the distances of points to the left of a line [m]; 0 for those on it."""
+    along = (end - start) / math.dist(start, end)
+    across = cross(np.broadcast_to(along, points.shape), points - start)
+    across[np.abs(across) < _ON_LINE] = 0.0
+    return across
+
+
+def _outlines(shape: Disc | Box | Polygon | Triangles | Compound) -> list[Floats]:
+    """Return the outlines of the parts of a solid, (n, 2) float64 each [m]."""
+    match shape:
+        case Disc(radius=radius):
+            share = math.tau / _CORNERS
+            angles = np.arange(_CORNERS) * share
+            # Of the area of the disc.
+            circumradius = radius * math.sqrt(share / math.sin(share))
+            return [circumradius * np.column_stack((np.cos(angles), np.sin(angles)))]
+        case Box():
+            return [np.array(shape.corners())]
+        case Polygon(outline=corners):
+            return [np.array(corners)]
+        case Triangles(vertices=vertices):
+            return list(np.array(vertices).reshape(-1, 3, 2))
+        case Compound(element=element, centers=centers):
+            (outline,) = _outlines(element)
+            return [outline + center for center in centers]
+
+
+def _kept_together(
+    parts: list[Floats], pieces: list[Floats], owners: list[int], start: Floats, end: Floats
+) -> list[list[int]]:
+    """
+    Return the pieces of convex parts that stay together, by their numbers.
+
+    :param owners: of each piece the number of its part
+    """
+    areas = [abs(signed_area(each)) for each in pieces]
+    together = _components(_joined(pieces, start, end))
+    before = _components(_touching(parts))
+    apart: list[list[int]] = []
+    untouched: list[int] = []
+    for component in before:
+        inside = [body for body in together if owners[body[0]] in component]
+        if len(inside) > 1:
+            apart += inside
+        else:
+            untouched += inside[0]
+    if not apart:
+        return [list(range(len(pieces)))]
+    max(apart, key=lambda body: sum(areas[each] for each in body)).extend(untouched)
+    return apart
+
+
+def _components(joined: Flags) -> list[list[int]]:
+    """Return the connected components of a symmetric relation, (n, n) bool."""
+    left = np.ones(len(joined), np.bool_)
+    found = []
+    while left.any():
+        reached = np.arange(len(joined)) == int(left.argmax())
+        count = 0
+        while count < (count := int(np.count_nonzero(reached))):
+            reached |= joined[reached].any(axis=0)
+        left &= ~reached
+        found.append(np.flatnonzero(reached).tolist())
+    return found
+
+
+def _joined(pieces: list[Floats], start: Floats, end: Floats) -> Flags:
+    """Return which convex pieces touch elsewhere than along a cut, (n, n) bool."""
+    joined = _touching(pieces)
+    across = [_across(each, start, end) for each in pieces]
+    left = np.array([each.min() >= 0.0 for each in across])
+    right = np.array([each.max() <= 0.0 for each in across])
+    length, axis = math.dist(start, end), (end - start) / math.dist(start, end)
+    for a, b in np.argwhere(joined & left[:, None] & right).tolist():
+        # Where each lies on the line of the cut, as distances from its start.
+        spans = [dots(pieces[it][across[it] == 0.0] - start, axis) for it in (a, b)]
+        if all(map(len, spans)):
+            begin, stop = max(map(min, spans)), min(map(max, spans))
+            if begin < -_ON_LINE or stop > length + _ON_LINE:
+                continue
+        joined[a, b] = joined[b, a] = False
+    return joined
+
+
+def _touching(polygons: list[Floats]) -> Flags:
+    """Return which convex polygons overlap or touch, by separating axes, (n, n) bool."""
+    low, high = (np.array([f(each, axis=0) for each in polygons]) for f in (np.min, np.max))
+    size = norms(high - low)
+    slack = _TOUCHING * np.minimum(size[:, None], size)
+    gap = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
+    touching: Flags = gap <= slack
+    for a, b in np.argwhere(np.triu(touching, 1)).tolist():
+        apart = max(_gap(polygons[a], polygons[b]), _gap(polygons[b], polygons[a]))
+        touching[a, b] = touching[b, a] = apart <= slack[a, b]
+    return touching
+
+
+def _gap(polygon: Floats, other: Floats) -> float:
+    """Return the greatest distance of another polygon from a side of a convex one [m]."""
+    edges = next_vertices(polygon) - polygon
+    outward = np.column_stack((edges[:, 1], -edges[:, 0])) * np.sign(signed_area(polygon))
+    normals = outward / np.maximum(norms(edges), 1e-300)[:, None]
+    away = (other[None] - polygon[:, None]) * normals[:, None]
+    return float(away.sum(axis=2).min(axis=1).max())
+
+
+def _polygon(outline: Floats) -> Polygon:
+    return Polygon(outline=_tuples(outline))
+
+
+def _tuples(points: Iterable[Floats]) -> tuple[Point, ...]:
+    return tuple((float(x), float(y)) for x, y in points)
+
+
+def _triangles(outlines: list[Floats]) -> Polygon | Triangles:
+    """
+    Return convex outlines as one shape: a polygon, or triangles.
+
+    :raises BadSize: too much is too thin
+    """
+    if len(outlines) == 1:
+        return _polygon(outlines[0])
+    whole = sum(abs(signed_area(each)) for each in outlines)
+    fans = np.array([triangle for outline in outlines for triangle in _fan(outline)])
+    doubled = np.abs(cross(fans[:, 1] - fans[:, 0], fans[:, 2] - fans[:, 0]))
+    longest = norms(fans - np.roll(fans, 1, axis=1)).max(axis=1)
+    # The least width of a triangle is its height on its longest side.
+    kept = doubled > SMALLEST * longest
+    if doubled[~kept].sum() / 2 > _SLIVERS * whole or not kept.any():
+        raise BadSize(f'a part is thinner than {SMALLEST:g} m', field='points')
+    return Triangles(vertices=_tuples(fans[kept].reshape(-1, 2)))
+
+
+def _fan(outline: Floats) -> Iterator[Floats]:
+    """Yield the triangles of a convex outline, (3, 2) float64 each."""
+    if len(outline) <= 6:
+        for a, b in itertools.pairwise(outline[1:]):
+            yield np.array((outline[0], a, b))
+        return
+    middle = outline.mean(axis=0)
+    for a, b in zip(outline, next_vertices(outline), strict=True):
+        yield np.array((middle, a, b))
+
+
+def _cut_chain(chain: Chain, start: Floats, end: Floats) -> Iterator[Chain]:
+    """Yield the pieces of a chain, whose round ends meet at each cut."""
+    points = np.array(chain.points)
+    radius = chain.thickness / 2
+    length = np.concatenate(((0.0,), norms(np.diff(points, axis=0)).cumsum()))
+    across = cross(np.broadcast_to(end - start, points.shape), points - start)
+    bounds = [0.0]
+    for number in np.flatnonzero((across[:-1] >= 0.0) != (across[1:] >= 0.0)).tolist():
+        share = across[number] / (across[number] - across[number + 1])
+        side = points[number + 1] - points[number]
+        at = points[number] + share * side
+        # From where the cut enters the chain to where it leaves it.
+        sine = abs(float(cross(side, end - start))) / math.dist(start, end) / norms(side)
+        if min(dots(at - start, end - start), dots(end - at, end - start)) >= (
+            radius / sine * math.dist(start, end)
+        ):
+            place = length[number] + share * norms(side)
+            bounds += [place - radius, place + radius]
+    bounds.append(float(length[-1]))
+    spans = list(zip(bounds[::2], bounds[1::2], strict=True))
+    if len(spans) == 1:
+        yield chain
+        return
+    if min(last - first for first, last in spans) < SMALLEST:
+        raise BadSize(f'a part is shorter than {SMALLEST:g} m', field='points')
+    lines = [_between(points, length, *span) for span in spans]
+    if np.array_equal(points[0], points[-1]):
+        # The pieces beside the seam of a ring are one.
+        lines[0] = np.vstack((lines.pop(), lines[0]))
+    for line in lines:
+        yield Chain(points=_tuples(line), thickness=chain.thickness)
+
+
+def _between(points: Floats, length: Floats, first: float, last: float) -> Floats:
+    """Return a polyline from one distance along it to another, (n, 2) float64 [m]."""
+    inner = length[(length > first) & (length < last)]
+    at = np.array((first, *inner, last))
+    return np.column_stack([np.interp(at, length, axis) for axis in points.T])
