@@ -129,7 +129,7 @@ setup(
     maintainer=AUTHOR,
     maintainer_email=EMAIL,
     license='Apache-2.0',
-    url=HOME,
+    url=HOME or None,
     project_urls={
         'Source': HOME,
         'Documentation': f'{HOME}/tree/main/docs',

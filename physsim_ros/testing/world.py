@@ -26,8 +26,7 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker, MarkerArray
 
-# Frames from one look at the publishers of commands to the next: 0.25 s of simulation time at the
-# usual rate, as the node looks by the wall.
+# Frames between two checks of the publishers of commands: 0.25 s of simulation time at 60 Hz.
 _LOOK_FRAMES = 15
 
 
@@ -54,8 +53,7 @@ class PhysSim(ObservedWorld):
         self.context = context
         self.recording: Path | None = None
         self._directories = [*filter(None, [directory]), Path()]
-        # Frames until all publishers of commands are looked at, whether their number has changed
-        # or not.
+        # Frames until the next check of all publishers of commands.
         self._frames_to_look = 0
         self._executor = SettlingExecutor(context)
         self._executor.add_node(self.node)
@@ -123,7 +121,7 @@ class PhysSim(ObservedWorld):
         timeout: float = 10.0,
     ) -> bool:
         """
-        Advance by simulated seconds, to the nearest frame, or for less: until a predicate is true.
+        Advance by simulated seconds, to the nearest frame, or until a predicate is true.
 
         :param seconds: None is as long as `timeout`, which only goes with `until`
         :param until: looked at before each frame; None is never true
@@ -274,9 +272,9 @@ class PhysSim(ObservedWorld):
 
     def _match_publishers(self, *, new: bool = False) -> None:
         """
-        Have robots hear those who command them; by itself the node looks by the wall clock.
+        Connect robots with the publishers of their commands, as the node does by the wall clock.
 
-        :param new: whether only a change of their number is looked for
+        :param new: whether only a change of the number of publishers counts
         """
         fleet = self.node.fleet
         if not new:

@@ -218,3 +218,20 @@ def test_the_view_does_not_move_in_the_midst_of_a_gesture(
     sheet.page.keyboard.press('Escape')
     sheet.page.evaluate(fold.format('false'))
     sheet.close()
+
+
+@pytest.mark.parametrize('size', SIZES[1:3])
+def test_a_telephone_shows_the_lesson_or_the_panel(
+    chromium: Any, program: Any, size: tuple[int, int]
+) -> None:
+    sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
+    sheet.begin(2)
+    question = sheet.page.get_by_text('What is its acceleration?')
+    question.wait_for()
+    select(sheet)
+    question.wait_for(state='hidden')
+    sheet.page.locator('#lesson summary').first.click()
+    question.wait_for()
+    sheet.page.get_by_role('heading', name='ice/0').wait_for(state='hidden')
+    check(sheet)
+    sheet.close()

@@ -61,13 +61,13 @@ def frames(world: World) -> tuple[float, float]:
 
 def table() -> None:
     """Print it."""
-    print('\na step with joints, and of the same bodies without [ms]')
+    print('\nA step with joints, and of the same bodies without [ms]')
     for count, links in ((1, 1), (100, 1), (10, 10), (50, 50), (200, 50), (1000, 1)):
         with_, without = (
             median_step(chain(count, links=links, joined=joined)) for joined in (True, False)
         )
         print(f'{count // links:>5} x {links:<3} links  {with_:7.3f} : {without:7.3f}')
-    print('\na frame of 4 steps of a net of discs that hang together by rods [ms]')
+    print('\nA frame of 4 steps of a net of discs that hang together by rods [ms]')
     print('   discs   rods  median  longest')
     for side in (5, 10, 20):
         median, longest = frames(net(side))

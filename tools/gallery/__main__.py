@@ -37,6 +37,7 @@ TIMES = {
     'drawings/marble_run': 6.0,
     'drawings/seesaw': 1.0,
     'drawings/windmill': 0.5,
+    'worlds/boxes': 10.0,
     'worlds/bridge': 4.0,
     'worlds/car': 5.5,
     'worlds/catapult': 1.6,
@@ -133,7 +134,6 @@ def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
     viewer.open_recording(recording.path)
     window = viewer.picture(times[-1], view='')
     window.crop((0, TITLE, *window.size)).save(DOCS / 'demo.png', optimize=True)
-    viewer.picture(times[-1], view='Time').save(DOCS / 'time.png', optimize=True)
     pictures = [viewer.picture(time) for time in times[:: 60 // RATE]]
     size = (NARROW, round(NARROW * pictures[0].height / pictures[0].width))
     small = [picture.resize(size, Image.Resampling.LANCZOS) for picture in pictures]

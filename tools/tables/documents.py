@@ -140,16 +140,17 @@ def _joint_default(each: Declaration) -> str:
 
 
 def _robot_keys() -> str:
-    rows = [_row(each) for each in Robot.FIELDS.values()]
-    kinds = ', '.join(f'`{kind}`' for kind in DRIVES)
-    rows.append(('`drive.kind`', 'needed', '', f'one of {kinds}'))
-    for each, with_it in _by_kinds(DRIVES):
-        row = _row(each, 'drive.')
-        if len(with_it) < len(DRIVES):
-            row = (*row[:-1], f'of {_list(with_it)}: {row[-1]}')
-        rows.append(row)
-    rows += [_row(each, 'odometry.') for each in Odometry.FIELDS.values()]
-    return _rows(_COLUMNS, *rows)
+    drive = [('`kind`', 'needed', '', f'one of {_list(DRIVES)}')]
+    for each, kinds in _by_kinds(DRIVES):
+        key, default, span, meaning = _row(each)
+        of = f'of {_list(kinds)}: ' if len(kinds) < len(DRIVES) else ''
+        drive.append((key, default, span, of + meaning))
+    parts = [
+        _titled('**`robot`**', _COLUMNS, [_row(each) for each in Robot.FIELDS.values()]),
+        _titled('**`drive`**', _COLUMNS, drive),
+        _titled('**`odometry`**', _COLUMNS, [_row(each) for each in Odometry.FIELDS.values()]),
+    ]
+    return ''.join(parts) + '\n'
 
 
 def _sensor_keys() -> str:
@@ -164,15 +165,15 @@ def _sensor_keys() -> str:
 
 
 def _actor_keys() -> str:
-    """Return a table of what all kinds have, and one for each set of kinds that share keys."""
+    """Return a table for each set of kinds that share keys, and one of `start`."""
     groups: dict[tuple[str, ...], list[tuple[str, ...]]] = {}
     for each, kinds in _by_kinds(ACTORS):
         groups.setdefault(kinds, []).append(_row(each))
-    groups[tuple(ACTORS)] += [_row(each, 'start.') for each in Start.FIELDS.values()]
     parts = []
     for kinds, rows in groups.items():
         title = _list(kinds) if len(kinds) < len(ACTORS) else 'every kind'
         parts.append(_titled(f'**{title}**', _COLUMNS, rows))
+    parts.append(_titled('**`start`**', _COLUMNS, [_row(each) for each in Start.FIELDS.values()]))
     return ''.join(parts) + '\n'
 
 
@@ -212,8 +213,8 @@ def _list(words: Iterable[str]) -> str:
     return ', '.join(f'`{word}`' for word in words)
 
 
-def _row(each: Declaration, of: str = '') -> tuple[str, ...]:
-    return f'`{of}{each.name}`', _value(each.default), each.span, each.sentence
+def _row(each: Declaration) -> tuple[str, str, str, str]:
+    return f'`{each.name}`', _value(each.default), each.span, each.sentence
 
 
 def _value(value: object) -> str:

@@ -9,19 +9,19 @@ import {Arrows} from './arrows.js';
 import {Camera} from './camera.js';
 import {Classroom} from './classroom.js';
 import {Connection} from './connection.js';
-import {createElement, elementOf} from './dom.js';
+import {createElement, elementOf, showText} from './dom.js';
 import {Driving} from './driving.js';
 import {Gallery} from './gallery.js';
 import {Handles} from './handles.js';
 import {Hints, Tips} from './hints.js';
-import {JointPanel} from './joint_panel.js';
 import {Cursor, Keyboard} from './keyboard.js';
 import {Lessons} from './lessons.js';
 import {Narrator, Sound} from './narrator.js';
 import {Notes, Refusals} from './notes.js';
 import {Numbers} from './numbers.js';
 import {Panel} from './panel.js';
-import {LargePlot, Plots} from './plots.js';
+import {PlotWindow} from './plot_window.js';
+import {Plots} from './plots.js';
 import {Pointers} from './pointer.js';
 import {Records, Trail} from './records.js';
 import {Room} from './room.js';
@@ -58,7 +58,7 @@ export class App {
     this.camera = new Camera();
     this.view = new SceneView(elementOf('world', HTMLCanvasElement), this.world, this.camera);
     this.selection = new Selection(this);
-    this.view.overlays.push((view) => this.tool.draw(view));
+    this.view.overlays.push((view) => this.tool.draw?.(view));
     this.cursor = new Cursor(this);
     this.arrows = new Arrows(this);
     this.words = new Words(this.connection);
@@ -69,18 +69,17 @@ export class App {
     this.sound = new Sound(this);
     this.records = new Records(this);
     this.trail = new Trail(this);
-    this.plotWindow = new LargePlot(this);
+    this.plotWindow = new PlotWindow(this);
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);
     this.panel = new Panel(this);
-    this.joints = new JointPanel(this);
     this.stopwatch = new Stopwatch(this);
     this.handles = new Handles(this);
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);
     this.gallery = new Gallery(this);
     /** @type {Tool} */
-    this.tool = {down() {}, move() {}, up() {}, cancel() {}, draw() {}};
+    this.tool = {up() {}};
     this.hints = new Hints(this);
     this.toolbar = new Toolbar(this);
     this.pointers = new Pointers(this);
@@ -117,7 +116,7 @@ export class App {
     });
     connection.on('closed', (status) => {
       // At the first failure only: a stroke that begins later is drawn to its end.
-      if (gone.hidden) this.tool.cancel();
+      if (gone.hidden) this.tool.cancel?.();
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
         t('Wrong token: open the address that the node printed.') :
@@ -152,8 +151,7 @@ export class App {
     const list = elementOf('list', HTMLElement);
     while (list.children.length > texts.length) list.lastChild?.remove();
     texts.forEach((text, i) => {
-      const item = list.children[i] ?? list.appendChild(createElement('li'));
-      if (item.textContent !== text) item.textContent = text;
+      showText(/** @type {HTMLElement} */ (list.children[i] ?? list.appendChild(createElement('li'))), text);
     });
   }
 }

@@ -8,7 +8,7 @@
  * that bears.
  */
 
-import {createElement, elementOf, textButton, toggling} from './dom.js';
+import {createElement, elementOf, showText, textButton, toggling} from './dom.js';
 import {drawApplied} from './force_fields.js';
 import {bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {digits, roundUp, threeDigits} from './rounding.js';
@@ -121,8 +121,7 @@ export class Arrows {
     if (!this.forces) drawApplied(this.app, view);
     else if (world.count) this.#drawForces(view, room);
     for (const [unit, scale] of /** @type {[string, ArrowScale][]} */ ([['m/s', this.speeds], ['N s', this.impulses], ['N', this.newtons]])) {
-      const bar = this.bars[unit], text = `${digits(scale.unit, 2)} ${unit}`;
-      if (bar && bar.textContent !== text) bar.textContent = text;
+      if (this.bars[unit]) showText(this.bars[unit], `${digits(scale.unit, 2)} ${unit}`);
     }
   }
 

@@ -173,6 +173,14 @@ export function toggling(button, isOn, change) {
   return button;
 }
 
+/**
+ * @param {HTMLElement} element
+ * @param {string} text which it may have already: screen readers read what is new
+ */
+export function showText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
 /** @param {Node[]} children beside each other */
 export function inRow(...children) {
   return createElement('div', {className: 'row'}, ...children);

@@ -143,8 +143,8 @@ export function actorLines({kind, points, speed, repeat = 'once', start = {}}) {
  * @param {WorldState} world
  * @param {string} name of the selected body, whose way is drawn if it is an actor
  */
-export function drawWay(view, {scene}, name) {
-  const actor = scene.bodies.find((body) => body.name === name)?.actor, {accent} = view.palette;
+export function drawWay(view, world, name) {
+  const actor = world.body(name)?.actor, {accent} = view.palette;
   if (!actor) return;
   const points = actor.points.map(([x, y]) => /** @type {Point} */ ([x, y]));
   view.line(actor.repeat === 'loop' ? [...points, points[0]] : points, accent, [8, 5]);

@@ -7,10 +7,10 @@
 import {checkField, createElement, inRow, numberField, textButton} from './dom.js';
 import {numberOf, threeDigits} from './rounding.js';
 import {t} from './strings.js';
+import {DEGREE, polar, rotated} from './vectors.js';
 
 /** @import {App, AppliedForce, Body, Point, SceneView, WorldState} from './types.js' */
 
-const DEGREE = Math.PI / 180; // rad
 const FIRST = 10; // N: of a force that is added, to the right
 const LENGTH = 34; // px: of an arrow
 
@@ -28,7 +28,7 @@ export function forceFields({world}, {name, forces = []}, change) {
     const replaced = (/** @type {Partial<AppliedForce>} */ fields) => send(now().map((each, j) => j === i ? {...each, ...fields} : each));
     const number = (/** @type {string} */ label, /** @type {number} */ value) => numberField(value, () => {
       const [newtons, degrees] = [numberOf(size.value), numberOf(angle.value)];
-      if (!Number.isNaN(newtons + degrees)) replaced({force: [newtons * Math.cos(degrees * DEGREE), newtons * Math.sin(degrees * DEGREE)]});
+      if (!Number.isNaN(newtons + degrees)) replaced({force: polar(newtons, degrees * DEGREE)});
     }, {'aria-label': `${label} (${i + 1})`});
     const size = number(t('Force [N]'), Math.hypot(x, y)), angle = number(t('Direction [°]'), Math.atan2(y, x) / DEGREE);
     const turns = checkField(t('Turns with the body'), axes === 'body', (isOn) => {
@@ -73,14 +73,4 @@ export function drawApplied({world, camera, selection}, view) {
       if (selection.names.has(name)) view.number({text: `${threeDigits(size)} N`, color, from: [px, py], tip, along, named: true});
     }
   }
-}
-
-/**
- * @param {Point} vector
- * @param {number} yaw [rad]
- * @returns {Point}
- */
-function rotated([x, y], yaw) {
-  const cos = Math.cos(yaw), sin = Math.sin(yaw);
-  return [cos * x - sin * y, sin * x + cos * y];
 }

@@ -6,8 +6,9 @@
 
 import {scaledShape} from './body_path.js';
 import {originOf} from './numbers.js';
-import {onGrid, threeDigits} from './rounding.js';
+import {threeDigits} from './rounding.js';
 import {t} from './strings.js';
+import {DEGREE, distance, onGrid, polar} from './vectors.js';
 
 /** @import {App, Body, Point, SceneView, Touch} from './types.js' */
 
@@ -108,8 +109,10 @@ export class Handles {
     const body = world.scene.bodies[row], center = camera.toPage(...world.place(row, body.centroid));
     const reach = Math.min(view.bodies.appearance(body).radius * camera.scale,
       FARTHEST * Math.min(camera.width, camera.height));
-    const at = (/** @type {number} */ angle, /** @type {number} */ far) =>
-      /** @type {Point} */ ([center[0] + far * Math.cos(angle), center[1] - far * Math.sin(angle)]);
+    const at = (/** @type {number} */ angle, /** @type {number} */ far) => {
+      const [dx, dy] = polar(far, angle);
+      return /** @type {Point} */ ([center[0] + dx, center[1] - dy]);
+    };
     const yaw = world.frame.yaw[row], [vx, vy] = velocities ? [velocities.x[row], velocities.y[row]] : [0, 0];
     return {center, reach, turn: at(yaw + Math.PI / 2, reach + TURN_GAP), scale: at(yaw - Math.PI / 4, reach + SCALE_GAP),
       velocity: velocities && !body.anchored ? at(Math.atan2(vy, vx), Math.hypot(vx, vy) * arrows.speeds.length(1) + TIP_GAP) : null};
@@ -174,7 +177,7 @@ export class Handles {
     if (!this.last || this.dragged !== 'turn' && this.dragged !== 'scale') return;
     const {turn, scale} = this.#change(), [x, y] = this.last.page, {world, panel} = this.app, row = world.row(panel.name);
     view.outline(row, palette.accent, [0, 0], {turn, scale});
-    const text = this.dragged === 'turn' ? `${Math.round((world.frame.yaw[row] + turn) * 180 / Math.PI)}°` : sizeOf(world.scene.bodies[row], scale);
+    const text = this.dragged === 'turn' ? `${Math.round((world.frame.yaw[row] + turn) / DEGREE)}°` : sizeOf(world.scene.bodies[row], scale);
     view.write(text, [x + 14, y - 14], palette.accent);
   }
 
@@ -195,11 +198,6 @@ export class Handles {
     }
     if (this.shown) view.ring(camera.toWorld(...ring), RING, accent);
   }
-}
-
-/** @type {(one: Point, other: Point) => number} */
-function distance([x, y], [toX, toY]) {
-  return Math.hypot(toX - x, toY - y);
 }
 
 /**

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Joints as what they are: coil, rod, rope, axle, motor, rail, toothed wheels. */
 
+import {distance, rotated} from './vectors.js';
+
 /** @import {BodyView} from './body_view.js' */
 /** @import {Camera, Joint, Palette, Point, WorldState} from './types.js' */
 
@@ -169,7 +171,7 @@ export class JointView {
    * @param {number} length [px]
    */
   #rope(p, q, length) {
-    const span = Math.hypot(q[0] - p[0], q[1] - p[1]);
+    const span = distance(p, q);
     // Depth of a shallow arc of that length: https://en.wikipedia.org/wiki/Parabola#Arc_length
     const depth = Math.sqrt(3 / 8 * Math.max(0, length - span) * length);
     this.ctx.beginPath();
@@ -185,7 +187,7 @@ export class JointView {
    */
   #rail({axis: [ux, uy], b, lower, upper}, p, q) {
     const yaw = b < 0 ? 0 : this.world.frame.yaw[b], scale = this.camera.scale, s = this.size;
-    const dx = Math.cos(yaw) * ux - Math.sin(yaw) * uy, dy = -Math.sin(yaw) * ux - Math.cos(yaw) * uy;
+    const [dx, up] = rotated([ux, uy], yaw), dy = -up;
     /** @type {(along: number, across: number, from?: Point) => Point} */
     const at = (along, across, from = q) => [from[0] + along * dx - across * dy,
       from[1] + along * dy + across * dx];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The keys of the page, which `?` shows, and the cursor on the canvas that they move. */
 
-import {TOOLS} from './toolbar.js';
+import {ARROWS, TOOLS} from './toolbar.js';
 
 /** @import {App, Point, SceneView, Touch} from './types.js' */
 
@@ -10,8 +10,6 @@ const ZOOM = 1.25;
 const TEXTS = 'textarea, input:not([type=range], [type=checkbox], [type=color], [type=file])'; // receive all keys
 const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
 const TAP = 300; // ms: a shorter press of the space bar plays or pauses
-/** @type {Record<string, [number, number]>} */
-const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
 
 export class Keyboard {
   /** @param {App} app */
@@ -34,7 +32,7 @@ export class Keyboard {
       '?': () => app.showHelp(), f: () => app.room.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
-      Delete: () => app.selection.deleteBodies(), Backspace: () => app.selection.deleteBodies(), Escape: () => this.#drop(),
+      Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
       j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
       L: callService('fast_forward'),
       '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(),
@@ -113,7 +111,7 @@ export class Keyboard {
   #drop() {
     const {app} = this, {plotWindow} = app;
     if (!plotWindow.element.hidden) return plotWindow.close();
-    app.tool.cancel();
+    app.tool.cancel?.();
     app.readings.dismiss();
     app.cursor.hide();
     app.selection.select([]);
@@ -147,7 +145,7 @@ export class Cursor {
 
   hide() {
     this.shown = false;
-    if (this.pressed) this.app.tool.cancel();
+    if (this.pressed) this.app.tool.cancel?.();
     this.pressed = false;
   }
 
@@ -162,7 +160,7 @@ export class Cursor {
     this.shown = true;
     this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
     this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
-    this.app.tool.move(this.touch);
+    this.app.tool.move?.(this.touch);
     this.app.selection.hover(this.touch);
     view.dirty = true;
   }
@@ -175,7 +173,7 @@ export class Cursor {
       return;
     }
     app.time.endRewind();
-    if (!this.pressed) app.tool.down(this.touch);
+    if (!this.pressed) app.tool.down?.(this.touch);
     if (this.pressed || app.tool.clicks) {
       app.tool.up(this.touch);
       app.hints.noteUse();

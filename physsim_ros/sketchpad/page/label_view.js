@@ -5,6 +5,7 @@
  */
 
 import {fixed, multiplesOf} from './rounding.js';
+import {rotated} from './vectors.js';
 
 /** @import {Camera, Frame, Palette, Point, SceneView} from './types.js' */
 
@@ -97,7 +98,7 @@ export function drawNumbers(view) {
     const half = ctx.measureText(text).width / 2;
     let best = /** @type {?Box} */ (null), least = Infinity;
     for (const far of FAR) for (const turn of TURNS) {
-      const dx = ux * Math.cos(turn) - uy * Math.sin(turn), dy = uy * Math.cos(turn) + ux * Math.sin(turn);
+      const [dx, dy] = rotated([ux, uy], turn);
       const cx = clamp(x + dx * (BETWEEN + half + far), sides[0] + half, sides[2] - half);
       const cy = clamp(y + dy * (BETWEEN + HALF + far), sides[1] + HALF, sides[3] - HALF);
       const box = /** @type {Box} */ ([cx - half, cy - HALF, cx + half, cy + HALF]);

@@ -40,7 +40,11 @@ export class Lessons {
       if (first) this.#offerLink();
     });
     addEventListener('hashchange', () => this.#offerLink());
-    this.card.addEventListener('toggle', () => app.room.fit());
+    this.card.addEventListener('toggle', () => {
+      // A page without room shows the card or the panel: what is opened last.
+      if (this.card.open && !app.room.isRoomy && app.panel.kind) app.selection.select([]);
+      app.room.fit();
+    });
   }
 
   /** @returns {Node[]} the list, with a heading; nothing where there are no lessons */

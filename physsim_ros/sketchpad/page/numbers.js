@@ -4,13 +4,13 @@
  * a body at a time: the axes of plots and the columns of tables.
  */
 
-import {createElement, numberField} from './dom.js';
+import {createElement, numberField, showText} from './dom.js';
 import {digits, fixed, threeDigits} from './rounding.js';
 import {t} from './strings.js';
+import {DEGREE, rotated} from './vectors.js';
 
 /** @import {App, Body, Point, Sample, WorldState} from './types.js' */
 
-const DEGREE = Math.PI / 180; // rad
 /** What can be typed; of an anchored body the first ones. @type {[string, string][]} */
 const TYPED = [['x', 'x [m]'], ['y', 'y [m]'], ['angle', t('Angle [°]')], ['mass', t('Mass [kg]')],
   ['vx', 'vx [m/s]'], ['vy', 'vy [m/s]'], ['spin', t('Spin [rad/s]')]];
@@ -34,7 +34,6 @@ export class Numbers {
     this.ahead = null;
     this.line = createElement('p');
     this.momentum = createElement('p');
-    this.totals = createElement('p', {className: 'numbers'}); // of several bodies
     this.pairs = createElement('p', {className: 'pairs'}); // friction with what the body touches
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': word}));
     this.labels = ENERGIES.map((word) => createElement('span', {textContent: word}));
@@ -44,7 +43,6 @@ export class Numbers {
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
     this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
-    app.view.overlays.push(() => this.update());
     app.connection.on('open', () => { this.ahead = null; });
     // A change is in each frame that comes after its answer.
     app.connection.on('frame', () => {
@@ -52,35 +50,16 @@ export class Numbers {
     });
   }
 
-  /** Show the numbers of the subject of the panel as they are now. */
-  update() {
-    const {world, panel} = this.app, row = world.row(panel.name);
-    if (panel.kind === 'several') tell(this.totals, this.#totalsOf(panel.names));
+  /** @param {string} name of the body whose numbers are shown as they are now */
+  show(name) {
+    const {world} = this.app, row = world.row(name);
     if (row < 0) return;
     const body = world.scene.bodies[row], {vx, vy} = motionOf(world, row), {mass} = body;
-    tell(this.line, `${threeDigits(mass)} kg · ${placed(world, row)}`);
-    tell(this.momentum, t('Momentum {momentum}', {momentum: momentumText([mass * vx, mass * vy])}));
-    tell(this.pairs, this.#pairsOf(row));
+    showText(this.line, `${threeDigits(mass)} kg · ${placed(world, row)}`);
+    showText(this.momentum, t('Momentum {momentum}', {momentum: momentumText([mass * vx, mass * vy])}));
+    showText(this.pairs, this.#pairsOf(row));
     this.#showTyped(body, row);
     this.#showEnergies(body, row);
-  }
-
-  /**
-   * @param {string[]} names of bodies
-   * @returns {string} their mass, momentum and energies together; what is anchored has none
-   */
-  #totalsOf(names) {
-    const {world} = this.app, {bodies, gravity} = world.scene;
-    let mass = 0, px = 0, py = 0, energy = [0, 0];
-    for (const row of names.map((name) => world.row(name)).filter((each) => each >= 0 && !bodies[each].anchored)) {
-      const motion = motionOf(world, row), each = energiesOf(bodies[row], motion, gravity);
-      mass += bodies[row].mass;
-      px += bodies[row].mass * motion.vx;
-      py += bodies[row].mass * motion.vy;
-      energy = [energy[0] + each[0], energy[1] + each[1]];
-    }
-    return t('Together {mass} kg · momentum {momentum} · energy of motion {motion} J, of height {height} J',
-      {mass: threeDigits(mass), momentum: momentumText([px, py]), motion: number(energy[0]), height: number(energy[1])});
   }
 
   /**
@@ -171,12 +150,31 @@ function motionOf(world, row) {
 }
 
 /**
+ * @param {WorldState} world
+ * @param {string[]} names of bodies
+ * @returns {string} their mass, momentum and energies together; what is anchored has none
+ */
+export function totalsOf(world, names) {
+  const {bodies, gravity} = world.scene;
+  let mass = 0, px = 0, py = 0, energy = [0, 0];
+  for (const row of names.map((name) => world.row(name)).filter((each) => each >= 0 && !bodies[each].anchored)) {
+    const motion = motionOf(world, row), each = energiesOf(bodies[row], motion, gravity);
+    mass += bodies[row].mass;
+    px += bodies[row].mass * motion.vx;
+    py += bodies[row].mass * motion.vy;
+    energy = [energy[0] + each[0], energy[1] + each[1]];
+  }
+  return t('Together {mass} kg · momentum {momentum} · energy of motion {motion} J, of height {height} J',
+    {mass: threeDigits(mass), momentum: momentumText([px, py]), motion: number(energy[0]), height: number(energy[1])});
+}
+
+/**
  * @param {Body} body
  * @param {{x: number, y: number, vx: number, vy: number, spin: number}} motion of its centre of mass [m, m/s, rad/s]
  * @param {number[]} gravity [m/s²]
  * @returns {[number, number]} energy of motion, and of height above the origin [J]
  */
-export function energiesOf({mass, moment}, {x, y, vx, vy, spin}, [gx, gy]) {
+function energiesOf({mass, moment}, {x, y, vx, vy, spin}, [gx, gy]) {
   return [mass * (vx * vx + vy * vy) / 2 + moment * spin * spin / 2, -mass * (gx * x + gy * y)];
 }
 
@@ -186,9 +184,9 @@ export function energiesOf({mass, moment}, {x, y, vx, vy, spin}, [gx, gy]) {
  * @param {number} yaw [rad]
  * @returns {Point} where the body's origin is then [m]
  */
-export function originOf([cx, cy], [x, y], yaw) {
-  const cos = Math.cos(yaw), sin = Math.sin(yaw);
-  return [x - cos * cx + sin * cy, y - sin * cx - cos * cy];
+export function originOf(centroid, [x, y], yaw) {
+  const [dx, dy] = rotated(centroid, yaw);
+  return [x - dx, y - dy];
 }
 
 /**
@@ -213,16 +211,8 @@ function number(value) {
 }
 
 /** @param {Point} momentum [N s] */
-export function momentumText([px, py]) {
+function momentumText([px, py]) {
   return `${number(Math.hypot(px, py))} N s ${t('({x}, {y})', {x: number(px), y: number(py)})}`;
-}
-
-/**
- * @param {HTMLElement} element
- * @param {string} text which it may have already
- */
-function tell(element, text) {
-  if (element.textContent !== text) element.textContent = text;
 }
 
 /**

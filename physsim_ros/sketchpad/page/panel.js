@@ -7,22 +7,25 @@
  */
 
 import {arrangeButtons} from './align.js';
-import {checkField, createElement, elementOf, iconButton, inRow, textButton, textField, textOf} from './dom.js';
+import {checkField, createElement, elementOf, iconButton, inRow, showText, textButton, textField, textOf} from './dom.js';
 import {actorLines, drawWay} from './driving.js';
 import {forceFields} from './force_fields.js';
+import {jointContent} from './joint_panel.js';
 import {sizeOf} from './label_view.js';
+import {totalsOf} from './numbers.js';
 import {t} from './strings.js';
 import {inclineFields} from './tools/incline.js';
 import {sendNote} from './tools/note.js';
 import {isDrawn} from './words.js';
 import {materialFields, worldContent} from './world_panel.js';
 
-/** @import {App} from './types.js' */
+/** @import {App, SceneView} from './types.js' */
 
 /** @typedef {'' | 'body' | 'several' | 'joint' | 'world' | 'measure'} Kind '' is a closed panel */
 /**
- * @typedef {{title: string, name?: string, first?: Node[], rest: Node[]}} Content  name: of the subject, where that is
- *   not the title; first: lines that are always shown
+ * @typedef {{title: string, name?: string, first?: Node[], rest: Node[], live?: (view: SceneView) => void}} Content
+ *   name: of the subject, where that is not the title; first: lines that are always shown; live: shows what changes from
+ *   frame to frame, and draws it
  */
 
 export class Panel {
@@ -36,6 +39,8 @@ export class Panel {
     this.names = [];
     /** @type {?boolean} whether it is folded, where somebody has chosen that for this subject */
     this.chosen = null;
+    /** @type {(view: SceneView) => void} */
+    this.live = () => {};
     this.isStale = false; // the scene has changed while somebody worked in it
     this.more = iconButton(t('More'), 'fold', () => {
       this.chosen = !this.isFolded;
@@ -47,7 +52,7 @@ export class Panel {
     this.element.addEventListener('focusout', () => setTimeout(() => this.isStale && this.#follow()));
     app.view.overlays.push((view) => {
       this.#fold();
-      drawWay(view, app.world, this.name);
+      if (this.kind) this.live(view);
     });
   }
 
@@ -90,19 +95,19 @@ export class Panel {
     element.hidden = !kind;
     if (!kind) return;
     /** @type {?Content} */
-    const content = kind === 'body' ? bodyContent(app, names[0]) : kind === 'several' ? severalContent(app, names) :
-      kind === 'joint' ? app.joints.content(names[0]) : kind === 'world' ? worldContent(app) : app.stopwatch.content();
+    const content = CONTENTS[kind](app, names);
     if (!content) {
       app.selection.select([]);
       return;
     }
-    const {title, name = '', first = [], rest} = content;
+    const {title, name = '', first = [], rest, live = () => {}} = content;
+    this.live = live;
     this.more.hidden = !first.length;
     this.rest.replaceChildren(...rest);
     element.replaceChildren(createElement('header', {},
       createElement('h2', {}, `${title} `, createElement('small', {textContent: name})), this.more,
       iconButton(t('Close'), 'close', () => app.selection.select([]))), ...first, this.rest);
-    app.numbers.update();
+    live(app.view);
     this.#fold();
   }
 
@@ -126,11 +131,11 @@ const BESIDE = 0.5; // m: where a copy is put
 
 /**
  * @param {App} app
- * @param {string} name
- * @returns {?Content} null where there is no such body
+ * @param {string[]} names of the body alone
+ * @returns {?Content} null where it is gone
  */
-export function bodyContent(app, name) {
-  const body = app.world.scene.bodies.find((each) => each.name === name);
+function bodyContent(app, [name]) {
+  const body = app.world.body(name);
   if (!body) return null;
   const change = (/** @type {object} */ properties) => app.connection.send('change', {name, properties});
   const label = textField({value: body.label, onchange: () => {
@@ -153,11 +158,15 @@ export function bodyContent(app, name) {
       ...forceFields(app, body, change),
       inRow(
         textButton(t('Copy'), () => copy(app, name)),
-        textButton(t('Delete body'), () => app.selection.deleteBodies(), 'danger')),
+        textButton(t('Delete body'), () => app.selection.deleteSelected(), 'danger')),
       createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
       ...app.trail.switches(name),
       app.plots.element,
     ],
+    live: (view) => {
+      app.numbers.show(name);
+      drawWay(view, app.world, name);
+    },
   };
 }
 
@@ -166,13 +175,14 @@ export function bodyContent(app, name) {
  * @param {string[]} names
  * @returns {Content}
  */
-export function severalContent(app, names) {
-  return {title: t('{count} bodies', {count: names.length}), first: [app.numbers.totals], rest: [
+function severalContent(app, names) {
+  const totals = createElement('p', {className: 'numbers'});
+  return {title: t('{count} bodies', {count: names.length}), first: [totals], live: () => showText(totals, totalsOf(app.world, names)), rest: [
     createElement('p', {textContent: t('Drag them with the lasso.')}),
     inRow(textButton(t('Copy beside'), () => {
       const [left, , right] = app.world.boundsOfAll(names);
       app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
-    }), textButton(t('Plot them'), () => app.plotWindow.open(names)), textButton(t('Delete bodies'), () => app.selection.deleteBodies(), 'danger')),
+    }), textButton(t('Plot them'), () => app.plotWindow.open(names)), textButton(t('Delete bodies'), () => app.selection.deleteSelected(), 'danger')),
     ...arrangeButtons(app, names)]};
 }
 
@@ -184,3 +194,6 @@ function copy({world, connection}, name) {
   const row = world.row(name);
   if (row >= 0) connection.send('copy', {name, to: [world.frame.x[row] + BESIDE, world.frame.y[row] + BESIDE]});
 }
+
+/** Of each kind of subject, by its names; null where that is gone. @type {Record<Exclude<Kind, ''>, (app: App, names: string[]) => ?Content>} */
+const CONTENTS = {body: bodyContent, several: severalContent, joint: jointContent, world: worldContent, measure: ({stopwatch}) => stopwatch.content()};

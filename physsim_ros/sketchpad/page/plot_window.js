@@ -6,6 +6,7 @@ import {FORCES, QUANTITIES, tableOf} from './numbers.js';
 import {drawChart} from './plots.js';
 import {threeDigits} from './rounding.js';
 import {t} from './strings.js';
+import {distance} from './vectors.js';
 
 /** @import {App, Palette, Sample} from './types.js' */
 /** @import {Curve, Scales} from './plots.js' */
@@ -131,7 +132,7 @@ export class PlotWindow {
     /** @type {Curve[]} */
     const curves = [];
     this.names.forEach((name, i) => {
-      const body = world.scene.bodies.find((each) => each.name === name), record = records.bodies.get(name);
+      const body = world.body(name), record = records.bodies.get(name);
       if (!body || !record) return;
       const points = (/** @type {Sample[]} */ samples) => samples.map((sample) =>
         [QUANTITIES[x].of(sample, body, gravity), QUANTITIES[y].of(sample, body, gravity)]).filter((point) => point.every(Number.isFinite));
@@ -160,8 +161,8 @@ export class PlotWindow {
     }
     let least = Infinity, nearest = [0, 0], color = '';
     for (const curve of curves) for (const point of curve.points) {
-      const distance = Math.hypot(scales.x(point[0]) - pointed[0], scales.y(point[1]) - pointed[1]);
-      if (distance < least) [least, nearest, color] = [distance, point, curve.color];
+      const far = distance([scales.x(point[0]), scales.y(point[1])], pointed);
+      if (far < least) [least, nearest, color] = [far, point, curve.color];
     }
     if (!color) return;
     const told = (/** @type {'x' | 'y'} */ axis, /** @type {number} */ value) =>
@@ -179,11 +180,11 @@ export class PlotWindow {
    * @returns {string} CSV
    */
   #tableOf(names) {
-    const {world: {scene}, records} = this.app;
+    const {world, records} = this.app;
     return tableOf(names.flatMap((name) => {
-      const body = scene.bodies.find((each) => each.name === name);
+      const body = world.body(name);
       return body ? [{name, body, samples: records.samples(name)}] : [];
-    }), scene.gravity);
+    }), world.scene.gravity);
   }
 
   /** @param {string[]} names of bodies */

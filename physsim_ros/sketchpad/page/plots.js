@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Charts: axes with round steps and curves on a canvas; and those of the selected body, beside the exact curves of free flight. */
 
-import {createElement, elementOf, inRow, textButton} from './dom.js';
+import {createElement, inRow, textButton} from './dom.js';
 import {QUANTITIES} from './numbers.js';
 import {digits, multiplesOf, roundUp} from './rounding.js';
 import {t} from './strings.js';
@@ -167,34 +167,4 @@ function heightsOf(curves) {
   if (least > most) return [0, 1];
   const margin = Math.max((most - least) * MARGIN, Math.abs(most) * 0.02, 0.05);
   return [least - margin, most + margin];
-}
-
-/** The large plot, whose script is loaded when it is opened first. */
-export class LargePlot {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    this.element = elementOf('plot', HTMLElement);
-    /** @type {?import('./plot_window.js').PlotWindow} */
-    this.window = null;
-  }
-
-  async #load() {
-    const {PlotWindow} = await import('./plot_window.js');
-    return this.window ??= new PlotWindow(this.app);
-  }
-
-  /** @param {string[]} names of bodies */
-  async open(names) {
-    (await this.#load()).open(names);
-  }
-
-  /** @param {string[]} names of bodies */
-  async saveTable(names) {
-    (await this.#load()).saveTable(names);
-  }
-
-  close() {
-    this.window?.close();
-  }
 }

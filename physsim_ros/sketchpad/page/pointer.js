@@ -65,9 +65,9 @@ export class Pointers {
       app.time.endRewind();
       const touch = this.#touch(event);
       this.worked = app.handles.isAt(touch) ? app.handles : app.tool;
-      this.worked.down(touch);
+      this.worked.down?.(touch);
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
-      this.worked.cancel();
+      this.worked.cancel?.();
       this.working = -1;
     }
     app.view.dirty = true;
@@ -75,7 +75,7 @@ export class Pointers {
 
   /** Forget what fingers do. */
   #forget() {
-    if (this.working >= 0) this.worked.cancel();
+    if (this.working >= 0) this.worked.cancel?.();
     this.working = -1;
     this.down.clear();
   }
@@ -86,10 +86,10 @@ export class Pointers {
     if (!before && event.pointerType === 'touch') return;
     if (event.pointerId === this.working) {
       const parts = event.getCoalescedEvents?.() ?? [];
-      for (const part of parts.length ? parts : [event]) this.worked.move(this.#touch(part));
+      for (const part of parts.length ? parts : [event]) this.worked.move?.(this.#touch(part));
     } else if (before) this.#moveView(event, before);
     else {
-      app.tool.move(this.#touch(event));
+      app.tool.move?.(this.#touch(event));
       app.selection.hover(this.#touch(event));
       app.handles.point(this.#touch(event));
     }
@@ -136,7 +136,7 @@ export class Pointers {
   /** @param {PointerEvent} event */
   #cancel(event) {
     this.down.delete(event.pointerId);
-    if (event.pointerId === this.working) this.worked.cancel();
+    if (event.pointerId === this.working) this.worked.cancel?.();
     this.working = -1;
   }
 

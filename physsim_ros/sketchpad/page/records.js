@@ -7,6 +7,7 @@
 import {checkField} from './dom.js';
 import {forcesOf, sumsOf} from './forces.js';
 import {t} from './strings.js';
+import {distance} from './vectors.js';
 
 /** @import {App, Force, Point, Sample, SceneView} from './types.js' */
 
@@ -195,11 +196,11 @@ export class Trail {
     const {palette} = view;
     view.line(samples.map(({x, y}) => [x, y]), palette.faint, [2, 5]);
     if (!flashes) return;
-    let last = [-Infinity, -Infinity];
+    let last = /** @type {Point} */ ([-Infinity, -Infinity]);
     flashesOf(samples).forEach((number, i) => {
       const {x, y, vx, vy} = samples[number], at = view.camera.toPage(x, y);
       // On a slow way one in so many, so that images do not hide each other.
-      if (Math.hypot(at[0] - last[0], at[1] - last[1]) < APART) return;
+      if (distance(at, last) < APART) return;
       last = at;
       this.#flash(view, row, samples, number);
       const speed = Math.hypot(vx, vy) || 1, aside = /** @type {Point} */ ([vy / speed, vx / speed]);

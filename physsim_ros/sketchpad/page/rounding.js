@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Numbers as people read and write them in their language: three digits, round steps of scales, and points on the grid. */
+/** Numbers as people read and write them in their language: three digits, and round steps of scales. */
 
 import {localized} from './strings.js';
-
-/** @import {Point} from './types.js' */
 
 /** @param {number} value */
 export function threeDigits(value) {
@@ -52,13 +50,4 @@ export function roundUp(value) {
 export function multiplesOf(step, from, to) {
   const first = Math.ceil(from / step);
   return Array.from({length: Math.floor(to / step) - first + 1}, (_, i) => (first + i) * step);
-}
-
-/**
- * @param {Point} point
- * @param {number} grid distance of lines; 0 is no grid
- * @returns {Point} where they cross next to it
- */
-export function onGrid([x, y], grid) {
-  return grid ? [Math.round(x / grid) * grid, Math.round(y / grid) * grid] : [x, y];
 }

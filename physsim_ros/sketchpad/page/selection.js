@@ -43,12 +43,10 @@ export class Selection {
   }
 
   /** Delete the selected bodies, or the joint. */
-  deleteBodies() {
-    if (this.app.panel.joint) {
-      this.app.joints.delete();
-      return;
-    }
-    if (this.names.size) this.app.connection.send('delete', {names: [...this.names]});
+  deleteSelected() {
+    const {connection, panel: {joint}} = this.app;
+    if (joint) connection.send('unjoin', {name: joint});
+    else if (this.names.size) connection.send('delete', {names: [...this.names]});
     this.select([]);
   }
 

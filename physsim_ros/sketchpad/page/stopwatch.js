@@ -47,14 +47,13 @@ export class Stopwatch {
       this.#follow();
       this.touches = [];
       this.since = -1;
-      this.#update();
+      this.app.view.dirty = true;
     });
   }
 
   /** @returns {Content} of the panel */
   content() {
-    queueMicrotask(() => this.#update());
-    return {title: t('Measure'), rest: [
+    return {title: t('Measure'), live: () => this.#show(), rest: [
       createElement('p', {textContent: t('Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.')}),
       createElement('h3', {textContent: t('Stopwatch')}),
       this.#chooser('start', t('Starts when touched'), t('at 0 s')),
@@ -67,7 +66,7 @@ export class Stopwatch {
       this.#chooser('counted', t('Collisions of'), t('no body')),
       this.count, inRow(textButton(t('Count from here'), () => {
         this.since = this.shown;
-        this.#update();
+        this.app.view.dirty = true;
       }))]};
   }
 
@@ -87,7 +86,7 @@ export class Stopwatch {
     const names = [...new Set([this.start, this.stop, this.counted])].filter((name) => name);
     if (names.length || this.following) this.app.connection.send('follow', {names});
     this.following = names.length > 0;
-    this.#update();
+    this.app.view.dirty = true;
   }
 
   /** @param {[string, string, number][]} touches */
@@ -99,7 +98,7 @@ export class Stopwatch {
     }
     this.touches.sort((one, other) => one.time - other.time);
     this.touches.splice(0, this.touches.length - MOST);
-    this.#update();
+    this.app.view.dirty = true;
   }
 
   /** @param {number} time [s] that is shown */
@@ -110,22 +109,21 @@ export class Stopwatch {
       this.since = Math.min(this.since, time);
     }
     this.shown = time;
-    this.#update();
   }
 
   /** Start the stopwatch by hand, stop it, or begin anew. */
   press() {
     if (this.began !== null && this.ended === null) this.ended = this.shown;
     else [this.began, this.ended, this.laps] = [this.shown, null, []];
-    this.#update();
-    this.app.notes.showMessage(t('Stopwatch {time}', {time: this.byHand.textContent ?? ''}));
+    this.app.view.dirty = true;
+    this.app.notes.showMessage(t('Stopwatch {time}', {time: this.#handText()}));
   }
 
   /** Note a lap of the stopwatch by hand: of a swing it is the period. */
   lap() {
     if (this.began === null || this.ended !== null) return;
     this.laps.push(this.shown);
-    this.#update();
+    this.app.view.dirty = true;
     this.app.notes.showMessage(t('Lap {time}', {time: this.#lapTexts().at(-1) ?? ''}));
   }
 
@@ -133,11 +131,16 @@ export class Stopwatch {
     return this.laps.map((time, i) => `${fixed(time - (i ? this.laps[i - 1] : this.began ?? 0), 3)} s`);
   }
 
-  #update() {
+  /** @returns {string} the time of the stopwatch by hand */
+  #handText() {
+    return this.began === null ? '–' : `${fixed((this.ended ?? this.shown) - this.began, 3)} s`;
+  }
+
+  #show() {
     const {start, stop} = this.#run(), begin = this.start ? start?.time : 0;
     const end = stop?.time ?? (this.stop ? this.shown : undefined);
     this.time.textContent = begin === undefined || end === undefined ? '–' : `${fixed(end - begin, 4)} s`;
-    this.byHand.textContent = this.began === null ? '–' : `${fixed((this.ended ?? this.shown) - this.began, 3)} s`;
+    this.byHand.textContent = this.#handText();
     this.lapList.textContent = this.#lapTexts().slice(-MOST_LAPS).join(', ');
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
     this.details.textContent = [start && t('started at {time} s by {name}', {time: fixed(start.time, 4), name: start.other || t('a wall')}),

@@ -4,7 +4,7 @@
  * arrow keys move within it (WAI-ARIA, pattern *Toolbar*).
  */
 
-import {createElement, elementOf, iconButton, toggling} from './dom.js';
+import {createElement, elementOf, iconButton, showText, toggling} from './dom.js';
 import {switchTheme} from './settings.js';
 import {t} from './strings.js';
 import {ClickTool} from './tools/click_tool.js';
@@ -89,7 +89,7 @@ export class Toolbar {
   #select(id) {
     const selected = this.tools.get(id);
     if (!selected) return;
-    this.app.tool?.cancel();
+    this.app.tool?.cancel?.();
     this.app.tool = selected.tool;
     this.app.view.canvas.dataset.tool = id;
     for (const [each, {button}] of this.tools) button.setAttribute('aria-pressed', String(each === id));
@@ -102,10 +102,7 @@ export class TopBar {
   constructor(app) {
     this.app = app;
     const zoom = createElement('span', {className: 'zoom'});
-    app.view.overlays.push(() => {
-      const share = `${Math.round(100 * app.camera.scale / app.camera.whole)} %`;
-      if (zoom.textContent !== share) zoom.textContent = share;
-    });
+    app.view.overlays.push(() => showText(zoom, `${Math.round(100 * app.camera.scale / app.camera.whole)} %`));
     this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
       textContent: 'Rerun', title: t('The recording')});
     elementOf('files', HTMLElement).append(
@@ -148,8 +145,8 @@ export class TopBar {
   }
 }
 
-/** Directions on the page. @type {Record<string, [number, number]>} */
-const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+/** Directions of keys on the page. @type {Record<string, [number, number]>} */
+export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
 const ASIDE = 3; // weight of the distance across the direction of an arrow key
 
 /**

@@ -265,11 +265,11 @@ export interface Touch {
 
 /** What works a pointer: a tool of the toolbar, or the arrow of a velocity. */
 export interface Tool {
-  down(touch: Touch): void;
-  move(touch: Touch): void;
+  down?(touch: Touch): void;
+  move?(touch: Touch): void;
   up(touch: Touch): void;
-  cancel(): void;
-  draw(view: SceneView): void;
+  cancel?(): void;
+  draw?(view: SceneView): void;
   /** Whether wheel, R and a second finger turn the body in the tool. */
   turns?: boolean;
   /** @param angle [rad] */

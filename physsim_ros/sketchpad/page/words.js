@@ -4,7 +4,7 @@
  * by their names and begin with the verb of the request: `spawned drawn/3` is *Circle added* here.
  */
 
-import {refusalText, t} from './strings.js';
+import {localized, refusalText, t} from './strings.js';
 
 /** @import {Body, Connection} from './types.js' */
 
@@ -14,6 +14,8 @@ const THINGS = new Map([['disc', t('circle')], ['rectangle', t('rectangle')], ['
   ['motor', t('motor')], ['slider', t('slider')], ['gear', t('gear')], ['anchor', t('anchor')], ['velocity', t('velocity')], ['gravity', t('gravity')],
   ['delete', t('delete')], ['hatching', t('heavier by hatching')], ['all bodies', t('all bodies')], ['several bodies', t('several bodies')],
   ['all joints', t('all joints')], ['world', t('the world')], ['settings', t('settings')]]);
+/** What the server calls the numbers of a body, where it refuses one. */
+const NUMBERS = new Map([['friction', t('friction')], ['density', t('density')], ['elasticity', t('bounciness')], ['mass', t('mass')], ['spin', t('spin')]]);
 /** Verbs before the name of a body, and what is said of it. */
 const VERBS = new Map([['spawned', t('{thing} added')], ['changed', t('{thing} changed')], ['moved', t('{thing} moved')], ['deleted', t('{thing} deleted')],
   ['anchored', t('{thing} anchored')], ['released', t('{thing} released')], ['set velocity of', t('{thing} has a new velocity')]]);
@@ -41,7 +43,8 @@ const SENTENCES = [
   [/(?<=; next: )the next corner, or .*/, t('the next corner, or the first one again')], [/(?<=; next: )a point of the side across$/, t('a point of the side across')],
   [/(?<=; next: )its tip$/, t('the tip')], [/(?<=; next: )its tip, 1 m for 1 m\/s$/, t('the tip, 1 m for 1 m/s')],
   [/(?<=; next: )the tip of its arrow, 1 m for 10 N$/, t('the tip, 1 m for 10 N')], [/^.*; next: /, `${t('Next:')} `],
-  [/^a chain of (\d+) links from .+/, t('Chain of $1 links added')], [/^pose is /, t('position is') + ' '], [/^the yaw of pose /, t('the angle') + ' '], [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')], [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')], [/^redid .*/, t('Redone')], [/^(back )?at the beginning, .*/, t('Back at the beginning')],
+  [/^a chain of (\d+) links from .+/, t('Chain of $1 links added')], [/^(\S+) is (\S+); it must lie between (\S+) and /, t('$1 is $2; it must lie between $3 and') + ' '], [/^pose is further away than /, t('position is further away than') + ' '],
+  [/^pose is /, t('position is') + ' '], [/^the yaw of pose /, t('the angle') + ' '], [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')], [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')], [/^redid .*/, t('Redone')], [/^(back )?at the beginning, .*/, t('Back at the beginning')],
   [/ at \([^)]*\)$/, ` ${t('here')}`],
 ];
 const LISTED = 200; // bodies that can be chosen from
@@ -110,7 +113,8 @@ export class Words {
     if (VERBS.has(verb)) return said(verb, this.title(subject));
     // There may be a body there, which the knife has not passed.
     if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
-    const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message)));
+    const named = message.replace(/^\w+(?= is )/, (word) => NUMBERS.get(word) ?? word);
+    const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), named))).replace(/\d\.\d/g, localized);
     return ok ? told : refusalText(code, told);
   }
 

@@ -3,6 +3,7 @@
 
 import {checkField, createElement, inRow, range, textButton} from './dom.js';
 import {t} from './strings.js';
+import {DEGREE} from './vectors.js';
 
 /** @import {App} from './types.js' */
 /** @import {Content} from './panel.js' */
@@ -23,7 +24,7 @@ const RANGES = [['density', t('Density [kg/m²]'), 0.1, 10, 0.1], ['friction', t
   ['elasticity', t('Bounciness'), 0, 1, 0.05]];
 /** Gravity at the surface [m/s²]. */
 const PLACES = {[t('Earth')]: 9.81, [t('Moon')]: 1.62, [t('Mars')]: 3.71, [t('None')]: 0};
-const DEGREE = Math.PI / 180, STEP = 15; // rad; degrees of the slider
+const STEP = 15; // degrees of the slider
 let turn = 0; // of gravity from down, counter-clockwise [°]: as it was, while there is none
 
 /**

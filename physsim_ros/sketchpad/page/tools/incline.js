@@ -5,8 +5,9 @@
  */
 
 import {createElement, numberField} from '../dom.js';
-import {digits, onGrid} from '../rounding.js';
+import {digits} from '../rounding.js';
 import {t} from '../strings.js';
+import {DEGREE, isTap, onGrid, polar} from '../vectors.js';
 
 /** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
 
@@ -15,9 +16,7 @@ import {t} from '../strings.js';
  *   where it rises to the right, -1 to the left; angle [°]; length of the slope [m]
  */
 
-const DEGREE = Math.PI / 180; // rad
 const USUAL = {side: 1, angle: 30, length: 4}; // of a tap
-const TAP = 5; // px: no farther is a tap
 const STEEPEST = 89, ROUGH = 15; // °: the greatest angle that is drawn, and steps while the key of the grid is held
 const STRAIGHT = 1e-3; // share of a side by which it may be out of the level or the vertical
 
@@ -70,13 +69,13 @@ export class InclineTool {
    * @param {Touch} end
    * @returns {Incline} between them, in whole degrees
    */
-  #drawn({at, page, grid}, end) {
-    const [x, y] = onGrid(at, grid);
-    if (Math.hypot(end.page[0] - page[0], end.page[1] - page[1]) <= TAP) return {foot: [x, y], ...USUAL};
+  #drawn(start, end) {
+    const [x, y] = onGrid(start.at, start.grid);
+    if (isTap(start, end)) return {foot: [x, y], ...USUAL};
     const dx = end.at[0] - x, dy = end.at[1] - y, turn = end.grid ? ROUGH : 1, step = end.grid || this.app.camera.fineStep / 4;
     const degrees = Math.round(Math.atan2(Math.abs(dy), Math.abs(dx)) / DEGREE / turn) * turn;
     const angle = Math.min(Math.max(degrees, turn), STEEPEST), length = Math.max(Math.round(Math.hypot(dx, dy) / step), 1) * step;
-    const [across, up] = [length * Math.cos(angle * DEGREE), length * Math.sin(angle * DEGREE)], right = dx < 0 ? -1 : 1;
+    const [across, up] = polar(length, angle * DEGREE), right = dx < 0 ? -1 : 1;
     // It may be drawn down its slope, too.
     return dy < 0 ? {foot: [x + right * across, y - up], side: -right, angle, length} : {foot: [x, y], side: right, angle, length};
   }
@@ -119,8 +118,8 @@ export function inclineFields(app, {name, shape}) {
  * @returns {{polygon: Point[], at: number[]}} of its body, as in a world file
  */
 function shapeOf({foot, side, angle, length}) {
-  const across = side * length * Math.cos(angle * DEGREE), up = length * Math.sin(angle * DEGREE);
-  return {polygon: [[0, 0], [across, 0], [across, up]], at: [...foot, 0]};
+  const [across, up] = polar(length, angle * DEGREE);
+  return {polygon: [[0, 0], [side * across, 0], [side * across, up]], at: [...foot, 0]};
 }
 
 /**

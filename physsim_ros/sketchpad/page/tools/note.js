@@ -18,10 +18,6 @@ export class Note {
     this.clicks = 1;
   }
 
-  down() {}
-
-  move() {}
-
   /** @param {Touch} touch */
   up({at, page: [x, y]}) {
     const {app} = this, em = LETTERS / app.camera.scale;
@@ -34,10 +30,6 @@ export class Note {
     elementOf('places', HTMLElement).append(field);
     field.focus();
   }
-
-  cancel() {}
-
-  draw() {}
 }
 
 /**
