@@ -102,34 +102,6 @@ class Unjoin(Request):
     name: Annotated[str, text, 'of the joint']
 
 
-def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
-    """Return a check of a tuple of requests of some kinds."""
-
-    def check(value: object, name: str) -> tuple[Any, ...]:
-        if not isinstance(value, tuple) or not all(isinstance(each, kinds) for each in value):
-            raise Malformed(f'{name} must be a tuple of requests, not {shown(value)}', field=name)
-        return value
-
-    return check
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Cut(Request):
-    """Cut bodies into pieces, and joints through; if a part of it is refused, nothing is cut."""
-
-    OBJECT = 'several bodies'
-
-    pieces: Annotated[
-        tuple[ChangeBody | Spawn, ...],
-        _parts(ChangeBody, Spawn),
-        'a change of each body into its largest piece, and the other pieces',
-    ]
-    joints: Annotated[tuple[Join, ...], _parts(Join), 'joints that are then on another piece'] = ()
-    severed: Annotated[
-        tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
-    ] = ()
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UnjoinAll(OfNamespace):
     """Remove all joints, or all of a namespace."""
