@@ -220,8 +220,6 @@ def test_motion_under_way_is_saved_and_loaded_to_the_bit(tmp_path):
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {aim: [1, 2, .nan]}}', 'malformed'),
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {seconds: -1}}', 'bad_property'),
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {wheel: 1}}', 'unknown_property'),
-        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {path: [1, -1]}}', 'bad_property'),
-        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {path: [1]}}', 'malformed'),
         ('{name: b/0, circle: {radius: 1}, robot: car, anchored: true}', 'bad_property'),
     ],
 )
