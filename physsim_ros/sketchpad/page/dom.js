@@ -181,6 +181,21 @@ export function showText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }
 
+/**
+ * @param {() => void} show
+ * @param {number} pause [ms]
+ * @returns {() => void} has it shown soon, once for all calls of a pause
+ */
+export function soon(show, pause) {
+  let timer = 0;
+  return () => {
+    timer ||= setTimeout(() => {
+      timer = 0;
+      show();
+    }, pause);
+  };
+}
+
 /** @param {Node[]} children beside each other */
 export function inRow(...children) {
   return createElement('div', {className: 'row'}, ...children);

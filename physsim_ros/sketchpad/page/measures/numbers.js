@@ -2,6 +2,7 @@
 /** The numbers of the selected body now: mass, place, angle, velocity, momentum, energies, which can be typed, too. */
 
 import {createElement, numberField, showText} from '../dom.js';
+import {neighboursOf} from '../view/forces.js';
 import {energiesOf, momentumText, motionOf, number, originOf, placed} from './quantities.js';
 import {digits, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
@@ -62,12 +63,9 @@ export class Numbers {
    * @returns {string} the friction with each body that it touches
    */
   #pairsOf(row) {
-    const {world: {frame: {contacts}, scene: {bodies}}, words} = this.app, others = new Set();
-    for (let i = 0; contacts && i < contacts.a.length; i++) {
-      const other = contacts.a[i] === row ? contacts.b[i] : contacts.b[i] === row ? contacts.a[i] : -1;
-      if (other >= 0) others.add(other);
-    }
-    return [...others].slice(0, MOST_PAIRS).map((other) =>
+    const {world: {touches, scene: {bodies}}, words} = this.app;
+    const others = [...neighboursOf(touches, new Set([row]))].filter((other) => other >= 0);
+    return others.slice(0, MOST_PAIRS).map((other) =>
       t('Friction with {name}: {friction}', {name: words.of(bodies[other].name), friction: threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction))})).join(' · ');
   }
 

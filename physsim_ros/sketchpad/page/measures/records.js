@@ -26,7 +26,7 @@ export class Records {
     this.recordsForces = false; // where they are plotted
     this.course = 0;
     this.began = 0; // [s] when this world was opened
-    app.connection.on('frame', ({ghost}) => ghost || this.#record());
+    app.connection.on('frame', () => this.#record());
     app.connection.on('timeline', ({course, now}) => this.#follow(course, now));
     app.connection.on('body', (body) => this.#addPast(body));
     // The answers to what was asked are lost.

@@ -59,7 +59,7 @@ export class TimeBar {
     this.slider.addEventListener('change', () => { this.held = false; });
     this.speed.addEventListener('click', () => this.#changeSpeed());
     app.connection.on('timeline', () => this.showTimeline());
-    app.connection.on('frame', ({ghost}) => ghost || this.#measurePace());
+    app.connection.on('frame', () => this.#measurePace());
     app.connection.on('world', () => { this.explained = false; });
     app.connection.on('open', () => {
       this.busy = false;

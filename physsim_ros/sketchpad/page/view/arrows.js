@@ -167,7 +167,7 @@ export class Arrows {
     const {world, camera, selection, viewOnly} = this.app, all = forcesOf(world), {bodies} = world.scene;
     const selected = new Set([...selection.names].map((name) => world.row(name)));
     const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all);
-    const some = all.some(isSelected), beside = some ? neighboursOf(world, selected) : selected;
+    const some = all.some(isSelected), beside = some ? neighboursOf([...world.touches, ...world.scene.joints], selected) : selected;
     const few = viewOnly || bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).length <= FEW;
     if (!some && !few) this.hint.textContent = t('Tap a body: its forces, and those of what touches it.');
     const forces = [...all, ...sums].filter((force) => !this.off.has(force.kind) && (some ? isSelected(force) || beside.has(force.row) : few));
