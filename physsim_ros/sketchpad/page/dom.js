@@ -75,7 +75,8 @@ export function textOf(field) {
 }
 
 /**
- * A field for a number, with a decimal point or comma. What is none becomes again what it was.
+ * A field for a number, with a decimal point or comma. What is none becomes again what it was. The keys `decimal` of a
+ * telephone (`inputMode`) have no minus.
  * @param {?number} value null is an empty field
  * @param {(value: ?number) => void} change gets null for a field that was emptied
  * @param {Record<string, any>} properties
@@ -101,7 +102,7 @@ export function numberField(value, change, properties = {}) {
  * @param {(value: number) => void} change when it is let go
  */
 export function range(label, min, max, step, value, change) {
-  const typed = numberField(value, (now) => now !== null && change(now), {'aria-label': t('{quantity}, typed', {quantity: label}),
+  const typed = numberField(value, (now) => now !== null && change(now), {inputMode: min < 0 ? 'text' : 'decimal', 'aria-label': t('{quantity}, typed', {quantity: label}),
     oninput: () => {
       const now = numberOf(typed.value);
       input.max = String(Math.max(max, now || 0));

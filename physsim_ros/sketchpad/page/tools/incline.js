@@ -109,7 +109,7 @@ export function inclineFields(app, {name, shape}) {
       app.notes.showMessage(t('The angle of a slope lies between 0° and 90°, and its length is not 0'), {ok: false});
       app.panel.render();
     }
-  }));
+  }, {inputMode: 'decimal'}));
   return [field(t('Angle of the slope [°]'), 'angle'), field(t('Length of the slope [m]'), 'length')];
 }
 

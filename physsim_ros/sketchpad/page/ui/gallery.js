@@ -84,18 +84,10 @@ export class Gallery {
     ...this.app.lessons.section(), createElement('h3', {textContent: t('To explore, simplest first')}), cards(shipped));
   }
 
-  /**
-   * @param {string} name
-   * @returns {string} as people write it, of a shipped world in the language of the page
-   */
-  #headingOf(name) {
-    return this.worlds.some((each) => each.name === name && each.shipped) ? t(capital(name.replaceAll('_', ' '))) : name;
-  }
-
   /** @param {typeof this.worlds[0]} world */
   #card({name, title, picture, shipped}) {
-    const heading = this.#headingOf(name);
-    const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
+    const heading = shipped ? t(capital(name.replaceAll('_', ' '))) : name;
+    const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.follow(this.app.connection.openWorld(name), heading, shipped ? '' : name)},
       picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
       createElement('strong', {textContent: heading}),
       // A title that only repeats the name tells nothing.
@@ -218,14 +210,19 @@ export class Gallery {
       textButton(t('Picture (PNG)'), () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
   }
 
-  /** @param {string} name */
-  async #open(name) {
+  /**
+   * Show the world that is being opened, as soon as it is.
+   * @param {Promise<boolean>} opening whether it is open
+   * @param {string} heading
+   * @param {string} name of an own world, under which it is saved again
+   */
+  async follow(opening, heading, name = '') {
     this.dialog.close();
-    if (!(await this.app.connection.openWorld(name))) return;
+    if (!(await opening)) return;
     this.dismiss();
     this.app.room.frameNext();
-    this.app.notes.showMessage(t('Opened {name}', {name: this.#headingOf(name)}));
-    this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
+    this.app.notes.showMessage(t('Opened {name}', {name: heading}));
+    this.name = name;
   }
 
   /**

@@ -52,19 +52,15 @@ export class Lessons {
     if (!this.list.length) return [];
     return [createElement('h3', {textContent: t('Lessons')}),
       createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
-        createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
+        createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.#open({name, title})},
           createElement('strong', {}, number ? `${number}. ${t(title)} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
           createElement('small', {textContent: t(question)})))))];
   }
 
-  /** @param {string} name */
-  async #open(name) {
+  /** @param {{name: string, title: string}} lesson */
+  #open({name, title}) {
     const {connection, gallery} = this.app;
-    gallery.dialog.close();
-    if (!(await connection.openLesson(name))) return;
-    gallery.dismiss();
-    this.app.room.frameNext();
-    this.app.notes.showMessage(t('Opened {name}', {name: t(this.list.find((each) => each.name === name)?.title ?? name)}));
+    gallery.follow(connection.openLesson(name), t(title));
   }
 
   /** Offer the lesson of a link: the link of a stranger does not replace the world of a class. */
@@ -74,7 +70,7 @@ export class Lessons {
     if (!name || viewOnly || lesson && lesson.title === world.scene.lesson?.title) return;
     history.replaceState(null, '', location.pathname);
     if (!lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
-    else gallery.show(t(lesson.title), createElement('p', {textContent: t(lesson.question)}), inRow(textButton(t('Open the lesson'), () => this.#open(name))));
+    else gallery.show(t(lesson.title), createElement('p', {textContent: t(lesson.question)}), inRow(textButton(t('Open the lesson'), () => this.#open(lesson))));
   }
 
   /** @param {?Lesson | undefined} lesson whose card is made anew */
@@ -114,7 +110,7 @@ export class Lessons {
     }, shown);
     const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
     const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
-    if (next) buttons.push(textButton(t('Next lesson'), () => this.#open(next.name)));
+    if (next) buttons.push(textButton(t('Next lesson'), () => this.#open(next)));
     return [createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${t(measure)}`), createElement('div', {className: 'answer'}, form, result),
       folded(t('Hint'), t(hint)), solution, inRow(...buttons)];
   }
