@@ -102,7 +102,9 @@ export function numberField(value, change, properties = {}) {
  * @param {(value: number) => void} change when it is let go
  */
 export function range(label, min, max, step, value, change) {
-  const typed = numberField(value, (now) => now !== null && change(now), {inputMode: min < 0 ? 'text' : 'decimal', 'aria-label': t('{quantity}, typed', {quantity: label}),
+  const typed = numberField(value, (now) => now !== null && change(now), {
+    inputMode: min < 0 ? 'text' : 'decimal',
+    'aria-label': t('{quantity}, typed', {quantity: label}),
     oninput: () => {
       const now = numberOf(typed.value);
       input.max = String(Math.max(max, now || 0));

@@ -65,8 +65,10 @@ export class Numbers {
   #pairsOf(row) {
     const {world: {touches, scene: {bodies}}, words} = this.app;
     const others = [...neighboursOf(touches, new Set([row]))].filter((other) => other >= 0);
-    return others.slice(0, MOST_PAIRS).map((other) =>
-      t('Friction with {name}: {friction}', {name: words.of(bodies[other].name), friction: threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction))})).join(' · ');
+    return others.slice(0, MOST_PAIRS).map((other) => {
+      const friction = threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction));
+      return t('Friction with {name}: {friction}', {name: words.of(bodies[other].name), friction});
+    }).join(' · ');
   }
 
   /**

@@ -111,7 +111,9 @@ export class Lessons {
     const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
     const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
     if (next) buttons.push(textButton(t('Next lesson'), () => this.#open(next)));
-    return [createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${t(measure)}`), createElement('div', {className: 'answer'}, form, result),
+    return [
+      createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${t(measure)}`),
+      createElement('div', {className: 'answer'}, form, result),
       folded(t('Hint'), t(hint)), solution, inRow(...buttons)];
   }
 }
