@@ -306,7 +306,11 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
 def cut_of(rng: Choices) -> Cut:
     """Return a cut; a part of it may be refused after others."""
     largest = ChangeBody(name=rng.choice(rng.names), shape=rng.choice(SHAPES))
-    return Cut(pieces=(largest, spawn_of(rng)), joints=(join_of(rng),))
+    return Cut(
+        pieces=(largest, spawn_of(rng)),
+        joints=(join_of(rng),),
+        severed=(Unjoin(name=rng.choice(rng.joints)),),
+    )
 
 
 def request_of(rng: Choices) -> Request:

@@ -26,12 +26,10 @@ from physsim_ros.model.requests.bodies import (
 )
 from physsim_ros.model.requests.hands import (
     Grab,
-    GrabToPlace,
     HandRequest,
     KeepHand,
     LetGo,
     MoveHand,
-    PlaceHand,
 )
 from physsim_ros.model.requests.joints import (
     Axle,
@@ -63,7 +61,6 @@ __all__ = [
     'DeleteBodies',
     'DriveRobot',
     'Grab',
-    'GrabToPlace',
     'HandRequest',
     'Join',
     'KeepHand',
@@ -72,7 +69,6 @@ __all__ = [
     'MoveHand',
     'OfNamespace',
     'Pin',
-    'PlaceHand',
     'Release',
     'Request',
     'Restore',

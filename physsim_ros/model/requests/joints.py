@@ -102,6 +102,14 @@ class Unjoin(Request):
     name: Annotated[str, text, 'of the joint']
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnjoinAll(OfNamespace):
+    """Remove all joints, or all of a namespace."""
+
+    VERB = 'delete'
+    OBJECT = 'all joints'
+
+
 def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
     """Return a check of a tuple of requests of some kinds."""
 
@@ -128,14 +136,6 @@ class Cut(Request):
     severed: Annotated[
         tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
     ] = ()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class UnjoinAll(OfNamespace):
-    """Remove all joints, or all of a namespace."""
-
-    VERB = 'delete'
-    OBJECT = 'all joints'
 
 
 def join_from(
