@@ -23,12 +23,19 @@ export function createElement(tag, properties = {}, ...children) {
 
 /** @param {string} id of a symbol in icons.svg */
 export function icon(id) {
-  const name = 'http://www.w3.org/2000/svg', svg = document.createElementNS(name, 'svg');
-  const use = document.createElementNS(name, 'use');
-  use.setAttribute('href', `/page/icons.svg#${id}`);
-  svg.setAttribute('aria-hidden', 'true');
-  svg.append(use);
-  return svg;
+  return createGraphic('svg', {'aria-hidden': 'true'}, createGraphic('use', {href: `/page/icons.svg#${id}`}));
+}
+
+/**
+ * @param {string} tag of SVG
+ * @param {Record<string, string>} attributes
+ * @param {Node[]} children
+ */
+export function createGraphic(tag, attributes, ...children) {
+  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
 }
 
 /**
