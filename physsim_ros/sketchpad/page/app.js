@@ -17,6 +17,7 @@ import {Handles} from './input/handles.js';
 import {Hints, Tips} from './ui/hints.js';
 import {Cursor, Keyboard} from './input/keyboard.js';
 import {Lessons} from './ui/lessons.js';
+import {Links} from './ui/links.js';
 import {Narrator, Sound} from './ui/narrator.js';
 import {Notes, Refusals} from './ui/notes.js';
 import {Numbers} from './measures/numbers.js';
@@ -74,6 +75,7 @@ export class App {
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);
     this.gallery = new Gallery(this);
+    this.links = new Links(this);
     /** @type {Tool} */
     this.tool = {up() {}};
     this.hints = new Hints(this);
