@@ -168,13 +168,16 @@ class PhysSimNode(NodeWithoutQosEvents):
         create_simulation_services(self, control, calls)
 
     def start(self) -> None:
-        """Start the viewer and the diagnostics; `tick` advances time from now on."""
+        """Start viewer and diagnostics, and show the first frame; `tick` advances time."""
         self.loop.started = True
         self._pages.print_addresses()
         # A viewer that is opened begins a recording anew that has failed.
         self._open_viewer()
         if self._values['record_file']:
             self.outputs.viewer.record(Path(self._values['record_file']))
+        # The first frame does not wait for the first line of the log, which takes 20 ms: rclpy 7.1
+        # looks up the file that it comes from.
+        self.loop.apply_requests()
         self.get_logger().info(f'ready: {counted(len(self.simulation.world), "body")}')
 
     def _open_viewer(self) -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, submit_reading
 from physsim_ros.files import load_drawing
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Scene
 from physsim_ros.simulation.simulation import Simulation
 
@@ -48,8 +49,13 @@ class Machine:
 
     @property
     def joints(self) -> list[tuple[str, int, int]]:
-        """Return kind and bodies of all joints, these by their numbers; -1 is the background."""
-        rows = {name: row for row, name in enumerate(self.scene.names)}
+        """
+        Return kind and bodies of all joints, these by their numbers.
+
+        The background is -1, and so is an anchored body: an end beside a beam is as good.
+        """
+        bodies = enumerate(self.scene.bodies)
+        rows = {body.name: -1 if body.anchored else row for row, body in bodies}
         return [(str(it.kind), rows[it.a], rows.get(it.b, -1)) for it in self.scene.joints]
 
     def run(self, seconds: float) -> Floats:
@@ -66,10 +72,12 @@ class Machine:
 
     def lengths(self, poses: Floats, number: int) -> Floats:
         """Return the distance between the two ends of a joint in every frame [m]."""
-        _, a, b = self.joints[number]
-        seat = self.scene.joints[number].seat
-        first = _in_world(poses, a, seat.ax, seat.ay)
-        last = _in_world(poses, b, seat.bx, seat.by)
+        joint, names = self.scene.joints[number], (*self.scene.names, WORLD)
+        a, b = (names.index(name) for name in (joint.a, joint.b))
+        # The background is the last of the bodies.
+        poses = np.append(poses, np.zeros((len(poses), 1, 3)), axis=1)
+        first = _in_world(poses, a, joint.seat.ax, joint.seat.ay)
+        last = _in_world(poses, b, joint.seat.bx, joint.seat.by)
         return np.hypot(*(first - last).T)
 
     def gaps(self) -> Floats:
@@ -79,8 +87,8 @@ class Machine:
 
 
 def _in_world(poses: Floats, row: int, x: float, y: float) -> Floats:
-    """Return a point of a body, or of the background, in every frame, (frames, 2) float64 [m]."""
-    px, py, yaw = poses[:, row].T if row >= 0 else np.zeros((3, len(poses)))
+    """Return a point of a body in every frame, (frames, 2) float64 [m]."""
+    px, py, yaw = poses[:, row].T
     cos, sin = np.cos(yaw), np.sin(yaw)
     return np.column_stack((px + x * cos - y * sin, py + x * sin + y * cos))
 
@@ -173,7 +181,7 @@ def clock(machine: Machine) -> None:
 def cradle(machine: Machine) -> None:
     """Assert that a cradle passes momentum on: the last ball swings out."""
     assert len(machine.start) == 5
-    assert machine.joints == [('rod', ball, 0) for ball in range(1, 5)]
+    assert machine.joints == [('rod', ball, -1) for ball in range(1, 5)]
     machine.run(1.5)
     speed = machine.velocities[:, 1:, 0]
     struck = int(speed[:, 0].argmax())
@@ -189,7 +197,7 @@ def cradle(machine: Machine) -> None:
 
 def double_pendulum(machine: Machine) -> None:
     """Assert that both bobs swing, and that energy and rods are kept."""
-    assert [(kind, {a, b}) for kind, a, b in machine.joints] == [('rod', {0, 1}), ('rod', {1, 2})]
+    assert [(kind, {a, b}) for kind, a, b in machine.joints] == [('rod', {1, -1}), ('rod', {1, 2})]
     poses = machine.run(6.0)
     for rod in (0, 1):
         assert np.ptp(machine.lengths(poses, rod)) < 0.005, 'm'
@@ -213,7 +221,7 @@ def marble_run(machine: Machine) -> None:
 
 def pendulum(machine: Machine) -> None:
     """Assert that a pendulum swings with its period."""
-    assert machine.joints == [('rod', 1, 0)]
+    assert machine.joints == [('rod', 1, -1)]
     poses = machine.run(10.0)
     swings_as_a_pendulum(machine, poses, 1)
 
@@ -231,7 +239,7 @@ def seesaw(machine: Machine) -> None:
 
 def spring_and_mass(machine: Machine) -> None:
     """Assert that a mass on a spring oscillates with its period, about where that bears it."""
-    assert machine.joints == [('spring', 1, 0)]
+    assert machine.joints == [('spring', 1, -1)]
     heights = machine.run(6.0)[:, 1, 1]
     weight, stiffness = machine.masses[1], 100.0
     exact = 2 * math.pi * math.sqrt(weight / stiffness)
@@ -243,7 +251,7 @@ def spring_and_mass(machine: Machine) -> None:
 def windmill(machine: Machine) -> None:
     """Assert that a windmill turns by its motor, on a tower that stands."""
     assert len(machine.start) == 3
-    assert machine.joints == [('axle', 2, 1), ('motor', 2, 1)]
+    assert machine.joints == [('axle', 2, -1), ('motor', 2, -1)]
     poses = machine.run(4.0)
     _, tower, sails = range(3)
     assert np.ptp(poses[:, tower], axis=0).max() == 0.0, 'it is anchored'

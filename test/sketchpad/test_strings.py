@@ -299,4 +299,18 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
     sheet.page.get_by_label('Reibung, als Zahl').fill('viel')
     sheet.page.keyboard.press('Enter')
     assert sheet.page.get_by_label('Reibung, als Zahl').input_value() == '0,4'
+    # As spreadsheets in German read it.
+    sheet.press('Abspielen')
+    sheet.wait('physsim.records["block/0"][0] > 2')
+    sheet.press('Pause')
+    with sheet.page.expect_download() as download:
+        sheet.press('Tabelle (CSV)')
+    head, first, *_ = download.value.path().read_text().splitlines()
+    assert head.startswith('time [s];x [m];')
+    assert re.fullmatch(r'[^;.]*(;[^;.]*)+;"block/0"', first)
+    assert ',' in first
+    other = sheet.context.new_page()
+    other.goto(sheet.page.url)
+    sheet.press('Personen')
+    sheet.page.locator('.people').get_by_text(re.compile(r'Seite \d+ \(du\)')).wait_for()
     sheet.close()

@@ -153,6 +153,11 @@ def placed(somebody: Hand, way: Floats, place: Floats, rng: np.random.Generator)
         'pixel',
         'first_step',
         'simplified',
+        'slant',
+        'warp',
+        'missed',
+        'arc',
+        'wander',
     )
     exact = {name: share * getattr(somebody, name) for name in names}
     return replace(somebody, size=size, place=(x, y), **exact)

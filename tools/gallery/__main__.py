@@ -127,7 +127,7 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
 
 
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
-    """Draw the whole window, the track of time in it, and the animation of the world."""
+    """Draw the whole window, and the animation of the world."""
     recording = Recording(directory / 'car.rrd')
     times = [recording.draw([frame]) for frame in car_story()]
     recording.close()
@@ -157,7 +157,7 @@ def main(chosen: list[str]) -> None:
         'window': draw_window,
     }
     if not chosen or 'page' in chosen:
-        draw_page(DOCS / 'page.webp')
+        draw_page(DOCS / 'page.webp', DOCS / 'time.png')
         print('page', flush=True)
     names = [name for name in (*SCENES, *pictures) if not chosen or Path(name).name in chosen]
     if not names:

@@ -139,8 +139,8 @@ class Film:
         mouse.up()
 
 
-def draw_page(path: Path) -> None:
-    """Write the animation of the page."""
+def draw_page(path: Path, last: Path) -> None:
+    """Write the animation of the page, and its last picture, beside the course that was left."""
     with ExitStack() as closing:
         domain = closing.enter_context(own_domain())
         directory = Path(closing.enter_context(tempfile.TemporaryDirectory()))
@@ -158,6 +158,7 @@ def draw_page(path: Path) -> None:
         film.step_to(END)
         sheet.close()
         browser.close()
+    film.pictures[-1].save(last, optimize=True)
     size = (NARROW, round(NARROW * film.pictures[0].height / film.pictures[0].width))
     small = [each.resize(size, Image.Resampling.LANCZOS) for each in film.pictures]
     times = [1000 // RATE] * len(small)

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
@@ -161,7 +161,8 @@ def likeliest_group(
             continue
         strokes = tuple(stroke for figure in group for stroke in figure.strokes)
         whole = Figure.read(
-            resample_stroke(joined_strokes(strokes)),
+            # One more stroke may close a gap: its ends do not tell.
+            replace(resample_stroke(joined_strokes(strokes)), relatability=0.0),
             strokes=strokes,
             began=group[0].began,
             ended=last.ended,

@@ -10,7 +10,9 @@ a stroke that was sampled well loses only samples that are closer together than 
 
 Samples close together are replaced by their mean (radial distance simplification), so that a pen
 that rests draws no length. A jump is a step much longer than all others. It may be drawn: fast
-pens make long steps, and programs that send strokes omit samples of straight lines.
+pens make long steps, programs that send strokes omit samples of straight lines, and a touch screen
+reports a finger late, at up to 35 % of the size. A jump to one sample and back is a spike. A first
+sample that the pen leaves faster than it moves anywhere is where it was before the stroke.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import BadSize, Malformed
 from physsim_ros.model.shapes import SMALLEST
-from physsim_ros.model.transform import norms
+from physsim_ros.model.transform import dots, norms
 
 # Factor of the finer resampling, for the ends of narrow outlines, and its number of points.
 FINER = 4
@@ -39,9 +41,15 @@ HOOK, HOOK_TURN = 0.1, 1.2
 ROUNDS, AGAIN = 1.25, 0.065
 # The greatest overlap that is cut off at either end of a closed stroke, and the greatest gap
 # between its ends, in shares of its length.
-OVERLAP, GAP = 0.14, 0.18
+OVERLAP, GAP = 0.14, 0.22
 # Cost of a length that is cut off, in lengths of gap.
 CUT_COST = 0.6
+# The number of points that give the direction of a line at an overlap, and at an end: that of a
+# plank is short.
+_HEADING, _HEADING_AT_END = 6, 3
+# The greatest distance of lines that cross, in steps between points; the least cosine of the angle
+# between lines that overlap: the ends of a corner that cross are not antiparallel.
+_CROSSING, _SAME_WAY = 1.0, -0.5
 # The least distance of two samples that are kept, in shares of the stroke's size: a resting pen
 # jitters by some 0.2 % (standard deviation), and no side of a figure is shorter than 4 %.
 GRAIN = 0.01
@@ -49,10 +57,9 @@ GRAIN = 0.01
 _JUMP, _FAR = 2.0, 0.15
 # The least number of samples of a stroke with jumps: strokes of fewer are clicks.
 _CLICKS = 12
-# The greatest distance of a first sample from the line that the stroke continues, in shares of the
-# size: a touch screen reports a finger late, at up to 35 % of the size. The number of steps that
-# give the direction of that line.
-_ASTRAY, _AHEAD = 0.3, 3
+# Of samples with times, the number of steps over which the speed of the pen is measured, and the
+# resolution of times [s].
+_PACE, _TICK = 4, 1e-3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -64,6 +71,9 @@ class Stroke:
     :param outline: (FINELY - 1, 2) float64: the stroke closed, overlapping ends cut off, the first
         point not repeated [m]; None where the gap between the ends is too large
     :param gap: between the ends, in shares of the length
+    :param relatability: how well both ends go on across the gap, -2 .. 2: the cosines of the two
+        angles between them and the gap (Kellman and Shipley, 1991); an arc of a circle has nearly
+        2, the two ends of a U have 0
     :param size: diagonal of its bounding box [m]
     :param length: arc length [m]
     """
@@ -71,6 +81,7 @@ class Stroke:
     points: Floats
     outline: Floats | None
     gap: float
+    relatability: float
     size: float
     length: float
 
@@ -93,13 +104,17 @@ def resample_stroke(samples: Floats) -> Stroke:
         cleaned = _subdivided(cleaned)
     path = spaced(_without_hooks(spaced(cleaned, FINELY)), FINELY)
     points = path[::FINER]
-    outline, gap = _outline(points, path)
+    first, last = _repeated_round(points) or _seam(points)
+    length = path_length(points)
+    gap = math.dist(points[last], points[first]) / (length * (last - first) / (COUNT - 1))
+    once = path[slice(FINER * first, FINER * last + 1)]
     return Stroke(
         points=points,
-        outline=outline,
+        outline=spaced(np.vstack((once, once[:1])), FINELY)[:-1] if gap <= GAP else None,
         gap=gap,
+        relatability=_relatability(points, first, last),
         size=size_of(points),
-        length=path_length(points),
+        length=length,
     )
 
 
@@ -107,14 +122,29 @@ def _checked(samples: Floats) -> Floats:
     """Return the positions of the samples, in order, (n, 2) float64 [m]."""
     if len(samples) == 0:
         raise Malformed('the stroke has no samples', field='poses')
-    if samples.shape[1] > 2 and (np.diff(samples[:, 2]) < 0.0).any():
-        samples = samples[np.argsort(samples[:, 2], kind='stable')]
     places = samples[:, :2]
+    if samples.shape[1] > 2:
+        order = np.argsort(samples[:, 2], kind='stable')
+        places = places[order]
+        if _begins_elsewhere(places, samples[order, 2]):
+            places = places[1:]
     if not np.isfinite(places).all():
         raise Malformed('a sample of the stroke is not finite', field='poses')
     if np.abs(places).max() > FARTHEST:
         raise BadSize(f'the stroke reaches further than {FARTHEST:g} m', field='poses')
     return places
+
+
+def _begins_elsewhere(places: Floats, times: Floats) -> bool:
+    """Return whether the pen was at its first sample before: it goes on from there too fast."""
+    if len(places) < _CLICKS:
+        return False
+    first = math.dist(places[0], places[1])
+    later, at = places[1:], times[1:]
+    took = np.maximum(at[_PACE:] - at[:-_PACE], _TICK)
+    fastest = float((norms(later[_PACE:] - later[:-_PACE]) / took).max())
+    speed = first / max(times[1] - times[0], _TICK)
+    return first > _FAR * size_of(later) and speed > _JUMP * fastest > 0.0
 
 
 def _subdivided(samples: Floats) -> Floats:
@@ -166,24 +196,22 @@ def _hook(points: Floats, reach: int) -> int:
     return sharpest + 1 if turn[sharpest] > HOOK_TURN and sharpest < reach - 1 else 0
 
 
-def _outline(points: Floats, path: Floats) -> tuple[Floats | None, float]:
-    """
-    Return the closed outline of a stroke, or None, and the gap in it in shares of the length.
-
-    :param points: evenly spaced
-    :param path: the same, with FINER times the points
-    """
-    first, last = _repeated_round(points) or _seam(points)
-    once = path[slice(FINER * first, FINER * last + 1)]
-    step = float(norms(np.diff(points, axis=0)).mean())
-    gap = float(norms(points[last] - points[first])) / (step * (last - first))
-    if gap > GAP:
-        return None, gap
-    return spaced(np.vstack((once, once[:1])), FINELY)[:-1], gap
+def _relatability(points: Floats, first: int, last: int) -> float:
+    """Return how well a stroke goes on from its last point across the gap to its first one."""
+    gap = points[first] - points[last]
+    before = points[last] - points[last - _HEADING_AT_END]
+    after = points[first + _HEADING_AT_END] - points[first]
+    lengths = norms(np.stack((before, after))) * max(math.hypot(*gap), 1e-300)
+    return float((dots(np.stack((before, after)), gap) / np.maximum(lengths, 1e-300)).sum())
 
 
 def _seam(points: Floats) -> tuple[int, int]:
-    """Return the first and the last point of an outline whose ends overlap by `OVERLAP`."""
+    """
+    Return the first and the last point of an outline whose ends overlap by `OVERLAP`.
+
+    Ends overlap where they cross or run the same way; those of a plank that lacks a part of one
+    side run against each other.
+    """
     count = len(points)
     step = float(norms(np.diff(points, axis=0)).mean())
     ends = int(OVERLAP * count)
@@ -191,7 +219,11 @@ def _seam(points: Floats) -> tuple[int, int]:
     gaps = norms(head[:, None] - tail[None])
     # Number of points before a point of the head and after a point of the tail.
     cut = np.arange(ends)[:, None] + np.arange(ends)[None, ::-1]
-    best = int((gaps + CUT_COST * step * cut).argmin())
+    onward = points[_HEADING:][:ends] - head
+    until = tail - points[:-_HEADING][-ends:]
+    cosines = dots(onward[:, None], until[None]) / (norms(onward)[:, None] * norms(until) + 1e-300)
+    overlap = (cosines > _SAME_WAY) | (gaps < _CROSSING * step) | (cut == 0)
+    best = int(np.where(overlap, gaps + CUT_COST * step * cut, np.inf).argmin())
     first, last = divmod(best, ends)
     return first, count - ends + last
 
@@ -226,7 +258,7 @@ def clean_samples(samples: Floats) -> Floats:
     """
     grain = GRAIN * _robust_size(samples)
     merged = _merged(samples, grain)
-    kept = _without_jumps(merged)
+    kept = _without_spikes(merged)
     # The two parts of a rest that a spike interrupted are one rest again.
     return kept if len(kept) == len(merged) else _merged(kept, grain)
 
@@ -253,36 +285,16 @@ def _merged(points: Floats, grain: float) -> Floats:
     return means
 
 
-def _without_jumps(points: Floats) -> Floats:
-    """Return points without spikes, and without ends that belong to another stroke."""
+def _without_spikes(points: Floats) -> Floats:
+    """Return points without spikes: without those to which the pen jumps, and from them back."""
     if len(points) < _CLICKS:
         return points
-    size = _robust_size(points)
+    far = _FAR * _robust_size(points)
     steps = norms(np.diff(points, axis=0))
-    last = len(steps) - 1
-    # A jump at an end is the longest step, the two jumps of a spike are the two longest.
-    but_two, but_one = (_JUMP * np.sort(steps)[-3:-1]).tolist()
+    # The two jumps of a spike are the two longest steps.
+    usual = _JUMP * float(np.partition(steps, -3)[-3])
+    there = np.minimum(steps[:-1], steps[1:])
+    back = norms(points[2:] - points[:-2])
     kept = np.ones(len(points), np.bool_)
-    for at in np.flatnonzero(steps > max(_FAR * size, but_two)).tolist():
-        if at < last and steps[at + 1] > _FAR * size:
-            # To one point and from it; it is a spike if the pen comes back.
-            there = min(float(steps[at]), float(steps[at + 1]))
-            back = math.dist(points[at], points[at + 2])
-            kept[at + 1] = there <= but_two or back >= 0.5 * there
-        elif at == 0:
-            kept[0] = steps[0] <= but_one or _goes_on(points, _ASTRAY * size)
-        elif at == last and kept[last]:
-            kept[-1] = steps[last] <= but_one or _goes_on(points[::-1], _ASTRAY * size)
+    kept[1:-1] = (there <= max(far, usual)) | (back >= 0.5 * there)
     return points[kept]
-
-
-def _goes_on(points: Floats, astray: float) -> bool:
-    """
-    Return whether the first step of a stroke belongs to it: it has its direction, or closes it.
-
-    :param astray: greatest distance of the first point from the line of the next steps [m]
-    """
-    first, second, ahead = points[[0, 1, 1 + _AHEAD]]
-    step, along = second - first, ahead - second
-    along = along * (math.hypot(*step) / max(math.hypot(*along), 1e-300))
-    return math.hypot(*(step - along)) <= astray or math.dist(first, points[-1]) <= astray / 2

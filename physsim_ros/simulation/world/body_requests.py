@@ -74,7 +74,9 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
     live.capacity.check_robot(body)
     live.capacity.check_body(body, pose)
     space.add(body, pose, twist)
-    return Answer(subject=name, message=f'spawned {name}')
+    hint = '; gravity pulls it: robots are seen from above, with gravity [0, 0]'
+    falls = body.robot is not None and any(live.settings.gravity)
+    return Answer(subject=name, message=f'spawned {name}{hint if falls else ""}')
 
 
 def change_body(live: LiveSpace, request: ChangeBody) -> Answer:

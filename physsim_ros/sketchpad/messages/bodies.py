@@ -126,13 +126,13 @@ def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
 @message('watch', 'page', Right.LOOK, name=fields.text)
 def watch(page: PageSession, origin: Origin, name: str) -> None:
     """Send the page the past of a body, as far as it was shown; '' is no body."""
-    page.pasts.ask(page.number, name, origin.request)
+    page.shared.pasts.ask(page.number, name, origin.request)
 
 
 @message('follow', 'page', Right.LOOK, names=_followed)
 def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
     """Tell the page when other bodies began to touch these, and begin to; none is no body."""
-    page.past_touches.ask(page.number, names)
+    page.shared.past_touches.ask(page.number, names)
     page.followed = names
     page.answer_page(origin, f'following {counted(len(names), "body")}')
 

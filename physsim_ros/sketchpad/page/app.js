@@ -2,38 +2,38 @@
 /**
  * The page: one object that knows its parts and the tool in use.
  *
- * Start reading here; each part is a file. The world moves on the server alone (world_state.js).
+ * Start reading here; each part is a file. The world moves on the server alone (world_state.js). `view/` draws it, `input/`
+ * and `tools/` work it, `panels/` and `measures/` show and change what is selected, `ui/` stands around it.
  */
 
-import {Arrows} from './arrows.js';
-import {Camera} from './camera.js';
-import {Classroom} from './classroom.js';
+import {Arrows} from './view/arrows.js';
+import {Camera} from './view/camera.js';
+import {Classroom} from './ui/classroom.js';
 import {Connection} from './connection.js';
 import {createElement, elementOf, showText} from './dom.js';
-import {Driving} from './driving.js';
-import {Gallery} from './gallery.js';
-import {Handles} from './handles.js';
-import {Hints, Tips} from './hints.js';
-import {Cursor, Keyboard} from './keyboard.js';
-import {Lessons} from './lessons.js';
-import {Narrator, Sound} from './narrator.js';
-import {Notes, Refusals} from './notes.js';
-import {Numbers} from './numbers.js';
-import {Panel} from './panel.js';
-import {PlotWindow} from './plot_window.js';
-import {Plots} from './plots.js';
-import {Pointers} from './pointer.js';
-import {Records, Trail} from './records.js';
-import {Room} from './room.js';
+import {Driving} from './panels/driving.js';
+import {Gallery} from './ui/gallery.js';
+import {Handles} from './input/handles.js';
+import {Hints, Tips} from './ui/hints.js';
+import {Cursor, Keyboard} from './input/keyboard.js';
+import {Lessons} from './ui/lessons.js';
+import {Narrator, Sound} from './ui/narrator.js';
+import {Notes, Refusals} from './ui/notes.js';
+import {Numbers} from './measures/numbers.js';
+import {Panel} from './panels/panel.js';
+import {LargePlot, Plots} from './measures/plots.js';
+import {Pointers} from './input/pointer.js';
+import {Records, Trail} from './measures/records.js';
+import {Room} from './view/room.js';
 import {fixed} from './rounding.js';
-import {SceneView} from './scene_view.js';
-import {Selection} from './selection.js';
-import {Settings} from './settings.js';
-import {Stopwatch} from './stopwatch.js';
+import {SceneView} from './view/scene_view.js';
+import {Selection} from './input/selection.js';
+import {Settings} from './ui/settings.js';
+import {Stopwatch} from './measures/stopwatch.js';
 import {t} from './strings.js';
-import {EmptyCard, Readings} from './strokes.js';
-import {TimeBar} from './time_bar.js';
-import {makeToolbar, Toolbar, TopBar} from './toolbar.js';
+import {EmptyCard, Readings} from './ui/strokes.js';
+import {TimeBar} from './ui/time_bar.js';
+import {makeToolbar, Toolbar, TopBar} from './ui/toolbar.js';
 import {shapeWord, Words} from './words.js';
 import {WorldState} from './world_state.js';
 
@@ -69,7 +69,7 @@ export class App {
     this.sound = new Sound(this);
     this.records = new Records(this);
     this.trail = new Trail(this);
-    this.plotWindow = new PlotWindow(this);
+    this.plotWindow = new LargePlot(this);
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);
     this.panel = new Panel(this);
@@ -127,16 +127,20 @@ export class App {
 
   /** Ask for the parts of frames that are shown. */
   askForParts() {
-    const {velocities, forces} = this.arrows, {name} = this.panel, told = this.settings?.speaks || this.selection.names.size > 0;
-    const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
+    const {arrows, records, panel: {name}} = this, told = this.settings?.speaks || this.selection.names.size > 0;
     this.view.dirty = true;
-    // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || told || this.records.records || this.tool.measures === true, contacts: forces || told || this.sound.on || this.records.recordsForces, forces: true, laser: robot ? name : ''});
+    this.connection.send('show', {
+      // The drag of the air follows from velocities.
+      velocities: arrows.velocities || arrows.forces || told || records.records || this.tool.measures === true,
+      contacts: arrows.forces || told || this.sound.on || records.recordsForces,
+      forces: true,
+      laser: this.world.body(name)?.robot ? name : '',
+    });
   }
 
   /** Show the help, whose script is loaded when somebody asks for it first. */
   async showHelp() {
-    const {showHelp} = await import('./help.js');
+    const {showHelp} = await import('./ui/help.js');
     showHelp(this);
   }
 

@@ -4,12 +4,12 @@
  * each, with a live picture, and does for all at once what a teacher may do in one world.
  */
 
-import {Camera} from './camera.js';
-import {sayForm} from './classroom.js';
+import {Camera} from './view/camera.js';
+import {sayForm} from './ui/classroom.js';
 import {Connection} from './connection.js';
 import {choice, createElement, elementOf, inRow, languageField, textButton} from './dom.js';
-import {SceneView} from './scene_view.js';
-import {watchTheme} from './settings.js';
+import {SceneView} from './view/scene_view.js';
+import {watchTheme} from './ui/settings.js';
 import {t} from './strings.js';
 import {WorldState} from './world_state.js';
 

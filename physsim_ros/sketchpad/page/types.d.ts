@@ -6,12 +6,12 @@
  */
 
 export type {App} from './app.js';
-export type {Camera} from './camera.js';
+export type {Camera} from './view/camera.js';
 export type {Connection} from './connection.js';
-export type {SceneView} from './scene_view.js';
+export type {SceneView} from './view/scene_view.js';
 export type {WorldState} from './world_state.js';
 
-import type {SceneView} from './scene_view.js';
+import type {SceneView} from './view/scene_view.js';
 
 /** x, y [m]; on the page [px]. */
 export type Point = [number, number];

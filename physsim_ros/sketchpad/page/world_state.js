@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The newest scene, frame and timeline of the server, and geometry in them. The page computes no motion. */
 
-import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './body_path.js';
+import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './view/body_path.js';
 import {distance, rotated} from './vectors.js';
 
 /** @import {Body, Connection, Frame, Point, Scene, Timeline} from './types.js' */

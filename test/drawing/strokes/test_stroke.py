@@ -190,9 +190,15 @@ def test_a_spike_is_gone(at: int, resting: int) -> None:
     assert clean_samples(spiked) == pytest.approx(np.delete(ARC, at, axis=0))
 
 
-def test_a_late_first_sample_is_gone_and_so_is_a_last_one_of_the_next_stroke() -> None:
-    assert clean_samples(np.vstack(([(9.0, 5.0)], ARC))) == pytest.approx(ARC)
-    assert clean_samples(np.vstack((ARC, [(9.0, 5.0)]))) == pytest.approx(ARC)
+@pytest.mark.parametrize('where', [(9.0, 5.0), (0.7 * SIZE, 0.0)])
+def test_a_first_sample_that_the_pen_leaves_too_fast_is_gone(where: tuple[float, float]) -> None:
+    times = np.arange(len(ARC)) / 60.0
+    timed = np.column_stack((ARC, times))
+    stale = np.vstack(([(*(ARC[0] + where), -0.01)], timed))
+    late = np.vstack(([(*(ARC[0] + where), -2.0)], timed))
+
+    assert resample_stroke(stale).points == pytest.approx(resample_stroke(timed).points)
+    assert resample_stroke(late).length > resample_stroke(timed).length
 
 
 def test_clicks_are_no_spikes() -> None:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that are drawn with: the pen, whose strokes become bodies, and the lasso, whose loops select them. */
 
-import {inside, unionOf} from '../body_path.js';
+import {inside, unionOf} from '../view/body_path.js';
 import {threeDigits} from '../rounding.js';
 import {isTap} from '../vectors.js';
 

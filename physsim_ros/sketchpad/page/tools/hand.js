@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The hand pulls a body and throws it, places and turns it in a paused world, drags a copy, and moves the view. */
 
-import {placed} from '../numbers.js';
+import {placed} from '../measures/quantities.js';
 import {isTap, onGrid} from '../vectors.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */

@@ -2,7 +2,7 @@
 /** Notes on the world: anchored sensors that are boxes as large as their label. */
 
 import {elementOf, textOf, textField} from '../dom.js';
-import {sizeOf} from '../label_view.js';
+import {sizeOf} from '../view/label_view.js';
 import {t} from '../strings.js';
 
 /** @import {App, Touch} from '../types.js' */
