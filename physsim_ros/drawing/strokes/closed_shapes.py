@@ -66,19 +66,19 @@ def forms(features: Features, plain: float) -> Iterator[Form]:
     closed = plain * features.closure * features.swings.absence
     if stroke.outline is None or closed < LEAST:
         return
-    shapes = list(_shapes(stroke.outline, stroke.gap))
+    shapes = list(_shapes(stroke.outline))
     total = sum(shape.weight for shape in shapes)
     if total >= LEAST:
         for shape in shapes:
             yield replace(shape, weight=closed * shape.weight / total)
 
 
-def _shapes(outline: Floats, gap: float) -> Iterator[Form]:
+def _shapes(outline: Floats) -> Iterator[Form]:
     """Yield the shapes that an outline may have, with relative weights."""
     ellipse = fitting.ellipse(outline)
     error, aspect = ellipse.error, ellipse.aspect
     wide, narrowed = widened(outline)
-    at = corner_detection.corners(wide, closed=True, gap=gap)
+    at = corner_detection.corners(wide, closed=True)
     found = narrowed(corner_detection.vertices(wide, at, closed=True))
     size = size_of(wide)
     residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0

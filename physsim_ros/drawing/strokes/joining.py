@@ -131,12 +131,17 @@ def touching(strokes: Sequence[Floats], snap: float) -> Flags:
     return touching | touching.T
 
 
-def is_connected(touching: Flags) -> bool:
-    """Return whether each stroke touches another one, directly or by others."""
-    reached = np.arange(len(touching)) == 0
-    for _ in range(len(touching)):
-        reached |= touching[reached].any(axis=0)
-    return bool(reached.all())
+def connected(touching: Flags) -> list[list[int]]:
+    """Return the numbers of those that touch each other, directly or by others, by group."""
+    left = np.ones(len(touching), np.bool_)
+    groups = []
+    while left.any():
+        reached = np.arange(len(left)) == int(left.argmax())
+        while (further := touching[reached].any(axis=0) & ~reached).any():
+            reached |= further
+        left &= ~reached
+        groups.append(np.flatnonzero(reached).tolist())
+    return groups
 
 
 def touch(one: Floats, other: Floats, size: float, snap: float) -> bool:
