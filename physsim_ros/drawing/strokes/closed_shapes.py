@@ -87,7 +87,7 @@ def _shapes(outline: Floats) -> Iterator[Form]:
     off /= size
     sides = min(residual, off)
     edgeless = _edgelessness(sides=sides, error=error, aspect=aspect, bulge=_bulge(wide, at))
-    circle = edgeless * _winds_once(outline - ellipse.center) * falls(error, 0.1, 0.01)
+    circle = edgeless * falls(error, 0.1, 0.01)
     sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
     circular = rises(aspect, _CIRCULAR, 0.02)
     rim = ellipse.center + np.array((ellipse.radius, 0.0))
@@ -223,9 +223,3 @@ def squareness(found: Floats) -> float:
     # The direction of a short side is less exact than its ends.
     slant = float(slants.mean()) * min(1.0, float(lengths.min() / lengths.max()) / 0.3)
     return falls(off, 0.115, 0.012) * falls(slant, 0.3, 0.024)
-
-
-def _winds_once(away: Floats) -> float:
-    """Return how well the winding number of a closed polyline fits ±1, 0 .. 1."""
-    turn = float(angles(away, np.roll(away, -1, axis=0)).sum()) / (2 * math.pi)
-    return falls(abs(abs(turn) - 1.0), 0.4, 0.05)
