@@ -50,7 +50,7 @@ help:  ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' Makefile
 	@echo "ARGS='...' is handed on, as in: make run ARGS='-p world_file:=car', make test ARGS=test/laws"
 
-run: $(BUILT)  ## start the demo world, and print the address of its page
+run: $(BUILT)  ## start the demo world and print the address of its page
 	@echo 'The world starts. Ctrl-C ends it. Where to look:'
 	@echo '  the page  draw with pen, mouse and fingers, at the address below'
 	@echo '  Rerun     opens by itself where there is a display, else by the button Rerun of the page'
@@ -63,7 +63,7 @@ run: $(BUILT)  ## start the demo world, and print the address of its page
 PUPILS ?= 20
 ADDRESS ?= 0.0.0.0
 
-class: $(BUILT)  ## start a world for each pupil of a class, PUPILS=20, open to the network
+class: $(BUILT)  ## start a world for each of PUPILS=20 pupils, open to the network
 	@exec $(BIN)/physsim_class --pupils $(PUPILS) --address $(ADDRESS) --ros-args -p world_file:=free_fall -p speed:=0.0 $(ARGS)
 
 # A worker that a test takes down is replaced, but not without end.
@@ -78,7 +78,7 @@ test-all: $(TOOLS)  ## run every test: a quarter of an hour
 # Side by side; ament's checks take a minute the first time, then look only at files that have changed.
 LINTS := lint-ruff lint-mypy lint-imports lint-style lint-core lint-page
 .PHONY: $(LINTS)
-lint: $(TOOLS)  ## check style, types and imports
+lint: $(TOOLS)  ## check style, types, imports, links of documents and the core in C
 	@$(MAKE) --no-print-directory --jobs=4 --output-sync --keep-going $(LINTS)
 lint-ruff:
 	$(BIN)/ruff check
@@ -101,20 +101,20 @@ lint-page:
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
 
-tables: $(BUILT)  ## write the tables of docs and configuration that follow from declarations
+tables: $(BUILT)  ## write anew what docs/ and config/ repeat from the code
 	$(BIN)/python -m tools.tables
 
 # With AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES=200 unless it is given; ARGS chooses other tests.
-sanitize: $(TOOLS)  ## run laws and histories with a core that checks its memory
+sanitize: $(TOOLS)  ## run laws and random histories with memory checks in the core
 	$(BIN)/python -m tools.sanitize $(ARGS)
 
-bench: $(TOOLS)  ## measure times against the bare engine
+bench: $(TOOLS)  ## measure what steps, frames, robots and pages cost
 	$(BIN)/python -m tools.bench $(ARGS)
 
-ablate: $(TOOLS)  ## measure each stage of a step by leaving it out
+ablate: $(TOOLS)  ## show what goes wrong without each stage of a step, and its cost
 	$(BIN)/python -m tools.ablation $(ARGS)
 
-evaluate: $(TOOLS)  ## measure how drawn strokes are read
+evaluate: $(TOOLS)  ## count how many drawn strokes are read correctly
 	$(BIN)/python -m tools.evaluation $(ARGS)
 
 # Draws the pictures of README and docs anew; needs a Vulkan driver (Debian: mesa-vulkan-drivers libvulkan1).
@@ -122,7 +122,7 @@ gallery: $(TOOLS)  ## draw the pictures of README and docs anew
 	$(BIN)/python -m tools.gallery $(ARGS)
 
 # The site, from docs/ and the docstrings; any warning, as a link that leads nowhere, fails.
-docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
+docs: $(VENV)/.with-docs  ## build the site of the documents, docs/_build/html
 	@rm -rf docs/api  # pages of modules that are no more
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going -j auto docs docs/_build/html $(ARGS)
 	@echo 'Open docs/_build/html/index.html'
@@ -130,6 +130,8 @@ docs: $(VENV)/.with-docs  ## build the site, docs/_build/html
 # With BUMP=patch, minor or major, of a new version: of package.xml, setup.py and the changelog, committed and tagged, not
 # pushed. Without it nothing but dist/ changes, and the workflow tries that.
 release: $(TOOLS) $(VENV)/.with-docs  ## build sdist, wheel and site into dist/; BUMP=minor first raises the version
+	@if [ -n '$(BUMP)' ] && grep -q '\.invalid"' package.xml; then \
+	  echo 'package.xml has a placeholder in place of the address of the maintainers.' >&2; exit 1; fi
 	@[ -z '$(BUMP)' ] || $(BIN)/catkin_prepare_release --bump $(BUMP) --no-push --non-interactive
 	@$(MAKE) --no-print-directory docs
 	@rm -rf dist
@@ -140,7 +142,7 @@ release: $(TOOLS) $(VENV)/.with-docs  ## build sdist, wheel and site into dist/;
 	tar --create --gzip --file dist/site.tar.gz --directory docs/_build html
 
 # MINUTES=30 and SEED=0 unless they are given.
-soak: $(TOOLS)  ## disturb a world at random for MINUTES=30, with SEED=0
+soak: $(TOOLS)  ## disturb a world at random for MINUTES=30, SEED=0, and fail if it suffers
 	MINUTES=$(MINUTES) SEED=$(SEED) $(BIN)/python -m tools.adversary $(ARGS)
 
 clean:  ## remove .venv and all that was built
@@ -151,7 +153,7 @@ clean:  ## remove .venv and all that was built
 PROGRESS := sed -u -n -E '/^ *(Collecting|Downloading|Building|Installing|Successfully|ERROR)/ s/^ *(.{1,120}).*/  \1/p'
 
 # Modules are compiled when they are first imported: most never are.
-PIP = set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --no-compile
+PIP = set -o pipefail; $(BIN)/python -m pip install --disable-pip-version-check --no-compile --use-pep517
 # The step is compiled by the machine's compiler; where there is none, by that of a wheel of 101 MB.
 COMPILER := $(shell command -v cc gcc clang)
 

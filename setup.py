@@ -24,7 +24,8 @@ SOURCE = Path(__file__).resolve().parent
 
 # The address of the repository and of its maintainers: package.xml alone has them.
 MANIFEST = (SOURCE / 'package.xml').read_text('utf-8')
-(HOME,) = re.findall('<url type="repository">(.*)</url>', MANIFEST)
+# '' until the repository has an address.
+HOME = ''.join(re.findall('<url type="repository">(.*)</url>', MANIFEST))
 ((EMAIL, AUTHOR),) = re.findall('<maintainer email="(.*)">(.*)</maintainer>', MANIFEST)
 
 # The core of the engine: a plain shared library, without any Python in it.
@@ -108,8 +109,11 @@ def _environment(name: str) -> list[str]:
 
 
 def read_me() -> str:
-    """Return README with links that lead to the repository from anywhere, as an index shows it."""
+    """Return README with links that lead to the repository from anywhere, or with none to it."""
     text = (SOURCE / 'README.md').read_text(encoding='utf-8')
+    if not HOME:
+        text = re.sub(r'!\[[^]]*\]\((?!https?:)[^)]*\)\n*', '', text)
+        return re.sub(r'\[([^]]*)\]\((?!https?:)[^)]*\)', r'\1', text)
     text = re.sub(r'(!\[[^]]*\]\()(?!https?:)', rf'\g<1>{HOME}/raw/main/', text)
     return re.sub(r'(\]\()(?!https?:)', rf'\g<1>{HOME}/blob/main/', text)
 
@@ -125,13 +129,15 @@ setup(
     maintainer=AUTHOR,
     maintainer_email=EMAIL,
     license='Apache-2.0',
-    url=HOME,
+    url=HOME or None,
     project_urls={
         'Source': HOME,
         'Documentation': f'{HOME}/tree/main/docs',
         'Changes': f'{HOME}/blob/main/CHANGELOG.rst',
         'Issues': f'{HOME}/issues',
-    },
+    }
+    if HOME
+    else {},
     keywords=['ROS 2', 'robotics', 'physics', 'simulation', 'pytest', 'Pymunk', 'Rerun'],
     classifiers=[
         'Framework :: Pytest',
@@ -194,8 +200,6 @@ setup(
         'pymunk>=7.3,<8',
         'PyYAML',
         'rerun-sdk>=0.41,<0.42',
-        # Partitions maps into rectangles.
-        'scipy>=1.13',
         # Serves the page; needs nothing itself. Earlier ones have known holes.
         'tornado>=6.5.10,<7',
     ],

@@ -4,7 +4,7 @@
 """
 A robot learns to follow the wall on its right, by PPO of Stable-Baselines3.
 
-pip install 'physsim_ros[gym]' stable-baselines3
+pip install '/path/to/physsim_ros[gym]' stable-baselines3
 python learn_wall_following.py --steps 150000
 
 Without ROS. docs/tutorials/learn_to_follow_a_wall.md goes through it, and says what it learned.

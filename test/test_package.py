@@ -179,7 +179,6 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
         'pymunk',
         'pyyaml',
         'rerun-sdk',
-        'scipy',
         'tornado',
     }
     assert set(always) == named

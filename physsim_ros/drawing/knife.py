@@ -13,7 +13,7 @@ Laws: mass and momentum stay, and so does the angular momentum about the common 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 import math
 from typing import Any
@@ -24,10 +24,10 @@ from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.strokes.bodies_under import nearest_points
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, WorldFull
+from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
-from physsim_ros.model.requests import ChangeBody, Join, Request, Spawn, Unjoin
+from physsim_ros.model.requests import ChangeBody, Cut, Join, Spawn, Unjoin
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import Point, rotated
@@ -39,15 +39,14 @@ _LINES = {JointKind.ROPE, JointKind.ROD, JointKind.SPRING}
 _SAME_AREA = 1e-9
 
 
-def cut(start: Point, end: Point, scene: SceneQuery) -> tuple[Request, ...]:
+def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     """
-    Return the requests that cut all that a stroke passes right through.
+    Return the request that cuts all that a stroke passes right through.
 
     :param start: of the stroke in the world [m]
     :param end: of it [m]
     :raises NothingThere: it passes right through nothing that can be cut
     :raises BadSize: a piece would be too thin
-    :raises WorldFull: the world cannot have the pieces
     """
     pieces: dict[str, list[Shape]] = {}
     uncut = ''
@@ -69,27 +68,22 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> tuple[Request, ...]:
         raise NothingThere(
             'the stroke passes right through no body, rope, rod or spring', field='point'
         )
-    _check_room(pieces, scene)
     _, number = split_name(scene.next_body())
-    requests: list[Request] = [Unjoin(name=name) for name in severed]
+    parts: list[ChangeBody | Spawn] = []
     names: dict[str, dict[str, Shape]] = {}
     for name, shapes in pieces.items():
         new = [f'{DRAWN}/{number + each}' for each in range(len(shapes) - 1)]
         number += len(new)
         names[name] = dict(zip((name, *new), shapes, strict=True))
-        requests += _requests_of(name, names[name], scene)
-    for joint in scene.joints:
-        if joint.name not in severed:
-            requests += _moved_joint(joint, names, scene)
-    return tuple(requests)
-
-
-def message(requests: Iterable[Request]) -> str:
-    """Return the message of a cut, whose requests have one answer together."""
-    pieces = sum(isinstance(request, ChangeBody | Spawn) for request in requests)
-    severed = [request.name for request in requests if isinstance(request, Unjoin)]
-    cuts = [f'into {pieces} pieces'] * (pieces > 0) + severed
-    return f'cut {", ".join(cuts)}'
+        parts += _requests_of(name, names[name], scene)
+    moved = (
+        _moved_joint(joint, names, scene) for joint in scene.joints if joint.name not in severed
+    )
+    return Cut(
+        pieces=tuple(parts),
+        joints=tuple(join for join in moved if join is not None),
+        severed=tuple(Unjoin(name=name) for name in severed),
+    )
 
 
 def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shape]:
@@ -123,24 +117,6 @@ def _is_crossed(joint: Joint, start: Point, end: Point, scene: SceneQuery) -> bo
         return False
     point = a[0] + share * along[0], a[1] + share * along[1]
     return not set(bodies) & set(scene.bodies_at(point))
-
-
-def _check_room(pieces: Mapping[str, list[Shape]], scene: SceneQuery) -> None:
-    """
-    Refuse pieces, the shapes by the names of their bodies, of which the world has no room for all.
-
-    :raises WorldFull: it would have too many bodies, or convex pieces
-    """
-    count, most = sum(len(each) - 1 for each in pieces.values()), scene.settings.max_bodies
-    if len(scene.names) + count > most:
-        raise WorldFull(f'{count} pieces more are too many: max_bodies is {most}', field='point')
-    shapes = [pieces.get(name, [scene.body(name).shape]) for name in scene.names]
-    convex = sum(len(shape.form.pieces) for each in shapes for shape in each)
-    if convex > scene.settings.max_shapes:
-        raise WorldFull(
-            f'{convex} convex pieces are too many: max_shapes is {scene.settings.max_shapes}',
-            field='point',
-        )
 
 
 def _requests_of(
@@ -214,15 +190,15 @@ def _piece_at(point: Point, shapes: dict[str, Shape]) -> str:
 
 def _moved_joint(
     joint: Joint, names: Mapping[str, dict[str, Shape]], scene: SceneQuery
-) -> Iterator[Join]:
-    """Yield the request that puts a joint on the pieces with its points, if it is not there."""
+) -> Join | None:
+    """Return the request that puts a joint on the pieces with its points, if it is not there."""
     seat = joint.seat
     ends = ((joint.a, (seat.ax, seat.ay)), (joint.b, (seat.bx, seat.by)))
     a, b = (_piece_at(point, names[name]) if name in names else name for name, point in ends)
     if (a, b) == (joint.a, joint.b):
-        return
+        return None
     poses = {name: scene.pose(name) for name in (joint.a, joint.b) if name != WORLD}
-    yield Join(
+    return Join(
         name=joint.name,
         kind=joint.kind,
         points=drawn_points(joint, poses),

@@ -34,7 +34,7 @@ from physsim_ros.drawing.tools import Gesture
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.names import split_name
-from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.requests import Cut, Join, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, request_count, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.request_queue import Amend
@@ -217,6 +217,8 @@ class DrawingSession:
             match request:
                 case Spawn(name=name) if split_name(name)[0] == DRAWN:
                     self._next_body = max(self._next_body, 1 + split_name(name)[1])
+                case Cut(pieces=pieces):
+                    self._reserve_names(pieces)
                 case Join(name=name) if split_name(name)[0] == DRAWN:
                     self._next_joint = max(self._next_joint, 1 + split_name(name)[1])
 

@@ -173,8 +173,7 @@ def cut(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -
         return _next_click('the cut begins there', 'its other end, beyond the bodies')
     start, end = _points(clicks)
     checked_distance(start, end, settings, 'the cut')
-    requests = knife.cut(start, end, scene)
-    return ClickResult(requests=requests, message=knife.message(requests))
+    return _finished(knife.cut(start, end, scene))
 
 
 def request_at(

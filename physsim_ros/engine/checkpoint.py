@@ -60,7 +60,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             totals=space.joints.totals(),
             pushes=table.pushes,
         ),
-        grips=space.grips(),
+        grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
         robots=table.robot_states,
         actors=table.actor_states,
@@ -213,7 +213,7 @@ def restore_checkpoint(
     space.joints.set_impulses(checkpoint.memory.joints)
     space.joints.set_totals(checkpoint.memory.totals)
     for grip in checkpoint.grips:
-        space.put_grip(grip)
+        space.grips.put(grip)
     return space
 
 

@@ -71,7 +71,6 @@ class CoreWorld:
         :param former: place of each in the table before; -1 for those that are new
         """
         self.drop_joints()
-        self.use_grips(np.zeros(0, dtype_of('Grip')))
         self.use_forces(np.zeros(0, dtype_of('AppliedForce')))
         self.use_robots(np.zeros(0, dtype_of('Robot')))
         self.use_actors(np.zeros(0, dtype_of('Actor')))

@@ -20,8 +20,9 @@ from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
 from physsim_ros.engine.contacts import take_contacts
-from physsim_ros.engine.core import dtype_of, lib
+from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
+from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
@@ -47,6 +48,7 @@ class Space:
     :ivar pm_space: Pymunk's space
     :ivar bodies: in it
     :ivar joints: between them
+    :ivar grips: of hands on them
     :ivar broken: joints that have broken, with the force at which each did [N]; its reader empties
         it
     :ivar changes: count of changes other than steps
@@ -75,9 +77,9 @@ class Space:
         self._table: BodyTable | None = None
         # Place of the background in the table before; -1 if its contacts are over.
         self._background = -1
-        # Bodies on which a wrench acts, and grips of hands, both by name.
+        # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
-        self._grips: dict[str, Grip] = {}
+        self.grips = GripSet()
         self._settings = WorldSettings(gravity=(0.0, 0.0))
         self.configure(settings)
 
@@ -117,7 +119,6 @@ class Space:
         for row, rigid in enumerate(rigids):
             rigid.row = row
         self.lay_out_joints()
-        self._lay_out_grips()
         return table
 
     def lay_out_joints(self) -> None:
@@ -125,18 +126,6 @@ class Space:
         if self.joints.by_name:
             bodies = (*(rigid.pm_body for rigid in self.table.bodies), self.pm_space.static_body)
             self.joints.use_places({body: place for place, body in enumerate(bodies)})
-
-    def _lay_out_grips(self) -> None:
-        """Have the core draw bodies to the hands that there are."""
-        if self._table is None:
-            return
-        records = np.zeros(len(self._grips), dtype_of('Grip'))
-        for record, grip in zip(records, self._grips.values(), strict=True):
-            rigid = self.bodies.by_name[grip.body]
-            (x, y), offset = grip.anchor, rigid.offset
-            record['body'], record['target'] = rigid.row, grip.target
-            record['anchor'] = x - offset[0], y - offset[1]
-        self.core.use_grips(records)
 
     def read_state(self) -> tuple[Floats, Flags]:
         """
@@ -209,7 +198,7 @@ class Space:
         self._insert(rigid, pose, twist)
         self.joints.attach(body.name)
         if not body.dynamic:
-            self._drop_grips_on(body.name)
+            self.grips.remove_from(body.name)
         rigid.driven, rigid.acting = states_after(old, body)
         self._release(touching)
         if old.wrench != NO_WRENCH and body.dynamic:
@@ -222,7 +211,7 @@ class Space:
         for joint in self.joints.names_on(name):
             self.unjoin(joint)
         self._take_out(rigid)
-        self._drop_grips_on(name)
+        self.grips.remove_from(name)
         del self.bodies.by_name[name]
         self._release(touching)
 
@@ -305,39 +294,21 @@ class Space:
 
     # Grips
 
-    def grips(self) -> tuple[Grip, ...]:
-        """Return the grips of hands, in the order in which they were made."""
-        return tuple(self._grips.values())
-
-    def grip_of(self, hand: str) -> Grip | None:
-        """Return the grip of a hand; None if it has none."""
-        return self._grips.get(hand)
-
     def set_grip(self, grip: Grip) -> None:
         """Add a grip, in place of that of the same hand."""
-        old = self._grips.get(grip.hand)
+        old = self.grips.of(grip.hand)
         if old is not None and old.body != grip.body:
             self.remove_grip(grip.hand)
         self.changes += old != grip
-        self.put_grip(grip)
-
-    def put_grip(self, grip: Grip) -> None:
-        """Add a grip; it replaces that of the same hand in its place."""
-        self._grips[grip.hand] = grip
-        self._lay_out_grips()
+        self.grips.put(grip)
 
     def remove_grip(self, hand: str) -> None:
-        """Remove the grip of a hand; its body keeps its velocity."""
-        grip = self._grips.pop(hand, None)
+        """Remove the grip of a hand, if it has one; its body keeps its velocity."""
+        grip = self.grips.of(hand)
         if grip is not None:
-            self._lay_out_grips()
+            self.grips.remove(hand)
             self._release([self.bodies.by_name[grip.body]])
             self.changes += 1
-
-    def _drop_grips_on(self, body: str) -> None:
-        """Remove all grips on a body."""
-        self._grips = {hand: grip for hand, grip in self._grips.items() if grip.body != body}
-        self._lay_out_grips()
 
     # Contacts
 
@@ -391,6 +362,7 @@ class Space:
                 self.set_wrench(rigid, NO_WRENCH, None)
         table, made = self.table, self._steps_until_event(number, count)
         if table.columns.moving:
+            self.core.use_grips(self.grips.records(self.bodies.by_name))
             table.make_noise(number, made)
             made = self.core.step(
                 made,

@@ -4,8 +4,9 @@
 """
 The exact state of a body in a world file: `motion`, `wrench`, `driven`, `acting`.
 
-Laws: numbers are loaded as they were saved, to the bit. The motion counts where nobody has edited
-pose or velocity since. An entry that the node has not written is refused.
+Laws: numbers are loaded as they were saved, to the bit. The motion, the engine's own numbers,
+counts while pose and velocity in the file are as they were saved. An entry that the node cannot
+have written is refused.
 """
 
 from collections.abc import Mapping
@@ -25,14 +26,12 @@ from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Command
 from physsim_ros.model.robot_states import Covariance, NEVER, RobotState, SPAWNED
-from physsim_ros.model.robots import Robot
 from physsim_ros.model.transform import local_to_world, NO_WRENCH, ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_requests import check_command
 
 # Greatest number of a robot's state, as of a motion [m, rad, m/s, rad/s].
 _GREATEST = 1e12
-_LENGTH = Within(0.0, _GREATEST)
 # Squares and products of such numbers.
 _VARIANCE = Within(-(_GREATEST**2), _GREATEST**2)
 # Greatest number of points that an actor has reached, and of steps that a wrench acts.
@@ -61,11 +60,6 @@ def _covariance(value: object, name: str) -> Covariance:
     return xx, xy, yy, x_yaw, y_yaw, yaw_yaw
 
 
-def _path(value: object, name: str) -> Point:
-    way, turned = pair(value, name)
-    return _LENGTH(way, name), _LENGTH(turned, name)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Wrench(Checked):
     """The wrench on a body; `Command` has its range."""
@@ -86,11 +80,7 @@ class _Driven(Checked):
     wheels: Annotated[Pose, _pose, 'velocity of the wheels'] = ORIGIN
     travel: Annotated[Pose, _pose, 'way of the wheels'] = ORIGIN
     odometry: Annotated[Pose, _pose, 'pose by odometry'] = ORIGIN
-    covariance: Annotated[Covariance | None, _covariance, 'of that pose'] = None
-    path: Annotated[Point, _path, 'way and turns, in earlier versions without covariance'] = (
-        0.0,
-        0.0,
-    )
+    covariance: Annotated[Covariance, _covariance, 'of that pose'] = SPAWNED.covariance
     seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until the command ends'] = None
 
 
@@ -106,7 +96,7 @@ _Saved = TypeVar('_Saved', bound=Checked)
 
 
 def _saved(kind: type[_Saved], value: object, name: str) -> _Saved:
-    """Return the value of an entry, in which null means that something has no end."""
+    """Return the value of an entry; null is as good as a key that is left out."""
     if isinstance(value, dict):
         value = {key: each for key, each in value.items() if each is not None}
     return kind.from_value(value, name)
@@ -160,7 +150,9 @@ def with_saved_state(state: BodyState, entry: Mapping[Any, Any], physics_rate: f
         driven = _saved(_Driven, entry['driven'], 'driven')
         if body.robot is None:
             raise BadProperty(f'{body.name} is not a robot; nothing has driven it', field='driven')
-        state = replace(state, driven=_robot_state(driven, body.robot, physics_rate))
+        until = NEVER if driven.seconds is None else round(driven.seconds * physics_rate)
+        kept = {key: getattr(driven, key) for key in RobotState._fields if key != 'until'}
+        state = replace(state, driven=RobotState(until=until, **kept))
     if 'acting' in entry:
         acting = _saved(_Acting, entry['acting'], 'acting')
         if body.actor is None:
@@ -169,16 +161,6 @@ def with_saved_state(state: BodyState, entry: Mapping[Any, Any], physics_rate: f
         begun = WAITING.begun if seconds is None else -round(seconds * physics_rate)
         state = replace(state, acting=ActorState(begun, acting.reached))
     return state
-
-
-def _robot_state(driven: _Driven, robot: Robot, physics_rate: float) -> RobotState:
-    until = NEVER if driven.seconds is None else round(driven.seconds * physics_rate)
-    covariance = driven.covariance
-    if covariance is None:
-        way, turned = driven.path
-        ahead, heading = (deviation**2 for deviation in robot.odometry.slip)
-        covariance = ahead * way, 0.0, ahead * way, 0.0, 0.0, heading * (way + turned)
-    return RobotState(driven.aim, until, driven.wheels, driven.travel, driven.odometry, covariance)
 
 
 def with_saved_motion(

@@ -20,8 +20,9 @@ from physsim_ros.files.world_schema import is_same, naming, OWN_JOINT_KEYS, ROUN
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import point_list, Within
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.joints import joined_from
 from physsim_ros.model.names import check_name, WORLD
-from physsim_ros.model.requests import join_from, joined_from, Restore
+from physsim_ros.model.requests import join_from, Restore
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.transform import Point, Pose, REST
 from physsim_ros.simulation.world import World

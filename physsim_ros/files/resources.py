@@ -112,7 +112,7 @@ def title_of(path: Path) -> str:
     return ' '.join(word for word in found[1].split() if word != '#') or path.stem
 
 
-# Keys of which an entry has one: where it has any, the shipped robot's does not count.
+# Keys that exclude each other: one in an entry replaces all of the shipped robot.
 _ONE_OF = (tuple(SHAPES), ('mass', 'density'))
 
 

@@ -11,7 +11,7 @@ file.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Collection
 from pathlib import Path
 import re
 
@@ -121,7 +121,6 @@ def load_world(
     *,
     settings: WorldSettings | None = None,
     physics_rate: float = 240.0,
-    progress: Callable[[int, int], object] | None = None,
     parameters: Collection[str] = LIMITS,
 ) -> WorldState:
     """
@@ -130,7 +129,6 @@ def load_world(
     :param path: of the file
     :param settings: those that the file does not set; None is the default ones
     :param physics_rate: of the world that continues from it [Hz]
-    :param progress: called with the number of bodies that are read, and of all
     :param parameters: names that a node has for what is no setting of a world
     :raises BadWorldFile: it cannot be read, or its content is refused; the message names the body
         or joint and the reason
@@ -146,7 +144,7 @@ def load_world(
         content = load_entries(text, field=path.name)
         if 'map' in content:
             content = with_map_walls(content, path.parent, settings.max_bodies)
-        return state_from(content, settings, physics_rate, progress, parameters)
+        return state_from(content, settings, physics_rate, parameters)
     except OSError as error:
         raise _unreadable(path.name, error) from error
     except Malformed as error:
@@ -220,7 +218,7 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
 
 def hides_shipped(path: Path, *, world_dir: Path) -> bool:
     """
-    Return whether the plain name of a shipped world finds this file instead.
+    Return whether a saved world hides a shipped one: their plain names are the same.
 
     :param path: of a saved world
     :param world_dir: directory of the user's worlds

@@ -11,7 +11,7 @@ velocity.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -54,7 +54,6 @@ def state_from(
     content: Mapping[Any, Any],
     settings: WorldSettings,
     physics_rate: float,
-    progress: Callable[[int, int], object] | None = None,
     parameters: Collection[str] = LIMITS,
 ) -> WorldState:
     """
@@ -63,7 +62,6 @@ def state_from(
     :param content: of the file
     :param settings: those that the file does not set
     :param physics_rate: of the world that continues from it [Hz]
-    :param progress: called with the number of bodies that are read, and of all
     :param parameters: names that a node has for what is no setting of a world
     :raises Refusal: a key or value; of a body or a joint, `bad_world_file` with its name
     """
@@ -84,7 +82,7 @@ def state_from(
     settings = replace(settings, **changes)
     lesson = _lesson(content['lesson']) if 'lesson' in content else None
     entries = entries_of(content.get('bodies'), 'bodies')
-    bodies, unmoved = _body_states(entries, settings, physics_rate, progress)
+    bodies, unmoved = _body_states(entries, settings, physics_rate)
     check_namespaces(state.body for state in bodies)
     unjoined = WorldState(settings=settings, bodies=bodies, lesson=lesson)
     # One edited body, and the impulses of all contacts are outdated.
@@ -107,10 +105,7 @@ def _lesson(value: object) -> Lesson:
 
 
 def _body_states(
-    entries: list[dict[Any, Any]],
-    settings: WorldSettings,
-    physics_rate: float,
-    progress: Callable[[int, int], object] | None,
+    entries: list[dict[Any, Any]], settings: WorldSettings, physics_rate: float
 ) -> tuple[tuple[BodyState, ...], set[str]]:
     """Return the states of bodies, and the names of those whose poses are the saved ones."""
     check_limit('max_bodies', len(entries), settings)
@@ -128,8 +123,6 @@ def _body_states(
         # As they are read: they take longer than their text, which aliases repeat in no time.
         pieces += len(state.body.shape.form.pieces)
         check_limit('max_shapes', pieces, settings)
-        if progress is not None:
-            progress(count, len(entries))
     for count, (entry, state) in enumerate(zip(entries, bodies.values(), strict=True), 1):
         # Of a saved world, the body that an actor waits for may have been deleted.
         if state.acting is None:

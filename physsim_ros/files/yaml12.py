@@ -4,25 +4,21 @@
 """
 A YAML loader with the numbers of YAML 1.2 (1e5 is one), no dates and no custom tags.
 
-In world files, lines of bodies and joints may be JSON.
+Lines of bodies and joints in world files may be JSON, and the node writes them so: JSON takes a
+thirtieth of the time of YAML, and a tenth of the memory, since PyYAML keeps an object for each
+number until the end of the text.
 
-Laws: keys are texts, so that no two differ only by their hashes; what aliases repeat is counted
-while the text is read, and ends it beyond `MOST_REPEATED`. A line is read as JSON only where YAML
-reads the same from it: as an entry of a list, and not as a part of a text. The node writes such
-lines.
-
-JSON is read in a thirtieth of the time that YAML takes, and with a tenth of the memory: PyYAML
-keeps an object for each number until the end of the text.
+Laws: keys are texts, since hashes of numbers can be made to collide; values that aliases repeat
+are counted while the text is read, and more than `MOST_REPEATED` are an error; a line is read as
+JSON only where YAML reads the same from it: as an entry of a list, and not as a part of a text.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 import errno
-from itertools import count
 import json
 import re
-import secrets
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -31,7 +27,9 @@ import yaml
 from yaml.composer import Composer
 
 _TAG = 'tag:yaml.org,2002:'
-# Scalars, lists and mappings that aliases repeat: 300 outlines of 100 points.
+# Tag of the scalar that stands for a line of JSON, whose number it has; files do not use it.
+_JSON_LINE = '!line'
+# Greatest number of scalars, lists and mappings that aliases repeat: 300 outlines of 100 points.
 MOST_REPEATED = 100_000
 
 
@@ -76,6 +74,9 @@ class Loader(Composer, yaml.CSafeLoader):
 
     A scalar that does not fit its tag, as in `!!bool maybe`, is a ConstructorError; PyYAML's own
     constructors raise ValueError and others.
+
+    :param text: YAML
+    :param entries: of the scalars with the tag `_JSON_LINE`
     """
 
     yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
@@ -85,12 +86,13 @@ class Loader(Composer, yaml.CSafeLoader):
         _TAG + 'seq': yaml.SafeLoader.construct_yaml_seq,
     }
 
-    def __init__(self, stream: str) -> None:
-        yaml.CSafeLoader.__init__(self, stream)
+    def __init__(self, text: str, entries: dict[int, Located]) -> None:
+        yaml.CSafeLoader.__init__(self, text)
         Composer.__init__(self)
-        # Nodes up to now, those of aliases too, and of these alone.
+        self.entries = entries
+        # Number of nodes up to now, with those that aliases repeat; and of these alone.
         self._nodes = self._repeated = 0
-        # Number of nodes below the anchor of each name, itself included.
+        # Number of nodes of each anchor, with those below it.
         self._sizes: dict[str, int] = {}
 
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
@@ -100,7 +102,7 @@ class Loader(Composer, yaml.CSafeLoader):
         anchor = getattr(event, 'anchor', None)
         node = super().compose_node(parent, index)
         if isinstance(event, yaml.AliasEvent):
-            # Where an alias is a part of what it stands for, that has no size yet.
+            # An alias within its own anchor, whose size is not known yet, repeats without end.
             self._repeated += self._sizes.get(str(anchor), MOST_REPEATED + 1)
             self._nodes += self._sizes.get(str(anchor), 0)
         else:
@@ -158,6 +160,14 @@ def _scalar(make: Callable[[str], object]) -> Callable[[Loader, yaml.ScalarNode]
     return construct
 
 
+def _construct_entry(loader: Loader, node: yaml.ScalarNode) -> Located:
+    try:
+        return loader.entries.pop(int(node.value))
+    except (KeyError, ValueError) as error:
+        raise _refused(f'there is no tag {_JSON_LINE}', node) from error
+
+
+Loader.add_constructor(_JSON_LINE, _construct_entry)
 for _name, _make in (
     ('bool', _bool),
     ('null', lambda _: None),
@@ -178,18 +188,24 @@ for _tag, _pattern, _first in (
     Loader.add_implicit_resolver(_TAG + _tag, re.compile(f'^(?:{_pattern})$'), _first)
 
 
-def load_mapping(text: str, *, field: str, loader: type[Loader] = Loader) -> dict[Any, Any]:
+def load_mapping(
+    text: str, *, field: str, entries: dict[int, Located] | None = None
+) -> dict[Any, Any]:
     """
     Return the mapping of a YAML text; of an empty text an empty one.
 
     :param text: YAML
     :param field: name of the text, for the refusal
-    :param loader: of the text
+    :param entries: of the lines that stand for them, by number; those that are met are taken out
     :raises NotYaml: the text is not YAML
     :raises Malformed: it is no mapping
     """
     try:
-        value = yaml.load(text, Loader=loader)  # noqa: S506 - safe
+        loader = Loader(text, entries or {})
+        try:
+            value = loader.get_single_data()
+        finally:
+            loader.dispose()
     except (yaml.YAMLError, ValueError, RecursionError) as error:
         # The text of PyYAML's errors spans lines and quotes the input; their `problem` does not.
         said = getattr(error, 'problem', None) or str(error) or type(error).__name__
@@ -234,53 +250,25 @@ def load_entries(text: str, *, field: str) -> dict[Any, Any]:
     :raises OSError: it is too large
     """
     lines, entries, size = text.split('\n'), dict[int, Located](), len(text)
-    # No text has this tag, since nobody knows it beforehand.
-    tag = f'!entry-{secrets.token_hex(8)}'
     for number, line in enumerate(lines, 1):
         is_json = line.startswith(f'{_DASH}{{"')
         entry = _from_json(line.removeprefix(_DASH)) if is_json else None
         if entry is not None:
             entries[number] = Located(number, entry)
             size -= len(line)
-            lines[number - 1] = f'{_DASH}{tag} {number}'
-    if entries:
-        taken = count()
-        loader = _loader_of(tag, entries, taken)
-        content = _load('\n'.join(lines), size, field, loader)
-        if next(taken) == len(entries):
-            return content
-    # Without such lines, or with one that is a part of a text, it is YAML throughout.
-    return _load(text, len(text), field, Loader)
+            lines[number - 1] = f'{_DASH}{_JSON_LINE} {number}'
+    _check_size(size)
+    content = load_mapping('\n'.join(lines), field=field, entries=entries)
+    if not entries:
+        return content
+    # A line that is left was a part of a text: the whole is read as YAML.
+    _check_size(len(text))
+    return load_mapping(text, field=field)
 
 
-def _load(text: str, size: int, field: str, loader: type[Loader]) -> dict[Any, Any]:
-    """
-    Return the mapping of a text in YAML.
-
-    :param size: of what is read as YAML [characters]
-    :raises OSError: it is too large
-    """
+def _check_size(size: int) -> None:
     if size > MOST_YAML:
         raise OSError(errno.EFBIG, f'more than {MOST_YAML / 2**20:g} MiB of it is not JSON')
-    return load_mapping(text, field=field, loader=loader)
-
-
-def _loader_of(tag: str, entries: Mapping[int, Located], taken: count[int]) -> type[Loader]:
-    """
-    Return a loader to which a scalar with the tag is the entry of that line.
-
-    :param taken: is advanced with each entry
-    """
-
-    class LineLoader(Loader):
-        pass
-
-    def entry(_: Loader, node: yaml.ScalarNode) -> Located:
-        next(taken)
-        return entries[int(node.value)]
-
-    LineLoader.add_constructor(tag, entry)
-    return LineLoader
 
 
 def _from_json(text: str) -> dict[str, Any] | None:

@@ -24,8 +24,6 @@ from physsim_ros.simulation.robot import Robot
 Action: TypeAlias = Any
 Observation: TypeAlias = Any
 
-# Ranges of the times of a task.
-
 
 def drive(robot: Robot, action: NDArray[np.float32]) -> None:
     """

@@ -4,7 +4,7 @@
 """
 Maps: occupancy grids of worlds, and walls of occupancy grids.
 
-The anchored bodies of a world become a grid; a grid becomes as few anchored boxes as there can be
+The anchored bodies of a world become a grid; a grid becomes a few anchored boxes
 (`rectangle_partition`). Files of maps are read in `files`, messages in `ros`. Start with
 `occupancy_grid`.
 """

@@ -4,7 +4,7 @@
 """
 Occupancy grids: square cells that are occupied or not (`nav_msgs/OccupancyGrid`).
 
-The anchored bodies of a world become a grid; a grid becomes walls, as few boxes as there can be.
+The anchored bodies of a world become a grid; a grid becomes walls, a few boxes.
 
 Law: a cell is occupied where its centre lies in an anchored body that is no sensor, or beyond
 `bounds`. Cells lie along the axes of the world, at multiples of their size.

@@ -2,18 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Partition of cells into the fewest rectangles.
+Partition of cells into few rectangles.
 
-Problem: minimum partition of a rectilinear region, holes included, into rectangles. Method: W.
-Lipski, E. Lodi, F. Luccio, C. Mugnai and L. Pagli, On two-dimensional data organization II, 1979;
-T. Ohtsuki, Minimum dissection of rectilinear regions, 1982; a survey is D. Eppstein,
-Graph-theoretic solutions to computational geometry problems, 2009, section 3. Each reflex vertex
-must be cut; a chord, an interior segment between two reflex vertices, cuts two at once. Horizontal
-and vertical chords that meet exclude each other: the most that go together are a maximum
-independent set of a bipartite graph, by matching (Hopcroft and Karp; SciPy) and the theorem of
-König. Each other reflex vertex has a horizontal cut of its own.
+Problem: minimum partition of a rectilinear region, holes included, into rectangles. Method: T.
+Ohtsuki, Minimum dissection of rectilinear regions, 1982; a survey is D. Eppstein, Graph-theoretic
+solutions to computational geometry problems, 2009, section 3. Each reflex vertex must be cut; a
+chord, an interior segment between two reflex vertices, cuts two at once. Horizontal and vertical
+chords that meet exclude each other. Of these the ones of the more numerous direction are drawn;
+Ohtsuki draws as many as go together, a maximum matching. Each other reflex vertex has a horizontal
+cut of its own.
 
-Cost: arrays of the size of the grid, and the matching; a million cells take some 0.2 s.
+Accuracy: the fewest rectangles where no chords meet, as in mazes and rooms; up to 6 % more in
+noise and on ragged outlines. Cost: arrays of the size of the grid.
 """
 
 from __future__ import annotations
@@ -21,13 +21,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.model.arrays import Flags, Ints
 from physsim_ros.model.errors import WorldFull
-
-# Greatest number of chords that are matched in one connected tangle of chords, 0.1 s. In a larger
-# one, as in noise, those of the more numerous direction are taken, 1 % less than the most there.
-_MOST_MATCHED = 5000
 
 
 class _Chords(NamedTuple):
@@ -46,7 +41,7 @@ class _Chords(NamedTuple):
 
 def rectangles_of(occupied: Flags, most: int) -> Ints:
     """
-    Return the fewest rectangles that together are the occupied cells, none twice.
+    Return few rectangles that together are the occupied cells, none twice.
 
     :param occupied: (rows, columns) bool
     :param most: greatest number of rectangles
@@ -67,10 +62,7 @@ def rectangles_of(occupied: Flags, most: int) -> Ints:
     _check_count(int(corners + 2 * touching) // 4, most)
     # Interior edges of the lattice from each point to the right, and up.
     right, up = around[1] & around[3], around[2] & around[3]
-    across, along = _chords(right, reflex), _chords(up.T, reflex.T)
-    keeps_across, keeps_along = _independent(across, along, reflex.shape)
-    across = _Chords(*(each[keeps_across] for each in across))
-    along = _Chords(*(each[keeps_along] for each in along))
+    across, along = _chosen(_chords(right, reflex), _chords(up.T, reflex.T), reflex.shape)
     walls_up = _drawn(along, reflex.T.shape).T
     cut = reflex.copy()
     for line, column in ((across.lines, across.begins), (across.lines, across.ends)):
@@ -105,67 +97,25 @@ def _chords(edges: Flags, reflex: Flags) -> _Chords:
     return _Chords(lines[chosen], begins[chosen], ends[chosen])
 
 
-def _independent(across: _Chords, along: _Chords, shape: tuple[int, int]) -> tuple[Flags, Flags]:
-    """Return which chords are in a largest set of chords that do not meet."""
-    # Chords of one direction have no point in common.
-    first = _numbered(across, shape)
-    second = _numbered(along, shape[::-1]).T
-    met = (first >= 0) & (second >= 0)
-    rows, columns = first[met].astype(np.int64), second[met].astype(np.int64)
-    sizes = len(across.lines), len(along.lines)
-    if not len(rows):
-        return np.ones(sizes[0], dtype=np.bool_), np.ones(sizes[1], dtype=np.bool_)
-    from scipy.sparse import csgraph, csr_array  # noqa: PLC0415 - a fifth of the imports of a node
-
-    tangled, out_across, out_along = _tangles(rows, columns, sizes)
-    easy = ~tangled[rows]
-    rows, columns = rows[easy], columns[easy]
-    graph = csr_array((np.ones(len(rows), dtype=np.int8), (rows, columns)), shape=sizes)
-    partners = csgraph.maximum_bipartite_matching(graph, perm_type='column')
-    # König: along alternating paths from what has no partner.
-    matched = np.full(sizes[1], -1, dtype=np.int64)
-    matched[partners[partners >= 0]] = np.flatnonzero(partners >= 0)
-    reached, passed = partners < 0, np.zeros(sizes[1], dtype=np.bool_)
-    front = reached
-    while front.any():
-        fresh = np.zeros(sizes[1], dtype=np.bool_)
-        fresh[columns[front[rows]]] = True
-        fresh &= ~passed
-        passed |= fresh
-        front = np.zeros(sizes[0], dtype=np.bool_)
-        front[matched[fresh & (matched >= 0)]] = True
-        front &= ~reached
-        reached = reached | front
-    return reached & ~out_across, ~passed & ~out_along
+def _chosen(across: _Chords, along: _Chords, shape: tuple[int, int]) -> tuple[_Chords, _Chords]:
+    """Return the chords that are drawn: of those that meet others only one direction."""
+    meet_across = _meets(across, _points(along, shape[::-1]).T)
+    meet_along = _meets(along, _points(across, shape).T)
+    if np.count_nonzero(meet_across) >= np.count_nonzero(meet_along):
+        return across, _Chords(*(each[~meet_along] for each in along))
+    return _Chords(*(each[~meet_across] for each in across)), along
 
 
-def _tangles(rows: Ints, columns: Ints, sizes: tuple[int, int]) -> tuple[Flags, Flags, Flags]:
-    """
-    Return which chords along rows are in a large tangle, and those of both kinds to leave out.
-
-    :param rows: (k,) int64: numbers of chords along rows that meet ones along columns
-    :param columns: (k,) int64: numbers of these
-    :param sizes: numbers of chords along rows and columns
-    """
-    from scipy.sparse import csgraph, csr_array  # noqa: PLC0415 - a fifth of the imports of a node
-
-    ones, whole = np.ones(len(rows), dtype=np.int8), sum(sizes)
-    graph = csr_array((ones, (rows, sizes[0] + columns)), shape=(whole, whole))
-    count, labels = csgraph.connected_components(graph, directed=False)
-    across, along = np.split(labels, sizes[:1])
-    numbers = [np.bincount(each, minlength=count) for each in (across, along)]
-    large = numbers[0] + numbers[1] > _MOST_MATCHED
-    more = numbers[0] >= numbers[1]
-    return large[across], (large & ~more)[across], (large & more)[along]
+def _meets(chords: _Chords, points: Flags) -> Flags:
+    """Return whether each chord has one of some lattice points, (m, n) bool."""
+    counts = np.cumsum(np.pad(points, ((0, 0), (1, 0))), axis=1, dtype=np.int32)
+    return counts[chords.lines, chords.ends + 1] > counts[chords.lines, chords.begins]
 
 
-def _numbered(chords: _Chords, shape: tuple[int, int]) -> NDArray[np.int32]:
-    """Return (m, n) int32: the number of the chord at each lattice point; -1 is none."""
-    steps = np.zeros((shape[0], shape[1] + 1), dtype=np.int32)
-    numbers = np.arange(1, len(chords.lines) + 1, dtype=np.int32)
-    steps[chords.lines, chords.begins] = numbers
-    steps[chords.lines, chords.ends + 1] -= numbers
-    return np.cumsum(steps, axis=1, dtype=np.int32)[:, :-1] - np.int32(1)
+def _points(chords: _Chords, shape: tuple[int, int]) -> Flags:
+    """Return (m, n) bool: whether a lattice point is on a chord."""
+    further = _Chords(chords.lines, chords.begins, chords.ends + 1)
+    return _drawn(further, (shape[0], shape[1] + 1))[:, :-1]
 
 
 def _drawn(chords: _Chords, shape: tuple[int, int]) -> Flags:

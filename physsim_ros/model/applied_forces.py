@@ -13,9 +13,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Annotated
 
-from physsim_ros.model.checks import check_point, HEAVIEST, OneOf, shown, Vector
+from physsim_ros.model.checks import check_point, HEAVIEST, ListOf, OneOf, Vector
 from physsim_ros.model.declarations import Checked
-from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.transform import NO_WRENCH, Point, rotated, Wrench
 
 # Greatest number of applied forces of a body.
@@ -56,18 +55,8 @@ class AppliedForce(Checked):
         return rotated(self.force, yaw) if self.axes == 'body' else self.force
 
 
-def forces_from(value: object, name: str) -> tuple[AppliedForce, ...]:
-    """
-    Return the applied forces of a list of mappings; an empty list is none.
-
-    :param name: of the field, for the refusal
-    :raises BadProperty: it is no list, or too long; and as `AppliedForce`
-    """
-    if not isinstance(value, Sequence) or isinstance(value, str):
-        raise BadProperty(f'{name} must be a list of forces, not {shown(value)}', field=name)
-    if len(value) > MOST_FORCES:
-        raise BadProperty(f'{name} has more than {MOST_FORCES} forces', field=name)
-    return tuple(AppliedForce.from_value(each, name) for each in value)
+# The check of the applied forces of a body.
+forces_from = ListOf(AppliedForce.from_value, 'forces', MOST_FORCES)
 
 
 def wrench_of(forces: Sequence[AppliedForce], centroid: Point, yaw: float) -> Wrench:

@@ -147,32 +147,68 @@ class Whole:
         return value
 
 
-def pair(value: object, name: str) -> Point:
+@dataclass(frozen=True, slots=True)
+class Row:
     """
-    Return two finite numbers.
+    A check of a list of as many numbers as it has checks, one each.
 
-    :param name: of the field, for the refusal
-    :raises Malformed: there are not two of them, or one is not finite
-    :raises BadProperty: it is no list of numbers
+    :param checks: of the numbers
     """
-    if not isinstance(value, list | tuple):
-        raise BadProperty(f'{name} must be a list of two numbers, not {shown(value)}', field=name)
-    if len(value) != 2:
-        raise Malformed(f'{name} needs two numbers, not {len(value)}', field=name)
-    return number(value[0], name), number(value[1], name)
+
+    checks: tuple[Check, ...]
+
+    def __call__(self, value: object, name: str) -> tuple[Any, ...]:
+        """
+        Return the numbers.
+
+        :raises Malformed: there are more or fewer of them, or one is not finite
+        :raises BadProperty: it is no list of numbers, or one is out of range
+        """
+        count = len(self.checks)
+        if not isinstance(value, list | tuple):
+            raise BadProperty(
+                f'{name} must be a list of {count} numbers, not {shown(value)}', field=name
+            )
+        if len(value) != count:
+            raise Malformed(f'{name} needs {count} numbers, not {len(value)}', field=name)
+        return tuple(check(each, name) for check, each in zip(self.checks, value, strict=True))
 
 
-def point_list(value: object, name: str) -> tuple[Point, ...]:
+# The check of two finite numbers.
+pair = Row((number, number))
+
+
+@dataclass(frozen=True, slots=True)
+class ListOf:
     """
-    Return a list of points.
+    A check of each element of a list.
 
-    :param name: of the field, for the refusal
-    :raises Malformed: a point has not two coordinates, or one is not finite
-    :raises BadProperty: it is no list of pairs of numbers
+    :param check: of an element
+    :param noun: for the elements, for messages
+    :param most: greatest number of elements
     """
-    if not isinstance(value, list):
-        raise BadProperty(f'{name} must be a list of points', field=name)
-    return tuple(pair(point, name) for point in value)
+
+    check: Check
+    noun: str
+    most: float = math.inf
+
+    def __call__(self, value: object, name: str) -> tuple[Any, ...]:
+        """
+        Return the elements.
+
+        :raises BadProperty: it is no list, or too long; and as the check of an element
+        """
+        if not isinstance(value, list | tuple):
+            raise BadProperty(
+                f'{name} must be a list of {self.noun}, not {shown(value)}', field=name
+            )
+        if len(value) > self.most:
+            raise BadProperty(f'{name} has more than {self.most} {self.noun}', field=name)
+        return tuple(self.check(each, name) for each in value)
+
+
+# The check of a list of points.
+point_list = ListOf(pair, 'points')
 
 
 @dataclass(frozen=True, slots=True)

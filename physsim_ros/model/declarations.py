@@ -153,6 +153,18 @@ class Checked:
                 raise BadProperty(f'{key} has no value', field=str(key))
 
 
+def without_unset(
+    mapping: Mapping[Any, Any], kind: type[Checked]
+) -> tuple[dict[Any, Any], tuple[str, ...]]:
+    """
+    Return a YAML mapping without the properties that are null, and their names.
+
+    :param kind: of the properties
+    """
+    unset = tuple(name for name in kind.FIELDS if mapping.get(name, name) is None)
+    return {key: mapping[key] for key in mapping if key not in unset}, unset
+
+
 def entry_of(value: Any) -> Any:
     """Return a value as YAML and JSON have it."""
     if isinstance(value, Checked):

@@ -7,13 +7,15 @@ Kinds of joints and their properties: one table of properties, one table of kind
 Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its glyph (`view`).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 from physsim_ros.model.checks import brief, FASTEST, flag, HEAVIEST, shown, Within
-from physsim_ros.model.declarations import Checked
+from physsim_ros.model.declarations import check_key, Checked
 from physsim_ros.model.errors import BadProperty, UnknownProperty
+from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import LARGEST, SMALLEST
 from physsim_ros.model.texts import name_meant, nearest_name
 
@@ -28,18 +30,8 @@ _MOST_PHASE = 1e6
 _COMMON = ('max_force', 'break_force', 'collide')
 
 
-@dataclass(frozen=True, slots=True)
-class Else:
-    """
-    A note of a property: its value where nobody sets it.
-
-    :param value: that it then has
-    """
-
-    value: float
-
-
-# A note of a property: the bodies' poses when the joint is made supply its value.
+# The note of a property is its value where nobody sets it: a number, or this, as the poses of the
+# bodies have it when the joint is made.
 AS_DRAWN = 'as drawn'
 
 
@@ -208,16 +200,16 @@ class JointProperties(Checked):
         float | None,
         Within(-FASTEST, FASTEST, 'rad/s'),
         'angular velocity of `a` relative to `b`, counter-clockwise',
-        Else(1.0),
+        1.0,
     ] = None
     max_torque: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', Else(1000.0)
+        float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', 1000.0
     ] = None
     stiffness: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N/m'), 'force for a strain', Else(100.0)
+        float | None, Within(0.0, HEAVIEST, 'N/m'), 'force for a strain', 100.0
     ] = None
     damping: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against a rate', Else(0.0)
+        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against a rate', 0.0
     ] = None
     rest_length: Annotated[
         float | None, Within(0.0, LARGEST, 'm'), 'length of a spring without force', AS_DRAWN
@@ -230,7 +222,7 @@ class JointProperties(Checked):
         _ratio,
         'turns of `a` for one of `b`; negative for opposite directions; '
         f'{brief(1 / _MOST_RATIO)} .. {brief(_MOST_RATIO)}, either sign',
-        Else(1.0),
+        1.0,
     ] = None
     phase: Annotated[
         float | None,
@@ -249,7 +241,7 @@ class JointProperties(Checked):
         'force above which the joint is removed; of a torque, at an arm of 1 m',
     ] = None
     collide: Annotated[
-        bool | None, flag, 'whether the joined bodies collide with each other', Else(False)
+        bool | None, flag, 'whether the joined bodies collide with each other', False
     ] = None
 
     def __post_init__(self) -> None:
@@ -279,9 +271,30 @@ class JointProperties(Checked):
 JOINT_KEYS = ['kind', 'a', 'b', *JointProperties.FIELDS]
 # Values of the properties that nobody sets, by name; those that are not here have no limit, or are
 # as drawn.
-DEFAULTS = {
-    name: note.value
+DEFAULTS: dict[str, float] = {
+    name: note
     for name, each in JointProperties.FIELDS.items()
     for note in each.notes
-    if isinstance(note, Else)
+    if note != AS_DRAWN
 }
+
+
+def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointProperties]:
+    """
+    Return kind, names of the bodies a and b, and properties of a YAML mapping.
+
+    :raises Refusal: a key is unknown, or a value is out of range
+    """
+    for key in mapping:
+        check_key(key, JOINT_KEYS)
+    properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
+    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    kind = kind_from(mapping.get('kind'))
+    return kind, a, WORLD if a and not b else b, JointProperties.from_mapping(properties)
+
+
+def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
+    name = mapping.get(key, '')
+    if not isinstance(name, str):
+        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
+    return name

@@ -54,7 +54,7 @@ class Body:
     group: int = 0
     sensor: bool = False
     expires: int | None = None
-    # Not part of the text, so that digests of worlds without floor and labels are those of ever.
+    # Not part of the text, which every digest has, since few bodies have them.
     surface_velocity: Point = field(default=(0.0, 0.0), repr=False)
     robot: Robot | None = field(default=None, repr=False)
     label: str = field(default='', repr=False)
@@ -83,6 +83,8 @@ class Body:
 
 # Of the fields of a body; MISSING where the world or the request has it.
 BODY_DEFAULTS = {each.name: each.default for each in fields(Body)}
+# The fields that few bodies have, which are not part of its text.
+_RARE = [(each.name, each.default) for each in fields(Body) if not each.repr]
 # Its properties, in the order of their declarations.
 _HELD = [name for name in Properties.FIELDS if name in BODY_DEFAULTS]
 
@@ -182,17 +184,16 @@ class Scene:
     @cached_property
     def key(self) -> bytes:
         """Its content as bytes, for digests; names of classes and fields are part of them."""
-        parts = repr((self.bodies, self.settings, self.joints))
-        robots = [
-            (body.name, body.surface_velocity, body.robot)
+        settings = self.settings
+        parts = repr((self.bodies, settings, self.joints))
+        rare = [
+            (body.name, name, value)
+            for name, default in _RARE
             for body in self.bodies
-            if body.robot is not None or any(body.surface_velocity)
+            if (value := getattr(body, name)) != default
         ]
-        floor = (self.settings.floor_friction, self.settings.seed, robots)
-        labels = [(body.name, body.label) for body in self.bodies if body.label]
-        actors = [(body.name, body.actor) for body in self.bodies if body.actor is not None]
-        forces = [(body.name, body.forces) for body in self.bodies if body.forces]
-        parts += ''.join(repr(each) for each in (floor, labels, actors, forces) if any(each))
+        if rare or settings.floor_friction or settings.seed:
+            parts += repr((settings.floor_friction, settings.seed, rare))
         return parts.encode()
 
     @cached_property

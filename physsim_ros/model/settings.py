@@ -6,9 +6,9 @@
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST, pair, shown, Vector, Whole, Within
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST, Row, Vector, Whole, Within
 from physsim_ros.model.declarations import Checked
-from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import Point
 
@@ -31,23 +31,12 @@ MOST_SAMPLES = 10_000
 
 
 def _bounds(value: object, name: str) -> Bounds:
-    if not isinstance(value, list | tuple):
-        raise BadProperty(f'{name} must be a list of four numbers, not {shown(value)}', field=name)
-    if len(value) != 4:
-        raise Malformed(f'{name} needs 4 numbers, not {len(value)}', field=name)
-    left, bottom, right, top = (Within(-LARGEST, LARGEST, 'm')(each, name) for each in value)
+    left, bottom, right, top = Row((Within(-LARGEST, LARGEST, 'm'),) * 4)(value, name)
     if not (left < right and bottom < top):
         raise BadProperty(
             f'{name} must be [xmin, ymin, xmax, ymax], each min below its max', field=name
         )
     return left, bottom, right, top
-
-
-def _datum(value: object, name: str) -> Point:
-    latitude, longitude = pair(value, name)
-    return Within(-90.0, 90.0, 'deg')(latitude, name), Within(-180.0, 180.0, 'deg')(
-        longitude, name
-    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,7 +81,7 @@ class WorldSettings(Checked):
     )
     datum: Annotated[
         Point | None,
-        _datum,
+        Row((Within(-90.0, 90.0, 'deg'), Within(-180.0, 180.0, 'deg'))),
         'latitude and longitude of the origin, -90 .. 90 and -180 .. 180 [deg], for receivers of '
         'satellite navigation: x is east there, y north; without it they have no fix',
     ] = field(default=None, repr=False)

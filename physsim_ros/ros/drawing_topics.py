@@ -19,7 +19,6 @@ from physsim_ros.drawing import DrawingSession, Reading, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.ros.frame_loop import FrameLoop
-from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
@@ -34,7 +33,6 @@ class DrawingTopics:
     :param session: of the person
     :param frame_id: name of the world frame
     :param loop: of the node, with the snapshot that is shown
-    :param outputs: of the node, which publish the preview of the session
     """
 
     def __init__(
@@ -45,13 +43,11 @@ class DrawingTopics:
         *,
         frame_id: str,
         loop: FrameLoop,
-        outputs: Outputs,
     ) -> None:
         self._simulation = simulation
         self._session = session
         self._frame_id = frame_id
         self._loop = loop
-        self._outputs = outputs
         topics.subscribe(PointStamped, 'clicked_point', self._click)
         topics.subscribe(Path, '~/stroke', self._stroke)
 
@@ -64,7 +60,6 @@ class DrawingTopics:
         self._loop.current_snapshot()
         reading = self._session.instead()
         self._submit_reading(reading, '~/instead')
-        self._outputs.publish_preview()
         return reading.message
 
     def _click(self, message: PointStamped) -> None:
@@ -92,7 +87,7 @@ class DrawingTopics:
     @contextmanager
     def _drawing_on_snapshot(self, topic: str, field: str) -> Iterator[Snapshot]:
         """
-        Yield the snapshot that a click or stroke refers to; report its refusal and the preview.
+        Yield the snapshot that a click or stroke refers to, and report its refusal.
 
         :param field: of the message, for the refusal
         """
@@ -100,4 +95,3 @@ class DrawingTopics:
             yield self._loop.current_snapshot()
         except Refusal as refusal:
             self._simulation.requests.refuse(refusal, topic=topic, subject='', field=field)
-        self._outputs.publish_preview()

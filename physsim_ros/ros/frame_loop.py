@@ -115,9 +115,7 @@ class FrameLoop:
         if frame is not None:
             self._outputs.show(frame)
             return frame.answers
-        answers = self._report_answers()
-        self._outputs.flush_events()
-        return answers
+        return self._report_answers()
 
     def apply_up_to_seek(self) -> bool:
         """
@@ -165,7 +163,7 @@ class FrameLoop:
 
     def _note_contacts(self) -> None:
         """Record contacts while there is a subscriber, a viewer or a page that shows them."""
-        wanted = self._outputs.wants_contacts or self._fleet.wants_contacts()
+        wanted = self._outputs.wants_contacts or self._fleet.wants_contacts
         self._simulation.reports_contacts = wanted
 
     def _report_answers(self) -> tuple[Answer, ...]:

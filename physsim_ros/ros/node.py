@@ -107,7 +107,6 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._create_world()
         self._create_outputs()
         self._create_doors()
-        self._live.effects['tool'] = self.outputs.publish_preview
         self._live.effects['viewer'] = self._open_viewer
         self._live.mirror_settings()
         self._pages = Pages(self, self.outputs, self.control, self.loop, self._live)
@@ -127,7 +126,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._session = DrawingSession(
             parameters.drawing_settings(values), Tool(values['tool']), clock=time.thread_time
         )
-        self.world_files = WorldFiles(self.simulation, values, self.get_logger().info)
+        self.world_files = WorldFiles(self.simulation, values)
         if values['world_file']:
             with self.boundary.reading('world_file'):
                 self.world_files.begin_with()
@@ -151,9 +150,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         boundary, frame_id = self.boundary, self._values['frame_id']
         self.requests = topics = RequestTopics(self, simulation.requests, boundary, frame_id)
         self.diagnostics = Diagnostics(self, simulation, outputs, topics, boundary)
-        drawing = DrawingTopics(
-            topics, simulation, self._session, frame_id=frame_id, loop=loop, outputs=outputs
-        )
+        drawing = DrawingTopics(topics, simulation, self._session, frame_id=frame_id, loop=loop)
         self.control = control = NodeControl(
             self,
             simulation,
@@ -171,13 +168,16 @@ class PhysSimNode(NodeWithoutQosEvents):
         create_simulation_services(self, control, calls)
 
     def start(self) -> None:
-        """Start the viewer and the diagnostics; `tick` advances time from now on."""
+        """Start viewer and diagnostics, and show the first frame; `tick` advances time."""
         self.loop.started = True
         self._pages.print_addresses()
         # A viewer that is opened begins a recording anew that has failed.
         self._open_viewer()
         if self._values['record_file']:
             self.outputs.viewer.record(Path(self._values['record_file']))
+        # The first frame does not wait for the first line of the log, which takes 20 ms: rclpy 7.1
+        # looks up the file that it comes from.
+        self.loop.apply_requests()
         self.get_logger().info(f'ready: {counted(len(self.simulation.world), "body")}')
 
     def _open_viewer(self) -> None:

@@ -84,42 +84,29 @@ class Outputs:
             or (self.sketchpad is not None and self.sketchpad.wants_contacts)
         )
 
-    def show(self, frame: Frame, outputs: Iterable[Output] | None = None) -> None:
-        """
-        Show a frame.
+    def show(self, frame: Frame) -> None:
+        """Show a frame."""
+        self._show_on(self.all, frame)
 
-        :param outputs: on which it is shown; None is all
-        """
+    def _show_on(self, outputs: Iterable[Output], frame: Frame) -> None:
+        """Show a frame, with the preview of now, on some outputs."""
         if self._session.preview != frame.preview:
             frame = replace(frame, preview=self._session.preview)
         self.frame = frame
-        for output in self.all if outputs is None else outputs:
+        for output in outputs:
             with self._boundary.output(output.name):
                 output.show(frame)
 
     def show_late(self) -> None:
         """Show the last frame to late subscribers; called at ticks without a new frame."""
-        self.flush_events()
         if self.frame is None:
             return
-        if self.frame.preview != self._session.preview:
-            # Only the preview has changed: an unfinished gesture was dropped.
-            pictures: list[Output] = [self.viewer]
-            if self.sketchpad is not None:
-                pictures.append(self.sketchpad)
-            self.show(replace(self.frame, answers=(), moved=False), pictures)
         for stream in self.topics.streams:
             with self._boundary.output(stream.name):
                 stream.show_late(self.frame)
 
-    def publish_preview(self) -> None:
-        """Publish the preview of the session if it has changed."""
-        stamp = self.frame.snapshot.stamp if self.frame else 0
-        with self._boundary.output('~/preview'):
-            self.topics.publish_preview(self._session.preview, stamp)
-
     def report_answers(self, answers: tuple[Answer, ...]) -> None:
-        """Publish and log answers that no frame carries."""
+        """Publish and log answers that no frame carries, and show a preview that has changed."""
         if answers and self.sketchpad is not None:
             with self._boundary.output('page'):
                 self.sketchpad.report(answers)
@@ -127,11 +114,11 @@ class Outputs:
             with self._boundary.output('~/events'):
                 self.topics.events.publish(answer)
             self._log.add(answer)
-
-    def flush_events(self) -> None:
-        """Publish the answers that have waited, as far as their readers take them."""
         with self._boundary.output('~/events'):
             self.topics.events.flush()
+        if self.frame is not None and self.frame.preview != self._session.preview:
+            frame = replace(self.frame, answers=(), moved=False)
+            self._show_on((self.topics.preview, self.viewer), frame)
 
     def open_viewer(self) -> None:
         """Open the viewer of parameter `viewer`, in place of the one before."""

@@ -29,7 +29,8 @@ class Pages:
     :param control: the actions of the node that pages use
     :param loop: of the node; once it has started, its ticks handle the messages
     :param live: the parameters of the node; those of the page are checked and take effect here
-    :raises BadProperty: the page is to be served, and cannot listen
+    :raises BadProperty: the page is to be served, and cannot listen; or a parameter of the page is
+        out of range
     """
 
     def __init__(
@@ -48,6 +49,7 @@ class Pages:
         # The last one: what it has opened stays open.
         live.prepare['sketchpad'] = self.open_for
         live.effects['sketchpad'] = self.update
+        self.check_locks(control.values['sketchpad_locked'])
         self.open_for(control.values['sketchpad'])
         self.update()
 
@@ -83,9 +85,14 @@ class Pages:
 
         :raises BadProperty: it has too many patterns
         """
-        from physsim_ros.sketchpad import locks_of  # noqa: PLC0415 - see `open_for`
+        if names := parameters.listed_names(value):
+            from physsim_ros.sketchpad import locks_of  # noqa: PLC0415 - see `open_for`
 
-        locks_of(parameters.listed_names(value))
+            try:
+                locks_of(names)
+            except BadProperty as refusal:
+                field = 'sketchpad_locked'
+                raise BadProperty(f'{field}: {refusal}', field=field) from refusal
 
     def update(self) -> None:
         """Close the sketchpad, or show the world on it, as its parameter says."""

@@ -5,9 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
-import time
 from typing import Any
 
 from physsim_ros.files import find_world, hides_shipped, load_world, save_world, user_worlds
@@ -17,9 +16,6 @@ from physsim_ros.model.texts import counted
 from physsim_ros.ros.parameters import SPECS
 from physsim_ros.simulation.simulation import Simulation
 
-# Time between two reports of progress [s].
-_REPORTS = 0.5
-
 
 class WorldFiles:
     """
@@ -27,17 +23,13 @@ class WorldFiles:
 
     :param simulation: of the world
     :param values: of the parameters of the node, by name, always up to date
-    :param report: told of the progress of loading
 
     :ivar directory: of the user's worlds
     """
 
-    def __init__(
-        self, simulation: Simulation, values: Mapping[str, Any], report: Callable[[str], object]
-    ) -> None:
+    def __init__(self, simulation: Simulation, values: Mapping[str, Any]) -> None:
         self._simulation = simulation
         self._values = values
-        self._report = report
         # Absolute, whatever the working directory will be.
         self.directory = Path(values['world_dir'] or user_worlds()).absolute()
 
@@ -86,19 +78,10 @@ class WorldFiles:
     def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
         path = find_world(self._values['world_file'], world_dir=self.directory, confined=confined)
         simulation = self._simulation
-        told = time.monotonic()
-
-        def report(count: int, bodies: int) -> None:
-            nonlocal told
-            if time.monotonic() - told >= _REPORTS:
-                told = time.monotonic()
-                self._report(f'loading {path.name}: {count} of {bodies} bodies')
-
         state = load_world(
             path,
             settings=simulation.settings,
             physics_rate=simulation.physics_rate,
-            progress=report,
             parameters=SPECS,
         )
         return state, path

@@ -10,16 +10,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import (
-    ChangeBody,
-    Command,
-    Delete,
-    DriveRobot,
-    Join,
-    Request,
-    Spawn,
-    Unjoin,
-)
+from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past import request_size
 
@@ -149,20 +140,3 @@ def size_of(request: Request | Unread | Amend | TakeBack) -> int:
     if isinstance(request, TakeBack):
         return 0
     return request_size(request)
-
-
-def subject_of(request: Request | Unread | Amend | TakeBack) -> str:
-    """Return the one body or joint that a request names, or ''."""
-    match request:
-        case (
-            Spawn(name=name)
-            | ChangeBody(name=name)
-            | Delete(name=name)
-            | Join(name=name)
-            | Unjoin(name=name)
-            | DriveRobot(name=name)
-            | Command(names=(name,))
-            | Unread(subject=name)
-        ):
-            return name
-    return ''

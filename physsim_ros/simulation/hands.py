@@ -10,16 +10,14 @@ is gone, or after another moment is shown, change nothing. In a paused world han
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from physsim_ros.model.requests import (
     Grab,
-    GrabToPlace,
     HandRequest,
     KeepHand,
     LetGo,
     MoveHand,
-    PlaceHand,
 )
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past import Past
@@ -73,8 +71,8 @@ class Hands:
             return Answer(message=f'{request.hand} holds no body')
         if hand is not None and not isinstance(request, Grab):
             gesture = hand.gesture
-        if self._playback.speed == 0.0:
-            request = _placing(request)
+        if isinstance(request, Grab | MoveHand):
+            request = replace(request, paused=self._playback.speed == 0.0)
         self._playback.seek_shown()
         answer = self._past.apply(request, gesture, author)
         match request:
@@ -126,14 +124,3 @@ class Hands:
     def clear(self) -> None:
         """Drop all hands, since another moment is shown."""
         self._dragging.clear()
-
-
-def _placing(request: HandRequest) -> HandRequest:
-    """Return the request of a hand in a paused world, in which it places bodies."""
-    match request:
-        case GrabToPlace() | PlaceHand() | KeepHand() | LetGo():
-            return request
-        case Grab(hand=hand, point=point, frame=frame):
-            return GrabToPlace(hand=hand, point=point, frame=frame)
-        case MoveHand(hand=hand, point=point, yaw=yaw, frame=frame):
-            return PlaceHand(hand=hand, point=point, yaw=yaw, frame=frame)

@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterator
 
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
+from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.simulation.clock import Clock
 from physsim_ros.simulation.past import CachedFrame, Moment, Past
 from physsim_ros.simulation.world import World
@@ -105,6 +106,33 @@ class Playback:
         if self._shown is not None:
             return self._shown.snapshot.scene.settings
         return self._past.cursor.settings
+
+    @property
+    def status(self) -> TimelineStatus:
+        """Return the status of the timeline at the moment that is shown."""
+        tree, rate, shown = self._past.tree, self._past.physics_rate, self.moment
+        if self.speed < 0.0:
+            state = 'rewinding'
+        elif shown != tree.end:
+            state = 'in the past'
+        else:
+            state = 'playing' if self.speed else 'paused'
+        undo, redo = self._past.words(shown)
+        courses = sorted(tree.courses_left(), key=lambda each: each[0].course)
+        return TimelineStatus(
+            state=state,
+            speed=self.speed,
+            oldest=tree.oldest / rate,
+            now=shown[0] / rate,
+            newest=tree.head / rate,
+            course=tree.course,
+            undo=undo and f'undo {undo}',
+            redo=redo and f'redo {redo}',
+            courses=tuple(
+                CourseSpan(line.course, min(step, line.head) / rate, line.head / rate)
+                for line, step in courses
+            ),
+        )
 
     @property
     def world(self) -> World:

@@ -32,13 +32,12 @@ from physsim_ros.simulation.entries import (
     Entry,
     Seek,
     size_of,
-    subject_of,
     TakeBack,
     Unread,
     Wait,
 )
 from physsim_ros.simulation.hands import Hands
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.past import amend, Past, take_back
 from physsim_ros.simulation.playback import Playback
 
 __all__ = ['Amend', 'RequestQueue', 'TakeBack', 'Unread', 'Wait']
@@ -72,9 +71,8 @@ class RequestQueue:
         self._is_applying = False
         # Gesture of the last request that was applied.
         self._applied = 0
-        # The waiting move of each hand, and the waiting seek, which a later one replaces.
-        self._moves: dict[str, Entry] = {}
-        self._seek: Entry | None = None
+        # What a later entry replaces: by hand its waiting move, and by '' the waiting seek.
+        self._replaceable: dict[str, Entry] = {}
         # Number of answers that the last entry stands for.
         self._untold = 0
 
@@ -109,27 +107,24 @@ class RequestQueue:
         :param asker: key of the message that asks, which the answer names; '' for none
         :param author: name of the person who did it; '' is nobody
         """
-        if isinstance(request, MoveHand) and request.hand in self._moves:
-            self._moves[request.hand].request = request
+        if isinstance(request, MoveHand) and request.hand in self._replaceable:
+            self._replaceable[request.hand].request = request
             return
         size = size_of(request)
         if gesture is None:
             gesture = self.gesture if joined else self.begin_gesture()
-        subject = subject_of(request)
+        subject = request.subject if isinstance(request, Request | Unread) else ''
         entry = Entry(request, topic, subject, gesture, field, asker, size, author)
         if busy := self._busy(size):
             self._add_answer(replace(entry, request=busy, size=0))
             return
         self._waiting.append(entry)
         self._size += size
-        self._seek = None
-        match request:
-            case MoveHand(hand=hand):
-                self._moves[hand] = entry
-            case KeepHand():
-                pass
-            case _:
-                self._moves.clear()
+        if not isinstance(request, MoveHand | KeepHand):
+            self._replaceable.clear()
+        self._replaceable.pop('', None)
+        if isinstance(request, MoveHand):
+            self._replaceable[request.hand] = entry
 
     def submit_seek(self, stamp: int, *, topic: str) -> None:
         """
@@ -140,12 +135,12 @@ class RequestQueue:
         if busy := self._busy():
             self.refuse(busy, topic=topic, subject='', joined=True)
             return
-        if self._seek is not None:
+        if before := self._replaceable.get(''):
             message = f'superseded by a seek to {stamp * 1e-9:.3f} s'
-            self._seek.request = Answer(topic=self._seek.topic, message=message)
-        self._moves.clear()
-        self._seek = Entry(Seek(stamp), topic, '', self.gesture)
-        self._waiting.append(self._seek)
+            before.request = Answer(topic=before.topic, message=message)
+        entry = Entry(Seek(stamp), topic, '', self.gesture)
+        self._replaceable = {'': entry}
+        self._waiting.append(entry)
 
     def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
         """
@@ -160,8 +155,7 @@ class RequestQueue:
             return
         if busy := self._busy():
             raise busy
-        self._moves.clear()
-        self._seek = None
+        self._replaceable.clear()
         # Its answers have their own topics.
         self._waiting.append(Entry(Call(call, wait), '', '', self.begin_gesture()))
 
@@ -275,11 +269,9 @@ class RequestQueue:
             while self._waiting and self._is_ready(self._waiting[0]):
                 entry = self._waiting.popleft()
                 self._size -= entry.size
-                match entry.request:
-                    case MoveHand(hand=hand) if self._moves.get(hand) is entry:
-                        del self._moves[hand]
-                    case Seek() if self._seek is entry:
-                        self._seek = None
+                for key, each in list(self._replaceable.items()):
+                    if each is entry:
+                        del self._replaceable[key]
                 if entry.is_for_world:
                     self._applied = entry.gesture
                 yield entry
@@ -296,16 +288,14 @@ class RequestQueue:
 
     def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
         """Change the past in parts, and collect the answers."""
+        past, author = self._past, entry.author
         results: list[Answer | Refusal]
         try:
-            with self._past.boundary.reading(entry.topic):
+            with past.boundary.reading(entry.topic):
                 if isinstance(change, Amend):
-                    results = yield from self._past.amend(
-                        change.gestures, change.requests, entry.author
-                    )
+                    results = yield from amend(past, change.gestures, change.requests, author)
                 else:
-                    phrase = yield from self._past.take_back(entry.author)
-                    results = [Answer(message=f'undid {phrase}')]
+                    results = yield from take_back(past, author)
         except Refusal as refusal:
             results = [refusal]
         self._playback.note_jump()

@@ -10,7 +10,7 @@ replaces it comes after the requests that wait; a refusal changes nothing.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Integral
@@ -25,7 +25,7 @@ from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
-from physsim_ros.simulation.past import DEFAULT_MEMORY, Past, timeline_status
+from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
 from physsim_ros.simulation.world import forces_now
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
@@ -111,7 +111,7 @@ class Simulation(FrameMaker):
     @property
     def status(self) -> TimelineStatus:
         """Return the status of the timeline at the moment that is shown."""
-        return timeline_status(self.past.tree, self.playback.moment, self.speed, self.physics_rate)
+        return self.playback.status
 
     @property
     def loaded(self) -> WorldState:
@@ -264,16 +264,6 @@ class Simulation(FrameMaker):
             undone = self.past.undo()
         return f'undid {undone}, back at {self.playback.time}'
 
-    def take_back(self, author: str) -> str:
-        """
-        Take back the last gesture of a person, at this time; return a message about it.
-
-        :param author: name of the person
-        :raises Refusal: there is none, or it does not stand alone; nothing is changed
-        """
-        with self._jump():
-            return f'undid {_result(self.past.take_back(author))}'
-
     def redo(self) -> str:
         """
         Return to the moment of the last undo; return a message about it.
@@ -319,12 +309,3 @@ class Simulation(FrameMaker):
         self.playback.seek_shown()
         yield
         self.playback.note_jump()
-
-
-def _result(parts: Generator[None, None, str]) -> str:
-    """Carry out all parts of work, and return its result."""
-    while True:
-        try:
-            next(parts)
-        except StopIteration as end:
-            return str(end.value)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 import time
-from typing import Any
+from typing import Any, NamedTuple
 
 from physsim_ros.drawing import DrawingSession
 from physsim_ros.files import OwnWorlds
@@ -40,20 +40,37 @@ UNNAMED = 'Page '
 TEACHER = 'Teacher'
 
 
+class Shared(NamedTuple):
+    """
+    What all pages of a world share.
+
+    :ivar world: that they draw in
+    :ivar send: sends a message to the page of a number, or to all
+    :ivar pasts: of bodies that pages plot
+    :ivar past_touches: of bodies that pages begin to follow
+    :ivar own_worlds: of the user
+    :ivar autosave: of the world
+    :ivar list_worlds: sends the list of worlds to the page of a number, or to all
+    """
+
+    world: WorldControl
+    send: Callable[[Content, int | None], None]
+    pasts: BodyPasts
+    past_touches: PastTouches
+    own_worlds: OwnWorlds
+    autosave: Autosave
+    list_worlds: Callable[[int | None], None]
+
+
 class PageSession:
     """
     The session of one page.
 
     :param number: of the page
     :param opened: who is at it, with which rights
-    :param world: that it draws in
-    :param send: sends a message to the page of a number, or to all
-    :param pasts: of bodies, for all pages
-    :param past_touches: of bodies that pages begin to follow, for all pages
-    :param own_worlds: of the user
-    :param autosave: of the world
-    :param list_worlds: sends the list of worlds to the page of a number, or to all
+    :param shared: with other pages
 
+    :ivar world: that it draws in
     :ivar role: its rights
     :ivar watches: whether a teacher watches a class with it, and is nobody in this world
     :ivar person: name of the person at it, who makes its requests
@@ -68,32 +85,15 @@ class PageSession:
     :ivar color: of the bodies that it draws; None is the world's choice
     """
 
-    def __init__(
-        self,
-        number: int,
-        opened: Opened,
-        world: WorldControl,
-        *,
-        send: Callable[[Content, int | None], None],
-        pasts: BodyPasts,
-        past_touches: PastTouches,
-        own_worlds: OwnWorlds,
-        autosave: Autosave,
-        list_worlds: Callable[[int | None], None],
-    ) -> None:
+    def __init__(self, number: int, opened: Opened, shared: Shared) -> None:
         self.number = number
+        self.shared = shared
+        self.world = shared.world
         self.role = opened.role
         self.watches = opened.watches
         teaches = self.role is Role.TEACH
         self.person = self.unnamed = TEACHER if teaches else f'{UNNAMED}{opened.person}'
-        self.world = world
-        self._send = send
-        self.pasts = pasts
-        self.past_touches = past_touches
-        self.own_worlds = own_worlds
-        self.autosave = autosave
-        self.list_worlds = list_worlds
-        self.drawing = DrawingSession(world.drawing_settings, clock=time.thread_time)
+        self.drawing = DrawingSession(self.world.drawing_settings, clock=time.thread_time)
         self.hand = f'page {number}'
         self.driven = '', 0
         self.answered: dict[str, Any] = {}
@@ -138,8 +138,8 @@ class PageSession:
 
     def close(self) -> None:
         """Let go with the hand of the page, and forget the pasts that it has asked for."""
-        self.pasts.forget(self.number)
-        self.past_touches.ask(self.number, frozenset())
+        self.shared.pasts.forget(self.number)
+        self.shared.past_touches.ask(self.number, frozenset())
         if self._hand_used is not None:
             self._submit_unasked(LetGo(hand=self.hand))
 
@@ -208,11 +208,11 @@ class PageSession:
 
     def send(self, content: Content) -> None:
         """Send the page a message."""
-        self._send(content, self.number)
+        self.shared.send(content, self.number)
 
     def send_all(self, content: Content) -> None:
         """Send all pages a message."""
-        self._send(content, None)
+        self.shared.send(content, None)
 
     def refuse(self, origin: Origin, refusal: Refusal) -> None:
         """Queue the refusal of a message."""

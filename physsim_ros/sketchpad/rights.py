@@ -133,20 +133,19 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
     """
     query = SceneQuery(snapshot)
     match request:
-        case requests.MoveBodies(names=names) | requests.DeleteBodies(names=names):
-            return names
-        case requests.Command(names=names):
-            return names
-        case requests.Spawn(name=name) | requests.ChangeBody(name=name):
-            return (name,)
-        case requests.Delete(name=name) | requests.DriveRobot(name=name):
-            return (name,)
+        case requests.MoveBodies() | requests.DeleteBodies() | requests.Command():
+            return request.names
+        case requests.Spawn() | requests.ChangeBody() | requests.Delete() | requests.DriveRobot():
+            return (request.name,)
         case requests.Join(a=a, b=b, points=points):
             return tuple(
                 each
                 for name, point in ((a, points[0]), (b, points[-1]))
                 for each in ((name,) if name else query.bodies_at(point)[:1])
             )
+        case requests.Cut(pieces=pieces, joints=moved, severed=severed):
+            parts = (_bodies_of(each, snapshot) for each in (*pieces, *moved, *severed))
+            return tuple(name for names in parts for name in names)
         case requests.Unjoin(name=name):
             joints = (each for each in query.joints if each.name == name)
             return tuple(each for joint in joints for each in (joint.a, joint.b))

@@ -26,7 +26,7 @@ from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.message import Message, Origin
-from physsim_ros.sketchpad.page_session import answer_of, PageSession
+from physsim_ros.sketchpad.page_session import answer_of, PageSession, Shared
 from physsim_ros.sketchpad.past import BodyPasts, PastTouches, timeline_content, TimelineReport
 from physsim_ros.sketchpad.rights import check_locked, check_right, Right, Role
 from physsim_ros.sketchpad.server import Server
@@ -66,18 +66,25 @@ class Sketchpad:
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts(world.simulation.forces_now)
-        self._own_worlds = OwnWorlds(world.world_dir)
+        own_worlds = OwnWorlds(world.world_dir)
         self._autosave = Autosave(world.world_dir, self._world_text)
         self._server = Server(
             address=address,
             port=port,
-            own_worlds=self._own_worlds,
+            own_worlds=own_worlds,
             autosave=self._autosave,
             inbox=self._inbox,
             boundary=self._boundary,
         )
-        self._pasts = BodyPasts(world.simulation, self._server.send)
-        self._past_touches = PastTouches(world.simulation, self._server.send)
+        self._shared = Shared(
+            world,
+            self._server.send,
+            BodyPasts(world.simulation, self._server.send),
+            PastTouches(world.simulation, self._server.send),
+            own_worlds,
+            self._autosave,
+            self._server.list_worlds,
+        )
         self._sessions: dict[int, PageSession] = {}
         # The last one; None before the first.
         self._frame: Frame | None = None
@@ -156,8 +163,8 @@ class Sketchpad:
         """
         for session in self._sessions.values():
             session.keep_hand(now)
-        self._pasts.send_due(now)
-        self._past_touches.send_due()
+        self._shared.pasts.send_due(now)
+        self._shared.past_touches.send_due()
         if self._autosave.is_due(now):
             # Where too many requests wait, the world is saved later.
             with suppress(Busy):
@@ -230,17 +237,7 @@ class Sketchpad:
     def _open(self, number: int, opened: Opened) -> None:
         """Begin the session of a page, and welcome it."""
         role = opened.role
-        self._sessions[number] = PageSession(
-            number,
-            opened,
-            self._world,
-            send=self._server.send,
-            pasts=self._pasts,
-            past_touches=self._past_touches,
-            own_worlds=self._own_worlds,
-            autosave=self._autosave,
-            list_worlds=self._server.list_worlds,
-        )
+        self._sessions[number] = PageSession(number, opened, self._shared)
         simulation, settings = self._simulation, self._simulation.settings
         drawing = self._world.drawing_settings
         self._server.send(

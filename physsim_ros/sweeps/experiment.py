@@ -172,8 +172,8 @@ class Experiment(Checked):
                     break
             if self.score is not None:
                 score = float(self.score(robot))
-        except (Exception, StepFailed) as error:  # noqa: BLE001 - told, and others run on
-            failure = _told(error)
+        except (Exception, StepFailed) as error:  # noqa: BLE001 - a result; other runs go on
+            failure = _in_one_line(error)
         seconds = simulation.step / self.physics_rate
         return Run(
             case=case,
@@ -186,7 +186,7 @@ class Experiment(Checked):
         )
 
 
-def _told(error: BaseException) -> str:
+def _in_one_line(error: BaseException) -> str:
     """Return an error in one line, with the last place outside of this package."""
     places = traceback.extract_tb(error.__traceback__)
     outside = [each for each in places if not Path(each.filename).is_relative_to(_PACKAGE)]

@@ -89,7 +89,7 @@ class ObservedWorld:
 
         :raises UnknownName: there is no such joint
         """
-        return float(self._snapshot.forces[_index(joint, self.joints, 'joint')])
+        return float(self._snapshot.forces[index_of(joint, self.joints, 'joint')])
 
     @property
     def joints(self) -> tuple[str, ...]:
@@ -110,7 +110,7 @@ class ObservedWorld:
         return self.node.simulation.world.snapshot()
 
     def _row(self, name: str) -> int:
-        return _index(name, self.names, 'body')
+        return index_of(name, self.names, 'body')
 
     def describe_state(self) -> str:
         """Return the time, and pose and velocity of the first bodies, a line each."""
@@ -128,7 +128,7 @@ class ObservedWorld:
         return '\n'.join(lines)
 
 
-def _index(name: str, names: Sequence[str], kind: str) -> int:
+def index_of(name: str, names: Sequence[str], kind: str) -> int:
     """
     Return the index of a name.
 

@@ -6,27 +6,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from itertools import count
 import math
 from pathlib import Path
 from typing import Any, Self, Unpack
 
 from geometry_msgs.msg import PointStamped
-from physsim_ros.model.texts import nearest_name
+from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
-from physsim_ros.testing.observed_world import ObservedWorld
+from physsim_ros.testing.observed_world import index_of, ObservedWorld
 from physsim_ros.testing.parameters import Parameters
 from physsim_ros.testing.robot import Robot, robot_marker
-from physsim_ros.testing.values import refusals_as_refused, Refused, UnknownName
+from physsim_ros.testing.values import refusals_as_refused, Refused
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker, MarkerArray
 
-# Frames from one look at the publishers of commands to the next: 0.25 s of simulation time at the
-# usual rate, as the node looks by the wall.
+# Frames between two checks of the publishers of commands: 0.25 s of simulation time at 60 Hz.
 _LOOK_FRAMES = 15
 
 
@@ -53,8 +53,7 @@ class PhysSim(ObservedWorld):
         self.context = context
         self.recording: Path | None = None
         self._directories = [*filter(None, [directory]), Path()]
-        # Frames until all publishers of commands are looked at, whether their number has changed
-        # or not.
+        # Frames until the next check of all publishers of commands.
         self._frames_to_look = 0
         self._executor = SettlingExecutor(context)
         self._executor.add_node(self.node)
@@ -122,7 +121,7 @@ class PhysSim(ObservedWorld):
         timeout: float = 10.0,
     ) -> bool:
         """
-        Advance by simulated seconds, to the nearest frame, or for less: until a predicate is true.
+        Advance by simulated seconds, to the nearest frame, or until a predicate is true.
 
         :param seconds: None is as long as `timeout`, which only goes with `until`
         :param until: looked at before each frame; None is never true
@@ -268,16 +267,14 @@ class PhysSim(ObservedWorld):
         :param name: of its body
         :raises UnknownName: there is no such robot
         """
-        robots = self.node.fleet.robots
-        if name not in robots:
-            raise UnknownName(f'there is no robot {name!r}{nearest_name(name, robots)}')
+        index_of(name, (*self.node.fleet.robots,), 'robot')
         return Robot(self.node, name)
 
     def _match_publishers(self, *, new: bool = False) -> None:
         """
-        Have robots hear those who command them; by itself the node looks by the wall clock.
+        Connect robots with the publishers of their commands, as the node does by the wall clock.
 
-        :param new: whether only a change of their number is looked for
+        :param new: whether only a change of the number of publishers counts
         """
         fleet = self.node.fleet
         if not new:
@@ -348,6 +345,10 @@ class PhysSim(ObservedWorld):
         """
         simulation = self.node.simulation
         status = simulation.status
+        for robot in self.node.fleet.robots.values():
+            # The last command came too late for the test, and would be refused in the past.
+            with suppress(Refusal):
+                robot.commands.take()
         simulation.seek(round(status.oldest * 1e9))
         self.node.apply_requests()
         self.record(path)

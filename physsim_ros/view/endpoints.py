@@ -39,14 +39,14 @@ _MAGIC = b'RRF'
 
 class Endpoint(ABC):
     """
-    The receiver of frames.
+    A receiver of frames.
 
-    :cvar kind: name of it, for messages
-    :cvar where: address of it, for messages
-    :cvar code: of the event when it is lost
-    :cvar period: time for which frames are gathered [s]
-    :cvar closing: longest time for the last frames [s]
-    :cvar reopens: whether it is opened again after it was lost
+    :cvar kind: name of the kind, for messages
+    :cvar where: address, for messages
+    :cvar code: of the event that reports a lost receiver
+    :cvar period: time between two writes [s]
+    :cvar closing: longest time that the last frames take [s]
+    :cvar reopens: whether a lost receiver is opened again
     """
 
     kind = ''
@@ -64,17 +64,17 @@ class Endpoint(ABC):
         :raises ConnectionError: it is not there, or cannot be opened
         """
 
-    def check(self) -> None:  # noqa: B027  most have nothing to check
+    def check(self) -> None:  # noqa: B027  optional
         """
         Report a program that has ended.
 
         :raises ConnectionError: the receiver is lost
         """
 
-    def complete(self) -> None:  # noqa: B027  the same
+    def complete(self) -> None:  # noqa: B027  optional
         """Complete a file whose stream was closed, and not lost."""
 
-    def close(self) -> None:  # noqa: B027  the same
+    def close(self) -> None:  # noqa: B027  optional
         """End the program, if there is one."""
 
     @property
@@ -88,7 +88,7 @@ class Endpoint(ABC):
         return self.where if self.kind == 'web' and self.where.startswith('http:') else ''
 
     def lost_answer(self, reason: str) -> Answer:
-        """Return the answer that reports that it was lost, or is another than was asked for."""
+        """Return the answer that reports a lost receiver, or another one than was asked for."""
         return Answer(topic='viewer', message=f'{self.address}: {reason}', code=self.code)
 
 
@@ -137,7 +137,7 @@ class FileEndpoint(Endpoint):
             raise ConnectionError('the file was replaced by another')
 
     def complete(self) -> None:
-        """Give the file its index, the footer; one that takes too long stays without."""
+        """Append the index (footer) to the file, unless that takes longer than `INDEXING`."""
         if self._identity == (0, 0):
             return
         path = self._path.resolve()
@@ -161,7 +161,7 @@ class FileEndpoint(Endpoint):
 
 
 class ClientEndpoint(Endpoint):
-    """A Rerun server started elsewhere, which may start later than the world and end before it."""
+    """A Rerun server of another process, which may start after the world and end before it."""
 
     kind = 'connect'
 

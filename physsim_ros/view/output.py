@@ -38,7 +38,7 @@ STARTING = 'starting'
 
 class Output:
     """
-    An endpoint with the thread that logs to it. It is open, or there is a reason why it is not.
+    An endpoint with the thread that logs to it; either open, or closed for a reason.
 
     :param endpoint: to log to
     :param boundary: of the thread

@@ -30,7 +30,7 @@ import rerun.blueprint as rrb
 
 # Period of sending geometry again [frames]: a server at its memory limit drops old rows.
 REPEAT = 1800
-# Time span of the ways of robots [s]: they have ten rows a second.
+# Time span of the paths of robots [s]: they have ten rows a second.
 _DRIVEN = 30.0
 
 
@@ -65,10 +65,10 @@ class FrameRecorder:
             arrows.VelocityArrows(recording),
             arrows.AppliedArrows(recording),
             robots.ScanPoints(recording),
-            robots.RobotWays(recording),
+            robots.RobotPaths(recording),
             PreviewLines(recording),
             events.EventLog(recording),
-            events.TimeTracks(recording),
+            events.TimeTrack(recording),
             self._plots,
         ]
 
@@ -135,7 +135,7 @@ def blueprint(*, paced: bool) -> rrb.Blueprint:
 
     :param paced: whether there is a real-time factor
     """
-    way = rrb.VisibleTimeRanges(
+    path = rrb.VisibleTimeRanges(
         timeline=RECORDED,
         start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_DRIVEN),
         end=rrb.TimeRangeBoundary.cursor_relative(),
@@ -149,8 +149,8 @@ def blueprint(*, paced: bool) -> rrb.Blueprint:
         background=PAPER,
         visual_bounds=rrb.VisualBounds2D(x_range=(0, WIDTH), y_range=(0, HEIGHT)),
         overrides={
-            robots.TRUTH: [way],
-            robots.ODOMETRY: [way],
+            robots.TRUTH: [path],
+            robots.ODOMETRY: [path],
             bodies.NAMES: [hidden],
             arrows.VELOCITIES: [hidden],
         },
@@ -158,8 +158,7 @@ def blueprint(*, paced: bool) -> rrb.Blueprint:
     below = rrb.Horizontal(events.time_view(), events.log_view(), column_shares=[1, 2])
     return rrb.Blueprint(
         rrb.Horizontal(
-            # Below, all tracks of time are seen in a window of 900 pixels.
-            rrb.Vertical(world, below, row_shares=[5, 2]),
+            rrb.Vertical(world, below, row_shares=[4, 1]),
             rrb.Vertical(*plot_views(paced=paced)),
             column_shares=[3, 1],
         ),

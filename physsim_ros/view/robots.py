@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Robots: the points that their lasers hit, and their ways, in truth and by their odometry.
+Robots: the points that their lasers hit, and their paths, true and by odometry.
 
-An odometry begins in a frame of its own. That is placed where the robot is while it has not
-driven yet, or else where the recording first sees it, so that both ways part there by its drift.
+The frame of an odometry is placed so that both paths begin at one pose: where the robot starts to
+drive, or where the recording first sees it. From there they part by the drift.
 """
 
 from __future__ import annotations
@@ -24,8 +24,7 @@ _HIT = (180, 56, 15)
 _COLORS = {TRUTH: (40, 110, 60), ODOMETRY: (150, 60, 150)}
 # Frames from one row to the next, ten a second.
 PERIOD = 6
-# Longest simulation time from one row to the next along which a robot has driven [ns]: a seek is
-# no way.
+# Longest simulation time between two rows that a segment connects [ns]: a seek draws no line.
 _LONGEST = 1_000_000_000
 
 
@@ -64,9 +63,9 @@ class ScanPoints:
         self._recording.send_columns(SCANS, batch.times_at(rows), hits)
 
 
-class RobotWays:
+class RobotPaths:
     """
-    Sends a segment of each way for each row.
+    Sends a segment of each path for each row.
 
     :param recording: stream to log to
     """
@@ -82,7 +81,7 @@ class RobotWays:
             recording.log(path, style, static=True)
 
     def send(self, batch: FrameBatch, change: Change) -> None:
-        """Send the ways of a batch."""
+        """Send the paths of a batch."""
         count = len(batch.scene.robots)
         rows = [row for row, number in enumerate(batch.numbers) if number % PERIOD == 0]
         if not count or not rows:
@@ -97,22 +96,22 @@ class RobotWays:
             self._recording.send_columns(path, batch.times_at(rows), [strips])
 
     def _segments(self, now: Snapshot) -> list[tuple[tuple[Point, Point], tuple[Point, Point]]]:
-        """Return the places of each robot at the row before, and now."""
+        """Return, true and by odometry, the positions of each robot at the row before and now."""
         known = self._places if abs(now.stamp - self._stamp) <= _LONGEST else {}
         rows, states = now.scene.robot_rows, now.robots
         self._stamp, self._places = now.stamp, {}
         poses, odometry = now.poses[rows].tolist(), states.odometry.tolist()
-        for row, pose, told in zip(rows.tolist(), poses, odometry, strict=True):
+        for row, pose, reading in zip(rows.tolist(), poses, odometry, strict=True):
             name = now.scene.names[row]
-            if not any(told) or name not in self._frames:
-                self._frames[name] = _frame_of(pose, told)
-            reckoned = local_to_world((told[0], told[1]), self._frames[name])
-            self._places[name] = (pose[0], pose[1]), reckoned
+            if not any(reading) or name not in self._frames:
+                self._frames[name] = _odometry_frame(pose, reading)
+            estimate = local_to_world((reading[0], reading[1]), self._frames[name])
+            self._places[name] = (pose[0], pose[1]), estimate
         return [(known.get(name, place), place) for name, place in self._places.items()]
 
 
-def _frame_of(pose: Pose, told: Pose) -> Pose:
-    """Return the frame in which an odometry tells a pose, in the world."""
-    yaw = pose[2] - told[2]
-    ahead, aside = rotated((told[0], told[1]), yaw)
+def _odometry_frame(pose: Pose, reading: Pose) -> Pose:
+    """Return the pose of the frame in which the odometry of a robot at a pose is a reading."""
+    yaw = pose[2] - reading[2]
+    ahead, aside = rotated((reading[0], reading[1]), yaw)
     return pose[0] - ahead, pose[1] - aside, yaw

@@ -56,8 +56,8 @@ _ROOM, _TOLERANCE = 0.05, 0.5
 # Thickness of the walls [units].
 _THICK = 0.2
 
-# Least distance of two lines of the grid [units], and lines from one labelled line to the next.
-_LEAST, _LABELLED = 0.8, 5
+# Least distance of two lines of the grid [units].
+_LEAST = 0.8
 # Half the width and height of the grid [units]: twice what the camera shows, in narrow views too.
 _ACROSS, _UP = 32.0, 26.0
 # Places of the labels in the margin of the camera [units]: of the upper edges of the labels below,
@@ -196,6 +196,8 @@ def _grid_columns(
     """
     left, bottom, right, top = area
     spacing = nice_number(_LEAST * unit)
+    # Lines from one labelled line to the next, at 1, 5 or 10 times a power of ten metres.
+    step = 2 if spacing / 10.0 ** math.floor(math.log10(spacing)) > 4.0 else 5
     x, y, z = (left + right) / 2, (bottom + top) / 2, -0.1 * unit
     columns = _multiples(x - _ACROSS * unit, x + _ACROSS * unit, spacing)
     rows = _multiples(y - _UP * unit, y + _UP * unit, spacing)
@@ -205,7 +207,7 @@ def _grid_columns(
     numbers = (*columns, *rows)
     strips = rr.LineStrips3D.columns(
         strips=lines,
-        colors=[_FAINT if number % _LABELLED else _CLEAR for number in numbers],
+        colors=[_FAINT if number % step else _CLEAR for number in numbers],
         # Negative radii are ui points.
         radii=[-0.5 if number else -1.0 for number in numbers],
     )
@@ -214,12 +216,12 @@ def _grid_columns(
     labelled = [
         ((n * spacing, bottom + _ABOVE * unit, z), n)
         for n in columns
-        if n % _LABELLED == 0 and left + _ASIDE * unit < n * spacing < edge - _ASIDE * unit
+        if n % step == 0 and left + _ASIDE * unit < n * spacing < edge - _ASIDE * unit
     ]
     labelled += [
         ((left + _ASIDE * unit, n * spacing + _HALF * unit, z), n)
         for n in rows
-        if n % _LABELLED == 0 and bottom + unit < n * spacing < top - unit
+        if n % step == 0 and bottom + unit < n * spacing < top - unit
     ]
     points = rr.Points3D.columns(
         positions=[point for point, _ in labelled],

@@ -10,7 +10,7 @@ from physsim_ros.drawing import knife
 from physsim_ros.drawing.cut_shape import cut_shape
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import BadOutline, BadSize, NotAlone, NothingThere, WorldFull
+from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, WorldFull
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Join, Spawn
 from physsim_ros.model.settings import WorldSettings
@@ -18,6 +18,8 @@ from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triang
 from physsim_ros.model.transform import cross
 from physsim_ros.simulation.simulation import Simulation
 import pytest
+
+from ..simulation.driven import take_back
 
 U_SHAPE = Polygon(
     outline=((0, 0), (3, 0), (3, 3), (2, 3), (2, 1), (1, 1), (1, 3), (0, 3)),
@@ -34,10 +36,7 @@ def world_of(shape, **properties):
 
 def cut(simulation, start, end):
     scene = SceneQuery(simulation.world.snapshot())
-    requests = knife.cut(start, end, scene)
-    for request in requests:
-        simulation.perform(request)
-    return requests
+    return simulation.perform(knife.cut(start, end, scene))
 
 
 def in_world(simulation, *points):
@@ -186,11 +185,12 @@ def test_one_stroke_cuts_all_bodies_on_its_way_but_robots_and_actors():
             Spawn(name=f'a/{number}', shape=shape, pose=pose, properties=properties)
         )
 
-    requests = cut(simulation, (-3.0, 0.1), (9.0, 0.1))
+    answer = cut(simulation, (-3.0, 0.1), (9.0, 0.1))
 
     names = simulation.world.snapshot().scene.names
     assert names == (*(f'a/{number}' for number in range(4)), 'drawn/0', 'drawn/1')
-    assert knife.message(requests) == 'cut into 4 pieces'
+    assert answer == 'cut into 4 pieces'
+    assert simulation.status.undo == 'undo cut several bodies'
     with pytest.raises(NothingThere, match='which no knife cuts') as refused:
         cut(simulation, (2.0, 1.0), (2.0, -1.0))
     assert refused.value.body == 'a/1'
@@ -249,10 +249,10 @@ def test_a_rope_is_cut_where_it_is_crossed_beside_its_bodies():
     cut(simulation, (0.2, 1.0), (0.2, -1.0))
     assert len(simulation.world.snapshot().scene.joints) == 3
 
-    requests = cut(simulation, (2.0, 1.0), (2.0, -1.0))
+    answer = cut(simulation, (2.0, 1.0), (2.0, -1.0))
 
     assert simulation.world.snapshot().scene.joints == ()
-    assert knife.message(requests) == 'cut j/0, j/1, j/2'
+    assert answer == 'cut j/0, j/1, j/2'
 
 
 @pytest.mark.parametrize('seed', range(40))
@@ -285,14 +285,16 @@ def test_a_piece_that_would_be_too_thin_is_refused():
     assert (refused.value.field, refused.value.body) == ('point', 'a/0')
 
 
-@pytest.mark.parametrize('most', ['max_bodies', 'max_shapes'])
-def test_more_pieces_than_the_world_can_have_are_refused_and_the_body_stays_whole(most):
-    simulation = Simulation(settings=WorldSettings(**{most: 1}))
-    simulation.perform(Spawn(name='a/0', shape=Box(width=2.0, height=1.0)))
+@pytest.mark.parametrize('most', ['max_bodies', 'max_shapes', 'max_overlaps'])
+def test_more_pieces_than_the_world_can_have_are_refused_and_the_bodies_stay_whole(most):
+    simulation = Simulation(settings=WorldSettings(**{most: 3}))
+    for name in ('a/0', 'a/1', 'a/2'):
+        simulation.perform(Spawn(name=name, shape=Box(width=2.0, height=1.0)))
     before = simulation.world.digest()
     with pytest.raises(WorldFull, match=most):
         cut(simulation, (0.0, -2.0), (0.0, 2.0))
     assert simulation.world.digest() == before
+    assert simulation.status.undo == 'undo spawn a/2'
 
 
 def test_a_body_that_somebody_has_cut_is_neither_taken_back_nor_theirs():
@@ -300,18 +302,21 @@ def test_a_body_that_somebody_has_cut_is_neither_taken_back_nor_theirs():
     queue = simulation.requests
     box = Spawn(name='a/0', shape=Box(width=2.0, height=1.0), properties=Properties(friction=0.1))
     queue.submit(box, topic='~/spawn', author='ann')
+    axle = Join(name='j/0', kind=JointKind.AXLE, points=((0.9, 0.0),), a='a/0', b='world')
+    queue.submit(axle, topic='~/join', author='ann')
     simulation.advance_frame()
     scene = SceneQuery(simulation.world.snapshot())
-    for number, request in enumerate(knife.cut((0.3, -2.0), (0.3, 2.0), scene)):
-        queue.submit(request, topic='~/click', joined=number > 0, author='ben')
+    queue.submit(knife.cut((0.3, -2.0), (0.3, 2.0), scene), topic='~/click', author='ben')
     simulation.advance_frame()
+    assert simulation.world.scene.joints[0].a == 'drawn/0'
+    assert simulation.past.added_by('ann') == (('a/0',), ('j/0',))
+    assert take_back(simulation, 'ann').message == 'undid join axle j/0'
+    assert simulation.world.scene.joints == ()
     before = simulation.world.digest()
 
-    with pytest.raises(NotAlone):
-        simulation.take_back('ann')
+    assert take_back(simulation, 'ann').code == 'not_alone'
 
     assert simulation.world.digest() == before
-    assert simulation.past.added_by('ann') == (('a/0',), ())
     assert simulation.past.added_by('ben') == (('drawn/0',), ())
 
 

@@ -96,10 +96,11 @@ ANY = some.recursive(
         some.lists(each)
         | some.dictionaries(some.sampled_from(['strokes', 'points', 'name']), each)
     ),
+    max_leaves=20,
 )
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None)
 @given(content=ANY | some.fixed_dictionaries({'strokes': some.lists(ANY)}))
 def test_any_json_is_a_drawing_or_refused(
     tmp_path_factory: pytest.TempPathFactory, content: Any

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The state of a robot in a world file: what was saved is read, of earlier versions too."""
+"""The state of a robot in a world file: what was saved is read."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from physsim_ros.files.engine_state import state_entry, with_saved_state
 from physsim_ros.model.checkpoint import BodyState
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.robot_states import RobotState, SPAWNED
+from physsim_ros.model.robot_states import NEVER, RobotState, SPAWNED
 import pytest
 
 from ..sensing.worlds import add_robot, plane
@@ -37,12 +37,7 @@ def driven(robot: BodyState, entry: object) -> RobotState:
 def test_what_was_saved_is_read(robot: BodyState) -> None:
     state = SPAWNED._replace(covariance=COVARIANCE, odometry=(1.0, 2.0, 0.5))
     assert driven(robot, state_entry(replace(robot, driven=state), 240.0)['driven']) == state
-
-
-def test_a_file_without_a_covariance_has_the_variances_of_its_path(robot: BodyState) -> None:
-    state = driven(robot, {'path': [3.0, 2.0], 'seconds': 0.0})
-    assert state.covariance == pytest.approx((0.03, 0.0, 0.03, 0.0, 0.0, 0.04 * 5.0))
-    assert driven(robot, {}).covariance == SPAWNED.covariance
+    assert driven(robot, {}) == SPAWNED._replace(until=NEVER)
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 import zlib
 
-from hypothesis import given, settings
+from hypothesis import given, HealthCheck, settings
 from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.files.impulse_cache import pack
@@ -207,7 +207,7 @@ def test_a_body_that_was_cut_into_pieces_leaves_no_memory(resting: Path) -> None
     restored(state).step(10)
 
 
-@settings(deadline=None)
+@settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     ids=st.lists(st.integers(0, 20), min_size=5, max_size=5, unique=True),
     pairs=st.lists(
@@ -223,15 +223,10 @@ def test_whatever_is_remembered_the_world_goes_on(
     pairs: list[tuple[int, int]],
     impulses: list[tuple[float, float]],
     walls: int,
-    tmp_path_factory: pytest.TempPathFactory,
+    resting: Path,
 ) -> None:
-    folder = tmp_path_factory.mktemp('remembered')
-    world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
-    stack(world, 5)
-    world.step(240)
-    path = save(world, folder)
     state = remembering(
-        path,
+        resting,
         {
             'ids': packed(*ids),
             'pairs': packed(*pairs),

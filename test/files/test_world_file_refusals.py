@@ -287,7 +287,7 @@ def test_a_name_that_no_file_can_have_is_refused(
 LINE = '  - {"name": "a/0", "circle": {"radius": 1}}'
 
 
-@pytest.mark.parametrize('tag', ['!line-of-json', '!line%2Dof-json', '!entry-00000000', '!entry'])
+@pytest.mark.parametrize('tag', ['!line', '!lin%65', '!entry'])
 def test_no_tag_of_a_text_stands_for_a_line(folder: Path, tag: str) -> None:
     text = f'format: 1\nbodies:\n{LINE}\ndensity: {tag} 3\n'
     assert refusal_of(text, folder).cause == 'malformed'

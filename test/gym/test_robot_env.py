@@ -174,7 +174,7 @@ def test_what_does_not_fit_is_refused() -> None:
     for times in ({'period': 0.0}, {'longest': float('inf')}, {'longest': -1.0}):
         with pytest.raises(Refusal, match=next(iter(times))):
             task(**times)
-    with pytest.raises(UnknownBody, match="nearest is 'robot/0'"):
+    with pytest.raises(UnknownBody, match='robots: robot/0'):
         RobotEnv(task(robot='robot/1'))
     with pytest.raises(BadProperty, match='not a robot'):
         RobotEnv(task(robot='wall/0'))

@@ -11,12 +11,12 @@ from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.checks import flag, OneOf, Vector, Whole, Within
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.errors import BadProperty, Malformed, Refusal
-from physsim_ros.model.requests import Spawn
+from physsim_ros.model.requests import Request
 import pytest
 
 NOT_FINITE = (math.nan, math.inf, -math.inf, 10**400, -(10**400))
 # Whatever a front imports has been declared.
-assert {DrawingSettings, Spawn} <= {*Checked.__subclasses__()}
+assert {DrawingSettings, Request} <= {*Checked.__subclasses__()}
 
 
 def _classes(kind: type[Checked] = Checked) -> Iterator[type[Checked]]:

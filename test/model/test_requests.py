@@ -7,7 +7,7 @@ from dataclasses import fields, FrozenInstanceError
 import itertools
 import math
 import re
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
@@ -21,19 +21,18 @@ from physsim_ros.model.requests import (
     ChangeBody,
     Command,
     Configure,
+    Cut,
     Delete,
     DeleteAll,
     DeleteBodies,
     DriveRobot,
     Grab,
-    GrabToPlace,
     Join,
     KeepHand,
     LetGo,
     MoveBodies,
     MoveHand,
     Pin,
-    PlaceHand,
     Release,
     Request,
     Restore,
@@ -85,14 +84,13 @@ def arguments() -> dict[type[Request], dict[str, Any]]:
         DeleteBodies: names,
         DeleteAll: {},
         Join: {**name, 'kind': JointKind.ROD, 'points': ((0.0, 0.0), (1.0, 0.0))},
+        Cut: {'pieces': (ChangeBody(name='a/0'),)},
         Unjoin: name,
         UnjoinAll: {},
         Pin: at,
         Axle: at,
         Grab: {**hand, **at},
-        GrabToPlace: {**hand, **at},
         MoveHand: {**hand, **at},
-        PlaceHand: {**hand, **at},
         KeepHand: hand,
         LetGo: hand,
         DriveRobot: {**name, 'velocity': REST},
@@ -111,7 +109,7 @@ def field_of(kind: type[Request], name: str) -> str:
     return 'client_id' if name == 'hand' else name
 
 
-@pytest.mark.parametrize('kind', get_args(Request))
+@pytest.mark.parametrize('kind', arguments())
 def test_a_field_of_another_type_is_malformed(kind: type[Request]) -> None:
     known = arguments()[kind]
     kind(**known)

@@ -20,8 +20,9 @@ from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.snapshot import Answer, Preview
 from physsim_ros.ros import parameters, world_files
+from physsim_ros.ros.encoders.preview import PreviewEncoder
 from physsim_ros.ros.encoders.streams import PosesEncoder
-from physsim_ros.ros.publishers import interactive_markers, publishers, status_publishers
+from physsim_ros.ros.publishers import interactive_markers, status_publishers
 from physsim_ros.ros.publishers.status_publishers import TimelinePublisher
 from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.robot_topics import RobotTopics
@@ -227,7 +228,7 @@ def test_a_command_of_a_robot(doors: Doors) -> None:
 
 
 OUTPUTS: dict[str, tuple[object, str]] = {
-    '~/preview': (publishers, 'preview_message'),
+    '/physsim/preview': (PreviewEncoder, 'encode'),
     '~/events': (status_publishers, 'encode_event'),
     '/physsim/poses': (PosesEncoder, 'encode'),
     '~/timeline': (TimelinePublisher, 'publish'),
@@ -241,10 +242,10 @@ OUTPUTS: dict[str, tuple[object, str]] = {
 def test_an_output(doors: Doors, output: str) -> None:
     doors.physsim.spawn(box('tb/0', text='{robot: turtlebot3_burger}'))
     doors.client.listen(PoseArray, '~/poses')
+    doors.client.listen(MarkerArray, '~/preview')
     doors.client.listen(Odometry, '/tb_0/odom')
     doors.fail(*OUTPUTS[output])
     doors.node._session.preview = Preview(label='a disc')  # noqa: SLF001
-    doors.node.outputs.publish_preview()
     doors.node.outputs.report_answers((Answer(topic='viewer', message='it'),))
     doors.physsim.step(3)
     assert doors.goes_on().name == output

@@ -77,7 +77,7 @@ def fallen(outside: Outside) -> list[Any]:
 
 
 def test_a_plain_start_does_not_import_what_only_viewers_pages_and_maps_need() -> None:
-    late = {'rerun', 'scipy', 'tornado', 'PIL', 'pyarrow', 'simulation_interfaces', 'rclpy.action'}
+    late = {'rerun', 'tornado', 'PIL', 'pyarrow', 'simulation_interfaces', 'rclpy.action'}
     check = f'import sys, physsim_ros.ros.node\nprint(*({late} & {{*sys.modules}}))'
     command = [sys.executable, '-c', check]
     assert subprocess.run(command, check=True, capture_output=True, text=True).stdout == '\n'

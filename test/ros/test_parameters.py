@@ -382,6 +382,7 @@ def test_whole_numbers_are_taken_for_doubles_at_the_start(context: Context) -> N
         ({'gravity': [0.0]}, Malformed),
         ({'viewer': 'window'}, BadProperty),
         ({'publish_clock': 1}, BadProperty),
+        ({'sketchpad_locked': ','.join(f'{each}*' for each in range(51))}, BadProperty),
         ({'world_file': 'nowhere'}, PhysSimError),
     ],
 )

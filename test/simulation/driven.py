@@ -14,6 +14,7 @@ from physsim_ros.model.requests import Request, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc, Shape
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.simulation.request_queue import TakeBack
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
@@ -81,6 +82,14 @@ def world_after(*timed: tuple[int, str, Request], frames: int = 60) -> Simulatio
                 simulation.requests.submit(request, topic='t', author=author)
         simulation.advance_frame()
     return simulation
+
+
+def take_back(simulation: Simulation, author: str) -> Answer:
+    """Have the last gesture of a person be taken back, and return the answer."""
+    simulation.requests.submit(TakeBack(), topic='~/undo', author=author)
+    simulation.apply_waiting()
+    (answer,) = (each for each in simulation.take_answers() if each.topic == '~/undo')
+    return answer
 
 
 def seen_from_above() -> World:

@@ -29,6 +29,7 @@ from physsim_ros.model.requests import (
     ChangeBody,
     Command,
     Configure,
+    Cut,
     Delete,
     DeleteAll,
     DeleteBodies,
@@ -302,6 +303,16 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
     return JointProperties(**{name: said[name] for name in names})
 
 
+def cut_of(rng: Choices) -> Cut:
+    """Return a cut; a part of it may be refused after others."""
+    largest = ChangeBody(name=rng.choice(rng.names), shape=rng.choice(SHAPES))
+    return Cut(
+        pieces=(largest, spawn_of(rng)),
+        joints=(join_of(rng),),
+        severed=(Unjoin(name=rng.choice(rng.joints)),),
+    )
+
+
 def request_of(rng: Choices) -> Request:
     """Return a request of any kind; names are few, so that requests meet."""
     properties = rng.choice(
@@ -331,6 +342,7 @@ def request_of(rng: Choices) -> Request:
         (6, lambda: drive_of(rng)),
         (2, lambda: Delete(name=rng.choice(rng.names))),
         (1, lambda: DeleteBodies(names=tuple(rng.sample(rng.names, 2)))),
+        (1, lambda: cut_of(rng)),
         (1, UnjoinAll),
         (1, DeleteAll),
         (1, lambda: Anchor(point=(0.0, 0.0), frame=rng.choice(rng.names))),

@@ -81,6 +81,19 @@ def test_a_mass_that_is_unset_leaves_the_default_density() -> None:
     assert [(each.mass, each.density) for each in world.scene.bodies] == [(None, 3.0), (None, 5.0)]
 
 
+def test_a_density_that_is_unset_leaves_a_mass() -> None:
+    world = World(settings=replace(NOWHERE, density=3.0))
+    spawn(world, 'a/0', DISC, mass=20.0)
+    spawn(world, 'a/1', DISC, density=5.0)
+    heavy = body(world, 'a/0')
+
+    for name in ('a/0', 'a/1'):
+        world.apply(ChangeBody(name=name, unset=('density',)))
+
+    assert body(world, 'a/0') == heavy
+    assert [(each.mass, each.density) for each in world.scene.bodies][1] == (None, 3.0)
+
+
 def test_a_velocity_that_is_unset_is_none() -> None:
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', DISC, velocity=(1.0, 2.0), spin=3.0)

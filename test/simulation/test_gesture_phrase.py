@@ -7,6 +7,7 @@ from physsim_ros.model.requests import (
     Axle,
     ChangeBody,
     Configure,
+    Cut,
     Delete,
     DeleteAll,
     DeleteBodies,
@@ -20,7 +21,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from ..building import BOX, spawning
+from ..building import BOX, DISC, spawning
 
 
 @pytest.fixture
@@ -45,6 +46,7 @@ def sim() -> Simulation:
         (DeleteAll(namespace='a'), 'delete all bodies of a'),
         (MoveBodies(names=('a/0', 'a/1'), by=(1.0, 0.0)), 'move several bodies'),
         (Grab(hand='me', point=(0.0, 0.0)), 'place a/0'),
+        (Cut(pieces=(ChangeBody(name='a/0', shape=DISC), spawning('a/2'))), 'cut a/0'),
     ],
 )
 def test_a_gesture_is_named_by_verb_and_object(

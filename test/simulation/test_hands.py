@@ -14,10 +14,8 @@ from physsim_ros.model.requests import (
     Delete,
     DeleteAll,
     Grab,
-    GrabToPlace,
     LetGo,
     MoveHand,
-    PlaceHand,
     Restore,
     Spawn,
 )
@@ -275,9 +273,9 @@ def test_a_paused_hand_places_an_anchored_body_and_does_not_pull_it_while_time_r
     spawn(world, 'a/0', BOX, anchored=True)
     # Without a body that moves, no step is made.
     spawn(world, 'b/0', DISC, (9.0, 0.0, 0.0))
-    world.apply(GrabToPlace(hand='h', point=(0.2, 0.0)))
+    world.apply(Grab(hand='h', point=(0.2, 0.0), paused=True))
 
-    assert world.apply(PlaceHand(hand='h', point=(1.2, 0.0))) == Answer(
+    assert world.apply(MoveHand(hand='h', point=(1.2, 0.0), paused=True)) == Answer(
         subject='a/0', message='placed a/0'
     )
     world.apply(MoveHand(hand='h', point=(3.0, 0.0)))
@@ -285,14 +283,16 @@ def test_a_paused_hand_places_an_anchored_body_and_does_not_pull_it_while_time_r
 
     assert world.snapshot().poses[0].tolist() == [1.0, 0.0, 0.0]
     world.apply(Delete(name='a/0'))
-    assert world.apply(PlaceHand(hand='h', point=(2.0, 0.0))) == Answer(message='h holds no body')
+    assert world.apply(MoveHand(hand='h', point=(2.0, 0.0), paused=True)) == Answer(
+        message='h holds no body'
+    )
 
 
 def test_a_paused_hand_that_does_not_move_changes_nothing() -> None:
     world = World()
     spawn(world, 'a/0', BOX)
-    world.apply(GrabToPlace(hand='h', point=(0.2, 0.0)))
+    world.apply(Grab(hand='h', point=(0.2, 0.0), paused=True))
 
-    world.apply(PlaceHand(hand='h', point=(0.2, 0.0)))
+    world.apply(MoveHand(hand='h', point=(0.2, 0.0), paused=True))
 
     assert not world.changed

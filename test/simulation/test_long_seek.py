@@ -6,14 +6,14 @@
 from __future__ import annotations
 
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.requests import DeleteAll, MoveBodies
+from physsim_ros.model.requests import DeleteAll, DeleteBodies, MoveBodies
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.request_queue import Amend, TakeBack, Wait
+from physsim_ros.simulation.request_queue import Amend, TakeBack, Unread, Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from .driven import FLOOR, SECOND, world_after
+from .driven import FLOOR, SECOND, take_back, world_after
 from ..building import DISC, spawning
 
 NAMES = ('Anna', 'Ben')
@@ -119,6 +119,28 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
     assert len(simulation.world) == 0
     simulation.undo()
     assert len(simulation.world) == 5
+
+
+def test_what_a_person_has_added_is_looked_up_after_a_seek(
+    past: tuple[Simulation, dict[int, str]],
+) -> None:
+    simulation, _ = past
+    simulation.speed = 0.0
+    simulation.seek(SECOND)
+    queue = simulation.requests
+    queue.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn', author='Anna')
+
+    def deletion() -> DeleteBodies:
+        names, joints = simulation.past.added_by('Anna')
+        return DeleteBodies(names=names, joints=joints)
+
+    queue.submit(Unread('', deletion), topic='~/command')
+    ticks, frame = ticks_to_a_frame(simulation, 0)
+    assert ticks > 50
+    assert [answer.message for answer in frame.answers if answer.topic == '~/command'] == [
+        'deleted early/0'
+    ]
+    assert len(frame.snapshot.scene.names) == 4
 
 
 def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(
@@ -286,7 +308,7 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
     steps: list[int],
 ) -> None:
     simulation, other = of_anna_and_ben(seconds=8), of_anna_and_ben(seconds=8)
-    other.take_back('Anna')
+    take_back(other, 'Anna')
     step = simulation.step
     queue = simulation.requests
     queue.submit(TakeBack(), topic='~/undo', author='Anna', asker='anna')

@@ -252,7 +252,7 @@ def test_what_is_no_robot_or_has_no_such_sensor_is_refused() -> None:
     simulation = robot.simulation
     with pytest.raises(BadProperty, match='not a robot'):
         Robot(simulation, 'wall/0')
-    with pytest.raises(UnknownBody, match='nearest is'):
+    with pytest.raises(UnknownBody, match='robots: robot/0'):
         Robot(simulation, 'robt/0')
     with pytest.raises(BadProperty, match="no sensor 'scam'; nearest is 'scan'"):
         robot.scan('scam')

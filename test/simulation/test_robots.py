@@ -20,6 +20,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
+from physsim_ros.simulation.world import World
 import pytest
 
 from .driven import assert_refused, body_request, put, seen_from_above
@@ -220,8 +221,6 @@ def test_motion_under_way_is_saved_and_loaded_to_the_bit(tmp_path):
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {aim: [1, 2, .nan]}}', 'malformed'),
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {seconds: -1}}', 'bad_property'),
         ('{name: b/0, circle: {radius: 1}, robot: car, driven: {wheel: 1}}', 'unknown_property'),
-        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {path: [1, -1]}}', 'bad_property'),
-        ('{name: b/0, circle: {radius: 1}, robot: car, driven: {path: [1]}}', 'malformed'),
         ('{name: b/0, circle: {radius: 1}, robot: car, anchored: true}', 'bad_property'),
     ],
 )
@@ -249,3 +248,13 @@ def test_a_body_that_is_no_robot_any_more_has_no_state_of_one():
         world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
     world.apply(ChangeBody(name='a/0', properties=Properties(robot={'drive': DRIVE})))
     assert not any(world.snapshot().robots.odometry[0])
+
+
+@pytest.mark.parametrize(('gravity', 'falls'), [((0.0, 0.0), False), ((0.0, -9.81), True)])
+def test_a_robot_that_falls_is_told(gravity, falls):
+    world = World(settings=WorldSettings(gravity=gravity))
+
+    answer = world.apply(body_request('a/0', robot={'drive': DRIVE}))
+
+    assert answer.message.startswith('spawned a/0')
+    assert ('gravity' in answer.message) is falls

@@ -4,19 +4,26 @@
 """The world carries out requests: bodies come, last and go; snapshots show them."""
 
 import math
-from typing import get_args
 
 import numpy as np
+from physsim_ros.model import requests
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import (
     UnknownBody,
+    UnknownJoint,
     WorldFull,
 )
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
+    AtPoint,
     Command,
     Configure,
     Delete,
     DeleteAll,
+    DeleteBodies,
+    HandRequest,
+    Join,
+    OfNamespace,
     Request,
 )
 from physsim_ros.model.scene import Body
@@ -47,7 +54,9 @@ from ..building import (
 
 
 def test_every_request_has_a_handler() -> None:
-    assert set(get_args(Request)) == HANDLERS.keys()
+    kinds = {each for each in vars(requests).values() if isinstance(each, type)}
+    bases = {Request, AtPoint, HandRequest, OfNamespace}
+    assert {each for each in kinds if issubclass(each, Request)} - bases == HANDLERS.keys()
 
 
 # Spawn
@@ -144,6 +153,22 @@ def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world: World) -> No
     assert names(world) == ('b/0', 'ab/0', 'a/b/0')
     assert world.apply(DeleteAll(namespace='ab')) == Answer(message='deleted 1 body')
     assert world.apply(DeleteAll(namespace='nobody')) == Answer(message='deleted 0 bodies')
+
+
+def test_bodies_and_joints_are_deleted_together_or_not_at_all(world: World) -> None:
+    for number in range(3):
+        spawn(world, f'a/{number}', DISC, (3.0 * number, 0.0, 0.0))
+        point = (3.0 * number, 0.0)
+        world.apply(Join(name=f'j/{number}', kind=JointKind.PIN, points=(point,), b='world'))
+
+    with pytest.raises(UnknownJoint) as refused:
+        world.apply(DeleteBodies(names=('a/0',), joints=('j/1', 'j/9')))
+    assert (refused.value.field, len(world.scene.joints)) == ('joints', 3)
+    assert world.apply(DeleteBodies(names=('a/0',), joints=('j/0', 'j/1'))).subject == 'a/0'
+
+    assert names(world) == ('a/1', 'a/2')
+    assert [joint.name for joint in world.scene.joints] == ['j/2']
+    assert world.apply(DeleteBodies(names=(), joints=('j/2',))).message == 'deleted 1 joint'
 
 
 def test_everything_is_deleted_and_the_world_goes_on(world: World) -> None:

@@ -16,8 +16,8 @@ BACKGROUND = """name => getComputedStyle(
 
 # The ends of the lines of a grid at a place of the world [m], as they are asked of a canvas [px].
 GRID_LINES = """async at => {
-    const {drawGrid} = await import('/page/label_view.js'), lines = [];
-    const camera = Object.assign(new (await import('/page/camera.js')).Camera(),
+    const {drawGrid} = await import('/page/view/label_view.js'), lines = [];
+    const camera = Object.assign(new (await import('/page/view/camera.js')).Camera(),
         {x: at, y: 5, scale: 60, width: 1200, height: 800});
     const ctx = {beginPath() {}, moveTo() {}, stroke() {}, fillText() {},
         lineTo: (...end) => lines.push(end)};
@@ -29,8 +29,8 @@ GRID_LINES = """async at => {
 # The labels that are drawn of three small bodies in a row, the last one apart, and how often their
 # texts are measured in two frames.
 LABELS = """async () => {
-    const {drawLabels} = await import('/page/label_view.js'), drawn = [];
-    const camera = Object.assign(new (await import('/page/camera.js')).Camera(),
+    const {drawLabels} = await import('/page/view/label_view.js'), drawn = [];
+    const camera = Object.assign(new (await import('/page/view/camera.js')).Camera(),
         {x: 0, y: 0, scale: 20, width: 400, height: 400});
     const bodies = ['first', 'second', 'third'].map((label, row) =>
         ({label, shape: {radius: 0.1}, centroid: [0, 0], at: [row === 2 ? 5 : 0.2 * row, 0]}));

@@ -12,7 +12,7 @@ from typing import Any
 
 from physsim_ros.files import OwnWorlds
 from physsim_ros.ros import world_files
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation import request_queue
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad import (
     autosave,
@@ -116,7 +116,7 @@ def test_a_message_that_is_read(doors: Doors) -> None:
         ('put_back', {'name': 'mine'}, OwnWorlds, 'put_back'),
         ('forget', {}, Autosave, 'forget_unsaved'),
         ('share', {}, Simulation, 'save'),
-        ('take_back', {}, Past, 'take_back'),
+        ('take_back', {}, request_queue, 'take_back'),
         ('course', {'course': 7}, Simulation, 'return_to_course'),
     ],
 )

@@ -315,7 +315,8 @@ def test_pasts_are_told_one_after_the_other_of_each_page_the_last_that_it_asked_
     page.ask('drop')
     assert (names(page), names(other)) == (['a/0', ''], [])
     for turn in range(3):
-        sketchpad._pasts.send_due(time.monotonic() + 3.0 * PATIENCE * (turn + 1))  # noqa: SLF001
+        now = time.monotonic() + 3.0 * PATIENCE * (turn + 1)
+        sketchpad._shared.pasts.send_due(now)  # noqa: SLF001
     page.until(lambda: len(names(page)) == 3 and names(other))
     assert (names(page), names(other)) == (['a/0', '', 'd/0'], ['e/0'])
 

@@ -14,8 +14,8 @@ import pytest
 from .chromium import Sheet, started_world
 from ..outside import Outside
 
-# A desk, a telephone both ways, a tablet, and the desk at 200 % zoom [px].
-SIZES = [(1280, 800), (390, 844), (844, 390), (768, 1024), (640, 400)]
+# A desk, a telephone both ways, a tablet, the desk at 200 % zoom, and a school laptop [px].
+SIZES = [(1280, 800), (390, 844), (844, 390), (768, 1024), (640, 400), (1366, 650)]
 # Of the lesson [m].
 BOUNDS = -5.0, 0.0, 5.0, 6.0
 # Boxes of what is shown beside the world [px].
@@ -124,6 +124,9 @@ def test_a_moved_view_stays_where_a_panel_opens_and_closes(sheet: Sheet) -> None
     before = sheet.place(0.0, 0.0)
     sheet.press('Show forces')
     sheet.press('Show forces')
+    select(sheet)
+    assert sheet.place(0.0, 0.0) == before
+    sheet.press('Close')
     assert sheet.place(0.0, 0.0) == before
     # F frames the world again.
     sheet.page.keyboard.press('f')
@@ -158,4 +161,77 @@ def test_the_panel_of_a_body_is_folded_while_time_runs(
     sheet.press('Pause')
     sheet.press('More')
     friction.wait_for(state='hidden')
+    sheet.close()
+
+
+@pytest.mark.parametrize('size', [(1280, 800), (1280, 720), (1366, 768), (1366, 650)])
+def test_all_tools_are_in_sight(chromium: Any, program: Any, size: tuple[int, int]) -> None:
+    sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
+    sheet.begin(2)
+    tools = sheet.page.locator('#tools')
+    # With words, as in every lesson, and without.
+    for words in (True, False):
+        sheet.press('Help')
+        sheet.page.get_by_label('Words at icons').set_checked(words)
+        sheet.page.keyboard.press('Escape')
+        assert tools.evaluate('(each) => each.scrollHeight === each.clientHeight')
+        check(sheet)
+    sheet.close()
+
+
+def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
+    note = sheet.page.locator('.docked')
+    sheet.page.evaluate("""() => {
+        document.body.classList.add('frozen');
+        const note = document.createElement('div');
+        note.className = 'note docked';
+        note.textContent = 'The world of yesterday was not saved.';
+        document.getElementById('dock').append(note);
+    }""")
+    box = note.bounding_box()
+    assert box['y'] + box['height'] < sheet.place(0.0, 0.5)[1]
+    assert sheet.page.locator('#top').bounding_box()['y'] < box['y']
+
+
+@pytest.mark.parametrize('size', SIZES[:1])
+def test_the_view_does_not_move_in_the_midst_of_a_gesture(
+    chromium: Any, program: Any, size: tuple[int, int]
+) -> None:
+    sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
+    sheet.begin(2)
+    check(sheet)
+    before = sheet.place(0.0, 0.0)
+    fold = 'document.getElementById("lesson").open = {}'
+    with sheet.dragging((0.0, 3.0), (1.0, 4.0), (2.0, 5.0)):
+        sheet.page.evaluate(fold.format('false'))
+        sheet.page.evaluate('new Promise(requestAnimationFrame)')
+        assert sheet.place(0.0, 0.0) == before
+    sheet.until(lambda: sheet.place(0.0, 0.0) != before, 'a world in the larger room')
+    check(sheet)
+    # A polygon is clicked corner by corner.
+    sheet.press('Polygon')
+    between = sheet.place(0.0, 0.0)
+    sheet.page.mouse.click(*sheet.place(3.0, 5.0))
+    sheet.page.evaluate(fold.format('true'))
+    sheet.page.evaluate('new Promise(requestAnimationFrame)')
+    assert sheet.place(0.0, 0.0) == between
+    sheet.page.keyboard.press('Escape')
+    sheet.page.evaluate(fold.format('false'))
+    sheet.close()
+
+
+@pytest.mark.parametrize('size', SIZES[1:3])
+def test_a_telephone_shows_the_lesson_or_the_panel(
+    chromium: Any, program: Any, size: tuple[int, int]
+) -> None:
+    sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
+    sheet.begin(2)
+    question = sheet.page.get_by_text('What is its acceleration?')
+    question.wait_for()
+    select(sheet)
+    question.wait_for(state='hidden')
+    sheet.page.locator('#lesson summary').first.click()
+    question.wait_for()
+    sheet.page.get_by_role('heading', name='ice/0').wait_for(state='hidden')
+    check(sheet)
     sheet.close()

@@ -11,6 +11,13 @@ from pathlib import Path
 import re
 from typing import Any
 
+from physsim_ros.files import (
+    load_world,
+    shipped_lessons,
+    shipped_worlds,
+    title_of,
+    worlds_in,
+)
 from physsim_ros.model import errors
 from physsim_ros.sketchpad.page_handlers import PAGE
 import pytest
@@ -58,6 +65,19 @@ def page_texts() -> set[str]:
     return texts.union(*map(html_texts, PAGE.glob('*.html')))
 
 
+def shipped_texts() -> set[str]:
+    """Return the texts of the lessons and of the worlds that ship with the package."""
+    texts = set()
+    for path in worlds_in(shipped_lessons()).values():
+        lesson = load_world(path).lesson
+        assert lesson is not None
+        texts |= {lesson.title, lesson.question, lesson.hint, lesson.measure, lesson.answer}
+    for name, path in worlds_in(shipped_worlds()).items():
+        heading = name.replace('_', ' ')
+        texts |= {heading[0].upper() + heading[1:], title_of(path)}
+    return texts
+
+
 def test_a_text_is_found_where_a_script_has_one() -> None:
     script = """
         // a comment 'with quotes'
@@ -78,7 +98,7 @@ def test_a_text_is_found_where_a_script_has_one() -> None:
 @pytest.mark.parametrize('path', LANGUAGES, ids=lambda path: path.stem)
 def test_a_language_has_every_text_and_no_other(path: Path) -> None:
     texts = json.loads(path.read_text(encoding='utf-8'))['texts']
-    assert sorted(texts) == sorted(page_texts())
+    assert sorted(texts) == sorted(page_texts() | shipped_texts())
     for text, translation in texts.items():
         values = re.findall(r'\{\w+\}|\$\d', text)
         assert sorted(values) == sorted(re.findall(r'\{\w+\}|\$\d', translation)), text
@@ -142,7 +162,7 @@ NAMED = re.compile(
 def marked(chromium: Any, address: str) -> Iterator[Sheet]:
     """Give a test a page in a language in which each text is its own translation, marked."""
     sheet = Sheet(chromium, 'about:blank', locale='de-DE')
-    texts = {text: MARKED.format(text) for text in page_texts()}
+    texts = {text: MARKED.format(text) for text in page_texts() | shipped_texts()}
     table = json.dumps({'texts': texts, 'refusals': {}})
     sheet.context.add_init_script(CANVAS)
     sheet.page.route('**/languages/de.json', lambda route: route.fulfill(body=table))
@@ -244,4 +264,53 @@ def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
     sheet.page.get_by_label('Sprache').select_option('English')
     sheet.page.get_by_role('button', name='Anchor', exact=True).wait_for()
     assert sheet.page.locator('html').get_attribute('lang') == 'en'
+    sheet.close()
+
+
+def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address, locale='de-DE')
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length === 3')
+    sheet.press('Welten')
+    sheet.page.get_by_role('button', name='Kugelstoßpendel').wait_for()
+    sheet.page.locator('.lessons').get_by_role('button', name='5. Reibung').click()
+    card = sheet.page.locator('#lesson')
+    card.get_by_text('Die Reibungszahl ist 0,4.').wait_for()
+    sheet.page.get_by_role('status').get_by_text('Reibung geöffnet').wait_for()
+    sheet.page.get_by_role('textbox', name='Deine Antwort').fill('3,2')
+    sheet.press('Prüfen')
+    card.get_by_text('Richtig!').wait_for()
+    card.get_by_text('= 3,19 m').wait_for()
+    sheet.page.get_by_label('Uhr').get_by_text('0,00 s').wait_for()
+    sheet.wait('"block/0" in physsim.bodies')
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(*sheet.pose('block/0')[:2]))
+    sheet.page.get_by_text('Zahlen eingeben').click()
+    for typed, shown in (('0,75', 'bei (0 | 0,75) m'), ('1.5', 'bei (0 | 1,50) m')):
+        sheet.page.get_by_label('y [m]', exact=True).fill(typed)
+        sheet.page.keyboard.press('Enter')
+        sheet.page.locator('.numbers').get_by_text(shown).wait_for()
+    assert sheet.page.get_by_label('Reibung, als Zahl').input_value() == '0,4'
+    sheet.page.get_by_label('Elastizität, als Zahl').fill('1,5')
+    sheet.page.keyboard.press('Enter')
+    refused = 'nicht möglich: Elastizität ist 1,5; erlaubt ist 0 bis 1'
+    sheet.page.get_by_role('status').get_by_text(refused).wait_for()
+    sheet.page.get_by_label('Reibung, als Zahl').fill('viel')
+    sheet.page.keyboard.press('Enter')
+    assert sheet.page.get_by_label('Reibung, als Zahl').input_value() == '0,4'
+    # As spreadsheets in German read it.
+    sheet.press('Abspielen')
+    sheet.wait('physsim.records["block/0"][0] > 2')
+    sheet.press('Pause')
+    with sheet.page.expect_download() as download:
+        sheet.press('Tabelle (CSV)')
+    head, first, *_ = download.value.path().read_text().splitlines()
+    assert head.startswith('time [s];x [m];')
+    assert re.fullmatch(r'[^;.]*(;[^;.]*)+;"block/0"', first)
+    assert ',' in first
+    other = sheet.context.new_page()
+    other.goto(sheet.page.url)
+    sheet.press('Personen')
+    sheet.page.locator('.people').get_by_text(re.compile(r'Seite \d+ \(du\)')).wait_for()
     sheet.close()

@@ -176,8 +176,23 @@ def test_the_limits_of_values_are_those_of_the_code():
 @pytest.mark.linter
 def test_the_address_of_the_project_is_written_in_its_manifest_alone():
     manifest = (ROOT / 'package.xml').read_text('utf-8')
-    (home,) = re.findall('<url type="repository">https://([^/]+)', manifest)
+    hosts = re.findall('(?:<url type="repository">https://|email="[^@]*@)([^/"]+)', manifest)
     texts = [ROOT / 'setup.py', ROOT / 'CITATION.cff', ROOT / 'SECURITY.md', *DOCUMENTS]
     texts += [*(ROOT / '.github').rglob('*.y*ml')]
 
-    assert [path for path in texts if home in path.read_text('utf-8')] == []
+    assert hosts
+    assert [path for path in texts for host in hosts if host in path.read_text('utf-8')] == []
+
+
+@pytest.mark.linter
+def test_the_topics_and_services_that_documents_name_are_those_of_the_node():
+    # test/ros/test_security.py compares the policy with the node.
+    policy = (ROOT / 'config' / 'sros2' / 'policy.xml').read_text('utf-8')
+    known = set(re.findall(r'<(?:topic|service)>~/(.*?)<', policy))
+    named = {
+        name
+        for path in DOCUMENTS
+        for name in re.findall(r'`~/([\w/]+\w)`', path.read_text('utf-8'))
+    }
+
+    assert {name for name in named - known if not name.startswith('simulation/')} == set()

@@ -16,6 +16,7 @@ from pathlib import Path
 import re
 
 import numpy as np
+from physsim_ros.model.robots.drives import DRIVES
 import pymunk
 from pymunk._chipmunk_cffi import lib
 import pymunk.batch
@@ -209,6 +210,8 @@ OF_DOCUMENTS |= {'enable_stamped_cmd_vel', 'map_server'}
 OF_DOCUMENTS |= {'controller_frequency', 'expected_update_rate', 'odom_frame_id'}
 OF_DOCUMENTS |= {'robot_base_frame', 'transform_tolerance', 'yaml_filename'}
 OF_DOCUMENTS |= {'values.body', 'values.yaml'}
+# Keys of the mapping `drive` of a robot.
+OF_DOCUMENTS |= {f'drive.{key}' for each in DRIVES.values() for key in ('kind', *each.FIELDS)}
 # Of simulation_interfaces, which the node does without.
 OF_DOCUMENTS |= {'STATE_LOADING_WORLD', 'TYPE_CONVEX_HULL', 'fail_on_unsupported_element'}
 

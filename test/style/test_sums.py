@@ -21,15 +21,13 @@ VECTORS = {'arctan2', 'angle', 'exp', 'log', 'power'}
 
 
 def _names(tree):
-    """Yield what a module calls of NumPy and SciPy, with its line."""
+    """Yield what a module calls of NumPy, with its line."""
     for node in ast.walk(tree):
-        if isinstance(node, (ast.BinOp, ast.AugAssign)) and isinstance(node.op, ast.MatMult):
-            yield '@', node.lineno
-        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-            if node.value.id == 'np' and node.attr in BLAS | VECTORS:
-                yield node.attr, node.lineno
-        elif isinstance(node, ast.ImportFrom) and (node.module or '').startswith('scipy'):
-            yield 'scipy', node.lineno
+        match node:
+            case ast.BinOp(op=ast.MatMult()) | ast.AugAssign(op=ast.MatMult()):
+                yield '@', node.lineno
+            case ast.Attribute(value=ast.Name(id='np'), attr=name) if name in BLAS | VECTORS:
+                yield name, node.lineno
 
 
 @pytest.mark.linter

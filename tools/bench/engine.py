@@ -51,7 +51,7 @@ def times(scene: Callable[[], Requests]) -> tuple[float, float, float]:
 
 def table() -> None:
     """Print it."""
-    print('\nprocessor time of 4 steps [µs], and in times of bare Pymunk')
+    print('\nProcessor time of 4 steps [µs], and in times of bare Pymunk; frame: with its output')
     print(f'{"":28} {"bare":>8} {"steps":>8} {"frame":>8}   {"steps":>6} {"frame":>6}')
     for name, scenes in (('free bodies', FREE), ('machines', MACHINES)):
         ratios = []

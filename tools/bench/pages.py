@@ -188,7 +188,7 @@ def table(bodies: int = 1000) -> None:
     with own_domain() as domain:
         rclpy.init(domain_id=domain)
         print('\nPages of the sketchpad, a settled pile at 60 Hz, recorded by nobody')
-        print('bodies  pages  tick [ms]  cost [%]   +-   CPU [ms]  cost [%]   +-')
+        print('bodies  pages  frame [ms]  more [%]   +-  CPU [ms]  more [%]   +-')
         measure(bodies)
         print('bodies  stroke to body [ms]  greatest  bytes/frame  bytes/body')
         for count in (100, bodies):

@@ -50,7 +50,10 @@ def _measure(speed: float) -> None:
 
 def table() -> None:
     """Print a row for each speed of the ball."""
-    print(f'\nA step of {COUNT} bodies at rest and a ball that falls far away [ms]')
+    print(
+        f'\nA step of {COUNT} bodies at rest and a ball that falls far away [ms];'
+        ' asleep: Pymunk with its own sleeping'
+    )
     print('ball [m/s]  bare, awake  bare, asleep    ours  ours/awake  ours/asleep')
     for speed in SPEEDS:
         _measure(speed)

@@ -56,7 +56,7 @@ def table() -> None:
     """Print a row for each count of bodies."""
     print('Going back in the history of a settled pile; seek: median and longest [ms]')
     print(
-        'bodies frame [ms] checkpoint [ms] checkpoints [MB/min] shots [MB]  seek 1 s   10 s   all'
+        'bodies frame [ms] checkpoint [ms] checkpoints [MB/min] frames [MB]  seek 1 s   10 s   all'
     )
     for count, seconds in LENGTHS.items():
         measure(count, seconds)

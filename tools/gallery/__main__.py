@@ -15,6 +15,7 @@ from test.worlds.digests import scene, SCENES
 
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
 from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.view import FrameContext
 from physsim_ros.view.recording import FrameRecorder
@@ -30,10 +31,13 @@ WIDTH, HEIGHT = 1400, 920
 # Simulation time of the picture of a scene [s], at the moment of most motion.
 TIMES = {
     'drawings/catapult': 0.5,
-    'drawings/cradle': 1.0,
+    'drawings/clock': 2.0,
+    'drawings/cradle': 0.5,
     'drawings/double_pendulum': 0.4,
     'drawings/marble_run': 6.0,
+    'drawings/seesaw': 1.0,
     'drawings/windmill': 0.5,
+    'worlds/boxes': 10.0,
     'worlds/bridge': 4.0,
     'worlds/car': 5.5,
     'worlds/catapult': 1.6,
@@ -46,6 +50,15 @@ TIMES = {
     'worlds/warehouse': 8.0,
 }
 USUAL = 3.0
+# Command of every robot of a scene: forward [m/s], turn [rad/s].
+COMMANDS = {
+    'worlds/boxes': (0.22, 0.0),
+    'worlds/burger': (0.2, 0.3),
+    'worlds/maze': (0.15, 0.0),
+    'worlds/people': (0.22, 0.1),
+    'worlds/soccer': (0.4, 0.4),
+    'worlds/swarm': (0.2, 0.5),
+}
 # Rate of the animation [Hz], its width [pixels], and how long its last picture stays [ms].
 RATE, NARROW, REST = 15, 800, 900
 # Height of the title bar of the window [pixels].
@@ -87,7 +100,12 @@ def frames_until(simulation: Simulation, seconds: float) -> Iterator[Frame]:
 def draw_scene(viewer: HeadlessViewer, directory: Path, name: str) -> None:
     """Draw the picture of a world or a drawing."""
     recording = Recording(directory / f'{Path(name).name}.rrd')
-    now = recording.draw(list(frames_until(scene(name), TIMES.get(name, USUAL))))
+    simulation = scene(name)
+    if name in COMMANDS:
+        described = simulation.view.snapshot.scene
+        for row in described.robot_rows:
+            Robot(simulation, described.names[row]).drive(*COMMANDS[name])
+    now = recording.draw(list(frames_until(simulation, TIMES.get(name, USUAL))))
     recording.close()
     viewer.open_recording(recording.path)
     path = DOCS / f'{name}.png'
@@ -109,14 +127,13 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
 
 
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
-    """Draw the whole window, the tracks of time in it, and the animation of the world."""
+    """Draw the whole window, and the animation of the world."""
     recording = Recording(directory / 'car.rrd')
     times = [recording.draw([frame]) for frame in car_story()]
     recording.close()
     viewer.open_recording(recording.path)
     window = viewer.picture(times[-1], view='')
     window.crop((0, TITLE, *window.size)).save(DOCS / 'demo.png', optimize=True)
-    viewer.picture(times[-1], view='Time').save(DOCS / 'time.png', optimize=True)
     pictures = [viewer.picture(time) for time in times[:: 60 // RATE]]
     size = (NARROW, round(NARROW * pictures[0].height / pictures[0].width))
     small = [picture.resize(size, Image.Resampling.LANCZOS) for picture in pictures]
@@ -140,7 +157,7 @@ def main(chosen: list[str]) -> None:
         'window': draw_window,
     }
     if not chosen or 'page' in chosen:
-        draw_page(DOCS / 'page.webp')
+        draw_page(DOCS / 'page.webp', DOCS / 'time.png')
         print('page', flush=True)
     names = [name for name in (*SCENES, *pictures) if not chosen or Path(name).name in chosen]
     if not names:

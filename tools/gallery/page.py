@@ -89,6 +89,8 @@ class Film:
             # Strokes that follow each other at once would be read as one figure.
             self._sheet.page.wait_for_timeout(1000)
             self.shoot()
+            # The card of the pen is gone, and its room with it.
+            self._sheet.press('Frame the world')
 
     def step_to(self, end: float) -> None:
         """Step to a simulation time [s]."""
@@ -137,8 +139,8 @@ class Film:
         mouse.up()
 
 
-def draw_page(path: Path) -> None:
-    """Write the animation of the page."""
+def draw_page(path: Path, last: Path) -> None:
+    """Write the animation of the page, and its last picture, beside the course that was left."""
     with ExitStack() as closing:
         domain = closing.enter_context(own_domain())
         directory = Path(closing.enter_context(tempfile.TemporaryDirectory()))
@@ -156,6 +158,7 @@ def draw_page(path: Path) -> None:
         film.step_to(END)
         sheet.close()
         browser.close()
+    film.pictures[-1].save(last, optimize=True)
     size = (NARROW, round(NARROW * film.pictures[0].height / film.pictures[0].width))
     small = [each.resize(size, Image.Resampling.LANCZOS) for each in film.pictures]
     times = [1000 // RATE] * len(small)

@@ -9,7 +9,7 @@ In the interface and in the types, such a part stands between two comments, whic
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import MISSING
 from pathlib import Path
 import textwrap
@@ -26,6 +26,7 @@ from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.parameters import NodeSettings, Spec, SPECS
 from physsim_ros.sketchpad.message import KINDS, Optional
+from physsim_ros.sketchpad.rights import Right
 
 ROOT = Path(__file__).parents[2]
 # Columns of a comment in YAML.
@@ -39,6 +40,9 @@ _YAML_HEAD = """\
 /**:
   ros__parameters:
 """
+_COLUMNS = ('key', 'default', 'range', 'meaning')
+# Keys that the text above the table of sensors explains.
+_OF_EVERY_SENSOR = {'name', 'rate', 'at'}
 # The parts of the file of parameters.
 _GROUPS: Mapping[str, type[Checked]] = {
     'The node': NodeSettings,
@@ -111,7 +115,7 @@ def _table(declarations: Any, default: Any = None) -> str:
 
 def _keys_of_a_force() -> str:
     rows = (_row(each) for each in AppliedForce.FIELDS.values())
-    return _rows(('key', 'default', 'range', 'meaning'), *rows)
+    return _rows(_COLUMNS, *rows)
 
 
 def _joint_kinds() -> str:
@@ -136,42 +140,41 @@ def _joint_default(each: Declaration) -> str:
 
 
 def _robot_keys() -> str:
-    rows = [('robot', *_row(each)) for each in Robot.FIELDS.values()]
-    kinds = ', '.join(f'`{kind}`' for kind in DRIVES)
-    rows.append(('drive', '`kind`', 'needed', '', f'one of {kinds}'))
-    for each, with_it in _by_kinds(DRIVES):
+    drive = [('`kind`', 'needed', '', f'one of {_list(DRIVES)}')]
+    for each, kinds in _by_kinds(DRIVES):
         key, default, span, meaning = _row(each)
-        if len(with_it) < len(DRIVES):
-            meaning = f'of {", ".join(f"`{kind}`" for kind in with_it)}: {meaning}'
-        rows.append(('drive', key, default, span, meaning))
-    rows += [('odometry', *_row(each)) for each in Odometry.FIELDS.values()]
-    return _rows(('of', 'key', 'default', 'range', 'meaning'), *rows)
+        of = f'of {_list(kinds)}: ' if len(kinds) < len(DRIVES) else ''
+        drive.append((key, default, span, of + meaning))
+    parts = [
+        _titled('**`robot`**', _COLUMNS, [_row(each) for each in Robot.FIELDS.values()]),
+        _titled('**`drive`**', _COLUMNS, drive),
+        _titled('**`odometry`**', _COLUMNS, [_row(each) for each in Odometry.FIELDS.values()]),
+    ]
+    return ''.join(parts) + '\n'
 
 
 def _sensor_keys() -> str:
-    rows = []
+    """Return for each kind its sentence with the default topic and rate, and its own keys."""
+    parts = []
     for kind, sensor in SENSORS.items():
-        for name, each in sensor.FIELDS.items():
-            key, default, span, meaning = _row(each)
-            if name == 'name':
-                meaning = (sensor.__doc__ or '').strip().partition('\n')[0].rstrip('.')
-            if name == 'rate':
-                span = meaning = ''
-            if name != 'at':
-                rows.append((f'`{kind}`', key, default, span, meaning))
-    return _rows(('kind', 'key', 'default', 'range', 'meaning'), *rows)
+        sentence = (sensor.__doc__ or '').strip().partition('\n')[0].rstrip('.')
+        name, rate = sensor.FIELDS['name'].default, _value(sensor.FIELDS['rate'].default)
+        rows = [_row(each) for each in sensor.FIELDS.values() if each.name not in _OF_EVERY_SENSOR]
+        parts.append(_titled(f'**`{kind}`** on `{name}`, {rate} Hz. {sentence}.', _COLUMNS, rows))
+    return ''.join(parts) + '\n'
 
 
 def _actor_keys() -> str:
-    rows = [
-        (
-            'all' if len(kinds) == len(ACTORS) else ', '.join(f'`{kind}`' for kind in kinds),
-            *_row(each),
-        )
-        for each, kinds in _by_kinds(ACTORS)
-    ]
-    rows += [('start', *_row(each)) for each in Start.FIELDS.values()]
-    return _rows(('of', 'key', 'default', 'range', 'meaning'), *rows)
+    """Return a table for each set of kinds that share keys, and one of `start`."""
+    groups: dict[tuple[str, ...], list[tuple[str, ...]]] = {}
+    for each, kinds in _by_kinds(ACTORS):
+        groups.setdefault(kinds, []).append(_row(each))
+    parts = []
+    for kinds, rows in groups.items():
+        title = _list(kinds) if len(kinds) < len(ACTORS) else 'every kind'
+        parts.append(_titled(f'**{title}**', _COLUMNS, rows))
+    parts.append(_titled('**`start`**', _COLUMNS, [_row(each) for each in Start.FIELDS.values()]))
+    return ''.join(parts) + '\n'
 
 
 def _by_kinds(
@@ -188,14 +191,26 @@ def _by_kinds(
 
 
 def _page_messages() -> str:
-    rows = []
+    groups: dict[str, list[tuple[str, ...]]] = {right.name.lower(): [] for right in Right}
     for type_, kind in sorted(KINDS.items()):
         meaning = (kind.handle.__doc__ or '').strip().partition('\n')[0].rstrip('.')
         fields = [
             f'`{name}`' + '?' * isinstance(read, Optional) for name, read in kind.fields.items()
         ]
-        rows.append((f'`{type_}`', kind.right.name.lower(), ', '.join(fields), meaning))
-    return _rows(('type', 'right', 'fields', 'meaning'), *rows)
+        groups[kind.right.name.lower()].append((f'`{type_}`', ', '.join(fields), meaning))
+    columns = ('type', 'fields', 'meaning')
+    parts = (_titled(f'**Right `{right}`**', columns, rows) for right, rows in groups.items())
+    return ''.join(parts) + '\n'
+
+
+def _titled(title: str, columns: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
+    """Return a line and below it a table, if there are rows."""
+    table = _rows(columns, *rows).rstrip('\n') if rows else ''
+    return f'\n{title}\n{table}\n'
+
+
+def _list(words: Iterable[str]) -> str:
+    return ', '.join(f'`{word}`' for word in words)
 
 
 def _row(each: Declaration) -> tuple[str, str, str, str]:

@@ -140,10 +140,11 @@ def _begins_elsewhere(places: Floats, times: Floats) -> bool:
     if len(places) < _CLICKS:
         return False
     first = math.dist(places[0], places[1])
-    took = np.maximum(times[_PACE + 1 :] - times[1:-_PACE], _TICK)
-    fastest = float((norms(places[_PACE + 1 :] - places[1:-_PACE]) / took).max())
+    later, at = places[1:], times[1:]
+    took = np.maximum(at[_PACE:] - at[:-_PACE], _TICK)
+    fastest = float((norms(later[_PACE:] - later[:-_PACE]) / took).max())
     speed = first / max(times[1] - times[0], _TICK)
-    return first > _FAR * size_of(places[1:]) and speed > _JUMP * fastest > 0.0
+    return first > _FAR * size_of(later) and speed > _JUMP * fastest > 0.0
 
 
 def _subdivided(samples: Floats) -> Floats:
@@ -218,8 +219,8 @@ def _seam(points: Floats) -> tuple[int, int]:
     gaps = norms(head[:, None] - tail[None])
     # Number of points before a point of the head and after a point of the tail.
     cut = np.arange(ends)[:, None] + np.arange(ends)[None, ::-1]
-    onward = points[_HEADING : _HEADING + ends] - head
-    until = tail - points[-ends - _HEADING : -_HEADING]
+    onward = points[_HEADING:][:ends] - head
+    until = tail - points[:-_HEADING][-ends:]
     cosines = dots(onward[:, None], until[None]) / (norms(onward)[:, None] * norms(until) + 1e-300)
     overlap = (cosines > _SAME_WAY) | (gaps < _CROSSING * step) | (cut == 0)
     best = int(np.where(overlap, gaps + CUT_COST * step * cut, np.inf).argmin())

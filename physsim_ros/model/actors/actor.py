@@ -22,6 +22,7 @@ from physsim_ros.model.checks import (
     check_point,
     check_yaw,
     FASTEST,
+    ListOf,
     LONGEST,
     number,
     OneOf,
@@ -49,11 +50,9 @@ def _name(value: object, name: str) -> str:
 
 
 def _points(value: object, name: str) -> tuple[Waypoint, ...]:
-    if not isinstance(value, Sequence) or isinstance(value, str) or not value:
-        raise BadProperty(f'{name} must be a list of points, not {shown(value)}', field=name)
-    if len(value) > MOST_POINTS:
-        raise BadProperty(f'{name} has more than {MOST_POINTS} points', field=name)
-    points = tuple(_point(each, name) for each in value)
+    points: tuple[Waypoint, ...] = ListOf(_point, 'points', MOST_POINTS)(value, name)
+    if not points:
+        raise BadProperty(f'{name} is an empty list', field=name)
     if len({len(each) for each in points}) != 1:
         raise Malformed(f'all {name} are [x, y], or all are [x, y, yaw]', field=name)
     return points
@@ -67,9 +66,7 @@ def _point(value: object, name: str) -> Waypoint:
 
 
 def _times(value: object, name: str) -> tuple[float, ...]:
-    if not isinstance(value, list | tuple):
-        raise BadProperty(f'{name} must be a list of numbers, not {shown(value)}', field=name)
-    times = tuple(Within(0.0, LONGEST, 's')(each, name) for each in value)
+    times = ListOf(Within(0.0, LONGEST, 's'), 'numbers')(value, name)
     if any(after <= before for before, after in itertools.pairwise(times)):
         raise BadProperty(f'{name} must increase', field=name)
     return times

@@ -7,24 +7,16 @@ A robot: a drive, odometry, sensors, and the namespace of its topics.
 Law: the topics of a robot have different names, which ROS allows.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 import re
 from typing import Annotated
 
-from physsim_ros.model.checks import pair, shown, Within
+from physsim_ros.model.checks import ListOf, Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 from physsim_ros.model.transform import Point
-
-_SLIP = Within(0.0, 1.0)
-
-
-def _slip(value: object, name: str) -> Point:
-    way, heading = pair(value, name)
-    return _SLIP(way, name), _SLIP(heading, name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,7 +33,7 @@ class Odometry(Checked):
     rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'messages a second'] = 30.0
     slip: Annotated[
         Point,
-        _slip,
+        Row((Within(0.0, 1.0),) * 2),
         'standard deviations of its drift, 0 .. 1: of the way after 1 m [m], of the heading after '
         '1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
     ] = (0.0, 0.0)
@@ -78,14 +70,6 @@ def check_namespace(value: object, name: str) -> str:
     return namespace
 
 
-def _sensors(value: object, name: str) -> tuple[Sensor, ...]:
-    if not isinstance(value, Sequence) or isinstance(value, str):
-        raise BadProperty(f'{name} must be a list of mappings, not {shown(value)}', field=name)
-    if len(value) > MOST_SENSORS:
-        raise BadProperty(f'a robot has at most {MOST_SENSORS} {name}', field=name)
-    return tuple(sensor_from(each, name) for each in value)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Robot(Checked):
     """
@@ -101,7 +85,7 @@ class Robot(Checked):
     ] = field(default_factory=Odometry)
     sensors: Annotated[
         tuple[Sensor, ...],
-        _sensors,
+        ListOf(sensor_from, 'mappings', MOST_SENSORS),
         f'a list of mappings, at most {MOST_SENSORS}; each on a topic of its own',
     ] = ()
     namespace: Annotated[

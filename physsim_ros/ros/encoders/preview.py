@@ -13,7 +13,7 @@ from collections.abc import Iterable
 import math
 
 from geometry_msgs.msg import Point as PointMessage
-from physsim_ros.model.snapshot import Preview
+from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
 from physsim_ros.model.transform import Point
 from rclpy.time import Time
 from std_msgs.msg import ColorRGBA, Header
@@ -27,13 +27,27 @@ _LINE, _DOT, _LETTER = (0.01, 0.01, 0.05), (0.03, 0.03, 0.15), (0.1, 0.08, 0.4)
 _COLOR = ColorRGBA(r=0.9, g=0.2, b=0.5, a=0.9)
 
 
-def preview_message(preview: Preview, *, frame_id: str, stamp: int) -> MarkerArray:
+class PreviewEncoder:
     """
-    Return the message that replaces the preview before by this one.
+    Encodes the preview of a frame; nothing while it is the one before.
 
     :param frame_id: name of the world frame
-    :param stamp: simulation time [ns]
     """
+
+    def __init__(self, frame_id: str) -> None:
+        self._frame_id = frame_id
+        self._preview: Preview = NO_PREVIEW
+
+    def encode(self, frame: Frame) -> MarkerArray | None:
+        """Return the message that replaces the preview before; None where it is the same."""
+        if frame.preview == self._preview:
+            return None
+        self._preview = frame.preview
+        stamp = Time(nanoseconds=frame.snapshot.stamp).to_msg()
+        return _message(frame.preview, Header(frame_id=self._frame_id, stamp=stamp))
+
+
+def _message(preview: Preview, header: Header) -> MarkerArray:
     extent = _extent([*preview.points, *(point for line in preview.lines for point in line)])
     markers = [Marker(action=Marker.DELETEALL)]
     width = _sized(_LINE, extent)
@@ -48,7 +62,6 @@ def preview_message(preview: Preview, *, frame_id: str, stamp: int) -> MarkerArr
         x, y = preview.top
         label.pose.position = PointMessage(x=x, y=y + letter, z=_HEIGHT)
         markers.append(label)
-    header = Header(frame_id=frame_id, stamp=Time(nanoseconds=stamp).to_msg())
     for number, marker in enumerate(markers):
         marker.header = header
         marker.ns, marker.id = NAMESPACE, number

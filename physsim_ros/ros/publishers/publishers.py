@@ -20,10 +20,10 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import PoseArray
 from nav_msgs.msg import OccupancyGrid
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.snapshot import Frame, NO_PREVIEW, Preview
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.ros.encoders.markers import MarkersEncoder
-from physsim_ros.ros.encoders.preview import preview_message
+from physsim_ros.ros.encoders.preview import PreviewEncoder
 from physsim_ros.ros.encoders.streams import (
     ClockEncoder,
     ContactsEncoder,
@@ -73,6 +73,7 @@ class Publishers:
     :raises BadProperty: poses cannot be published on `/tf`, since tf2_msgs is not installed
 
     :ivar contacts: the stream of contacts
+    :ivar preview: the stream of unfinished gestures and readings
     :ivar events: the publisher of `~/events`
     :ivar timeline: the publisher of `~/timeline`
     :ivar streams: of states, of which late subscribers receive the last frame
@@ -92,14 +93,17 @@ class Publishers:
         frame_id = values['frame_id']
         # Contacts are those of one frame, so a late subscriber does not receive the last ones.
         self.contacts = stream(MultiDOFJointState, '~/contacts', 5, ContactsEncoder(frame_id))
-        # DDS keeps the last map for late subscribers; there is another one when it changes.
+        # DDS keeps the last map, and the last preview, for late subscribers; there is another one
+        # when it changes.
         grid = MapEncoder(frame_id, lambda: values['map_resolution'])
+        self.preview = Stream(latched(MarkerArray, '~/preview'), PreviewEncoder(frame_id))
         self.streams = [
             ClockStream(node.create_publisher(Clock, 'clock', 10), values),
             stream(PoseArray, '~/poses', 5, PosesEncoder(frame_id)),
             stream(MultiDOFJointState, '~/states', 5, StatesEncoder(frame_id)),
             LatchedStream(latched(MarkerArray, '~/markers'), MarkersEncoder(frame_id)),
             Stream(latched(OccupancyGrid, '~/map'), grid),
+            self.preview,
         ]
         if values['publish_tf']:
             message = tf_message_type()
@@ -122,20 +126,6 @@ class Publishers:
             markers,
             self.timeline,
         )
-        self._preview_publisher = latched(MarkerArray, '~/preview')
-        self._frame_id = frame_id
-        self._preview: Preview = NO_PREVIEW
-
-    def publish_preview(self, preview: Preview, stamp: int) -> None:
-        """
-        Publish a preview if it has changed.
-
-        :param stamp: simulation time [ns]
-        """
-        if preview != self._preview:
-            self._preview = preview
-            message = preview_message(preview, frame_id=self._frame_id, stamp=stamp)
-            self._preview_publisher.publish(message)
 
 
 class Encoder(Protocol):

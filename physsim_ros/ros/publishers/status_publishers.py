@@ -35,6 +35,10 @@ STOPPED_PERIOD, STOPPED_ANSWERS = 0.05, EVENTS_DEPTH // 2
 # Answers that wait for acknowledgements [1], of some 300 bytes each: 15 MB.
 MOST_WAITING = 50_000
 
+# Frames from one `~/timeline` to the next while nothing but time changes: 4 Hz at 60 Hz.
+TIMELINE_PERIOD = 15
+_BUT_TIMES = attrgetter('state', 'speed', 'course', 'undo', 'redo', 'courses')
+
 
 class EventPublisher:
     """
@@ -137,13 +141,6 @@ def _encodable(text: str) -> str:
     return text.encode(errors='replace').decode()
 
 
-# Frames from one message to the next while nothing but time changes: 4 Hz at 60 frames a second.
-PERIOD = 15
-
-
-_BUT_TIMES = attrgetter('state', 'speed', 'course', 'undo', 'redo', 'courses')
-
-
 class TimelinePublisher:
     """
     Publishes the status of the timeline when it changes.
@@ -176,7 +173,7 @@ class TimelinePublisher:
         self._age += 1
         status, last = self._status(), self._last
         # A change of times alone waits.
-        waits = last is not None and may_wait and self._age < PERIOD
+        waits = last is not None and may_wait and self._age < TIMELINE_PERIOD
         if _BUT_TIMES(status) == _BUT_TIMES(last) if waits else status == last:
             return
         self._last, self._age = status, 0

@@ -24,6 +24,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import shown
 from physsim_ros.model.colors import Color
+from physsim_ros.model.declarations import without_unset
 from physsim_ros.model.errors import (
     BadProperty,
     Malformed,
@@ -46,7 +47,6 @@ from physsim_ros.model.requests import (
     Spawn,
     Unjoin,
     UnjoinAll,
-    without_unset,
 )
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.texts import property_meant

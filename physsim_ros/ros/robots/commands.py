@@ -11,7 +11,7 @@ frames the last one counts.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 import math
@@ -29,10 +29,13 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
 from rclpy.subscription import Subscription
 from rclpy.time import Time
+from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 # By their names on the graph.
 _TYPES = {'geometry_msgs/msg/Twist': Twist, 'geometry_msgs/msg/TwistStamped': TwistStamped}
 _ACKERMANN = 'ackermann_msgs/msg/AckermannDriveStamped'
+# Type and reliability of a subscription.
+_Heard = tuple[type, ReliabilityPolicy]
 # Of a burst the last ones count.
 _DEPTH = 10
 # Commands in a row that are carried out before a refusal of a code that was told is told again:
@@ -90,8 +93,8 @@ class Commands:
         # the look is to be repeated.
         self._resolved = node.resolve_topic_name(topic)
         self._count: int | None = None
-        # Type and reliability of the subscription.
-        self._heard: tuple[type, ReliabilityPolicy] | None = None
+        # None while nothing is subscribed to.
+        self._heard: _Heard | None = None
         self._subscription: Subscription | None = None
         self.match_publishers()
 
@@ -129,25 +132,7 @@ class Commands:
         :return: whether that is another subscription than before
         """
         count = self._count_publishers()
-        infos = self._node.get_publishers_info_by_topic(self.topic)
-        known = self._types
-        strange = sorted({info.topic_type for info in infos} - known.keys())
-        infos = [info for info in infos if info.topic_type in known]
-        types = [kind for name, kind in known.items() if name in {i.topic_type for i in infos}]
-        heard = None if self._expected is None else (self._expected, ReliabilityPolicy.RELIABLE)
-        if types:
-            kind = self._heard[0] if self._heard and self._heard[0] in types else types[0]
-            # Best effort hears publishers of both reliabilities, and may lose a message.
-            qualities = {info.qos_profile.reliability for info in infos}
-            best_effort = ReliabilityPolicy.BEST_EFFORT
-            heard = kind, best_effort if best_effort in qualities else ReliabilityPolicy.RELIABLE
-        deaf = ''
-        if strange:
-            words = ' or '.join(kind.__name__ for kind in known.values())
-            deaf = f'{" and ".join(strange)} is published; {words} is heard'
-        if heard is not None and len(types) > 1:
-            words = ' and of '.join(kind.__name__ for kind in types)
-            deaf = f'publishers of {words} are there; {heard[0].__name__} is heard'
+        heard, deaf = self._choose(self._node.get_publishers_info_by_topic(self.topic))
         changed = heard != self._heard
         if changed:
             of_other_type = heard and self._heard and heard[0] is not self._heard[0]
@@ -161,6 +146,29 @@ class Commands:
         self._deaf = deaf
         self._count = count if self._heard == heard else None
         return changed
+
+    def _choose(self, publishers: Sequence[TopicEndpointInfo]) -> tuple[_Heard | None, str]:
+        """Return what to subscribe to, and why some publishers are not heard; '' where all are."""
+        names = {each.topic_type for each in publishers}
+        types = [kind for name, kind in self._types.items() if name in names]
+        deaf = ''
+        if strange := sorted(names - self._types.keys()):
+            words = ' or '.join(kind.__name__ for kind in self._types.values())
+            deaf = f'{" and ".join(strange)} is published; {words} is heard'
+        reliable, best_effort = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+        if not types:
+            return None if self._expected is None else (self._expected, reliable), deaf
+        kind = self._heard[0] if self._heard and self._heard[0] in types else types[0]
+        if len(types) > 1:
+            words = ' and of '.join(each.__name__ for each in types)
+            deaf = f'publishers of {words} are there; {kind.__name__} is heard'
+        # Best effort hears publishers of both reliabilities, and may lose a message.
+        is_lossy = any(
+            each.qos_profile.reliability == best_effort
+            for each in publishers
+            if each.topic_type in self._types
+        )
+        return (kind, best_effort if is_lossy else reliable), deaf
 
     def _subscribe(self, kind: type, reliability: ReliabilityPolicy) -> bool:
         """Subscribe to messages of a type; return whether the middleware has let it."""

@@ -61,23 +61,25 @@ class Fleet:
         *,
         expected: type | None = None,
     ) -> None:
-        self._expected = expected
-        # Whether it was told that a robot has stopped as no command came.
-        self._has_told_timeout = False
         self.robots: dict[str, RobotTopics] = {}
+        self.view: StampedView | None = None
         self._node = node
         self._values = values
         self._requests = requests
         self._boundary = boundary
+        self._expected = expected
         self._scene: Scene | None = None
-        self.view: StampedView | None = None
+        # Steady time of the next look at the graph [s].
         self._look_due = 0.0
         # Steady time since which a command is waited for [s]; None is none.
         self._waiting_since: float | None = None
+        # Whether it was told that a robot has stopped as no command came.
+        self._has_told_timeout = False
 
+    @property
     def wants_contacts(self) -> bool:
-        """Return whether a bumper has subscribers."""
-        return any(robot.wants_contacts() for robot in self.robots.values())
+        """Whether a bumper has subscribers."""
+        return any(robot.wants_contacts for robot in self.robots.values())
 
     # Commands
 

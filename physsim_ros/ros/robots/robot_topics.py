@@ -174,8 +174,9 @@ class RobotTopics:
         """Whether one of its topics has subscribers."""
         return any(each.get_subscription_count() for each in self._publishers)
 
+    @property
     def wants_contacts(self) -> bool:
-        """Return whether a bumper has subscribers."""
+        """Whether a bumper has subscribers."""
         return any(isinstance(each.sensor, Bumper) and each.is_heard for each in self._topics)
 
     def publish(self, view: StampedView, row: int, number: int) -> bool:

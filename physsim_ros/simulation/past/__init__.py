@@ -9,6 +9,7 @@ Not here: the moment that is shown (`playback`). Start with the theory of operat
 front. Other folders import the names below.
 """
 
+from physsim_ros.simulation.past.amendment import amend, take_back
 from physsim_ros.simulation.past.budget import (
     DEFAULT_MEMORY,
     frame_size,
@@ -19,7 +20,6 @@ from physsim_ros.simulation.past.budget import (
 )
 from physsim_ros.simulation.past.node import CachedFrame, Moment
 from physsim_ros.simulation.past.past import Past
-from physsim_ros.simulation.past.status import timeline_status
 
 __all__ = [
     'DEFAULT_MEMORY',
@@ -29,7 +29,8 @@ __all__ = [
     'CachedFrame',
     'Moment',
     'Past',
+    'amend',
     'frame_size',
     'request_size',
-    'timeline_status',
+    'take_back',
 ]

@@ -11,77 +11,135 @@ moment, though not all of it is simulated yet.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 
-from physsim_ros.model.errors import NotAlone, Refusal
+from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past.cursor import Cursor
-from physsim_ros.simulation.past.tree import Tree
+from physsim_ros.simulation.past.node import Line
+from physsim_ros.simulation.past.past import Past
+
+# Greatest simulation time that is simulated again [s].
+LONGEST_AGAIN = 60.0
 
 
-class Amendment:
+def amend(
+    past: Past, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
+) -> Generator[None, None, list[Answer | Refusal]]:
     """
-    The replacement of the requests of earlier gestures, up to the moment of a cursor.
+    Replace the requests of earlier gestures, in parts; see `_Amendment`.
+
+    :return: for each request its answer, or its refusal
+    :raises NotAlone: too much would be simulated again; nothing is changed
+    """
+    amendment = _Amendment(past, gestures, requests, author)
+    before = yield from amendment.carry_out()
+    past.tree.drop(before)
+    return amendment.done
+
+
+def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Refusal]]:
+    """
+    Take back the last gesture of a person, and simulate again up to this moment, in parts.
+
+    What others have done since is done again as it was asked.
+
+    :param author: name of the person
+    :return: the answer
+    :raises InPast: the past is shown
+    :raises OutOfHistory: the person has done nothing that is kept
+    :raises NotAlone: what was done since needs it, or is too much to be done again; nothing is
+        changed
+    """
+    if not past.cursor.is_newest:
+        raise InPast('the past is shown; go to its end first', field='history')
+    first = past.tree.last_gesture_of(author)
+    if first is None:
+        raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
+    before = yield from _Amendment(past, (first.gesture,), stands_alone=True).carry_out()
+    before.words = first.phrase(1)
+    past.tree.undone.append(before)
+    return [Answer(message=f'undid {before.words}')]
+
+
+class _Amendment:
+    """
+    The replacement of the requests of earlier gestures, up to the moment of the cursor.
 
     Gestures that changed nothing or are no longer kept are ignored; without any other, the
     requests are applied now.
 
-    :param cursor: on the line in force
-    :param tree: with that line
+    :param past: with the gestures
     :param gestures: their numbers, at least one; the requests get the first number
     :param requests: that replace theirs, at their first step
     :param author: name of the person who did it; '' is nobody
     :param stands_alone: whether it ends where a later request is refused, which else is dropped
 
-    :ivar step: the first step that differs
     :ivar done: for each new request its answer or its refusal
     """
 
     def __init__(
         self,
-        cursor: Cursor,
-        tree: Tree,
+        past: Past,
         gestures: Sequence[int],
-        requests: Sequence[Request],
+        requests: Sequence[Request] = (),
         author: str = '',
         *,
         stands_alone: bool = False,
     ) -> None:
-        self._cursor, self._tree = cursor, tree
+        self._past, self._tree, self._cursor = past, past.tree, past.cursor
         self._requests, self._gesture, self._author = requests, gestures[0], author
-        now = cursor.moment
-        starts = [tree.gesture_start(each, now[1]) for each in gestures]
-        found = [start for start in starts if start is not None]
-        self.step, self._serial = min(found, key=lambda start: start[1], default=now)
-        self._end = now[0]
+        tree, (self._end, serial) = self._tree, self._cursor.moment
+        starts = [tree.gesture_start(each, serial) for each in gestures]
+        # The first step that differs, and the serial before it.
+        self._step, self._serial = min(
+            (start for start in starts if start is not None),
+            key=lambda start: start[1],
+            default=(self._end, serial),
+        )
         # Commands of robots join the gesture before them, whose author is another one.
         self._later = [
             each
-            for each in tree.nodes_between(self._serial, now[1])
+            for each in tree.nodes_between(self._serial, serial)
             if each.gesture not in gestures or each.author != tree.node(each.opening).author
         ]
         self._stands_alone = stands_alone
         self.done: list[Answer | Refusal] = []
 
-    def parts(self) -> Iterator[None]:
+    def carry_out(self) -> Generator[None, None, Line]:
         """
         Carry it out; yield after each frame and each request.
 
         While others act, the line ends where it will end, as the time line and seeks have it.
+        Where it fails, the line before is in force again.
 
-        :raises NotAlone: a later request is refused, and it is to stand alone
+        :return: the line before
+        :raises NotAlone: too much would be simulated again, or a later request is refused, and it
+            is to stand alone
         """
-        tree = self._tree
-        for _ in self._simulate():
-            reached, tree.head = tree.head, self._end
-            yield
-            tree.head = reached
+        past, tree = self._past, self._tree
+        if self._end - self._step > past.steps_in(LONGEST_AGAIN):
+            raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
+        before, told = tree.line(self._cursor.moment), len(past.reports)
+        try:
+            for _ in self._simulate():
+                reached, tree.head = tree.head, self._end
+                yield
+                tree.head = reached
+        except Exception:
+            # Reports of the way were given the first time.
+            del past.reports[told:]
+            left, _ = past.go_to(before)
+            tree.drop(left)
+            raise
+        tree.drop_undone()
+        past.frames.drop_from(self._step)
+        return before
 
     def _simulate(self) -> Iterator[None]:
         cursor, tree = self._cursor, self._tree
-        start = self.step, self._serial
-        cursor.follow(tree.node(self._serial), self.step, start)
+        start = self._step, self._serial
+        cursor.follow(tree.node(self._serial), self._step, start)
         yield from cursor.parts_of_work()
         for request in self._requests:
             self.done.append(self._apply(request, self._gesture, self._author))
@@ -104,12 +162,11 @@ class Amendment:
     def _apply(self, request: Request, gesture: int, author: str) -> Answer | Refusal:
         cursor = self._cursor
         try:
-            with cursor.request(request) as world:
-                answer = world.apply(request)
+            answer = self._past.carry_out(request)
         except Refusal as refusal:
             # The world may have to be rebuilt.
             cursor.finish_work()
             return refusal
-        if world.changed:
+        if cursor.world.changed:
             cursor.log(request, answer.subject, gesture, author)
         return answer

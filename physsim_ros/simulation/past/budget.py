@@ -15,6 +15,7 @@ from physsim_ros.model.checks import Within
 from physsim_ros.model.requests import (
     ChangeBody,
     Command,
+    Cut,
     DeleteBodies,
     MoveBodies,
     Request,
@@ -48,6 +49,8 @@ def request_size(request: Request) -> int:
             return _VALUE + _NAME * len(names)
         case Spawn(shape=shape) | ChangeBody(shape=shape) if shape is not None:
             return _VALUE + _shape_size(shape)
+        case Cut(pieces=pieces, joints=joints, severed=severed):
+            return sum(map(request_size, (*pieces, *joints, *severed)))
         case Restore(state=state):
             shapes = sum(_shape_size(each.body.shape) for each in state.bodies)
             impulses = 0 if state.memory is None else state.memory.nbytes

@@ -13,12 +13,10 @@ the world finishes it. Another seek replaces a seek; an amendment is finished fi
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import Failed, OutOfHistory
+from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
@@ -52,14 +50,10 @@ class Cursor(Replay):
     :param world: at a moment of the line, or sent there by `begin` or `resume`
     :param tree: of all lines
     :param reports: of events without a request, to which it adds
-    :param boundary: of the requests
     """
 
-    def __init__(
-        self, world: World, tree: Tree, reports: list[Answer], boundary: ErrorBoundary
-    ) -> None:
+    def __init__(self, world: World, tree: Tree, reports: list[Answer]) -> None:
         super().__init__(world, tree, reports)
-        self._boundary = boundary
         self._work: _Work | None = None
 
     # The moment
@@ -233,24 +227,6 @@ class Cursor(Replay):
 
     # Going on
 
-    @contextmanager
-    def request(self, request: Request) -> Iterator[World]:
-        """
-        Have the block carry out a request, in the space in which a replay will carry it out.
-
-        :return: the world
-        :raises Failed: in place of an unexpected error; the world is rebuilt, since half of the
-            request may be done
-        """
-        world = self.world
-        self._enter_checkpoint()
-        try:
-            with self._boundary.message(type(request).__name__):
-                yield world
-        except Failed:
-            self.seek_moment(*self.moment, elsewhere=True)
-            raise
-
     def log(self, request: Request, subject: str, gesture: int, author: str) -> None:
         """
         Add the request that has changed the world; it is the new tip.
@@ -289,7 +265,7 @@ class Cursor(Replay):
 
     def _make_checkpoint(self) -> None:
         """Make a checkpoint if one is due, or if a request followed the last one at its step."""
-        self._enter_checkpoint()
+        self.enter_checkpoint()
         step = self._world.step_count
         # Another line has run from this node before: its checkpoints are used.
         if step < self._tree.tip.end:

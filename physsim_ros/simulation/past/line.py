@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 
-from physsim_ros.model.requests import Axle, Join, Pin, Spawn
+from physsim_ros.model.requests import Axle, Cut, Join, Pin, Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.simulation.past.node import Keyframe, Moment, Node
 
@@ -139,10 +139,14 @@ class LineInForce:
         bodies: dict[str, str] = {}
         joints: dict[str, str] = {}
         for node in self.nodes[1:]:
-            if isinstance(node.request, Spawn):
-                bodies[node.subject] = node.author
-            elif isinstance(node.request, Join | Pin | Axle):
-                joints[node.subject] = node.author
+            match node.request:
+                case Spawn(name=name):
+                    bodies[name] = node.author
+                case Cut(pieces=pieces):
+                    new = (each.name for each in pieces if isinstance(each, Spawn))
+                    bodies |= dict.fromkeys(new, node.author)
+                case Join() | Pin() | Axle():
+                    joints[node.subject] = node.author
         return (
             tuple(name for name in scene.names if bodies.get(name) == author),
             tuple(joint.name for joint in scene.joints if joints.get(joint.name) == author),

@@ -58,7 +58,7 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.requests import Request, Restore
+from physsim_ros.model.requests import HandRequest, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
 
@@ -160,6 +160,17 @@ class Node:
     end: int = field(init=False)
     keyframes: list[Keyframe] = field(init=False, default_factory=list)
     users: int = field(init=False, default=0)
+
+    def phrase(self, count: int) -> str:
+        """
+        Return the phrase for a gesture that begins with it: `spawn ball/0 and 2 more`.
+
+        :param count: number of requests of the gesture
+        """
+        phrase = self.request.phrase(self.subject)
+        # All moves of a hand are one drag.
+        more = count > 1 and not isinstance(self.request, HandRequest)
+        return f'{phrase} and {count - 1} more' if more else phrase
 
     def __post_init__(self) -> None:
         self.end, parent = self.step, self.parent

@@ -15,28 +15,23 @@ theory of operation.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Sequence
 from dataclasses import replace
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import LONGEST, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
+from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.simulation.past.amendment import Amendment
 from physsim_ros.simulation.past.budget import Budget
 from physsim_ros.simulation.past.cursor import Cursor
 from physsim_ros.simulation.past.frames import FrameCache
 from physsim_ros.simulation.past.node import CachedFrame, Line, Moment
 from physsim_ros.simulation.past.replay import Replay
-from physsim_ros.simulation.past.status import gesture_phrase
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
-# Greatest simulation time that is simulated again where a gesture is taken back [s].
-LONGEST_AGAIN = 60.0
 # Check of the times of a past [s].
 _SPAN = Within(0.0, LONGEST, 's')
 # Share of the budget below which the next loss is reported again [1].
@@ -94,7 +89,7 @@ class Past:
             World(physics_rate=physics_rate, frame_steps=frame_steps) for _ in range(2)
         )
         present, shown = self._worlds
-        self.cursor = Cursor(present, self.tree, self.reports, boundary)
+        self.cursor = Cursor(present, self.tree, self.reports)
         self.frames = FrameCache(Replay(shown, self.tree, self.reports), shown, self.tree)
         self.cursor.begin(WorldState(settings=settings))
         self._courses = 1
@@ -178,14 +173,30 @@ class Past:
         :raises Refusal: and nothing is changed
         """
         cursor = self.cursor
-        with cursor.request(request) as world:
-            answer = world.apply(request)
-        if world.changed:
+        answer = self.carry_out(request)
+        if cursor.world.changed:
             if not cursor.is_newest:
                 self._begin_course()
             cursor.log(request, answer.subject, gesture, author)
             self.tree.drop_undone()
         return answer
+
+    def carry_out(self, request: Request) -> Answer:
+        """
+        Carry out a request, in the space in which a replay will carry it out.
+
+        :raises Refusal: the request is refused; where half of it is done, the world is rebuilt
+        :raises Failed: in place of an unexpected error; the world is rebuilt
+        """
+        cursor, world = self.cursor, self.cursor.world
+        cursor.enter_checkpoint()
+        try:
+            with self.boundary.message(type(request).__name__):
+                return world.apply(request)
+        except Refusal as refusal:
+            if world.changed or isinstance(refusal, Failed):
+                cursor.seek_moment(*cursor.moment, elsewhere=True)
+            raise
 
     def _begin_course(self) -> None:
         """Begin a course at this moment, and keep the line that is in force."""
@@ -196,65 +207,6 @@ class Past:
         self.tree.course = self._courses
         message = f'course {self._courses} begins at {step / self.physics_rate:.3f} s'
         self.reports.append(Answer(topic='branch', message=f'{message}; {left.course} is kept'))
-
-    def amend(
-        self, gestures: Sequence[int], requests: Sequence[Request], author: str = ''
-    ) -> Generator[None, None, list[Answer | Refusal]]:
-        """
-        Replace the requests of earlier gestures, in parts; see `Amendment`.
-
-        :return: for each request its answer, or its refusal
-        """
-        amendment = Amendment(self.cursor, self.tree, gestures, requests, author)
-        before = yield from self._carry_out(amendment)
-        self.tree.drop(before)
-        return amendment.done
-
-    def take_back(self, author: str) -> Generator[None, None, str]:
-        """
-        Take back the last gesture of a person, and simulate again up to this moment, in parts.
-
-        What others have done since is done again as it was asked.
-
-        :param author: name of the person
-        :return: the phrase for it
-        :raises InPast: the past is shown
-        :raises OutOfHistory: the person has done nothing that is kept
-        :raises NotAlone: what was done since needs it, or is too much to be done again; nothing is
-            changed
-        """
-        cursor, tree = self.cursor, self.tree
-        if not cursor.is_newest:
-            raise InPast('the past is shown; go to its end first', field='history')
-        first = tree.last_gesture_of(author)
-        if first is None:
-            raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
-        if cursor.moment[0] - first.step > self.steps_in(LONGEST_AGAIN):
-            raise NotAlone(f'that was more than {LONGEST_AGAIN:g} s ago; delete it instead')
-        amendment = Amendment(cursor, tree, (first.gesture,), (), stands_alone=True)
-        before = yield from self._carry_out(amendment)
-        before.words = gesture_phrase(first, 1)
-        tree.undone.append(before)
-        return before.words
-
-    def _carry_out(self, amendment: Amendment) -> Generator[None, None, Line]:
-        """
-        Carry out an amendment; where it fails, the line before is in force again.
-
-        :return: the line before
-        """
-        before, told = self.tree.line(self.cursor.moment), len(self.reports)
-        try:
-            yield from amendment.parts()
-        except Exception:
-            # Reports of the way were given the first time.
-            del self.reports[told:]
-            left, _ = self._go_to(before)
-            self.tree.drop(left)
-            raise
-        self.tree.drop_undone()
-        self.frames.drop_from(amendment.step)
-        return before
 
     def added_by(self, author: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Return the bodies and the joints in the world that a person has added, by name."""
@@ -312,24 +264,37 @@ class Past:
         tree.course, tree.era = self._courses, tree.era + 1
         return True
 
+    def words(self, moment: Moment) -> tuple[str, str]:
+        """
+        Return the phrases for what undo and redo would change at a moment; '' is nothing.
+
+        :param moment: that is shown
+        """
+        tree, (_, serial) = self.tree, moment
+        redo = tree.undone[-1].words if tree.has_undone else ''
+        if gesture := tree.last_gesture(serial):
+            first, count = gesture
+            return first.phrase(count), redo
+        return 'reset' if tree.undoes_reset(serial) else '', redo
+
     def undo(self) -> str:
         """
         Go back to the moment before the last gesture, and return the phrase for it.
 
         :raises OutOfHistory: there is none that is kept
         """
-        tree, serial = self.tree, self.cursor.moment[1]
-        gesture = tree.last_gesture(serial)
-        if gesture is not None:
-            first, count = gesture
-            words, before = gesture_phrase(first, count), tree.node(first.serial - 1)
-            goal = tree.line_to(before, first.step, (first.step, before.serial))
-        elif tree.undoes_reset(serial):
-            # The requests since a reset are undone before it, though they are no longer kept.
-            words, goal = 'reset', tree.resets[-1]
-        else:
+        tree, moment = self.tree, self.cursor.moment
+        words, _ = self.words(moment)
+        if not words:
             raise OutOfHistory('there is nothing to undo', field='history')
-        left, _ = self._go_to(goal)
+        if gesture := tree.last_gesture(moment[1]):
+            first, _ = gesture
+            before = tree.node(first.serial - 1)
+            goal = tree.line_to(before, first.step, (first.step, before.serial))
+        else:
+            # The requests since a reset are undone before it, though they are no longer kept.
+            goal = tree.resets[-1]
+        left, _ = self.go_to(goal)
         left.words = words
         tree.undone.append(left)
         return words
@@ -343,7 +308,7 @@ class Past:
         tree, era = self.tree, self.tree.era
         if not tree.has_undone:
             raise OutOfHistory('there is nothing to redo', field='history')
-        left, _ = self._go_to(tree.undone[-1])
+        left, _ = self.go_to(tree.undone[-1])
         if tree.era == era:
             tree.drop(left)
         else:
@@ -364,11 +329,11 @@ class Past:
         if line is None:
             raise OutOfHistory(f'course {number} is not kept', field='course')
         line.moment = min(moment[0], line.head), None
-        tree.keep_course(*self._go_to(line))
+        tree.keep_course(*self.go_to(line))
         self.tree.drop_undone()
         return True
 
-    def _go_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
+    def go_to(self, line: Line) -> tuple[Line, list[CachedFrame]]:
         """Put a line in force; return the line before, and the frames that only that has shown."""
         tree, cursor = self.tree, self.cursor
         left = tree.line(cursor.moment)

@@ -70,7 +70,7 @@ class Replay:
         """Replay up to the next step with a request or a checkpoint, or to the end."""
         tree, world = self._tree, self._world
         yield from self._apply_logged(tree.serial_at(world.step_count))
-        self._enter_checkpoint()
+        self.enter_checkpoint()
         self._make_steps(end)
         yield from self._apply_logged(tree.serial_shown_at(world.step_count))
 
@@ -92,7 +92,7 @@ class Replay:
     def _apply_logged(self, serial: int) -> Iterator[None]:
         """Apply the logged requests of this step up to a serial; yield after each."""
         for node in self._tree.nodes_between(self.serial, serial):
-            self._enter_checkpoint()
+            self.enter_checkpoint()
             try:
                 self._world.replay(node.request)
             except Refusal as refusal:
@@ -100,7 +100,7 @@ class Replay:
             self.serial += 1
             yield
 
-    def _enter_checkpoint(self) -> None:
+    def enter_checkpoint(self) -> None:
         """Move into a space that is built from the checkpoint of this moment, if there is one."""
         keyframe = self._tree.keyframe_at(*self._here)
         if keyframe is not None and self._resumed != keyframe.moment:

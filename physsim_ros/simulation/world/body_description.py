@@ -58,14 +58,15 @@ def changed_body(
     :raises BadProperty: it would be too light or too heavy, or a robot or conveyor that cannot be
     """
     values = {name: _default(name, settings) for name in request.unset}
-    if 'mass' in values and old.mass is not None:
-        # Its density was that of the mass.
-        values['density'] = settings.density
-    values |= request.properties.explicit()
+    if old.mass is not None and ('mass' in values or 'density' in values):
+        # A body with a mass has no other density; without the mass it has that of the world.
+        values['density'] = settings.density if 'mass' in values else old.density
+    given = request.properties.explicit()
+    values |= given
     for motion in ('velocity', 'spin'):
         values.pop(motion, None)
-    if 'density' in values:
-        values.setdefault('mass', None)
+    if 'density' in given:
+        values['mass'] = None
     body = replace(old, **changes, **values)
     if body.mass is not None:
         # The default density of the world at its spawn is in no file.

@@ -18,13 +18,14 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at
+from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at, UnknownBody
 from physsim_ros.model.names import names_in
 from physsim_ros.model.requests import (
     Anchor,
     AtPoint,
     ChangeBody,
     Command,
+    Cut,
     Delete,
     DeleteAll,
     DeleteBodies,
@@ -54,6 +55,9 @@ from physsim_ros.simulation.world.live_space import (
     pose_in_world,
 )
 
+# Number of robots that a refusal names.
+_MOST_NAMED = 10
+
 
 def spawn(live: LiveSpace, request: Spawn) -> Answer:
     """Add a body, or change the one of that name."""
@@ -70,7 +74,9 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
     live.capacity.check_robot(body)
     live.capacity.check_body(body, pose)
     space.add(body, pose, twist)
-    return Answer(subject=name, message=f'spawned {name}')
+    hint = '; gravity pulls it: robots are seen from above, with gravity [0, 0]'
+    falls = body.robot is not None and any(live.settings.gravity)
+    return Answer(subject=name, message=f'spawned {name}{hint if falls else ""}')
 
 
 def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
@@ -82,6 +88,27 @@ def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
         pose = pose_in_world(space, request.pose, request.frame)
     _change(live, rigid, fields_set_by(request), pose, request)
     return Answer(subject=name, message=f'changed {name}')
+
+
+def cut(live: LiveSpace, request: Cut) -> Answer:
+    """Cut bodies into pieces, and put the joints that are there on them; may end half done."""
+    joints = live.space.joints.by_name
+    severed = [each.name for each in request.severed if each.name in joints]
+    for name in severed:
+        live.space.unjoin(name)
+    whole = []
+    for piece in request.pieces:
+        if isinstance(piece, Spawn):
+            spawn(live, piece)
+        else:
+            whole.append(change_body(live, piece).subject)
+    for joint in request.joints:
+        if joint.name in joints:
+            joint_requests.join(live, joint)
+    subjects = whole + severed
+    subject = subjects[0] if len(subjects) == 1 else ''
+    cuts = [f'into {len(request.pieces)} pieces'] * bool(whole) + severed
+    return Answer(subject=subject, message=f'cut {", ".join(cuts)}')
 
 
 def move_bodies(live: LiveSpace, request: MoveBodies) -> Answer:
@@ -165,12 +192,28 @@ def release(live: LiveSpace, request: Release) -> Answer:
 
 def delete(live: LiveSpace, request: Delete) -> Answer:
     """Remove a body, and its joints."""
-    return _delete(live.space, (request.name,), 'name')
+    body_of_name(live.space, request.name)
+    live.space.remove(request.name)
+    return _done('deleted', (request.name,))
 
 
 def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
-    """Remove several bodies, and their joints."""
-    return _delete(live.space, request.names, 'names')
+    """
+    Remove several bodies with their joints, and other joints.
+
+    :raises UnknownBody: there is no body of a name
+    :raises UnknownJoint: there is no joint of a name
+    """
+    joint_requests.check_names(live.space, request.joints, 'joints')
+    for name in request.names:
+        body_of_name(live.space, name, 'names')
+    for name in request.joints:
+        live.space.unjoin(name)
+    for name in request.names:
+        live.space.remove(name)
+    if request.names:
+        return _done('deleted', request.names)
+    return Answer(message=f'deleted {counted(len(request.joints), "joint")}')
 
 
 def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
@@ -178,7 +221,7 @@ def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
     names = names_in(live.space.bodies.by_name, request.namespace)
     for name in names:
         live.space.remove(name)
-    return Answer(message=f'deleted {len(names)} {"body" if len(names) == 1 else "bodies"}')
+    return Answer(message=f'deleted {counted(len(names), "body")}')
 
 
 def _topmost(space: Space, request: AtPoint) -> tuple[RigidBody, Point]:
@@ -188,15 +231,6 @@ def _topmost(space: Space, request: AtPoint) -> tuple[RigidBody, Point]:
     if name is None:
         raise nothing_at(point, 'point')
     return space.bodies.by_name[name], point
-
-
-def _delete(space: Space, names: tuple[str, ...], field: str) -> Answer:
-    """Remove bodies; none if a name is unknown, which `field` of the request has."""
-    for name in names:
-        body_of_name(space, name, field)
-    for name in names:
-        space.remove(name)
-    return _done('deleted', names)
 
 
 def _tuples(rows: Floats) -> Iterator[tuple[float, float, float]]:
@@ -260,10 +294,14 @@ def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
     :raises UnknownBody: there is no such body
     :raises BadProperty: it is no robot
     """
-    rigid = body_of_name(space, name)
-    if rigid.body.robot is None:
-        raise BadProperty(f'{name} is not a robot', field='name')
-    return rigid, rigid.body.robot
+    rigid = space.bodies.by_name.get(name)
+    if rigid is not None and rigid.body.robot is not None:
+        return rigid, rigid.body.robot
+    robots = [each for each, found in space.bodies.by_name.items() if found.body.robot is not None]
+    hint = f'; robots: {", ".join(robots[:_MOST_NAMED]) or "none"}'
+    if rigid is None:
+        raise UnknownBody(f'there is no robot {name!r}{hint}', field='name')
+    raise BadProperty(f'{name} is not a robot{hint}', field='name')
 
 
 def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:

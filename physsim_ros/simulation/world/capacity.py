@@ -151,7 +151,7 @@ class Capacity:
         :raises WorldFull: too many hands drag a body
         """
         space = self._space
-        if self.checking and space.grip_of(hand) is None and len(space.grips()) >= MOST_HANDS:
+        if self.checking and space.grips.of(hand) is None and len(space.grips) >= MOST_HANDS:
             raise WorldFull(f'{MOST_HANDS} hands drag a body; no more are allowed')
 
     def check_state(self, state: WorldState) -> None:

@@ -12,12 +12,10 @@ from __future__ import annotations
 from physsim_ros.model.errors import nothing_at, NothingThere
 from physsim_ros.model.requests import (
     Grab,
-    GrabToPlace,
     HandRequest,
     KeepHand,
     LetGo,
     MoveHand,
-    PlaceHand,
 )
 from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.model.transform import rotated, world_to_local
@@ -35,7 +33,7 @@ def grab(live: LiveSpace, request: Grab) -> Answer:
     (point,) = points_in_world(space, (request.point,), request.frame)
     under = space.bodies.at(point)
     dynamic = [name for name in under if space.bodies.by_name[name].body.dynamic]
-    names = dynamic or (under if isinstance(request, GrabToPlace) else [])
+    names = dynamic or (under if request.paused else [])
     if not under:
         raise nothing_at(point, 'mouse_point')
     if not names:
@@ -50,37 +48,28 @@ def grab(live: LiveSpace, request: Grab) -> Answer:
 
 
 def move_hand(live: LiveSpace, request: MoveHand) -> Answer:
-    """Move a hand, which draws its body after it."""
-    space = live.space
-    (point,) = points_in_world(space, (request.point,), request.frame)
-    grip = space.grip_of(request.hand)
-    if grip is None:
-        return _holds_nothing(request)
-    space.set_grip(grip._replace(target=point))
-    return Answer(subject=grip.body, message=f'draws {grip.body}')
-
-
-def place_hand(live: LiveSpace, request: PlaceHand) -> Answer:
     """
-    Move a hand, and put its body where the anchor of the grip is at the hand.
+    Move a hand, which draws its body after it; in a paused world, the body is placed.
 
     :raises WorldFull: too much would overlap; nothing is changed
     """
     space = live.space
     x, y, yaw = pose_in_world(space, (*request.point, request.yaw or 0.0), request.frame)
-    grip = space.grip_of(request.hand)
+    grip = space.grips.of(request.hand)
     if grip is None:
         return _holds_nothing(request)
-    rigid = space.bodies.by_name[grip.body]
-    if request.yaw is None:
-        yaw = rigid.pose[2]
-    arm_x, arm_y = rotated(grip.anchor, yaw)
-    pose = (x - arm_x, y - arm_y, yaw)
-    if pose != rigid.pose:
-        live.capacity.check_body(rigid.body, pose, old=rigid)
-        space.set_pose(rigid, pose)
+    if request.paused:
+        rigid = space.bodies.by_name[grip.body]
+        if request.yaw is None:
+            yaw = rigid.pose[2]
+        arm_x, arm_y = rotated(grip.anchor, yaw)
+        pose = (x - arm_x, y - arm_y, yaw)
+        if pose != rigid.pose:
+            live.capacity.check_body(rigid.body, pose, old=rigid)
+            space.set_pose(rigid, pose)
     space.set_grip(grip._replace(target=(x, y)))
-    return Answer(subject=grip.body, message=f'placed {grip.body}')
+    done = 'placed' if request.paused else 'draws'
+    return Answer(subject=grip.body, message=f'{done} {grip.body}')
 
 
 def keep_hand(_: LiveSpace, request: KeepHand) -> Answer:
@@ -90,7 +79,7 @@ def keep_hand(_: LiveSpace, request: KeepHand) -> Answer:
 
 def let_go(live: LiveSpace, request: LetGo) -> Answer:
     """Remove the grip of a hand."""
-    grip = live.space.grip_of(request.hand)
+    grip = live.space.grips.of(request.hand)
     if grip is None:
         return _holds_nothing(request)
     live.space.remove_grip(request.hand)

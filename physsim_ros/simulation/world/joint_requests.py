@@ -10,7 +10,7 @@ is keeps its seat to the bit, so that markers which are published back change no
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 import math
 
@@ -21,6 +21,7 @@ from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, Join, Pin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import (
     local_to_world,
     ORIGIN,
@@ -88,11 +89,21 @@ def unjoin(live: LiveSpace, request: Unjoin) -> Answer:
 
     :raises UnknownJoint: there is none of that name
     """
-    name, joints = request.name, live.space.joints.by_name
-    if name not in joints:
-        raise no_joint(name, joints, 'name')
-    live.space.unjoin(name)
-    return Answer(subject=name, message=f'deleted joint {name}')
+    check_names(live.space, (request.name,), 'name')
+    live.space.unjoin(request.name)
+    return Answer(subject=request.name, message=f'deleted joint {request.name}')
+
+
+def check_names(space: Space, names: Iterable[str], field: str) -> None:
+    """
+    Refuse a name of no joint.
+
+    :param field: of the request, for the refusal
+    :raises UnknownJoint: there is no joint of a name
+    """
+    for name in names:
+        if name not in space.joints.by_name:
+            raise no_joint(name, space.joints.by_name, field)
 
 
 def unjoin_all(live: LiveSpace, request: UnjoinAll) -> Answer:
@@ -100,7 +111,7 @@ def unjoin_all(live: LiveSpace, request: UnjoinAll) -> Answer:
     names = names_in(live.space.joints.by_name, request.namespace)
     for name in names:
         live.space.unjoin(name)
-    return Answer(message=f'deleted {len(names)} joint{"" if len(names) == 1 else "s"}')
+    return Answer(message=f'deleted {counted(len(names), "joint")}')
 
 
 def loosen(space: Space, body: str, point: Point) -> list[str]:

@@ -64,10 +64,12 @@ def restore(live: LiveSpace, request: Restore) -> Answer:
     return Answer(message=f'loaded {counted(len(state.bodies), "body")}{joints}')
 
 
-# The handler of each type of request. It checks everything, then changes the space.
+# The handler of each type of request. It checks everything, then changes the space; one that makes
+# several requests may end half done, which `apply` tells.
 HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.Spawn: body_requests.spawn,
     requests.ChangeBody: body_requests.change_body,
+    requests.Cut: body_requests.cut,
     requests.MoveBodies: body_requests.move_bodies,
     requests.Command: body_requests.command,
     requests.Anchor: body_requests.anchor,
@@ -81,9 +83,7 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.Unjoin: joint_requests.unjoin,
     requests.UnjoinAll: joint_requests.unjoin_all,
     requests.Grab: hand_requests.grab,
-    requests.GrabToPlace: hand_requests.grab,
     requests.MoveHand: hand_requests.move_hand,
-    requests.PlaceHand: hand_requests.place_hand,
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
     requests.DriveRobot: body_requests.drive,
@@ -101,7 +101,7 @@ class World(LiveSpace):
     :param settings: at the start; None is the default ones
 
     :ivar reports_contacts: whether contacts are reported, which costs a tenth of a step
-    :ivar changed: whether the last request that was carried out changed anything
+    :ivar changed: whether the last request changed anything; also one that was refused half done
     """
 
     def __init__(
@@ -179,7 +179,7 @@ class World(LiveSpace):
     @property
     def grips(self) -> tuple[Grip, ...]:
         """Return the grips of hands on bodies."""
-        return self.space.grips()
+        return tuple(self.space.grips)
 
     def save(self) -> WorldState:
         """Return the saved state of the world."""
@@ -191,13 +191,13 @@ class World(LiveSpace):
         """
         Carry out a request.
 
-        :raises Refusal: and nothing is changed
+        :raises Refusal: nothing is changed, or `changed` tells that it is half done
         """
-        self.changed = False
         before = self.space, self.space.changes
-        done = HANDLERS[type(request)](self, request)
-        self.changed = before != (self.space, self.space.changes)
-        return done
+        try:
+            return HANDLERS[type(request)](self, request)
+        finally:
+            self.changed = before != (self.space, self.space.changes)
 
     def replay(self, request: Request) -> None:
         """

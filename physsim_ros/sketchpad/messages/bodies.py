@@ -15,6 +15,7 @@ import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import pair, Within
+from physsim_ros.model.declarations import without_unset
 from physsim_ros.model.errors import BadProperty, no_joint
 from physsim_ros.model.joints import JointProperties
 from physsim_ros.model.requests import (
@@ -27,7 +28,6 @@ from physsim_ros.model.requests import (
     MoveBodies,
     Spawn,
     Unjoin,
-    without_unset,
 )
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
@@ -126,13 +126,13 @@ def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
 @message('watch', 'page', Right.LOOK, name=fields.text)
 def watch(page: PageSession, origin: Origin, name: str) -> None:
     """Send the page the past of a body, as far as it was shown; '' is no body."""
-    page.pasts.ask(page.number, name, origin.request)
+    page.shared.pasts.ask(page.number, name, origin.request)
 
 
 @message('follow', 'page', Right.LOOK, names=_followed)
 def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
     """Tell the page when other bodies began to touch these, and begin to; none is no body."""
-    page.past_touches.ask(page.number, names)
+    page.shared.past_touches.ask(page.number, names)
     page.followed = names
     page.answer_page(origin, f'following {counted(len(names), "body")}')
 

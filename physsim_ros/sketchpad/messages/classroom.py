@@ -9,8 +9,8 @@ import re
 
 from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import BadProperty, NothingThere
-from physsim_ros.model.requests import DeleteBodies, Unjoin
-from physsim_ros.simulation.request_queue import TakeBack
+from physsim_ros.model.requests import DeleteBodies
+from physsim_ros.simulation.request_queue import TakeBack, Unread
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession, TEACHER, UNNAMED
@@ -86,11 +86,13 @@ def lock(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
 @message('clear_of', '~/command', Right.TEACH, person=fields.person)
 def clear_of(page: PageSession, origin: Origin, person: str) -> None:
     """Delete the bodies and joints that a person has added, as far as the history reaches."""
-    # Requests may wait that add some.
-    page.world.current_snapshot()
-    bodies, joints = page.world.simulation.past.added_by(person)
-    if not bodies and not joints:
-        raise NothingThere(f'there is nothing of {person}', field='person')
-    deletion = [DeleteBodies(names=bodies)] if bodies else []
-    # First: a joint goes with its bodies.
-    page.submit(origin, [*(Unjoin(name=name) for name in joints), *deletion])
+
+    def deletion() -> DeleteBodies:
+        bodies, joints = page.world.simulation.past.added_by(person)
+        if not bodies and not joints:
+            raise NothingThere(f'there is nothing of {person}', field='person')
+        return DeleteBodies(names=bodies, joints=joints)
+
+    # Requests that wait may add some.
+    queue = page.world.simulation.requests
+    queue.submit(Unread('', deletion), topic=origin.topic, asker=origin.asker, author=page.person)

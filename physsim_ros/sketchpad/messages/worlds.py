@@ -116,8 +116,8 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
 
     def save() -> str:
         with _reaching(name):
-            page.own_worlds.check_free(check_world_name(name), replace=replace)
-            page.own_worlds.keep(name)
+            page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
+            page.shared.own_worlds.keep(name)
         return page.world.perform_on('save_world', name)
 
     page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
@@ -126,40 +126,40 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
 def _saving(page: PageSession, save: Callable[[], str]) -> str:
     """Save the world, note that it is saved, and return the message about it."""
     done = save()
-    page.autosave.note_saved()
-    page.list_worlds(None)
+    page.shared.autosave.note_saved()
+    page.shared.list_worlds(None)
     return done
 
 
 @message('rename', 'page', name=_world_name, to=fields.text)
 def rename(page: PageSession, origin: Origin, name: str, to: str) -> None:
     """Rename an own world."""
-    _manage(page, origin, partial(page.own_worlds.rename, name, to), name)
+    _manage(page, origin, partial(page.shared.own_worlds.rename, name, to), name)
 
 
 @message('remove', 'page', name=_world_name)
 def remove(page: PageSession, origin: Origin, name: str) -> None:
     """Delete an own world, which is kept aside."""
-    _manage(page, origin, partial(page.own_worlds.delete, name), name)
+    _manage(page, origin, partial(page.shared.own_worlds.delete, name), name)
 
 
 @message('put_back', 'page', name=_world_name)
 def put_back(page: PageSession, origin: Origin, name: str) -> None:
     """Put back the own world that was deleted or written over last."""
-    _manage(page, origin, partial(page.own_worlds.put_back, name), name)
+    _manage(page, origin, partial(page.shared.own_worlds.put_back, name), name)
 
 
 @message('list', 'page', Right.LOOK)
 def list_worlds(page: PageSession, origin: Origin) -> None:
     """Send this page the list of worlds and lessons as their files are now."""
-    page.list_worlds(page.number)
+    page.shared.list_worlds(page.number)
     page.answer_page(origin, 'the list of worlds')
 
 
 @message('forget', 'page')
 def forget(page: PageSession, origin: Origin) -> None:
     """Delete the unsaved world of the last start."""
-    _manage(page, origin, page.autosave.forget_unsaved)
+    _manage(page, origin, page.shared.autosave.forget_unsaved)
 
 
 def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: str = '') -> None:
@@ -168,7 +168,7 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
     def manage() -> str:
         with _reaching(name):
             done = action()
-        page.list_worlds(None)
+        page.shared.list_worlds(None)
         return done
 
     page.perform(origin, manage)

@@ -2,37 +2,38 @@
 /**
  * The page: one object that knows its parts and the tool in use.
  *
- * Start reading here; each part is a file. The world moves on the server alone (world_state.js).
+ * Start reading here; each part is a file. The world moves on the server alone (world_state.js). `view/` draws it, `input/`
+ * and `tools/` work it, `panels/` and `measures/` show and change what is selected, `ui/` stands around it.
  */
 
-import {Arrows} from './arrows.js';
-import {Camera} from './camera.js';
-import {Classroom} from './classroom.js';
+import {Arrows} from './view/arrows.js';
+import {Camera} from './view/camera.js';
+import {Classroom} from './ui/classroom.js';
 import {Connection} from './connection.js';
-import {createElement, elementOf} from './dom.js';
-import {Driving} from './driving.js';
-import {Gallery} from './gallery.js';
-import {Handles} from './handles.js';
-import {Hints, Tips} from './hints.js';
-import {JointPanel} from './joint_panel.js';
-import {Cursor, Keyboard} from './keyboard.js';
-import {Lessons} from './lessons.js';
-import {Narrator, Sound} from './narrator.js';
-import {Notes, Refusals} from './notes.js';
-import {Numbers} from './numbers.js';
-import {Panel} from './panel.js';
-import {LargePlot, Plots} from './plots.js';
-import {Pointers} from './pointer.js';
-import {Records, Trail} from './records.js';
-import {Room} from './room.js';
-import {SceneView} from './scene_view.js';
-import {Selection} from './selection.js';
-import {Settings} from './settings.js';
-import {Stopwatch} from './stopwatch.js';
+import {createElement, elementOf, showText} from './dom.js';
+import {Driving} from './panels/driving.js';
+import {Gallery} from './ui/gallery.js';
+import {Handles} from './input/handles.js';
+import {Hints, Tips} from './ui/hints.js';
+import {Cursor, Keyboard} from './input/keyboard.js';
+import {Lessons} from './ui/lessons.js';
+import {Narrator, Sound} from './ui/narrator.js';
+import {Notes, Refusals} from './ui/notes.js';
+import {Numbers} from './measures/numbers.js';
+import {Panel} from './panels/panel.js';
+import {LargePlot, Plots} from './measures/plots.js';
+import {Pointers} from './input/pointer.js';
+import {Records, Trail} from './measures/records.js';
+import {Room} from './view/room.js';
+import {fixed} from './rounding.js';
+import {SceneView} from './view/scene_view.js';
+import {Selection} from './input/selection.js';
+import {Settings} from './ui/settings.js';
+import {Stopwatch} from './measures/stopwatch.js';
 import {t} from './strings.js';
-import {EmptyCard, Readings} from './strokes.js';
-import {TimeBar} from './time_bar.js';
-import {makeToolbar, Toolbar, TopBar} from './toolbar.js';
+import {EmptyCard, Readings} from './ui/strokes.js';
+import {TimeBar} from './ui/time_bar.js';
+import {makeToolbar, Toolbar, TopBar} from './ui/toolbar.js';
 import {shapeWord, Words} from './words.js';
 import {WorldState} from './world_state.js';
 
@@ -57,7 +58,7 @@ export class App {
     this.camera = new Camera();
     this.view = new SceneView(elementOf('world', HTMLCanvasElement), this.world, this.camera);
     this.selection = new Selection(this);
-    this.view.overlays.push((view) => this.tool.draw(view));
+    this.view.overlays.push((view) => this.tool.draw?.(view));
     this.cursor = new Cursor(this);
     this.arrows = new Arrows(this);
     this.words = new Words(this.connection);
@@ -72,14 +73,13 @@ export class App {
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);
     this.panel = new Panel(this);
-    this.joints = new JointPanel(this);
     this.stopwatch = new Stopwatch(this);
     this.handles = new Handles(this);
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);
     this.gallery = new Gallery(this);
     /** @type {Tool} */
-    this.tool = {down() {}, move() {}, up() {}, cancel() {}, draw() {}};
+    this.tool = {up() {}};
     this.hints = new Hints(this);
     this.toolbar = new Toolbar(this);
     this.pointers = new Pointers(this);
@@ -116,7 +116,7 @@ export class App {
     });
     connection.on('closed', (status) => {
       // At the first failure only: a stroke that begins later is drawn to its end.
-      if (gone.hidden) this.tool.cancel();
+      if (gone.hidden) this.tool.cancel?.();
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
         t('Wrong token: open the address that the node printed.') :
@@ -127,16 +127,20 @@ export class App {
 
   /** Ask for the parts of frames that are shown. */
   askForParts() {
-    const {velocities, forces} = this.arrows, {name} = this.panel, told = this.settings?.speaks || this.selection.names.size > 0;
-    const robot = this.world.scene.bodies.some((body) => body.name === name && body.robot);
+    const {arrows, records, panel: {name}} = this, told = this.settings?.speaks || this.selection.names.size > 0;
     this.view.dirty = true;
-    // The drag of the air follows from velocities.
-    this.connection.send('show', {velocities: velocities || forces || told || this.records.records || this.tool.measures === true, contacts: forces || told || this.sound.on || this.records.recordsForces, forces: true, laser: robot ? name : ''});
+    this.connection.send('show', {
+      // The drag of the air follows from velocities.
+      velocities: arrows.velocities || arrows.forces || told || records.records || this.tool.measures === true,
+      contacts: arrows.forces || told || this.sound.on || records.recordsForces,
+      forces: true,
+      laser: this.world.body(name)?.robot ? name : '',
+    });
   }
 
   /** Show the help, whose script is loaded when somebody asks for it first. */
   async showHelp() {
-    const {showHelp} = await import('./help.js');
+    const {showHelp} = await import('./ui/help.js');
     showHelp(this);
   }
 
@@ -145,14 +149,13 @@ export class App {
     const texts = bodies.slice(0, LISTED).map((body, row) => {
       const {name, anchored, label} = body;
       const [x, y] = world.place(row, [0, 0]);
-      return `${name}: ${shapeWord(body)}${label && ` ${label}`}${anchored ? `, ${t('anchored')}` : ''}, ${t('at {x}, {y} m', {x: x.toFixed(1), y: y.toFixed(1)})}`;
+      return `${name}: ${shapeWord(body)}${label && ` ${label}`}${anchored ? `, ${t('anchored')}` : ''}, ${t('at {x}, {y} m', {x: fixed(x, 1), y: fixed(y, 1)})}`;
     });
     if (bodies.length > LISTED) texts.push(t('and {count} more', {count: bodies.length - LISTED}));
     const list = elementOf('list', HTMLElement);
     while (list.children.length > texts.length) list.lastChild?.remove();
     texts.forEach((text, i) => {
-      const item = list.children[i] ?? list.appendChild(createElement('li'));
-      if (item.textContent !== text) item.textContent = text;
+      showText(/** @type {HTMLElement} */ (list.children[i] ?? list.appendChild(createElement('li'))), text);
     });
   }
 }

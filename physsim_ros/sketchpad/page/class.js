@@ -4,12 +4,12 @@
  * each, with a live picture, and does for all at once what a teacher may do in one world.
  */
 
-import {Camera} from './camera.js';
-import {sayForm} from './classroom.js';
+import {Camera} from './view/camera.js';
+import {sayForm} from './ui/classroom.js';
 import {Connection} from './connection.js';
 import {choice, createElement, elementOf, inRow, languageField, textButton} from './dom.js';
-import {SceneView} from './scene_view.js';
-import {watchTheme} from './settings.js';
+import {SceneView} from './view/scene_view.js';
+import {watchTheme} from './ui/settings.js';
 import {t} from './strings.js';
 import {WorldState} from './world_state.js';
 
@@ -62,7 +62,7 @@ class Card {
 
   show() {
     const {pupil, world: {scene: {lesson}}} = this, answered = pupil?.answered;
-    this.lesson.textContent = lesson ? `${lesson.number}. ${lesson.title}` : t('no lesson');
+    this.lesson.textContent = lesson ? `${lesson.number}. ${t(lesson.title)}` : t('no lesson');
     this.hand.hidden = !pupil?.raised;
     const known = answered && answered.lesson === lesson?.title;
     this.answer.textContent = known ? `${answered.answer} ${lesson?.unit === '1' ? '' : lesson?.unit} ${answered.right ? t('✓ right') : t('✗ not yet')}` : '';
@@ -115,7 +115,7 @@ function begin(count) {
   const lessons = choice(t('Lesson'), [], '', () => {});
   cards[0].connection.on('worlds', ({lessons: list}) => lessons.replaceChildren(...list.map(
     (/** @type {{name: string, number: number, title: string}} */ each) =>
-      createElement('option', {value: each.name, textContent: `${each.number}. ${each.title}`}))));
+      createElement('option', {value: each.name, textContent: `${each.number}. ${t(each.title)}`}))));
   // A lesson may have been written meanwhile.
   lessons.onpointerdown = () => cards[0].connection.send('list');
   elementOf('all', HTMLElement).append(inRow(lessons,

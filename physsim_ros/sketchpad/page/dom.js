@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Short forms to make and find elements of the page. */
 
-import {chooseLanguage, language, LANGUAGES, t} from './strings.js';
+import {digits, numberOf} from './rounding.js';
+import {chooseLanguage, language, LANGUAGES, localized, t} from './strings.js';
 
 /**
  * @template {keyof HTMLElementTagNameMap} T
@@ -74,6 +75,24 @@ export function textOf(field) {
 }
 
 /**
+ * A field for a number, with a decimal point or comma. What is none becomes again what it was.
+ * @param {?number} value null is an empty field
+ * @param {(value: ?number) => void} change gets null for a field that was emptied
+ * @param {Record<string, any>} properties
+ */
+export function numberField(value, change, properties = {}) {
+  const text = value === null ? '' : digits(value, 5);
+  const input = createElement('input', {className: 'number', autocomplete: 'off', value: text, ...properties,
+    onfocus: () => { input.dataset.before = input.value; },
+    onchange: () => {
+      const typed = input.value.trim() === '' ? null : numberOf(input.value);
+      if (Number.isNaN(typed)) input.value = input.dataset.before ?? text;
+      else change(typed);
+    }});
+  return input;
+}
+
+/**
  * @param {string} label
  * @param {number} min
  * @param {number} max
@@ -82,14 +101,14 @@ export function textOf(field) {
  * @param {(value: number) => void} change when it is let go
  */
 export function range(label, min, max, step, value, change) {
-  const typed = createElement('input', {type: 'number', min, step: 'any', value: Number(value.toPrecision(5)), 'aria-label': t('{quantity}, typed', {quantity: label}),
+  const typed = numberField(value, (now) => now !== null && change(now), {'aria-label': t('{quantity}, typed', {quantity: label}),
     oninput: () => {
-      input.max = String(Math.max(max, Number(typed.value)));
-      input.value = typed.value;
-    },
-    onchange: () => typed.value !== '' && change(Number(typed.value))});
+      const now = numberOf(typed.value);
+      input.max = String(Math.max(max, now || 0));
+      input.value = String(now || 0);
+    }});
   const input = createElement('input', {type: 'range', min, max: Math.max(max, value), step, value, 'aria-label': label,
-    oninput: () => { typed.value = input.value; },
+    oninput: () => { typed.value = localized(input.value); },
     onchange: () => change(Number(input.value))});
   return createElement('div', {className: 'field'}, createElement('span', {textContent: label}), typed, input);
 }
@@ -152,6 +171,14 @@ export function toggling(button, isOn, change) {
   };
   show();
   return button;
+}
+
+/**
+ * @param {HTMLElement} element
+ * @param {string} text which it may have already: screen readers read what is new
+ */
+export function showText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
 }
 
 /** @param {Node[]} children beside each other */

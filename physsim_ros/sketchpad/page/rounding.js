@@ -1,11 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Numbers as people read them: three digits, round steps of scales, and points on the grid. */
+/** Numbers as people read and write them in their language: three digits, and round steps of scales. */
 
-/** @import {Point} from './types.js' */
+import {localized} from './strings.js';
 
 /** @param {number} value */
 export function threeDigits(value) {
-  return value < 1e4 ? String(Number(value.toPrecision(3))) : value.toExponential(2);
+  return value < 1e4 ? digits(value, 3) : localized(value.toExponential(2));
+}
+
+/**
+ * @param {number} value
+ * @param {number} most significant digits
+ * @returns {string} without zeros at its end
+ */
+export function digits(value, most) {
+  return localized(String(Number(value.toPrecision(most))));
+}
+
+/**
+ * @param {number} value
+ * @param {number} places after the decimal sign
+ */
+export function fixed(value, places) {
+  return localized(value.toFixed(places));
+}
+
+/**
+ * @param {string} text that somebody has typed, with a decimal point or comma
+ * @returns {number} NaN where it is none
+ */
+export function numberOf(text) {
+  return text.trim() === '' ? NaN : Number(text.replace(',', '.').replace('−', '-'));
 }
 
 /**
@@ -25,13 +50,4 @@ export function roundUp(value) {
 export function multiplesOf(step, from, to) {
   const first = Math.ceil(from / step);
   return Array.from({length: Math.floor(to / step) - first + 1}, (_, i) => (first + i) * step);
-}
-
-/**
- * @param {Point} point
- * @param {number} grid distance of lines; 0 is no grid
- * @returns {Point} where they cross next to it
- */
-export function onGrid([x, y], grid) {
-  return grid ? [Math.round(x / grid) * grid, Math.round(y / grid) * grid] : [x, y];
 }

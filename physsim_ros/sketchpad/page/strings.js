@@ -3,8 +3,8 @@
  * Texts in the language of the reader: `t('Open it')`. The English text is the key of its translation, in
  * `languages/<language>.json`, which only pages in that language load.
  *
- * A text has its values in braces, by name. The language is that of the browser, until somebody chooses another one
- * in the help; the page is then loaded again.
+ * A text has its values in braces, by name; a number among them has the decimal sign of the language, which is that
+ * of the browser, until somebody chooses another one in the help; the page is then loaded again.
  */
 
 /** Names of the languages in themselves. @type {Record<string, string>} */
@@ -21,6 +21,13 @@ export const language = [localStorage.getItem(KEY), ...navigator.languages.map((
  */
 const table = language === 'en' ? {texts: {}, refusals: {}} :
   await fetch(`/page/languages/${language}.json`).then((response) => response.json());
+
+const SIGN = (1.5).toLocaleString(language)[1];
+
+/** @param {string} number with a decimal point, which is given the sign of the language */
+export function localized(number) {
+  return number.replaceAll('.', SIGN);
+}
 
 /**
  * @param {string} text in English, with the names of its values in braces
@@ -51,7 +58,10 @@ export function chooseLanguage(chosen) {
  * @param {Record<string, string | number>} values
  */
 function filled(text, values) {
-  return text.replace(/\{(\w+)\}/g, (braces, name) => String(values[name] ?? braces));
+  return text.replace(/\{(\w+)\}/g, (braces, name) => {
+    const value = values[name] ?? braces;
+    return typeof value === 'number' ? localized(String(value)) : value;
+  });
 }
 
 const ATTRIBUTES = ['aria-label', 'title', 'placeholder', 'alt'];

@@ -6,12 +6,12 @@
  */
 
 export type {App} from './app.js';
-export type {Camera} from './camera.js';
+export type {Camera} from './view/camera.js';
 export type {Connection} from './connection.js';
-export type {SceneView} from './scene_view.js';
+export type {SceneView} from './view/scene_view.js';
 export type {WorldState} from './world_state.js';
 
-import type {SceneView} from './scene_view.js';
+import type {SceneView} from './view/scene_view.js';
 
 /** x, y [m]; on the page [px]. */
 export type Point = [number, number];
@@ -265,17 +265,19 @@ export interface Touch {
 
 /** What works a pointer: a tool of the toolbar, or the arrow of a velocity. */
 export interface Tool {
-  down(touch: Touch): void;
-  move(touch: Touch): void;
+  down?(touch: Touch): void;
+  move?(touch: Touch): void;
   up(touch: Touch): void;
-  cancel(): void;
-  draw(view: SceneView): void;
+  cancel?(): void;
+  draw?(view: SceneView): void;
   /** Whether wheel, R and a second finger turn the body in the tool. */
   turns?: boolean;
   /** @param angle [rad] */
   turn?(angle: number): void;
   /** Of a gesture, where it is made by clicks. */
   clicks?: number;
+  /** Whether a gesture is begun, of which clicks are to come. */
+  open?: boolean;
   /** Finish an open gesture; false where there is none. */
   finish?(): boolean;
   /** Whether it tells how fast a body is. */

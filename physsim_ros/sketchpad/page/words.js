@@ -4,50 +4,18 @@
  * by their names and begin with the verb of the request: `spawned drawn/3` is *Circle added* here.
  */
 
-import {refusalText, t} from './strings.js';
+import {GESTURES, NUMBERS, SENTENCES, THINGS, VERBS} from './sentences.js';
+import {localized, refusalText, t} from './strings.js';
 
 /** @import {Body, Connection} from './types.js' */
 
-/** Words for what is drawn, read, joined or undone, by those of the server. */
-const THINGS = new Map([['disc', t('circle')], ['rectangle', t('rectangle')], ['polygon', t('polygon')], ['wall', t('wall')], ['body', t('body')],
-  ['joint', t('joint')], ['axle', t('axle')], ['pin', t('pin')], ['spring', t('spring')], ['rod', t('rod')], ['rope', t('rope')], ['chain', t('chain')],
-  ['motor', t('motor')], ['slider', t('slider')], ['gear', t('gear')], ['anchor', t('anchor')], ['velocity', t('velocity')], ['gravity', t('gravity')],
-  ['delete', t('delete')], ['hatching', t('heavier by hatching')], ['all bodies', t('all bodies')], ['several bodies', t('several bodies')],
-  ['all joints', t('all joints')], ['world', t('the world')], ['settings', t('settings')]]);
-/** Verbs before the name of a body, and what is said of it. */
-const VERBS = new Map([['spawned', t('{thing} added')], ['changed', t('{thing} changed')], ['moved', t('{thing} moved')], ['deleted', t('{thing} deleted')],
-  ['anchored', t('{thing} anchored')], ['released', t('{thing} released')], ['set velocity of', t('{thing} has a new velocity')]]);
-/** Verbs of what is undone, and how that is told. */
-const GESTURES = new Map([['spawn', t('add {thing}')], ['change', t('change {thing}')], ['delete', t('delete {thing}')], ['move', t('move {thing}')],
-  ['drag', t('drag {thing}')], ['place', t('place {thing}')], ['anchor', t('anchor {thing}')], ['release', t('release {thing}')],
-  ['join', t('add {thing}')], ['set motion of', t('change {thing}')], ['drive', t('drive {thing}')], ['load', t('open {thing}')]]);
 /** A joint that is added, by its kind: its name is often that of a body, too. */
 const JOINED = /(^|: )join (\w+) .+?(?= and \d+ more$|$)/;
 const GESTURE = new RegExp(`(^|: )(${[...GESTURES.keys()].join('|')}) (.+?)( and \\d+ more)?$`);
-/** Whole sentences, and what is said instead. @type {[RegExp, string][]} */
-const SENTENCES = [
-  [/^saved .* to (.+)\.yaml(.*)/, t('Saved as $1$2')], [/^loaded .* from (.+)\.yaml/, t('Opened $1')], [/^loaded 0 bodies$/, t('An empty world')],
-  [/^discarded the unsaved world$/, t('Unsaved world discarded')], [/^deleted the world (.+)/, t('World $1 deleted')], [/^put back the world (.+)/, t('World $1 is back')], [/^renamed .* to (.+)/, t('Renamed to $1')], [/^set gravity$/, t('Gravity set')], [/^set damping$/, t('Air drag set')],
-  [/^paused$/, t('paused')], [/^playing$/, t('playing')], [/^rewinding$/, t('rewinding')], [/^playing at (.+)/, `${t('playing')}, $1×`], [/^rewinding at (.+)/, `${t('rewinding')}, $1×`],
-  [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')], [/^(?:moved|set pose of) (\d+) bodies$/, t('Moved $1 bodies')], [/^copied (\d+) bodies$/, t('Copied $1 bodies')], [/^cut into (\d+) pieces$/, t('Cut into $1 pieces')], [/^loaded (\d+) bod(y|ies)/, t('Loaded $1 bodies')],
-  [/^deleted joint .*/, t('{thing} deleted', {thing: capital(thingWord('joint'))})], [/^the material of what is drawn next$/, t('Material of new bodies')],
-  [/^you are (.+)/, t('You are $1')], [/^your hand is raised$/, t('Your hand is raised')], [/^your hand is down$/, t('Your hand is down')],
-  [/^the pages are frozen$/, t('All pupils are frozen')], [/^the pages are no longer frozen$/, t('All pupils can draw again')],
-  [/^locked (.+)/, t('Locked: {names}', {names: '$1'})], [/^no body is locked$/, t('No body is locked')],
-  [/^on course \d+, at .*/, t('Back on the other course')],
-  [/^course \d+ begins at .*/, t('A new course begins here')], [/^speed (.+)/, t('Speed $1×')], [/^dropped what was unfinished$/, t('Begun anew')],
-  [/(?<=; next: )a point on the rim$/, t('a point on the rim')], [/(?<=; next: )(its|the) other end$/, t('the other end')],
-  [/(?<=; next: )its other end, beyond the bodies$/, t('the other end, beyond the bodies')], [/(?<=; next: )the next corner$/, t('the next corner')],
-  [/(?<=; next: )the next corner, or .*/, t('the next corner, or the first one again')], [/(?<=; next: )a point of the side across$/, t('a point of the side across')],
-  [/(?<=; next: )its tip$/, t('the tip')], [/(?<=; next: )its tip, 1 m for 1 m\/s$/, t('the tip, 1 m for 1 m/s')],
-  [/(?<=; next: )the tip of its arrow, 1 m for 10 N$/, t('the tip, 1 m for 10 N')], [/^.*; next: /, `${t('Next:')} `],
-  [/^a chain of (\d+) links from .+/, t('Chain of $1 links added')], [/^pose is /, t('position is') + ' '], [/^the yaw of pose /, t('the angle') + ' '], [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')], [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')], [/^redid .*/, t('Redone')], [/^(back )?at the beginning, .*/, t('Back at the beginning')],
-  [/ at \([^)]*\)$/, ` ${t('here')}`],
-];
 const LISTED = 200; // bodies that can be chosen from
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
-/** Names that nobody chose: of what a pen or a click has drawn. */
-const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((?:drawn|note)\/\d+)/g;
+/** Names that nobody chose: of what a pen, a click or a tool of this page has drawn. */
+const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((?:drawn|note|incline)\/\d+)/g;
 
 export class Words {
   /** @param {Connection} connection */
@@ -110,7 +78,8 @@ export class Words {
     if (VERBS.has(verb)) return said(verb, this.title(subject));
     // There may be a body there, which the knife has not passed.
     if (message.startsWith('the stroke passes right through no ')) return t('The stroke passes right through nothing');
-    const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), message)));
+    const named = message.replace(/^\w+(?= is )/, (word) => NUMBERS.get(word) ?? word);
+    const told = capital(this.phrase(SENTENCES.reduce((text, [sentence, instead]) => text.replace(sentence, instead), named))).replace(/\d\.\d/g, localized);
     return ok ? told : refusalText(code, told);
   }
 
@@ -145,7 +114,7 @@ function said(verb, thing) {
 
 /** @param {string} name of a body */
 export function isDrawn(name) {
-  return /^(drawn|note)\//.test(name);
+  return /^(drawn|note|incline)\//.test(name);
 }
 
 /** @param {string} name which may have 1,000 characters */
@@ -164,6 +133,7 @@ export function capital(text) {
  */
 export function shapeWord({name, shape: {kind, outline, width}}) {
   if (name.startsWith('note/')) return t('note');
+  if (name.startsWith('incline/')) return t('inclined plane');
   if (kind === 'disc') return thingWord('disc');
   if (kind === 'chain') return thingWord('wall');
   if (width) return thingWord('rectangle');

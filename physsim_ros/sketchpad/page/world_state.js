@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The newest scene, frame and timeline of the server, and geometry in them. The page computes no motion. */
 
-import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './body_path.js';
+import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './view/body_path.js';
+import {distance, rotated} from './vectors.js';
 
 /** @import {Body, Connection, Frame, Point, Scene, Timeline} from './types.js' */
 
@@ -59,6 +60,14 @@ export class WorldState {
 
   /**
    * @param {string} name
+   * @returns {Body | undefined} as the scene has it
+   */
+  body(name) {
+    return this.scene.bodies.find((body) => body.name === name);
+  }
+
+  /**
+   * @param {string} name
    * @returns {number} its row; -1 where there is none of that name
    */
   row(name) {
@@ -73,8 +82,8 @@ export class WorldState {
    */
   place(row, [x, y]) {
     if (row < 0 || row >= this.count) return [x, y];
-    const cos = Math.cos(this.frame.yaw[row]), sin = Math.sin(this.frame.yaw[row]);
-    return [this.frame.x[row] + cos * x - sin * y, this.frame.y[row] + sin * x + cos * y];
+    const [dx, dy] = rotated([x, y], this.frame.yaw[row]);
+    return [this.frame.x[row] + dx, this.frame.y[row] + dy];
   }
 
   /**
@@ -127,7 +136,7 @@ export class WorldState {
   jointAt(point, reach, onBody) {
     const near = this.scene.joints.filter(({kind, a, b, points}) => {
       const p = this.place(a, points[0]);
-      if (['axle', 'motor', 'pin'].includes(kind)) return Math.hypot(p[0] - point[0], p[1] - point[1]) <= reach;
+      if (['axle', 'motor', 'pin'].includes(kind)) return distance(p, point) <= reach;
       if (onBody || kind === 'gear') return false;
       return distanceTo([p, this.place(b, points[1])], ...point) <= reach;
     });
@@ -150,9 +159,8 @@ export class WorldState {
    * @returns {Point} in the frame of that body [m]
    */
   toBody(row, [x, y]) {
-    const {frame} = this, dx = x - frame.x[row], dy = y - frame.y[row];
-    const cos = Math.cos(frame.yaw[row]), sin = Math.sin(frame.yaw[row]);
-    return [cos * dx + sin * dy, cos * dy - sin * dx];
+    const {frame} = this;
+    return rotated([x - frame.x[row], y - frame.y[row]], -frame.yaw[row]);
   }
 
   /** @returns {number[]} xmin, ymin, xmax, ymax of bounds or bodies [m] */

@@ -9,7 +9,7 @@ import math
 import re
 from typing import Annotated
 
-from physsim_ros.model.checks import pair, shown, Within
+from physsim_ros.model.checks import Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
 from physsim_ros.model.shapes import LARGEST
@@ -62,7 +62,7 @@ def span(value: object, name: str, limits: Within) -> Point:
     :raises Malformed: there are not two of them, or one is not finite
     :raises BadProperty: they are out of range or out of order
     """
-    low, high = (limits(each, name) for each in pair(value, name))
+    low, high = Row((limits, limits))(value, name)
     if low > high:
         raise BadProperty(f'{name} must be [min, max], not {shown(value)}', field=name)
     return low, high

@@ -5,12 +5,13 @@
  * follows the pointer.
  */
 
-import {onGrid, threeDigits} from '../rounding.js';
+import {threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
+import {DEGREE, distance, isTap, onGrid, polar} from '../vectors.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
-const DRAG = 6; // px: farther than that, letting go is a click too
+const DRAG = 6; // px: a rectangle that is less high or wide is a side
 const MARK = 4; // px: radius of a point that was clicked
 const CLOSE = 12; // px around the first corner of a polygon
 const NEWTONS = 10; // N: of an arrow of 1 m, as in `drawing/tools.py`
@@ -42,6 +43,10 @@ export class ClickTool {
     });
   }
 
+  get open() {
+    return this.points.length > 0;
+  }
+
   /** @param {Touch} raw */
   down(raw) {
     const touch = this.#onGrid(raw);
@@ -59,8 +64,7 @@ export class ClickTool {
 
   /** @param {Touch} raw */
   up(raw) {
-    const touch = this.#onGrid(raw), [x, y] = this.start?.page ?? touch.page;
-    const dragged = Math.hypot(touch.page[0] - x, touch.page[1] - y) > DRAG, upright = this.#isUpright(touch);
+    const touch = this.#onGrid(raw), dragged = !isTap(this.start ?? touch, touch), upright = this.#isUpright(touch);
     this.pressed = false;
     if (upright) this.#click({...touch, at: [touch.at[0], this.points[0].at[1]]});
     if (this.waits || dragged) this.#click(touch);
@@ -100,7 +104,8 @@ export class ClickTool {
         at = [first.at[0] + Math.sign(dx) * side, first.at[1] + Math.sign(dy) * side];
       } else {
         const length = Math.round(Math.hypot(dx, dy) / grid) * grid, angle = Math.round(Math.atan2(dy, dx) / STEP) * STEP;
-        at = [first.at[0] + length * Math.cos(angle), first.at[1] + length * Math.sin(angle)];
+        const [across, up] = polar(length, angle);
+        at = [first.at[0] + across, first.at[1] + up];
       }
     }
     return {...touch, at, page: this.app.camera.toPage(...at)};
@@ -118,7 +123,7 @@ export class ClickTool {
   /** @param {Touch} touch */
   #click(touch) {
     const {app, points} = this, closing = this.id === 'polygon' && points.length > 2 &&
-      Math.hypot(touch.page[0] - points[0].page[0], touch.page[1] - points[0].page[1]) < CLOSE;
+      distance(touch.page, points[0].page) < CLOSE;
     this.request = app.connection.send('click',
       {tool: this.id, point: closing ? points[0].at : this.#meant(touch)});
     if (this.request) points.push(touch);
@@ -145,7 +150,7 @@ export class ClickTool {
     const color = view.palette.accent, points = [...this.points.map(({at}) => at), this.last.at];
     if (this.#isUpright(this.last)) points.splice(1, 0, [points[1][0], points[0][1]]);
     const [p, q, r] = points;
-    const length = Math.hypot(q[0] - p[0], q[1] - p[1]);
+    const length = distance(p, q);
     if (this.id === 'circle') view.ring(p, length * view.camera.scale, color);
     else if (this.id === 'circle_diameter') {
       view.ring([(p[0] + q[0]) / 2, (p[1] + q[1]) / 2], length / 2 * view.camera.scale, color);
@@ -168,9 +173,9 @@ export class ClickTool {
    */
   #sizeOf(points) {
     const [p, q, r] = points, [a, b] = points.slice(-2);
-    const side = Math.hypot(q[0] - p[0], q[1] - p[1]), length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const side = distance(p, q), length = distance(a, b);
     if (!length) return '';
-    const degrees = Math.round(Math.atan2(b[1] - a[1], b[0] - a[0]) * 180 / Math.PI);
+    const degrees = Math.round(Math.atan2(b[1] - a[1], b[0] - a[0]) / DEGREE);
     switch (this.id) {
       case 'circle': return t('radius {length} m', {length: threeDigits(length)});
       case 'circle_diameter': return t('diameter {length} m', {length: threeDigits(length)});

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that are drawn with: the pen, whose strokes become bodies, and the lasso, whose loops select them. */
 
-import {inside, unionOf} from '../body_path.js';
+import {inside, unionOf} from '../view/body_path.js';
 import {threeDigits} from '../rounding.js';
+import {isTap} from '../vectors.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
-const TAP = 5; // px: no farther is a tap, for the pen if it is no longer than TAP_TIME
-const TAP_TIME = 0.4; // s
+const TAP_TIME = 0.4; // s: a longer press of the pen is no tap
 const MOST_SAMPLES = 4000;
 
 /** A freehand stroke, sent when the pen is lifted; a tap selects the body under it. */
@@ -33,9 +33,7 @@ export class Pen {
   up(touch) {
     const samples = this.samples, {app} = this;
     this.samples = [];
-    const [x, y] = samples[0]?.page ?? touch.page;
-    const reach = Math.max(...samples.map(({page}) => Math.hypot(page[0] - x, page[1] - y)), 0);
-    if (reach <= TAP && touch.time - (samples[0]?.time ?? 0) < TAP_TIME) {
+    if (samples.every((each) => isTap(samples[0], each)) && touch.time - (samples[0]?.time ?? 0) < TAP_TIME) {
       app.selection.selectAt(touch);
       return;
     }
@@ -81,9 +79,9 @@ export class Lasso {
 
   /** @param {Touch} touch */
   up(touch) {
-    const {app, path} = this, [x, y] = path[0]?.page ?? touch.page;
+    const {app, path} = this;
     this.path = [];
-    if (path.every(({page}) => Math.hypot(page[0] - x, page[1] - y) <= TAP)) app.selection.selectAt(touch);
+    if (path.every((each) => isTap(path[0], each))) app.selection.selectAt(touch);
     else if (this.carrying) app.connection.send(path[0].copies ? 'copy_machine' : 'move_bodies', {names: [...app.selection.names], by: offset(path)});
     else {
       const {world} = app, loop = path.map(({at}) => at);

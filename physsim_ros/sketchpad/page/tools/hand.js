@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The hand pulls a body and throws it, places and turns it in a paused world, drags a copy, and moves the view. */
 
-import {placed} from '../numbers.js';
-import {onGrid} from '../rounding.js';
+import {placed} from '../measures/quantities.js';
+import {isTap, onGrid} from '../vectors.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
-const TAP = 4; // px
 const CATCH = 120; // ms after which a body that is pressed is caught
 
 export class Hand {
@@ -63,7 +62,7 @@ export class Hand {
   move(touch) {
     const {start, last, app} = this;
     if (!start || !last) return;
-    const far = Math.hypot(touch.page[0] - start.page[0], touch.page[1] - start.page[1]) > TAP;
+    const far = !isTap(start, touch);
     this.moved ||= far;
     if (this.state === 'pressed' && far) this.#grab();
     if (this.state === 'panning' && this.moved) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that measure on the page: a ruler and a protractor, which stay until they are tapped away. */
 
-import {onGrid, threeDigits} from '../rounding.js';
+import {digits, threeDigits} from '../rounding.js';
+import {DEGREE, isTap, onGrid} from '../vectors.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
-const TAP = 5; // px: no farther is a tap
 const TICK = 5, LONG_TICK = 9; // px of the marks of a ruler
 const LEAST_TICK = 6; // px from mark to mark
 const ARC = 34; // px: radius of the arc of an angle
@@ -36,7 +36,7 @@ export class Ruler {
 
   /** @param {Touch} touch */
   up(touch) {
-    if (isTap(this.start, touch)) this.ends = [];
+    if (isTap(this.start ?? touch, touch)) this.ends = [];
     this.start = null;
   }
 
@@ -44,8 +44,6 @@ export class Ruler {
     if (this.start) this.ends = [];
     this.start = null;
   }
-
-  draw() {}
 
   /** @param {SceneView} view */
   #draw(view) {
@@ -105,7 +103,7 @@ export class Protractor {
   up(touch) {
     this.move(touch);
     if (this.open) this.open = false;
-    else if (isTap(this.start, touch)) this.points = [];
+    else if (isTap(this.start ?? touch, touch)) this.points = [];
     else this.open = true;
     this.start = null;
   }
@@ -115,8 +113,6 @@ export class Protractor {
     this.open = false;
     this.start = null;
   }
-
-  draw() {}
 
   /** @param {SceneView} view */
   #draw(view) {
@@ -134,15 +130,7 @@ export class Protractor {
   }
 }
 
-/**
- * @param {?Touch} start
- * @param {Touch} end
- */
-function isTap(start, {page: [x, y]}) {
-  return !start || Math.hypot(x - start.page[0], y - start.page[1]) <= TAP;
-}
-
 /** @param {number} angle [rad] */
 function degrees(angle) {
-  return `${Math.round(angle * 1800 / Math.PI) / 10}°`;
+  return `${digits(Math.round(10 * angle / DEGREE) / 10, 6)}°`;
 }

@@ -2,7 +2,7 @@
 /** Notes on the world: anchored sensors that are boxes as large as their label. */
 
 import {elementOf, textOf, textField} from '../dom.js';
-import {sizeOf} from '../label_view.js';
+import {sizeOf} from '../view/label_view.js';
 import {t} from '../strings.js';
 
 /** @import {App, Touch} from '../types.js' */
@@ -18,10 +18,6 @@ export class Note {
     this.clicks = 1;
   }
 
-  down() {}
-
-  move() {}
-
   /** @param {Touch} touch */
   up({at, page: [x, y]}) {
     const {app} = this, em = LETTERS / app.camera.scale;
@@ -34,10 +30,6 @@ export class Note {
     elementOf('places', HTMLElement).append(field);
     field.focus();
   }
-
-  cancel() {}
-
-  draw() {}
 }
 
 /**

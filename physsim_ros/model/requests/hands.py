@@ -1,0 +1,72 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Requests of hands, which drag a body, or place it in a paused world."""
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from physsim_ros.model.checks import check_point, check_yaw, OfClass, text
+from physsim_ros.model.names import check_hand_name
+from physsim_ros.model.requests.request import as_field, Request
+from physsim_ros.model.transform import Point
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class HandRequest(Request):
+    """
+    A request of a hand.
+
+    :raises Malformed: the name is empty, too long or unprintable
+    """
+
+    hand: Annotated[
+        str, as_field('client_id', check_hand_name), 'name of the hand, unique in its world'
+    ]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grab(HandRequest):
+    """
+    Have a hand grab the topmost dynamic body under a point; it lets go of any other body.
+
+    In a paused world, where no dynamic body is under the point, it grabs any body.
+    """
+
+    point: Annotated[Point, as_field('mouse_point', check_point), 'position of the hand [m]']
+    frame: Annotated[str, text, "of the point: '' for the world, or a body's name"] = ''
+    paused: Annotated[bool, OfClass(bool), 'whether the world is paused'] = False
+
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, by what the hand does with the body."""
+        return f'{"place" if self.paused else "drag"} {subject}'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MoveHand(HandRequest):
+    """
+    Move a hand, and draw the body to it that it has grabbed.
+
+    In a paused world, the body is put where its grip is at the hand.
+    """
+
+    point: Annotated[Point, as_field('mouse_point', check_point), 'new position of the hand [m]']
+    yaw: Annotated[
+        float | None,
+        as_field('mouse_point', check_yaw),
+        'of the body [rad], in a paused world; None keeps it',
+    ] = None
+    frame: Annotated[str, text, "of the point and yaw: '' for the world, or a body's name"] = ''
+    paused: Annotated[bool, OfClass(bool), 'whether the world is paused'] = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeepHand(HandRequest):
+    """Keep a hand that does not move from counting as gone."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LetGo(HandRequest):
+    """Have a hand let go of its body, which flies on."""
+
+    VERB = 'drag'

@@ -1,0 +1,166 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Requests for joints: made, changed, removed; and a cut, which moves them with its pieces."""
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+import math
+from typing import Annotated, Any
+
+from physsim_ros.model.checks import check_point, OfClass, shown, text
+from physsim_ros.model.declarations import Checked, without_unset
+from physsim_ros.model.errors import BadProperty, BadSize, Malformed
+from physsim_ros.model.joints import joined_from, JointKind, JointProperties, kind_from
+from physsim_ros.model.names import check_name, WORLD
+from physsim_ros.model.requests.bodies import ChangeBody, Spawn
+from physsim_ros.model.requests.request import AtPoint, OfNamespace, Request, texts, UNSET
+from physsim_ros.model.transform import Point
+
+
+def _points(value: object, name: str) -> tuple[Point, ...]:
+    if not isinstance(value, Iterable):
+        raise Malformed(f'{name} must be a list of points, not {shown(value)}', field=name)
+    return tuple(check_point(point, name) for point in value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Join(Request):
+    """
+    Join two bodies, or a body and the background; or change the joint of that name in place.
+
+    A change replaces the bodies, the points and the properties that are set or unset. The other
+    properties are kept if the kind is the same.
+
+    :raises Malformed: a number is not finite, the name has no id, or the number of points is wrong
+    :raises BadProperty: there is no such kind, a body would be joined to itself, or a point is too
+        far away
+    :raises BadSize: the points are closer than the kind allows
+    :raises UnknownProperty: the kind of joint does not have a property
+    """
+
+    name: Annotated[str, check_name, 'of the joint']
+    kind: Annotated[JointKind, lambda value, name: kind_from(text(value, name)), 'of joint']
+    points: Annotated[
+        tuple[Point, ...], _points, 'anchor points, one or two as the kind requires [m]'
+    ]
+    frame: Annotated[str, text, "of the points: '' for the world, or a body's name"] = ''
+    a: Annotated[str, text, "name of a body; '' is the topmost one at the first point"] = ''
+    b: Annotated[
+        str,
+        text,
+        "name of a body, or 'world' for the background; '' is the next body at the point, or the "
+        'topmost one at the second point, or the background if there is none',
+    ] = ''
+    properties: Annotated[JointProperties, OfClass(JointProperties), 'of the kind'] = field(
+        default_factory=JointProperties
+    )
+    unset: Annotated[tuple[str, ...], texts, UNSET] = ()
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        count = self.kind.points
+        if len(self.points) != count:
+            raise Malformed(
+                f'{self.kind.phrase} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
+                field='points',
+            )
+        if self.a == WORLD:
+            raise BadProperty('a is a body; the background can only be b', field='a')
+        if self.a and self.a == self.b:
+            raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
+        self.properties.check_kind(self.kind, self.unset)
+        least = self.kind.schema.least_distance
+        if least and math.dist(*self.points) < least:
+            raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
+
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with its kind."""
+        return f'join {self.kind} {subject}'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pin(AtPoint):
+    """Weld the two topmost bodies at a point, or the only one to the background."""
+
+    VERB = 'join pin'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Axle(AtPoint):
+    """Join the two topmost bodies at a point by an axle, or the only one to the background."""
+
+    VERB = 'join axle'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unjoin(Request):
+    """Remove the joint of that name."""
+
+    VERB = 'delete joint'
+
+    name: Annotated[str, text, 'of the joint']
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnjoinAll(OfNamespace):
+    """Remove all joints, or all of a namespace."""
+
+    VERB = 'delete'
+    OBJECT = 'all joints'
+
+
+def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
+    """Return a check of a tuple of requests of some kinds."""
+
+    def check(value: object, name: str) -> tuple[Any, ...]:
+        if not isinstance(value, tuple) or not all(isinstance(each, kinds) for each in value):
+            raise Malformed(f'{name} must be a tuple of requests, not {shown(value)}', field=name)
+        return value
+
+    return check
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cut(Request):
+    """Cut bodies into pieces, and joints through; if a part of it is refused, nothing is cut."""
+
+    OBJECT = 'several bodies'
+
+    pieces: Annotated[
+        tuple[ChangeBody | Spawn, ...],
+        _parts(ChangeBody, Spawn),
+        'a change of each body into its largest piece, and the other pieces',
+    ]
+    joints: Annotated[tuple[Join, ...], _parts(Join), 'joints that are then on another piece'] = ()
+    severed: Annotated[
+        tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
+    ] = ()
+
+
+def join_from(
+    mapping: Mapping[Any, Any], *, name: str, points: tuple[Point, ...], frame: str = ''
+) -> Join:
+    """
+    Return the request for a joint of a YAML mapping: `kind`, `a`, `b` and properties.
+
+    Without `b`, a mapping with `a` means the background; without both it means the bodies at the
+    points. A property that is null is unset.
+
+    :param name: of the joint
+    :param points: in the frame [m]
+    :param frame: '' for the world, or a body's name
+    :raises Refusal: a key is unknown, or a value is out of range
+    """
+    given, unset = without_unset(mapping, JointProperties)
+    kind, a, b, properties = joined_from(given)
+    return Join(
+        name=name,
+        kind=kind,
+        points=points,
+        frame=frame,
+        a=a,
+        b=b,
+        properties=properties,
+        unset=unset,
+    )

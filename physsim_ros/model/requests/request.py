@@ -1,0 +1,110 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The base of requests, what several kinds have in common, and requests for the whole world."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.checks import check_point, OfClass, shown, text
+from physsim_ros.model.declarations import Checked
+from physsim_ros.model.errors import Malformed
+from physsim_ros.model.settings import check_setting
+from physsim_ros.model.transform import Point
+
+UNSET = 'names of the properties that get their defaults again'
+
+
+class Request(Checked):
+    """
+    The base of requests.
+
+    :cvar VERB: for it in phrases of undo and redo; '' is the name of its class
+    :cvar OBJECT: that it concerns where that is no single body or joint
+    """
+
+    __slots__ = ()
+    VERB: ClassVar[str] = ''
+    OBJECT: ClassVar[str] = ''
+
+    @property
+    def subject(self) -> str:
+        """Return the one body or joint that it names, or ''."""
+        names: tuple[str, ...] = getattr(self, 'names', ())
+        name: str = getattr(self, 'name', names[0] if len(names) == 1 else '')
+        return name
+
+    def phrase(self, subject: str) -> str:
+        """
+        Return the phrase for it, by which undo and redo name it: `spawn ball/0`.
+
+        :param subject: name of the body or joint concerned, or ''
+        """
+        verb = self.VERB or type(self).__name__.lower()
+        return f'{verb} {subject or self.OBJECT}'.rstrip()
+
+
+def as_field(field: str, check: Callable[[Any, str], Any]) -> Callable[[object, str], Any]:
+    """Return a check that names another field in its refusal: that of the message."""
+    return lambda value, _: check(value, field)
+
+
+def texts(value: object, name: str) -> tuple[str, ...]:
+    """Return a list of texts, or refuse it."""
+    if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
+        raise Malformed(f'{name} must be a list of texts, not {shown(value)}', field=name)
+    return tuple(value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AtPoint(Request):
+    """A request for the topmost bodies, or joints, at a point [m]."""
+
+    point: Annotated[Point, check_point, 'where they are [m]']
+    frame: Annotated[str, text, "of the point: '' for the world, or a body's name"] = ''
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OfNamespace(Request):
+    """A request for all bodies, or joints, of a namespace."""
+
+    namespace: Annotated[
+        str | None, text, 'of their names, the part before the last slash; None is every one'
+    ] = None
+
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with the namespace if there is one."""
+        phrase = Request.phrase(self, subject)
+        if self.namespace is None:
+            return phrase
+        return f'{phrase} of {self.namespace or "no namespace"}'
+
+
+def _changes(value: object, name: str) -> dict[str, Any]:
+    if not isinstance(value, Mapping):
+        raise Malformed(f'{name} must be a mapping, not {shown(value)}', field=name)
+    for setting in value:
+        check_setting(setting)
+    return dict(value)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Configure(Request):
+    """Change settings of the world."""
+
+    VERB = 'change'
+    OBJECT = 'settings'
+
+    changes: Annotated[Mapping[str, Any], _changes, 'new values by the field of WorldSettings']
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Restore(Request):
+    """Replace all bodies, joints and settings by those of a saved state."""
+
+    VERB = 'load'
+    OBJECT = 'world'
+
+    state: Annotated[WorldState, OfClass(WorldState), 'that is restored']

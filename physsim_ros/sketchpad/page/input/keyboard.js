@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The keys of the page, which `?` shows, and the cursor on the canvas that they move. */
+
+import {ARROWS, TOOLS} from '../ui/toolbar.js';
+
+/** @import {App, Point, SceneView, Touch} from '../types.js' */
+
+const TURN = Math.PI / 12; // rad a press of R
+const ZOOM = 1.25;
+const TEXTS = 'textarea, input:not([type=range], [type=checkbox], [type=color], [type=file])'; // receive all keys
+const MOVES_RANGE = /^(Arrow|Page|Home|End)/;
+const TAP = 300; // ms: a shorter press of the space bar plays or pauses
+
+export class Keyboard {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.since = 0;
+    /** @type {?EventTarget} of the last press of a pointer */
+    this.pressed = null;
+    document.addEventListener('keydown', (event) => this.#down(event));
+    document.addEventListener('keyup', (event) => this.#up(event));
+    document.addEventListener('pointerdown', ({target}) => { this.pressed = target; }, true);
+    // Before the click, which may open a dialog that gives the focus back where it was.
+    document.addEventListener('pointerup', () => this.#takeBack(), true);
+    app.view.canvas.addEventListener('blur', () => app.view.canvas.classList.remove('reached'));
+    app.view.canvas.addEventListener('blur', () => app.driving.liftAll());
+    addEventListener('blur', () => { app.pointers.space = false; });
+    const callService = (/** @type {string} */ name) => () => app.time.callService(name);
+    /** @type {Record<string, () => void>} */
+    this.keys = {
+      '?': () => app.showHelp(), f: () => app.room.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
+      n: () => this.#next(1), N: () => this.#next(-1),
+      Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
+      j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
+      L: callService('fast_forward'),
+      '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(),
+    };
+    for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
+  }
+
+  /** Focus the canvas after a click on a control; text fields and dialogs keep the focus. */
+  #takeBack() {
+    const {pressed, app: {view: {canvas}, gallery: {dialog}}} = this;
+    if (!(pressed instanceof Element) || dialog.open || pressed === canvas) return;
+    if (pressed.closest('button, a, label, input') && !pressed.closest(TEXTS)) canvas.focus({preventScroll: true});
+  }
+
+  /** @param {KeyboardEvent} event */
+  #down(event) {
+    const {app} = this, {key, target} = event;
+    // The canvas has a frame only when Tab has reached it.
+    app.view.canvas.classList.toggle('reached', key === 'Tab');
+    if (target instanceof Element && target.matches(TEXTS)) {
+      if (key === 'Escape' && !app.gallery.dialog.open) app.view.canvas.focus({preventScroll: true});
+      return;
+    }
+    if (app.gallery.dialog.open || app.viewOnly || event.altKey) return;
+    if (target instanceof HTMLInputElement && target.type === 'range' && MOVES_RANGE.test(key)) return;
+    if (event.ctrlKey || event.metaKey) {
+      const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
+      if (undo || redo) app.time.callService(undo ? 'undo' : 'redo');
+      if (undo || redo) event.preventDefault();
+      return;
+    }
+    const button = target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement ||
+      target instanceof HTMLInputElement && target.type !== 'range';
+    if (key === ' ' && !button) {
+      if (!event.repeat) this.since = event.timeStamp;
+      app.pointers.space = true;
+    } else if (key === 'Enter' && !button) {
+      if (app.cursor.shown || !app.tool.finish?.()) app.cursor.press();
+    } else if (key in ARROWS && !button) {
+      app.cursor.move(...ARROWS[key], event.shiftKey);
+    } else if (target === app.view.canvas && app.driving.press(event.code)) {
+      // Tools that have these keys have them again when no robot is selected.
+    } else if (key in this.keys) {
+      this.keys[key]();
+    } else return;
+    event.preventDefault();
+  }
+
+  /** @param {KeyboardEvent} event */
+  #up({key, code, timeStamp}) {
+    const {app} = this;
+    app.driving.lift(code);
+    if (key !== ' ' || !app.pointers.space) return;
+    app.pointers.space = false;
+    if (timeStamp - this.since < TAP && !app.pointers.down.size) app.time.toggle();
+  }
+
+  /** @param {number} factor */
+  #zoom(factor) {
+    const {camera, view} = this.app;
+    camera.zoom(camera.width / 2, camera.height / 2, factor);
+    view.dirty = true;
+  }
+
+  /** @param {number} by */
+  #next(by) {
+    const {app} = this, {bodies} = app.world.scene;
+    if (!bodies.length) return;
+    const row = bodies.findIndex(({name}) => app.selection.names.has(name));
+    const next = (row + by + bodies.length + (row < 0 && by < 0 ? 1 : 0)) % bodies.length;
+    app.selection.select([bodies[next].name]);
+    // There Enter works the tool.
+    app.cursor.put(app.camera.toPage(...app.world.place(next, bodies[next].centroid)));
+  }
+
+  #drop() {
+    const {app} = this, {plotWindow} = app;
+    if (!plotWindow.element.hidden) return plotWindow.close();
+    app.tool.cancel?.();
+    app.readings.dismiss();
+    app.cursor.hide();
+    app.selection.select([]);
+  }
+}
+
+const STEP = 16, FINE = 2; // px
+
+export class Cursor {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.x = this.y = -1; // px
+    this.shown = false;
+    this.pressed = false;
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** @returns {Touch} */
+  get touch() {
+    const {camera} = this.app;
+    return {at: camera.toWorld(this.x, this.y), page: [this.x, this.y],
+      time: performance.now() / 1000, slop: 6 / camera.scale, grid: 0, copies: false};
+  }
+
+  /** @param {Point} page where it is put [px] */
+  put([x, y]) {
+    [this.x, this.y] = [x, y];
+    this.move(0, 0, false);
+  }
+
+  hide() {
+    this.shown = false;
+    if (this.pressed) this.app.tool.cancel?.();
+    this.pressed = false;
+  }
+
+  /**
+   * @param {number} dx -1, 0 or 1
+   * @param {number} dy
+   * @param {boolean} fine
+   */
+  move(dx, dy, fine) {
+    const {camera, view} = this.app, step = fine ? FINE : STEP;
+    if (!this.shown && this.x < 0) [this.x, this.y] = [camera.width / 2, camera.height / 2];
+    this.shown = true;
+    this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
+    this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
+    this.app.tool.move?.(this.touch);
+    this.app.selection.hover(this.touch);
+    view.dirty = true;
+  }
+
+  /** Press the tool, or lift it; a tool of clicks clicks. */
+  press() {
+    const {app} = this;
+    if (!this.shown) {
+      this.move(0, 0, false);
+      return;
+    }
+    app.time.endRewind();
+    if (!this.pressed) app.tool.down?.(this.touch);
+    if (this.pressed || app.tool.clicks) {
+      app.tool.up(this.touch);
+      app.hints.noteUse();
+    }
+    this.pressed = !this.pressed && !app.tool.clicks;
+    app.view.dirty = true;
+  }
+
+  /** @param {SceneView} view */
+  #draw({ctx, palette}) {
+    if (!this.shown) return;
+    ctx.strokeStyle = palette.accent;
+    ctx.lineWidth = 2;
+    ctx.beginPath();
+    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+      ctx.moveTo(this.x + 4 * dx, this.y + 4 * dy);
+      ctx.lineTo(this.x + 14 * dx, this.y + 14 * dy);
+    }
+    ctx.stroke();
+  }
+}

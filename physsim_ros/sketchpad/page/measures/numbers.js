@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The numbers of the selected body now: mass, place, angle, velocity, momentum, energies, which can be typed, too. */
+
+import {createElement, numberField, showText} from '../dom.js';
+import {energiesOf, momentumText, motionOf, number, originOf, placed} from './quantities.js';
+import {digits, threeDigits} from '../rounding.js';
+import {t} from '../strings.js';
+import {DEGREE} from '../vectors.js';
+
+/** @import {App, Body} from '../types.js' */
+/** @import {Motion} from './quantities.js' */
+
+/** What can be typed; of an anchored body the first ones. @type {[string, string][]} */
+const TYPED = [['x', 'x [m]'], ['y', 'y [m]'], ['angle', t('Angle [°]')], ['mass', t('Mass [kg]')],
+  ['vx', 'vx [m/s]'], ['vy', 'vy [m/s]'], ['spin', t('Spin [rad/s]')]];
+const NOTHING = 1e-7; // m, °, m/s, rad/s: that is shown as 0
+const AT_REST = 4; // number of those that an anchored body has
+/** @typedef {{name: string, motion: Motion, answered: boolean}} Typed */
+const ENERGIES = [t('Energy of motion'), t('Energy of height')];
+const MOST_PAIRS = 3; // bodies in touch with whose friction that of the pair is told
+
+export class Numbers {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.most = 0; // greatest energy that was shown of this body [J]
+    this.name = '';
+    /** Numbers that were typed and that no frame shows yet. @type {?Typed} */
+    this.ahead = null;
+    this.line = createElement('p');
+    this.momentum = createElement('p');
+    this.pairs = createElement('p', {className: 'pairs'}); // friction with what the body touches
+    this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': word}));
+    this.labels = ENERGIES.map((word) => createElement('span', {textContent: word}));
+    this.values = ENERGIES.map(() => createElement('span'));
+    this.inputs = new Map(TYPED.map(([key]) => [key, numberField(null, (value) => this.#type(key, value))]));
+    this.typed = createElement('details', {className: 'typed'}, createElement('summary', {textContent: t('Enter numbers')}),
+      createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
+    this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
+      ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
+    app.connection.on('open', () => { this.ahead = null; });
+    // A change is in each frame that comes after its answer.
+    app.connection.on('frame', () => {
+      if (this.ahead?.answered) this.ahead = null;
+    });
+  }
+
+  /** @param {string} name of the body whose numbers are shown as they are now */
+  show(name) {
+    const {world} = this.app, row = world.row(name);
+    if (row < 0) return;
+    const body = world.scene.bodies[row], {vx, vy} = motionOf(world, row), {mass} = body;
+    showText(this.line, `${threeDigits(mass)} kg · ${placed(world, row)}`);
+    showText(this.momentum, t('Momentum {momentum}', {momentum: momentumText([mass * vx, mass * vy])}));
+    showText(this.pairs, this.#pairsOf(row));
+    this.#showTyped(body, row);
+    this.#showEnergies(body, row);
+  }
+
+  /**
+   * @param {number} row of a body
+   * @returns {string} the friction with each body that it touches
+   */
+  #pairsOf(row) {
+    const {world: {frame: {contacts}, scene: {bodies}}, words} = this.app, others = new Set();
+    for (let i = 0; contacts && i < contacts.a.length; i++) {
+      const other = contacts.a[i] === row ? contacts.b[i] : contacts.b[i] === row ? contacts.a[i] : -1;
+      if (other >= 0) others.add(other);
+    }
+    return [...others].slice(0, MOST_PAIRS).map((other) =>
+      t('Friction with {name}: {friction}', {name: words.of(bodies[other].name), friction: threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction))})).join(' · ');
+  }
+
+  /**
+   * @param {Body} body
+   * @param {number} row
+   */
+  #showTyped({anchored}, row) {
+    /** @type {Record<string, number>} */
+    const values = motionOf(this.app.world, row);
+    TYPED.forEach(([key], i) => {
+      // Of what rests, a frame has the rounding errors of the engine.
+      const value = Math.abs(values[key]) < NOTHING && key !== 'mass' ? 0 : values[key];
+      const input = this.inputs.get(key), text = digits(value, 5);
+      if (!input || input === document.activeElement) return;
+      input.disabled = anchored && i >= AT_REST;
+      if (input.value !== text) input.value = text;
+    });
+  }
+
+  /**
+   * @param {string} key of what was typed
+   * @param {?number} value null where that is nothing
+   */
+  async #type(key, value) {
+    const {world, panel: {name}, connection} = this.app, row = world.row(name);
+    this.inputs.get(key)?.blur();
+    if (row < 0 || value === null) return;
+    const motion = {...this.ahead?.name === name ? this.ahead.motion : motionOf(world, row), [key]: value};
+    /** @type {Typed} */
+    const typed = {name, motion, answered: false};
+    this.ahead = typed;
+    const {mass, x, y, angle, vx, vy, spin} = motion, yaw = angle * DEGREE;
+    const place = {at: [...originOf(world.scene.bodies[row].centroid, [x, y], yaw), yaw]}, velocity = {velocity: [vx, vy]};
+    /** @type {Record<string, object>} */
+    const changes = {mass: {mass}, x: place, y: place, angle: place, vx: velocity, vy: velocity, spin: {spin}};
+    const {ok} = await connection.ask('change', {name, properties: changes[key]});
+    typed.answered = true;
+    if (!ok && this.ahead === typed) this.ahead = null;
+  }
+
+  /**
+   * @param {Body} body
+   * @param {number} row
+   */
+  #showEnergies(body, row) {
+    const {world} = this.app, {frame: {velocities}, scene: {gravity}} = world, {name, anchored} = body;
+    if (name !== this.name) this.most = 0;
+    this.name = name;
+    this.element.classList.toggle('fixed', anchored);
+    // The panel has its size before they come.
+    this.element.classList.toggle('waiting', !velocities);
+    if (!velocities || anchored) return;
+    // Seen from above, there is no height.
+    for (const {1: part} of [this.labels, this.bars, this.values]) part.hidden = !gravity[0] && !gravity[1];
+    const energies = energiesOf(body, motionOf(world, row), gravity);
+    this.most = Math.max(this.most, ...energies);
+    energies.forEach((energy, i) => {
+      this.bars[i].max = this.most || 1;
+      this.bars[i].value = Math.max(energy, 0);
+      this.values[i].textContent = `${number(energy)} J`;
+    });
+  }
+}

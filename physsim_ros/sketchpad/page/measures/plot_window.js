@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+/** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
+
+import {choice, createElement, download, elementOf, iconButton, inRow, textButton, toggling} from '../dom.js';
+import {FORCES, QUANTITIES, tableOf} from './quantities.js';
+import {drawChart} from './plots.js';
+import {threeDigits} from '../rounding.js';
+import {t} from '../strings.js';
+import {distance} from '../vectors.js';
+
+/** @import {App, Palette, Sample} from '../types.js' */
+/** @import {Curve, Scales} from './plots.js' */
+
+const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
+const NARROW = 560; // px
+const EVERY = 80; // ms
+/** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
+const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
+
+export class PlotWindow {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.element = elementOf('plot', HTMLElement);
+    /** @type {string[]} of bodies */
+    this.names = [];
+    this.axes = {x: 'time', y: 'y'};
+    this.sums = false; // the sum over the bodies is shown, too
+    this.canvas = createElement('canvas', {role: 'img', 'aria-label': t('Large plot')});
+    this.reading = createElement('output', {textContent: ''});
+    this.legend = createElement('div', {className: 'row legend'});
+    /** @type {?Scales} */
+    this.scales = null;
+    /** @type {?[number, number]} pointer on the canvas [px] */
+    this.pointed = null;
+    this.canvas.onpointermove = ({offsetX, offsetY}) => {
+      this.pointed = [offsetX, offsetY];
+      this.#draw();
+    };
+    this.canvas.onpointerleave = () => {
+      this.pointed = null;
+      this.#draw();
+    };
+    app.connection.on('frame', () => this.#drawSoon());
+    app.connection.on('body', () => this.#drawSoon());
+    app.connection.on('world', () => this.element.hidden || this.close());
+    new ResizeObserver(() => this.#draw()).observe(this.element);
+  }
+
+  /** @param {string[]} names of bodies */
+  open(names) {
+    const quantities = Object.entries(QUANTITIES).map(([key, {label}]) => /** @type {[string, string]} */ ([key, label]));
+    const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => choice(label, quantities, this.axes[axis], (key) => {
+      this.axes[axis] = key;
+      this.#record();
+      this.#draw();
+    });
+    this.element.replaceChildren(createElement('header', {},
+      inRow(select('y', t('Upwards')), createElement('span', {textContent: t('over')}), select('x', t('To the right')),
+        this.#adder(), this.#summer(), this.legend, textButton(t('Copy table'), () => this.#copyTable())),
+      iconButton(t('Close the plot'), 'close', () => this.close())), this.canvas, this.reading);
+    this.element.hidden = false;
+    this.#show(names);
+    this.#record();
+    const {panel, room, selection, lessons} = this.app;
+    // The panel is folded beside it; on a small page there is no room for both.
+    panel.chosen = null;
+    if (!room.isRoomy) {
+      selection.select([]);
+      lessons.card.open = false;
+    }
+    room.fit();
+  }
+
+  close() {
+    this.element.hidden = true;
+    this.names = [];
+    this.app.records.recordsForces = false;
+    this.app.records.want(this, []);
+    this.app.room.fit();
+  }
+
+  /** Have forces recorded where an axis is one. */
+  #record() {
+    this.app.records.recordsForces = [this.axes.x, this.axes.y].some((key) => key in FORCES);
+    this.app.askForParts();
+  }
+
+  /** @returns {HTMLElement} the switch of the sum over the bodies, of what can be summed */
+  #summer() {
+    const button = toggling(textButton(t('Sum'), () => {}), () => this.sums, () => {
+      this.sums = !this.sums;
+      this.#draw();
+    });
+    button.title = t('Momentum or energy of all bodies of the plot together');
+    return button;
+  }
+
+  #adder() {
+    const input = choice(t('Add a body'), this.app.words.choices(t('Add a body …')), '', (added) => {
+      this.#show([...this.names.filter((name) => name !== added), added]);
+      input.value = '';
+    });
+    return input;
+  }
+
+  /** @param {string[]} names */
+  #show(names) {
+    this.names = names;
+    this.app.records.want(this, names);
+    this.legend.replaceChildren(...names.map((name, i) => {
+      const button = textButton(`${this.app.words.item(name)} ×`, () => this.#show(names.filter((each) => each !== name)));
+      button.style.color = this.app.view.palette[COLORS[i % COLORS.length]];
+      button.title = t('Take {name} out of the plot', {name});
+      return button;
+    }));
+    this.#draw();
+  }
+
+  #drawSoon() {
+    if (this.waits || this.element.hidden) return;
+    this.waits = true;
+    setTimeout(() => {
+      this.waits = false;
+      this.#draw();
+    }, EVERY);
+  }
+
+  #draw() {
+    if (this.element.hidden) return;
+    const {world, view: {palette}, records} = this.app, {gravity} = world.scene, {x, y} = this.axes;
+    /** @type {Curve[]} */
+    const curves = [];
+    this.names.forEach((name, i) => {
+      const body = world.body(name), record = records.bodies.get(name);
+      if (!body || !record) return;
+      const points = (/** @type {Sample[]} */ samples) => samples.map((sample) =>
+        [QUANTITIES[x].of(sample, body, gravity), QUANTITIES[y].of(sample, body, gravity)]).filter((point) => point.every(Number.isFinite));
+      const color = palette[COLORS[i % COLORS.length]];
+      curves.push({points: points(record.samples), color, width: 3},
+        {points: points(record.left), color, width: 2, dash: [6, 6], alpha: 0.7});
+    });
+    if (this.sums && QUANTITIES[y].sums && x === 'time') curves.push({points: sumOf(curves.filter(({dash}) => !dash)), color: palette.ink, width: 4});
+    const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+    if (!width || !height) return;
+    this.scales = drawChart(this.canvas, {width, height, size: width < NARROW ? NARROW_SIZE : SIZE, palette, curves,
+      xLabel: QUANTITIES[x].label, yLabel: QUANTITIES[y].label, range: rangeOf(curves),
+      mark: x === 'time' ? world.frame.time : undefined});
+    this.#read(curves);
+  }
+
+  /**
+   * Tell the point of a curve next to the pointer.
+   * @param {Curve[]} curves
+   */
+  #read(curves) {
+    const {pointed, scales} = this;
+    if (!pointed || !scales) {
+      this.reading.textContent = '';
+      return;
+    }
+    let least = Infinity, nearest = [0, 0], color = '';
+    for (const curve of curves) for (const point of curve.points) {
+      const far = distance([scales.x(point[0]), scales.y(point[1])], pointed);
+      if (far < least) [least, nearest, color] = [far, point, curve.color];
+    }
+    if (!color) return;
+    const told = (/** @type {'x' | 'y'} */ axis, /** @type {number} */ value) =>
+      QUANTITIES[this.axes[axis]].label.replace('[', `${threeDigits(value)} `).replace(']', '');
+    this.reading.textContent = `${told('x', nearest[0])} · ${told('y', nearest[1])}`;
+    const ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext('2d'));
+    ctx.fillStyle = color;
+    ctx.beginPath();
+    ctx.arc(scales.x(nearest[0]), scales.y(nearest[1]), 6, 0, 2 * Math.PI);
+    ctx.fill();
+  }
+
+  /**
+   * @param {string[]} names of bodies
+   * @returns {string} CSV
+   */
+  #tableOf(names) {
+    const {world, records} = this.app;
+    return tableOf(names.flatMap((name) => {
+      const body = world.body(name);
+      return body ? [{name, body, samples: records.samples(name)}] : [];
+    }), world.scene.gravity);
+  }
+
+  /** @param {string[]} names of bodies */
+  saveTable(names) {
+    download(`${names[0].replaceAll('/', '-')}.csv`, new Blob([this.#tableOf(names)], {type: 'text/csv'}));
+  }
+
+  async #copyTable() {
+    try {
+      await navigator.clipboard.writeText(this.#tableOf(this.names));
+      this.app.notes.showMessage(t('Table copied'));
+    } catch {
+      // Browsers give the clipboard to pages of this machine or with TLS only.
+      this.saveTable(this.names);
+    }
+  }
+}
+
+/**
+ * @param {Curve[]} curves over time
+ * @returns {number[][]} points of their sum, at the times that all of them have
+ */
+function sumOf(curves) {
+  /** @type {Map<number, number[]>} */
+  const byTime = new Map();
+  for (const {points} of curves) for (const [time, value] of points) byTime.set(time, [...byTime.get(time) ?? [], value]);
+  return [...byTime].filter(([, values]) => values.length === curves.length).sort(([a], [b]) => a - b)
+    .map(([time, values]) => [time, values.reduce((sum, value) => sum + value, 0)]);
+}
+
+/**
+ * @param {Curve[]} curves
+ * @returns {number[]} least and greatest x
+ */
+function rangeOf(curves) {
+  let least = Infinity, most = -Infinity;
+  for (const {points} of curves) for (const [x] of points) [least, most] = [Math.min(least, x), Math.max(most, x)];
+  if (least > most) return [0, 1];
+  return most - least > 1e-6 ? [least, most] : [least - 0.5, most + 0.5];
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * What is measured of bodies: place, velocity, momentum, energies now, in words; and of a sample of the past by the axes
+ * of plots and the columns of tables.
+ */
+
+import {digits, fixed, threeDigits} from '../rounding.js';
+import {localized, t} from '../strings.js';
+import {DEGREE, rotated} from '../vectors.js';
+
+/** @import {Body, Point, Sample, WorldState} from '../types.js' */
+
+/**
+ * The mass of a body [kg], and the place, angle and velocity of its centre of mass [m, °, m/s, rad/s].
+ * @typedef {{mass: number, x: number, y: number, angle: number, vx: number, vy: number, spin: number}} Motion
+ */
+
+/**
+ * @param {WorldState} world
+ * @param {number} row
+ * @returns {Motion} of a body; its velocity is 0 where it is not known
+ */
+export function motionOf(world, row) {
+  const {frame: {yaw, velocities}, scene} = world, {mass, centroid} = scene.bodies[row], [x, y] = world.place(row, centroid);
+  return {mass, x, y, angle: yaw[row] / DEGREE,
+    vx: velocities?.x[row] ?? 0, vy: velocities?.y[row] ?? 0, spin: velocities?.spin[row] ?? 0};
+}
+
+/**
+ * @param {WorldState} world
+ * @param {string[]} names of bodies
+ * @returns {string} their mass, momentum and energies together; what is anchored has none
+ */
+export function totalsOf(world, names) {
+  const {bodies, gravity} = world.scene;
+  let mass = 0, px = 0, py = 0, energy = [0, 0];
+  for (const row of names.map((name) => world.row(name)).filter((each) => each >= 0 && !bodies[each].anchored)) {
+    const motion = motionOf(world, row), each = energiesOf(bodies[row], motion, gravity);
+    mass += bodies[row].mass;
+    px += bodies[row].mass * motion.vx;
+    py += bodies[row].mass * motion.vy;
+    energy = [energy[0] + each[0], energy[1] + each[1]];
+  }
+  return t('Together {mass} kg · momentum {momentum} · energy of motion {motion} J, of height {height} J',
+    {mass: threeDigits(mass), momentum: momentumText([px, py]), motion: number(energy[0]), height: number(energy[1])});
+}
+
+/**
+ * @param {Body} body
+ * @param {{x: number, y: number, vx: number, vy: number, spin: number}} motion of its centre of mass [m, m/s, rad/s]
+ * @param {number[]} gravity [m/s²]
+ * @returns {[number, number]} energy of motion, and of height above the origin [J]
+ */
+export function energiesOf({mass, moment}, {x, y, vx, vy, spin}, [gx, gy]) {
+  return [mass * (vx * vx + vy * vy) / 2 + moment * spin * spin / 2, -mass * (gx * x + gy * y)];
+}
+
+/**
+ * @param {Point} centroid in the frame of a body [m]
+ * @param {Point} center where that is to be [m]
+ * @param {number} yaw [rad]
+ * @returns {Point} where the body's origin is then [m]
+ */
+export function originOf(centroid, [x, y], yaw) {
+  const [dx, dy] = rotated(centroid, yaw);
+  return [x - dx, y - dy];
+}
+
+/**
+ * @param {WorldState} world
+ * @param {number} row
+ * @param {Point} by displacement [m]
+ * @returns {string} the place and angle of a body, and how fast it is where that is known
+ */
+export function placed(world, row, by = [0, 0]) {
+  const {frame: {yaw, velocities}, scene} = world, {centroid, anchored} = scene.bodies[row];
+  const [x, y] = world.place(row, centroid), degrees = Math.round(yaw[row] / DEGREE * 10) / 10;
+  const texts = [t('at {x}, {y} m', {x: number(x + by[0]), y: number(y + by[1])}), `${digits(degrees, 6)}°`];
+  if (velocities && !anchored) {
+    texts.push(`${number(Math.hypot(velocities.x[row], velocities.y[row]))} m/s`, `${number(velocities.spin[row])} rad/s`);
+  }
+  return texts.join(' · ');
+}
+
+/** @param {number} value */
+export function number(value) {
+  return Math.abs(value) < 0.005 ? '0' : fixed(value, Math.abs(value) < 100 ? 2 : 0);
+}
+
+/** @param {Point} momentum [N s] */
+export function momentumText([px, py]) {
+  return `${number(Math.hypot(px, py))} N s ${t('({x}, {y})', {x: number(px), y: number(py)})}`;
+}
+
+/**
+ * @typedef {{label: string, column: string, of: (sample: Sample, body: Body, gravity: number[]) => number, sums?: boolean}} Quantity
+ *   label: of an axis, column: of a table; of: NaN where it is not known; sums: whether that of several bodies is their sum
+ */
+
+/** Kinds of forces, as they are recorded, with their names on axes and in tables. */
+export const FORCES = {weight: [t('Weight'), 'weight'], normal: [t('Normal force'), 'normal force'], friction: [t('Friction'), 'friction'],
+  joint: [t('Force of joints'), 'force of joints'], applied: [t('Applied force'), 'applied force'], sum: [t('Sum of forces'), 'sum of forces']};
+
+/** By key, in the order of the columns. @type {Record<string, Quantity>} */
+export const QUANTITIES = {
+  time: {label: t('Time [s]'), column: 'time [s]', of: ({time}) => time},
+  x: {label: 'x [m]', column: 'x [m]', of: ({x}) => x},
+  y: {label: t('Height [m]'), column: 'y [m]', of: ({y}) => y},
+  vx: {label: 'vx [m/s]', column: 'vx [m/s]', of: ({vx}) => vx},
+  vy: {label: 'vy [m/s]', column: 'vy [m/s]', of: ({vy}) => vy},
+  spin: {label: t('Spin [rad/s]'), column: 'spin [rad/s]', of: ({spin}) => spin},
+  speed: {label: t('Speed [m/s]'), column: 'speed [m/s]', of: ({vx, vy}) => Math.hypot(vx, vy)},
+  energy: {label: t('Energy [J]'), column: 'energy [J]', sums: true, of: (sample, body, gravity) => {
+    const [motion, height] = energiesOf(body, sample, gravity);
+    return motion + height;
+  }},
+  px: {label: 'px [N s]', column: 'px [N s]', sums: true, of: ({vx}, {mass}) => mass * vx},
+  py: {label: 'py [N s]', column: 'py [N s]', sums: true, of: ({vy}, {mass}) => mass * vy},
+  momentum: {label: t('Momentum [N s]'), column: 'momentum [N s]', of: ({vx, vy}, {mass}) => mass * Math.hypot(vx, vy)},
+  ax: {label: 'ax [m/s²]', column: 'ax [m/s²]', of: ({ax = NaN}) => ax},
+  ay: {label: 'ay [m/s²]', column: 'ay [m/s²]', of: ({ay = NaN}) => ay},
+  acceleration: {label: t('Acceleration [m/s²]'), column: 'acceleration [m/s²]', of: ({ax = NaN, ay = NaN}) => Math.hypot(ax, ay)},
+  yaw: {label: t('Angle [rad]'), column: 'yaw [rad]', of: ({yaw}) => yaw},
+  motion: {label: t('Energy of motion [J]'), column: 'energy of motion [J]', sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[0]},
+  height: {label: t('Energy of height [J]'), column: 'energy of height [J]', sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[1]},
+  ...Object.fromEntries(Object.entries(FORCES).map(([kind, [name, column]]) => [kind, /** @type {Quantity} */ ({label: `${name} [N]`, column: `${column} [N]`,
+    of: ({forces}) => forces?.[kind] ?? NaN})])),
+};
+
+/**
+ * @param {{name: string, body: Body, samples: Sample[]}[]} records
+ * @param {number[]} gravity
+ * @returns {string} a table of all quantities (CSV), the bodies one below the other; where numbers have a comma, columns
+ *   are parted by semicolons, as spreadsheets in that language expect
+ */
+export function tableOf(records, gravity) {
+  const columns = Object.values(QUANTITIES), separator = localized('.') === '.' ? ',' : ';';
+  const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : localized(String(value));
+  const rows = records.flatMap(({name, body, samples}) => samples.map((sample) =>
+    [...columns.map(({of}) => cell(of(sample, body, gravity))), `"${name.replaceAll('"', '""')}"`]));
+  return [[...columns.map(({column}) => column), 'body'], ...rows].map((row) => `${row.join(separator)}\n`).join('');
+}

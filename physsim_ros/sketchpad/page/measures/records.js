@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The motion of bodies as it was shown, from the past that the server keeps on, and the course that was left; and the
+ * trail of a body: its way, and as in a stroboscope where it was at equal times, numbered, with arrows of v and a.
+ */
+
+import {checkField} from '../dom.js';
+import {forcesOf, sumsOf} from '../view/forces.js';
+import {t} from '../strings.js';
+import {distance} from '../vectors.js';
+
+/** @import {App, Force, Point, Sample, SceneView} from '../types.js' */
+
+const MOST = 36000; // samples: ten minutes at 60 a second
+
+export class Records {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, {samples: Sample[], left: Sample[]}>} by name of the body, in the order of time */
+    this.bodies = new Map();
+    /** @type {Map<object, string[]>} names of bodies, by who wants them recorded */
+    this.wanted = new Map();
+    /** @type {string[]} names of bodies whose past is not asked for yet */
+    this.asking = [];
+    this.recordsForces = false; // where they are plotted
+    this.course = 0;
+    this.began = 0; // [s] when this world was opened
+    app.connection.on('frame', ({ghost}) => ghost || this.#record());
+    app.connection.on('timeline', ({course, now}) => this.#follow(course, now));
+    app.connection.on('body', (body) => this.#addPast(body));
+    // The answers to what was asked are lost.
+    app.connection.on('open', () => this.#ask());
+    // In another world, a body of the same name is another body.
+    app.connection.on('answer', ({ok, topic}) => {
+      // A world is opened, and then begins at time 0.
+      if (ok && topic === '~/reset') this.began = 0;
+    });
+    app.connection.on('world', () => {
+      this.began = app.world.frame.time;
+      for (const name of this.bodies.keys()) this.bodies.set(name, {samples: [], left: []});
+    });
+  }
+
+  /**
+   * @param {object} by who wants them
+   * @param {string[]} names of bodies
+   */
+  want(by, names) {
+    this.wanted.set(by, names);
+    const all = new Set([...this.wanted.values()].flat());
+    for (const name of this.bodies.keys()) if (!all.has(name)) this.bodies.delete(name);
+    const fresh = [...all].filter((name) => !this.bodies.has(name)), waits = this.asking.length > 0;
+    for (const name of fresh) this.bodies.set(name, {samples: [], left: []});
+    this.asking.push(...fresh);
+    if (!waits) this.#ask();
+    this.app.askForParts();
+  }
+
+  /** @returns {boolean} whether there is anything to record */
+  get records() {
+    return this.bodies.size > 0;
+  }
+
+  /** @param {string} name */
+  samples(name) {
+    return this.bodies.get(name)?.samples ?? [];
+  }
+
+  /** Ask for one past after the other: of several the server sends the last. */
+  #ask() {
+    const [name] = this.asking;
+    if (name) this.app.connection.send('watch', {name});
+  }
+
+  /** @param {Record<string, any>} body with the columns of its past */
+  #addPast({name, time = [], x, y, yaw, vx, vy, w}) {
+    if (name === this.asking[0]) {
+      this.asking.shift();
+      this.#ask();
+    }
+    const record = this.bodies.get(name);
+    if (!record) return;
+    const first = record.samples[0]?.time ?? Infinity;
+    const past = time.map((/** @type {number} */ at, /** @type {number} */ i) =>
+      ({time: at, x: x[i], y: y[i], yaw: yaw[i], vx: vx[i], vy: vy[i], spin: w[i]})).filter(
+      (/** @type {Sample} */ {time}) => time < first && time >= this.began);
+    past.forEach((/** @type {Sample} */ sample, /** @type {number} */ i) => accelerate(sample, past[i - 1]));
+    record.samples.unshift(...past);
+  }
+
+  #record() {
+    const {world} = this.app, {frame: {time, yaw, velocities}} = world;
+    if (!velocities) return;
+    const forces = this.recordsForces && world.frame.contacts ? forcesOf(world) : null, all = forces && [...forces, ...sumsOf(world, forces)];
+    for (const [name, {samples}] of this.bodies) {
+      const row = world.row(name);
+      // A replay of the same course gives the same samples: those that were recorded stay.
+      if (row < 0 || time <= (samples.at(-1)?.time ?? -Infinity)) continue;
+      const [x, y] = world.place(row, world.scene.bodies[row].centroid);
+      const last = samples.at(-1), sample = /** @type {Sample} */ ({time, x, y, yaw: yaw[row], vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]});
+      accelerate(sample, last);
+      if (all) sample.forces = sizesOf(all.filter((force) => force.row === row));
+      samples.push(sample);
+      if (samples.length > MOST) samples.shift();
+    }
+  }
+
+  /**
+   * @param {number} course
+   * @param {number} now where it begins, or is returned to [s]
+   */
+  #follow(course, now) {
+    if (course !== this.course) {
+      for (const [name, {samples, left}] of this.bodies) {
+        const later = samples.filter(({time}) => time >= now);
+        this.bodies.set(name, {samples: samples.filter(({time}) => time <= now), left: later.length > 1 ? later : left});
+      }
+    }
+    this.course = course;
+  }
+}
+
+/**
+ * @param {Sample} sample that is given its acceleration
+ * @param {Sample | undefined} before
+ */
+function accelerate(sample, before) {
+  if (!before) return;
+  const time = sample.time - before.time;
+  [sample.ax, sample.ay] = [(sample.vx - before.vx) / time, (sample.vy - before.vy) / time];
+}
+
+/**
+ * @param {Force[]} forces on a body
+ * @returns {Record<string, number>} the size of the sum of each kind [N]
+ */
+function sizesOf(forces) {
+  const kinds = [...new Set(forces.map(({kind}) => kind))];
+  return Object.fromEntries(kinds.map((kind) => {
+    const those = forces.filter((force) => force.kind === kind);
+    return [kind, Math.hypot(those.reduce((sum, {x}) => sum + x, 0), those.reduce((sum, {y}) => sum + y, 0))];
+  }));
+}
+
+const FLASH = 0.1; // s from flash to flash
+const MOST_FLASHES = 100;
+const APART = 24, ASIDE = 12; // px: least distance of images, and from an image to its number
+const LONGEST = 90; // px: longer arrows, of impacts, are cut
+const ACCELERATION = 0.2; // s: the arrow of a is as long as that of the velocity that it gives in this time
+
+export class Trail {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, boolean>} names of bodies with a trail, and whether it has flashes */
+    this.bodies = new Map();
+    app.connection.on('world', () => {
+      this.bodies.clear();
+      app.records.want(this, []);
+    });
+    app.view.overlays.push((view) => {
+      for (const [name, flashes] of this.bodies) this.#draw(view, name, flashes);
+    });
+  }
+
+  /**
+   * @param {string} name of a body
+   * @returns {HTMLElement[]} its switches
+   */
+  switches(name) {
+    let trail = this.bodies.has(name), flashes = this.bodies.get(name) ?? false;
+    const follow = () => {
+      if (trail || flashes) this.bodies.set(name, flashes);
+      else this.bodies.delete(name);
+      this.app.records.want(this, [...this.bodies.keys()]);
+    };
+    return [checkField(t('Trail'), trail, (checked) => {
+      trail = checked;
+      follow();
+    }), checkField(t('Stroboscope, with v and a'), flashes, (checked) => {
+      flashes = checked;
+      follow();
+    })];
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {string} name
+   * @param {boolean} flashes
+   */
+  #draw(view, name, flashes) {
+    const {world, records} = this.app, row = world.row(name), now = world.frame.time + 1e-9;
+    const samples = records.samples(name).filter(({time}) => time <= now);
+    if (row < 0 || samples.length < 2) return;
+    const {palette} = view;
+    view.line(samples.map(({x, y}) => [x, y]), palette.faint, [2, 5]);
+    if (!flashes) return;
+    let last = /** @type {Point} */ ([-Infinity, -Infinity]);
+    flashesOf(samples).forEach((number, i) => {
+      const {x, y, vx, vy} = samples[number], at = view.camera.toPage(x, y);
+      // On a slow way one in so many, so that images do not hide each other.
+      if (distance(at, last) < APART) return;
+      last = at;
+      this.#flash(view, row, samples, number);
+      const speed = Math.hypot(vx, vy) || 1, aside = /** @type {Point} */ ([vy / speed, vx / speed]);
+      view.number({text: String(i + 1), color: palette.ink, tip: [at[0] - ASIDE * aside[0], at[1] - ASIDE * aside[1]], along: [-aside[0], -aside[1]]});
+    });
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {number} row
+   * @param {Sample[]} samples
+   * @param {number} number of the sample
+   */
+  #flash(view, row, samples, number) {
+    const {world, camera, arrows} = this.app, {palette} = view, sample = samples[number];
+    const {x, y, yaw, vx, vy, ax = 0, ay = 0} = sample, [nowX, nowY] = world.place(row, world.scene.bodies[row].centroid);
+    view.outline(row, palette.faint, [x - nowX, y - nowY], {turn: yaw - world.frame.yaw[row], scale: 1});
+    const from = camera.toPage(x, y), pixels = arrows.speeds.length(1);
+    drawArrow(view, from, vx * pixels, vy * pixels, palette.accent);
+    drawArrow(view, from, ax * pixels * ACCELERATION, ay * pixels * ACCELERATION, palette.weight);
+  }
+}
+
+/**
+ * @param {SceneView} view
+ * @param {Point} from [px]
+ * @param {number} x [px], y up
+ * @param {number} y
+ * @param {string} color
+ */
+function drawArrow(view, [px, py], x, y, color) {
+  const length = Math.hypot(x, y), share = Math.min(1, LONGEST / length);
+  view.arrow([px, py], [px + x * share, py - y * share], color, {width: 1.5, cut: share < 1});
+}
+
+/**
+ * @param {Sample[]} samples
+ * @returns {number[]} numbers of those next after whole multiples of the time of a flash, the last ones
+ */
+function flashesOf(samples) {
+  const numbers = [];
+  for (let i = 1; i < samples.length; i++) {
+    if (Math.floor(samples[i].time / FLASH + 1e-6) > Math.floor(samples[i - 1].time / FLASH + 1e-6)) numbers.push(i);
+  }
+  return numbers.slice(-MOST_FLASHES);
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panel of a body: its numbers, its material, its forces, its trail and its plots. */
+
+import {checkField, createElement, inRow, textButton, textField, textOf} from '../dom.js';
+import {actorLines, drawWay} from './driving.js';
+import {forceFields} from './force_fields.js';
+import {sizeOf} from '../view/label_view.js';
+import {t} from '../strings.js';
+import {inclineFields} from '../tools/incline.js';
+import {sendNote} from '../tools/note.js';
+import {isDrawn} from '../words.js';
+import {materialFields} from './world_panel.js';
+
+/** @import {App} from '../types.js' */
+/** @import {Content} from './panel.js' */
+
+const BESIDE = 0.5; // m: where a copy is put
+
+/**
+ * @param {App} app
+ * @param {string[]} names of the body alone
+ * @returns {?Content} null where it is gone
+ */
+export function bodyContent(app, [name]) {
+  const body = app.world.body(name);
+  if (!body) return null;
+  const change = (/** @type {object} */ properties) => app.connection.send('change', {name, properties});
+  const label = textField({value: body.label, onchange: () => {
+    const value = textOf(label), {height = 0} = body.shape, row = app.world.row(name);
+    if (body.name.startsWith('note/') && height) {
+      sendNote(app, name, value, [...app.world.place(row, [0, 0]), app.world.frame.yaw[row]], height / sizeOf(app.view.ctx, body.label)[1]);
+    } else change({label: value});
+  }});
+  const material = materialFields(body, change);
+  material.find((each) => each.textContent === t('Friction'))?.append(app.numbers.pairs);
+  return {
+    title: app.words.title(name), name: isDrawn(name) ? name : '',
+    first: [app.numbers.element, ...inclineFields(app, body),
+      ...body.actor ? actorLines(body.actor) : [], ...body.robot ? app.driving.show(body.robot) : []],
+    rest: [
+      app.numbers.typed,
+      ...material,
+      createElement('label', {}, t('Label'), label),
+      // A robot is neither.
+      ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})),
+        checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
+      ...forceFields(app, body, change),
+      inRow(
+        textButton(t('Copy'), () => copy(app, name)),
+        textButton(t('Delete body'), () => app.selection.deleteSelected(), 'danger')),
+      createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
+      ...app.trail.switches(name),
+      app.plots.element,
+    ],
+    live: (view) => {
+      app.numbers.show(name);
+      drawWay(view, app.world, name);
+    },
+  };
+}
+
+/**
+ * @param {App} app
+ * @param {string} name of the body
+ */
+function copy({world, connection}, name) {
+  const row = world.row(name);
+  if (row >= 0) connection.send('copy', {name, to: [world.frame.x[row] + BESIDE, world.frame.y[row] + BESIDE]});
+}

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panel of a joint that was tapped: its constants, its force now, and deletion. */
+
+import {createElement, inRow, numberField, range, showText, textButton} from '../dom.js';
+import {threeDigits} from '../rounding.js';
+import {t} from '../strings.js';
+import {distance} from '../vectors.js';
+import {capital, isDrawn, thingWord} from '../words.js';
+
+/** @import {App, Joint, WorldState} from '../types.js' */
+/** @import {Content} from './panel.js' */
+
+/**
+ * Property, label, greatest and step of its slider, and its value where none was set.
+ * @type {Record<string, [keyof Joint, string, number, number, number][]>}
+ */
+const CONSTANTS = {
+  spring: [['stiffness', t('Spring constant [N/m]'), 500, 1, 100], ['rest_length', t('Rest length [m]'), 5, 0.01, 0],
+    ['damping', t('Damping [N s/m]'), 20, 0.1, 0]],
+  rope: [['length', t('Length [m]'), 10, 0.01, 0]],
+  motor: [['rate', t('Rate [rad/s]'), 20, 0.1, 1], ['max_torque', t('Greatest torque [N m]'), 1000, 1, 1000]],
+  gear: [['ratio', t('Ratio'), 5, 0.1, 1]],
+};
+const MEASURED = ['spring', 'rod', 'rope'], LIMITED = ['axle', 'slider'];
+const RING = 9; // px: at its ends
+
+/**
+ * @param {App} app
+ * @param {string[]} names of the joint alone
+ * @returns {?Content} null where it is gone
+ */
+export function jointContent({world, connection, selection}, [name]) {
+  const numberOf = () => world.scene.joints.findIndex((each) => each.name === name), joint = world.scene.joints[numberOf()];
+  if (!joint) return null;
+  const change = (/** @type {Record<string, ?number>} */ properties) => connection.send('change_joint', {name, properties});
+  const unit = joint.kind === 'slider' ? 'm' : 'rad', force = createElement('p');
+  /** @type {['lower' | 'upper' | 'break_force', string][]} */
+  const limits = [['break_force', t('Breaks at [N]')]];
+  if (LIMITED.includes(joint.kind)) limits.unshift(['lower', t('Least [{unit}]', {unit})], ['upper', t('Greatest [{unit}]', {unit})]);
+  return {title: capital(thingWord(joint.kind)), name: isDrawn(name) ? '' : name, first: [force], rest: [
+    ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
+      const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
+      return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
+    }),
+    ...limits.map(([key, label]) =>
+      createElement('label', {}, label, numberField(joint[key] ?? null, (value) => change({[key]: value}), {placeholder: t('none')}))),
+    inRow(textButton(t('Delete joint'), () => selection.deleteSelected(), 'danger')),
+  ], live: (view) => {
+    const number = numberOf(), now = world.scene.joints[number];
+    if (!now) return;
+    showText(force, [t('Force now: {force} N', {force: threeDigits(world.frame.forces?.[number] ?? 0)}), ...lengthNow(world, now)].join(' · '));
+    view.ring(world.place(now.a, now.points[0]), RING, view.palette.accent);
+    if (now.points[1] && now.kind !== 'slider') view.ring(world.place(now.b, now.points[1]), RING, view.palette.accent);
+  }};
+}
+
+/**
+ * @param {WorldState} world
+ * @param {Joint} joint
+ * @returns {string[]} how long it is, and the energy of a spring
+ */
+function lengthNow(world, {kind, a, b, points: [p, q], rest_length: rest, stiffness = 100}) {
+  if (!MEASURED.includes(kind)) return [];
+  const length = distance(world.place(a, p), world.place(b, q)), text = t('length {length} m', {length: threeDigits(length)});
+  return kind === 'spring' ? [text, t('energy {energy} J', {energy: threeDigits(stiffness * (length - rest) ** 2 / 2)})] : [text];
+}

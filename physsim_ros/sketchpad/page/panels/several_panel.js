@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panel of several bodies: what they have together, copies, and places at one line or with equal gaps, which one undo takes back. */
+
+import {createElement, inRow, showText, textButton} from '../dom.js';
+import {totalsOf} from '../measures/quantities.js';
+import {t} from '../strings.js';
+
+/** @import {App} from '../types.js' */
+/** @import {Content} from './panel.js' */
+
+const BESIDE = 0.5; // m between bodies and their copies
+/** Label, axis (0 is x), and the share of the way from the lower edge to the upper one. @type {[string, number, number][]} */
+const ALIGNMENTS = [[t('Left'), 0, 0], [t('Centre'), 0, 0.5], [t('Right'), 0, 1], [t('Top'), 1, 1], [t('Middle'), 1, 0.5], [t('Bottom'), 1, 0]];
+/** @type {[string, number][]} */
+const DISTRIBUTIONS = [[t('Across'), 0], [t('Up'), 1]];
+
+/**
+ * @param {App} app
+ * @param {string[]} names
+ * @returns {Content}
+ */
+export function severalContent(app, names) {
+  const totals = createElement('p', {className: 'numbers'});
+  return {title: t('{count} bodies', {count: names.length}), first: [totals], live: () => showText(totals, totalsOf(app.world, names)), rest: [
+    createElement('p', {textContent: t('Drag them with the lasso.')}),
+    inRow(textButton(t('Copy beside'), () => {
+      const [left, , right] = app.world.boundsOfAll(names);
+      app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
+    }), textButton(t('Plot them'), () => app.plotWindow.open(names)), textButton(t('Delete bodies'), () => app.selection.deleteSelected(), 'danger')),
+    ...arrangeButtons(app, names)]};
+}
+
+/**
+ * @param {App} app
+ * @param {string[]} names of bodies
+ * @returns {HTMLElement[]} buttons, in rows
+ */
+function arrangeButtons(app, names) {
+  const align = ALIGNMENTS.map(([label, axis, share]) => textButton(label, () => place(app, names, (boxes) => {
+    const [least, most] = spanOf(boxes, axis), at = least + share * (most - least);
+    return boxes.map((box) => along(axis, at - edge(box, axis, share)));
+  })));
+  const distribute = DISTRIBUTIONS.map(([label, axis]) => textButton(label, () => place(app, names, (boxes) => distances(boxes, axis))));
+  // Two bodies have one gap.
+  const gaps = names.length > 2 ? [createElement('h3', {textContent: t('Equal gaps')}), inRow(...distribute)] : [];
+  return [createElement('h3', {textContent: t('Align')}), inRow(...align), ...gaps];
+}
+
+/** @typedef {number[]} Box xmin, ymin, xmax, ymax [m] */
+
+/**
+ * @param {App} app
+ * @param {string[]} names
+ * @param {(boxes: Box[]) => number[][]} wayOf how far each body is moved [m], by their boxes
+ */
+function place({world, connection}, names, wayOf) {
+  const known = names.filter((name) => world.row(name) >= 0);
+  const ways = wayOf(known.map((name) => world.boundsOfAll([name])));
+  const poses = known.map((name, i) => {
+    const row = world.row(name), [dx, dy] = ways[i];
+    return [world.frame.x[row] + dx, world.frame.y[row] + dy, world.frame.yaw[row]];
+  });
+  connection.send('place', {names: known, poses});
+}
+
+/**
+ * @param {Box[]} boxes
+ * @param {number} axis
+ * @returns {number[][]} how far each body is moved so that the gaps are equal; the outermost stay [m]
+ */
+function distances(boxes, axis) {
+  const order = boxes.map((_, i) => i).sort((i, j) => edge(boxes[i], axis, 0.5) - edge(boxes[j], axis, 0.5));
+  const sizes = order.map((i) => boxes[i][axis + 2] - boxes[i][axis]);
+  const first = boxes[order[0]][axis], last = boxes[order[order.length - 1]][axis + 2];
+  const gap = (last - first - sizes.reduce((sum, size) => sum + size, 0)) / Math.max(order.length - 1, 1);
+  const ways = boxes.map(() => [0, 0]);
+  let at = first;
+  order.forEach((i, number) => {
+    ways[i] = along(axis, at - boxes[i][axis]);
+    at += sizes[number] + gap;
+  });
+  return ways;
+}
+
+/**
+ * @param {Box} box
+ * @param {number} axis
+ * @param {number} share 0 is the lower edge, 1 the upper one
+ */
+function edge(box, axis, share) {
+  return box[axis] + share * (box[axis + 2] - box[axis]);
+}
+
+/**
+ * @param {Box[]} boxes
+ * @param {number} axis
+ */
+function spanOf(boxes, axis) {
+  return [Math.min(...boxes.map((box) => box[axis])), Math.max(...boxes.map((box) => box[axis + 2]))];
+}
+
+/**
+ * @param {number} axis
+ * @param {number} distance [m]
+ */
+function along(axis, distance) {
+  return axis ? [0, distance] : [distance, 0];
+}

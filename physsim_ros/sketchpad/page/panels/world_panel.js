@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What the panel shows of the world: the material of the next drawings, gravity, air, sound; and the fields of a material. */
+
+import {checkField, createElement, inRow, range, textButton} from '../dom.js';
+import {t} from '../strings.js';
+import {DEGREE} from '../vectors.js';
+
+/** @import {App} from '../types.js' */
+/** @import {Content} from './panel.js' */
+
+/**
+ * Of a plate 1 mm thick, so that the density in kg/m² is the usual one in g/cm³. Friction and bounciness are
+ * those of two bodies of that material, as tables for schools have them.
+ * @type {Record<string, {density: number, friction: number, elasticity: number}>}
+ */
+const MATERIALS = {
+  [t('Ice')]: {density: 0.92, friction: 0.03, elasticity: 0.3},
+  [t('Wood')]: {density: 0.7, friction: 0.4, elasticity: 0.5},
+  [t('Rubber')]: {density: 1.1, friction: 1, elasticity: 0.8},
+  [t('Steel')]: {density: 7.85, friction: 0.6, elasticity: 0.6},
+};
+/** Key, label, least, most, step. @type {[string, string, number, number, number][]} */
+const RANGES = [['density', t('Density [kg/m²]'), 0.1, 10, 0.1], ['friction', t('Friction'), 0, 2, 0.05],
+  ['elasticity', t('Bounciness'), 0, 1, 0.05]];
+/** Gravity at the surface [m/s²]. */
+const PLACES = {[t('Earth')]: 9.81, [t('Moon')]: 1.62, [t('Mars')]: 3.71, [t('None')]: 0};
+const STEP = 15; // degrees of the slider
+let turn = 0; // of gravity from down, counter-clockwise [°]: as it was, while there is none
+
+/**
+ * @param {App} app
+ * @returns {Content}
+ */
+export function worldContent(app) {
+  const {scene} = app.world, {gravity: [gx, gy]} = scene, strength = Math.hypot(gx, gy);
+  // As it was set last: the panel is not renewed while somebody works in it.
+  let size = strength;
+  if (strength) turn = Math.round(Math.atan2(gx, -gy) / DEGREE * 1e4) / 1e4;
+  const pull = () => {
+    // The sine of a half turn is not exactly 0: nine digits are.
+    app.connection.send('gravity', {gravity: [Math.sin(turn * DEGREE) * size, -Math.cos(turn * DEGREE) * size].map((each) => Number(each.toFixed(9)))});
+  };
+  const setSize = (/** @type {number} */ value) => {
+    size = value;
+    pull();
+  };
+  const change = (/** @type {any} */ properties) => {
+    Object.assign(app.material, properties);
+    app.connection.send('draw_with', properties);
+  };
+  const chosen = app.material.color ?? app.color, color = chosen || [0.3, 0.47, 0.66];
+  const any = checkField(t('Each body another colour'), !chosen, (checked) => change({color: checked ? '' : hexOf(color)}));
+  return {title: t('Material of new bodies'), rest: [
+    ...materialFields({...scene, ...app.material, color}, (properties) => {
+      if (properties.color) /** @type {HTMLInputElement} */ (any.control).checked = false;
+      change(properties);
+      // A material that was pressed is shown in the fields below.
+      if (properties.density && properties.friction) app.panel.render();
+    }),
+    any,
+    createElement('h3', {textContent: t('Gravity')}),
+    range(t('Gravity [m/s²]'), 0, 25, 0.01, strength, setSize),
+    presetButtons(PLACES, setSize),
+    range(t('Direction of gravity [° from down]'), -180, 180, STEP, turn, (degrees) => {
+      turn = degrees;
+      pull();
+    }),
+    range(t('Air drag [of the speed, each second]'), 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping})),
+    checkField(t('Sound of impacts'), app.sound.on, () => {
+      app.sound.toggle();
+      app.askForParts();
+    })]};
+}
+
+/**
+ * @template T
+ * @param {Record<string, T>} presets by name
+ * @param {(preset: T) => void} change
+ */
+function presetButtons(presets, change) {
+  const row = inRow(...Object.entries(presets).map(([name, preset]) => textButton(name, () => change(preset))));
+  row.classList.add('presets');
+  return row;
+}
+
+/**
+ * @param {any} values by key
+ * @param {(properties: any) => void} change
+ * @returns {HTMLElement[]} buttons and fields of a material
+ */
+export function materialFields(values, change) {
+  const color = createElement('input', {type: 'color', value: hexOf(values.color), onchange: () => change({color: color.value})});
+  return [
+    presetButtons(MATERIALS, change),
+    ...RANGES.map(([key, label, least, most, step]) => range(label, least, most, step, values[key],
+      (value) => change({[key]: value}))),
+    createElement('label', {}, t('Colour'), color)];
+}
+
+/**
+ * @param {number[] | string} color channels, each 0 .. 1, or as hexOf returns it
+ * @returns {string} as inputs have it
+ */
+function hexOf(color) {
+  if (typeof color === 'string') return color;
+  return `#${color.slice(0, 3).map((channel) =>
+    Math.round(255 * channel).toString(16).padStart(2, '0')).join('')}`;
+}

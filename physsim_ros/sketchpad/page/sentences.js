@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The server's sentences, and what this page says instead: words for things and for what was done, and whole sentences.
+ *
+ * A sentence of the server that is not here is shown as it is.
+ */
+
+import {t} from './strings.js';
+
+/** What is drawn, read, joined or undone, by the words of the server. */
+export const THINGS = new Map([
+  ['disc', t('circle')], ['rectangle', t('rectangle')], ['polygon', t('polygon')], ['wall', t('wall')],
+  ['body', t('body')], ['joint', t('joint')], ['axle', t('axle')], ['pin', t('pin')], ['spring', t('spring')],
+  ['rod', t('rod')], ['rope', t('rope')], ['chain', t('chain')], ['motor', t('motor')], ['slider', t('slider')],
+  ['gear', t('gear')], ['anchor', t('anchor')], ['velocity', t('velocity')], ['gravity', t('gravity')],
+  ['delete', t('delete')], ['hatching', t('heavier by hatching')], ['all bodies', t('all bodies')],
+  ['several bodies', t('several bodies')], ['all joints', t('all joints')], ['world', t('the world')],
+  ['settings', t('settings')],
+]);
+
+/** What the server calls the numbers of a body, where it refuses one. */
+export const NUMBERS = new Map([
+  ['friction', t('friction')], ['density', t('density')], ['elasticity', t('bounciness')], ['mass', t('mass')],
+  ['spin', t('spin')],
+]);
+
+/** Verbs before the name of a body, and what is said of it. */
+export const VERBS = new Map([
+  ['spawned', t('{thing} added')], ['changed', t('{thing} changed')], ['moved', t('{thing} moved')],
+  ['deleted', t('{thing} deleted')], ['anchored', t('{thing} anchored')], ['released', t('{thing} released')],
+  ['set velocity of', t('{thing} has a new velocity')],
+]);
+
+/** Verbs of what is undone, and how that is told. */
+export const GESTURES = new Map([
+  ['spawn', t('add {thing}')], ['change', t('change {thing}')], ['delete', t('delete {thing}')],
+  ['cut', t('cut {thing}')], ['move', t('move {thing}')], ['drag', t('drag {thing}')], ['place', t('place {thing}')],
+  ['anchor', t('anchor {thing}')], ['release', t('release {thing}')], ['join', t('add {thing}')],
+  ['set motion of', t('change {thing}')], ['drive', t('drive {thing}')], ['load', t('open {thing}')],
+]);
+
+/** Whole sentences, in the order in which they are tried. @type {[RegExp, string][]} */
+export const SENTENCES = [
+  [/^saved .* to (.+)\.yaml(.*)/, t('Saved as $1$2')],
+  [/^loaded .* from (.+)\.yaml/, t('Opened $1')],
+  [/^loaded 0 bodies$/, t('An empty world')],
+  [/^discarded the unsaved world$/, t('Unsaved world discarded')],
+  [/^deleted the world (.+)/, t('World $1 deleted')],
+  [/^put back the world (.+)/, t('World $1 is back')],
+  [/^renamed .* to (.+)/, t('Renamed to $1')],
+  [/^set gravity$/, t('Gravity set')],
+  [/^set damping$/, t('Air drag set')],
+  [/^paused$/, t('paused')],
+  [/^playing$/, t('playing')],
+  [/^rewinding$/, t('rewinding')],
+  [/^playing at (.+)/, `${t('playing')}, $1×`],
+  [/^rewinding at (.+)/, `${t('rewinding')}, $1×`],
+  [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')],
+  [/^(?:moved|set pose of) (\d+) bodies$/, t('Moved $1 bodies')],
+  [/^copied (\d+) bodies$/, t('Copied $1 bodies')],
+  [/^cut into (\d+) pieces.*/, t('Cut into $1 pieces')],
+  [/^cut .*/, t('Cut through')],
+  [/^loaded (\d+) bod(y|ies)/, t('Loaded $1 bodies')],
+  [/^deleted joint .*/, t('Joint deleted')],
+  [/^the material of what is drawn next$/, t('Material of new bodies')],
+  [/^you are (.+)/, t('You are $1')],
+  [/^your hand is raised$/, t('Your hand is raised')],
+  [/^your hand is down$/, t('Your hand is down')],
+  [/^the pages are frozen$/, t('All pupils are frozen')],
+  [/^the pages are no longer frozen$/, t('All pupils can draw again')],
+  [/^locked (.+)/, t('Locked: {names}', {names: '$1'})],
+  [/^no body is locked$/, t('No body is locked')],
+  [/^on course \d+, at .*/, t('Back on the other course')],
+  [/^course \d+ begins at .*/, t('A new course begins here')],
+  [/^speed (.+)/, t('Speed $1×')],
+  [/^dropped what was unfinished$/, t('Begun anew')],
+  [/(?<=; next: )a point on the rim$/, t('a point on the rim')],
+  [/(?<=; next: )(its|the) other end$/, t('the other end')],
+  [/(?<=; next: )its other end, beyond the bodies$/, t('the other end, beyond the bodies')],
+  [/(?<=; next: )the next corner$/, t('the next corner')],
+  [/(?<=; next: )the next corner, or .*/, t('the next corner, or the first one again')],
+  [/(?<=; next: )a point of the side across$/, t('a point of the side across')],
+  [/(?<=; next: )its tip$/, t('the tip')],
+  [/(?<=; next: )its tip, 1 m for 1 m\/s$/, t('the tip, 1 m for 1 m/s')],
+  [/(?<=; next: )the tip of its arrow, 1 m for 10 N$/, t('the tip, 1 m for 10 N')],
+  [/^.*; next: /, `${t('Next:')} `],
+  [/^a chain of (\d+) links from .+/, t('Chain of $1 links added')],
+  [/^(\S+) is (\S+); it must lie between (\S+) and /, t('$1 is $2; it must lie between $3 and') + ' '],
+  [/^pose is further away than /, t('position is further away than') + ' '],
+  [/^pose is /, t('position is') + ' '],
+  [/^the yaw of pose /, t('the angle') + ' '],
+  [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')],
+  [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')],
+  [/^redid .*/, t('Redone')],
+  [/^(back )?at the beginning, .*/, t('Back at the beginning')],
+  [/ at \([^)]*\)$/, ` ${t('here')}`],
+];

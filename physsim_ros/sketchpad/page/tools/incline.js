@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Inclined planes: anchored right triangles that stand on a horizontal side. The tool draws one along its slope; the
+ * panel of any body of that form has its angle and length.
+ */
+
+import {createElement, numberField} from '../dom.js';
+import {digits} from '../rounding.js';
+import {t} from '../strings.js';
+import {DEGREE, isTap, onGrid, polar} from '../vectors.js';
+
+/** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
+
+/**
+ * @typedef {{foot: Point, side: number, angle: number, length: number}} Incline foot: lower end of the slope [m]; side: 1
+ *   where it rises to the right, -1 to the left; angle [°]; length of the slope [m]
+ */
+
+const USUAL = {side: 1, angle: 30, length: 4}; // of a tap
+const STEEPEST = 89, ROUGH = 15; // °: the greatest angle that is drawn, and steps while the key of the grid is held
+const STRAIGHT = 1e-3; // share of a side by which it may be out of the level or the vertical
+
+export class InclineTool {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {?Touch} */
+    this.start = null;
+    /** @type {?Touch} */
+    this.last = null;
+    this.fresh = ''; // name of the plane that is selected as soon as it is there
+    app.connection.on('scene', ({bodies}) => {
+      if (!bodies.some((/** @type {Body} */ {name}) => name === this.fresh)) return;
+      const {fresh} = this;
+      this.fresh = '';
+      queueMicrotask(() => app.selection.select([fresh]));
+    });
+  }
+
+  /** @param {Touch} touch */
+  down(touch) {
+    this.start = this.last = touch;
+  }
+
+  /** @param {Touch} touch */
+  move(touch) {
+    this.last = touch;
+  }
+
+  /** @param {Touch} touch */
+  up(touch) {
+    const {app, start} = this;
+    this.last = touch;
+    const incline = start && this.#drawn(start, touch), names = new Set(app.world.scene.bodies.map(({name}) => name));
+    this.start = null;
+    if (!incline) return;
+    let number = 1;
+    while (names.has(`incline/${number}`)) number++;
+    this.fresh = `incline/${number}`;
+    app.connection.send('spawn', {body: {name: this.fresh, anchored: true, ...shapeOf(incline)}});
+  }
+
+  cancel() {
+    this.start = null;
+  }
+
+  /**
+   * @param {Touch} start
+   * @param {Touch} end
+   * @returns {Incline} between them, in whole degrees
+   */
+  #drawn(start, end) {
+    const [x, y] = onGrid(start.at, start.grid);
+    if (isTap(start, end)) return {foot: [x, y], ...USUAL};
+    const dx = end.at[0] - x, dy = end.at[1] - y, turn = end.grid ? ROUGH : 1, step = end.grid || this.app.camera.fineStep / 4;
+    const degrees = Math.round(Math.atan2(Math.abs(dy), Math.abs(dx)) / DEGREE / turn) * turn;
+    const angle = Math.min(Math.max(degrees, turn), STEEPEST), length = Math.max(Math.round(Math.hypot(dx, dy) / step), 1) * step;
+    const [across, up] = polar(length, angle * DEGREE), right = dx < 0 ? -1 : 1;
+    // It may be drawn down its slope, too.
+    return dy < 0 ? {foot: [x + right * across, y - up], side: -right, angle, length} : {foot: [x, y], side: right, angle, length};
+  }
+
+  /** @param {SceneView} view */
+  draw(view) {
+    if (!this.start || !this.last) return;
+    const incline = this.#drawn(this.start, this.last), {polygon: [p, q, r]} = shapeOf(incline), [x, y] = incline.foot;
+    const corners = [p, q, r, p].map(([px, py]) => /** @type {Point} */ ([x + px, y + py]));
+    view.line(corners, view.palette.accent);
+    view.write(`${digits(incline.angle, 5)}°, ${digits(incline.length, 5)} m`, [this.last.page[0] + 14, this.last.page[1] - 14], view.palette.accent);
+  }
+}
+
+/**
+ * @param {App} app
+ * @param {Body} body
+ * @returns {HTMLElement[]} fields for angle and length, where the body is an inclined plane; its foot stays
+ */
+export function inclineFields(app, {name, shape}) {
+  const now = () => {
+    const row = app.world.row(name), {scene} = app.world;
+    return row < 0 || shape.kind !== 'polygon' ? null : inclineOf(scene.bodies[row].shape.outline.map((point) => app.world.place(row, point)));
+  };
+  const shown = now();
+  if (!shown) return [];
+  const field = (/** @type {string} */ label, /** @type {'angle' | 'length'} */ key) => createElement('label', {}, label, numberField(shown[key], (value) => {
+    const incline = {...now() ?? shown, [key]: value ?? 0}, {angle, length} = incline;
+    if (angle > 0 && angle < 90 && length > 0) app.connection.send('spawn', {body: {name, ...shapeOf(incline)}});
+    else {
+      app.notes.showMessage(t('The angle of a slope lies between 0° and 90°, and its length is not 0'), {ok: false});
+      app.panel.render();
+    }
+  }));
+  return [field(t('Angle of the slope [°]'), 'angle'), field(t('Length of the slope [m]'), 'length')];
+}
+
+/**
+ * @param {Incline} incline
+ * @returns {{polygon: Point[], at: number[]}} of its body, as in a world file
+ */
+function shapeOf({foot, side, angle, length}) {
+  const [across, up] = polar(length, angle * DEGREE);
+  return {polygon: [[0, 0], [side * across, 0], [side * across, up]], at: [...foot, 0]};
+}
+
+/**
+ * @param {Point[]} corners of a polygon in the world [m]
+ * @returns {?Incline} null where it is none
+ */
+function inclineOf(corners) {
+  if (corners.length !== 3) return null;
+  for (const [x, y] of corners) {
+    const foot = corners.find((each) => each[0] !== x && Math.abs(each[1] - y) <= STRAIGHT * Math.abs(each[0] - x));
+    const top = corners.find((each) => each[1] > y && Math.abs(each[0] - x) <= STRAIGHT * (each[1] - y));
+    if (!foot || !top) continue;
+    const across = x - foot[0], up = top[1] - y;
+    return {foot, side: Math.sign(across), angle: Math.atan2(up, Math.abs(across)) / DEGREE, length: Math.hypot(across, up)};
+  }
+  return null;
+}

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
+
+import {createElement, elementOf, fieldForm, iconButton, inRow, textButton} from '../dom.js';
+import {t} from '../strings.js';
+
+/** @import {App, Classmate, Point, SceneView} from '../types.js' */
+
+const NAME = 'physsim-name'; // of the person, in this browser
+const LONGEST = 24; // characters
+const PERIOD = 100; // ms between messages of the cursor
+const SHOWN = 10000; // ms: a cursor that rests
+const TITLE = t('People'), TEACHER = 'Teacher'; // name of a teacher without another one
+const GOLDEN = 137; // degrees between the colours of Page 1 and Page 2: the golden angle
+
+export class Classroom {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.page = 0; // number of this one
+    this.teacher = false;
+    /** @type {{frozen: boolean, locked: string[], people: Classmate[], watched: boolean}} */
+    this.state = {frozen: false, locked: [], people: [], watched: false};
+    this.raised = false; // the hand of this page
+    /** @type {Map<number, {at: Point, until: number}>} */
+    this.cursors = new Map();
+    this.sent = 0; // [ms] when the cursor was sent last
+    this.thaw = () => {}; // takes the note away that says that the world is frozen
+    this.frozen = false; // whether it is there
+    const {connection, view} = app;
+    connection.on('welcome', ({client, teacher}) => {
+      this.page = Number(client);
+      this.teacher = Boolean(teacher);
+      // The page of a class has asked for it.
+      const given = /^#name=(.+)/.exec(location.hash)?.[1];
+      if (given) {
+        localStorage.setItem(NAME, decodeURIComponent(given));
+        history.replaceState(null, '', location.pathname + location.search);
+      }
+      const name = localStorage.getItem(NAME);
+      if (name && !app.viewOnly) connection.send('person', {name});
+      if (this.raised) this.#raise(true);
+    });
+    connection.on('class', (state) => this.#follow(state));
+    connection.on('said', ({name: who, text}) => {
+      const take = app.notes.pin(() => null, [`${personWord(who)}: ${text}`, textButton('OK', () => take())], {kind: 'docked', shown: 0});
+    });
+    connection.on('cursors', ({cursors}) => {
+      for (const [page, x, y] of cursors) this.cursors.set(page, {at: [x, y], until: performance.now() + SHOWN});
+      view.dirty = true;
+    });
+    view.canvas.addEventListener('pointermove', (event) => this.#sendCursor(event));
+    view.overlays.push((each) => this.#draw(each));
+    this.button = iconButton(TITLE, 'people', () => this.#showPeople(), t('People in this world'));
+    this.button.hidden = true;
+    this.hand = iconButton(t('Raise your hand'), 'raise', () => this.#raise(!this.raised), t('Raise your hand, or lower it: your teacher sees it'));
+    this.hand.hidden = true;
+    elementOf('looks', HTMLElement).append(this.button, this.hand);
+  }
+
+  /** @returns {boolean} whether several people draw in this world */
+  get isShared() {
+    return this.state.people.length > 1;
+  }
+
+  /**
+   * @param {number | undefined} page
+   * @returns {string} the name of the person there, as the server has it; '' where it is nobody, or this page
+   */
+  nameOf(page) {
+    return this.state.people.find((each) => each.page === page && page !== this.page)?.name ?? '';
+  }
+
+  /** @param {typeof this.state} state */
+  #follow(state) {
+    const {app} = this, pages = new Set(state.people.map(({page}) => page));
+    this.state = state;
+    for (const page of this.cursors.keys()) if (!pages.has(page)) this.cursors.delete(page);
+    this.button.hidden = !this.isShared && !this.teacher;
+    this.hand.hidden = this.teacher || app.viewOnly || !state.watched && state.people.every(({role}) => role !== 'teach');
+    app.time.showTimeline();
+    const frozen = state.frozen && !this.teacher && !app.viewOnly;
+    document.body.classList.toggle('frozen', frozen);
+    if (frozen && !this.frozen) this.thaw = app.notes.pin(() => null, [t('Your teacher has frozen this world.')], {kind: 'docked', shown: 0});
+    else if (!frozen) this.thaw();
+    this.frozen = frozen;
+    app.gallery.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
+    app.view.dirty = true;
+  }
+
+  /** @param {boolean} raised */
+  #raise(raised) {
+    this.raised = raised;
+    this.hand.setAttribute('aria-pressed', String(raised));
+    this.app.connection.send('raise_hand', {raised});
+  }
+
+  #showPeople() {
+    const {app, state, teacher} = this, {connection} = app;
+    const own = state.people.find(({page}) => page === this.page)?.name ?? '';
+    const input = createElement('input', {value: localStorage.getItem(NAME) ?? '', placeholder: personWord(own), required: true,
+      maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': t('Your name')});
+    const form = fieldForm(input, t('Use this name'), (name) => {
+      localStorage.setItem(NAME, name);
+      connection.send('person', {name});
+      app.gallery.dialog.close();
+    });
+    const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role, answered, raised}) => {
+      const shown = personWord(name), you = page === this.page ? ` (${t('you')})` : '';
+      const teaches = role === 'teach' && name !== TEACHER ? `, ${t('teacher')}` : '';
+      return createElement('li', {}, dot(name), `${shown}${you}${teaches}`,
+        ...raised ? [createElement('strong', {textContent: t('hand raised')})] : [],
+        ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
+        ...teacher ? [textButton(t('Delete what {name} drew', {name: shown}), () => connection.send('clear_of', {person: name}), 'danger')] : []);
+    }));
+    app.gallery.show(TITLE, ...app.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
+  }
+
+  /** @returns {Node[]} what a teacher may do */
+  #powers() {
+    const {app: {connection, selection}, state: {frozen, locked}} = this, chosen = [...selection.names];
+    const freeze = textButton(frozen ? t('Let them draw again') : t('Freeze all pupils'), () => connection.send('freeze', {frozen: !frozen}));
+    const lockThem = (/** @type {string[]} */ names) => () => connection.send('lock', {names});
+    const lock = chosen.length ?
+      textButton(t('Lock what is selected ({count})', {count: chosen.length}), lockThem([...new Set([...locked, ...chosen])])) :
+      textButton(t('Lock all bodies'), lockThem(['*']));
+    return [createElement('h3', {textContent: t('Teacher')}), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
+      ...locked.length ? [textButton(t('Unlock all'), lockThem([]))] : []),
+    ...locked.length ? [createElement('p', {textContent: t('Locked: {names}', {names: locked.join(', ')})})] : [],
+    createElement('h3', {textContent: t('Pupils come here')}),
+    createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})];
+  }
+
+  /** @param {PointerEvent} event */
+  #sendCursor({clientX, clientY}) {
+    const now = performance.now();
+    if (!this.isShared || this.app.viewOnly || now < this.sent + PERIOD) return;
+    this.sent = now;
+    this.app.connection.send('here', {point: this.app.camera.toWorld(clientX, clientY)});
+  }
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const {ctx} = view, now = performance.now();
+    for (const [page, {at, until}] of this.cursors) {
+      const name = this.nameOf(page);
+      if (now > until || !name) continue;
+      const [x, y] = this.app.camera.toPage(...at);
+      ctx.fillStyle = colorOf(name);
+      ctx.beginPath();
+      for (const [dx, dy] of [[0, 0], [0, 15], [4, 11], [11, 11]]) ctx.lineTo(x + dx, y + dy);
+      ctx.fill();
+      ctx.font = '13px system-ui, sans-serif';
+      ctx.beginPath();
+      const shown = personWord(name);
+      ctx.roundRect(x + 10, y + 12, ctx.measureText(shown).width + 12, 20, 6);
+      ctx.fill();
+      ctx.textAlign = 'left';
+      ctx.fillStyle = '#fff';
+      ctx.fillText(shown, x + 16, y + 26);
+    }
+  }
+}
+
+/**
+ * @param {string} name of a person, as the server has it
+ * @returns {string} as it is shown: of who has chosen none, in the language of this page
+ */
+export function personWord(name) {
+  const [, number] = /^Page (\d+)$/.exec(name) ?? [];
+  return number ? t('Page {number}', {number}) : name === TEACHER ? t('Teacher') : name;
+}
+
+/** @param {(text: string) => void} say to all */
+export function sayForm(say) {
+  const input = createElement('input', {required: true, maxLength: 200, autocomplete: 'off',
+    placeholder: t('Message to all'), 'aria-label': t('Message to all')});
+  return fieldForm(input, t('Send'), (text) => {
+    say(text);
+    input.value = '';
+  });
+}
+
+/** @param {string} name of a person */
+function dot(name) {
+  const element = createElement('i', {'aria-hidden': 'true'});
+  element.style.background = colorOf(name);
+  return element;
+}
+
+/**
+ * @param {string} name of a person
+ * @returns {string} the same one on all pages; white is to be read on it
+ */
+export function colorOf(name) {
+  let hash = 0;
+  for (const character of name) hash = (hash * 31 + (character.codePointAt(0) ?? 0)) % 360;
+  return `hsl(${hash * GOLDEN} 65% 34%)`;
+}

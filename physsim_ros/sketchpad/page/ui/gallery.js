@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
+
+import {createElement, download, elementOf, fieldForm, icon, iconButton, inRow, textButton} from '../dom.js';
+import {language, t} from '../strings.js';
+import {capital} from '../words.js';
+
+/** @import {App} from '../types.js' */
+
+const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
+const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
+const WORLDS = t('Worlds'); // title
+const UNSAVED = 30000; // ms for which the unsaved world is offered beside the world; then it is in the list
+const LONGEST_LINK = 16000; // characters
+const PRESSED = 200; // ms until it is looked again whether a dialog is still pressed
+const LARGEST = 1 << 20; // bytes; no larger world is unpacked from a link
+
+export class Gallery {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.dialog = elementOf('dialog', HTMLDialogElement);
+    /** @type {{name: string, title: string, picture: string, shipped: boolean}[]} */
+    this.worlds = [];
+    this.dialog.addEventListener('click', (event) => {
+      if (event.target === this.dialog) this.dialog.close();
+    });
+    app.connection.on('worlds', ({worlds}) => {
+      this.worlds = worlds;
+      // The picture of a world comes after the world.
+      this.renew(WORLDS, () => this.showWorlds());
+    });
+    this.offered = 0; // [s since 1970] the unsaved world that was offered
+    this.unsaved = ''; // date of the unsaved world, until it is opened or discarded
+    this.dismiss = () => {};
+    this.name = ''; // of the own world that is open
+    app.connection.on('welcome', ({unsaved}) => {
+      this.#offerLink();
+      this.#offerUnsaved(unsaved);
+    });
+  }
+
+  /**
+   * @param {string} title
+   * @param {Node[]} content
+   */
+  show(title, ...content) {
+    const top = this.dialog.open && this.dialog.ariaLabel === title ? this.dialog.scrollTop : 0;
+    this.dialog.ariaLabel = title;
+    this.dialog.replaceChildren(createElement('header', {}, createElement('h2', {textContent: title}),
+      iconButton(t('Close'), 'close', () => this.dialog.close(), '')),
+    ...content);
+    if (!this.dialog.open) this.dialog.showModal();
+    this.dialog.scrollTop = top;
+  }
+
+  /**
+   * Show a dialog anew that is open, but not while it is pressed: its button would be gone when it is let go.
+   * @param {string} title
+   * @param {() => void} show
+   */
+  renew(title, show) {
+    if (!this.dialog.open || this.dialog.ariaLabel !== title) return;
+    if (this.dialog.matches(':active')) setTimeout(() => this.renew(title, show), PRESSED);
+    else show();
+  }
+
+  /** Show the list, and again as the files are now: a lesson may have been written since. */
+  openWorlds() {
+    this.showWorlds();
+    this.app.connection.send('list');
+  }
+
+  showWorlds() {
+    const own = this.worlds.filter(({shipped}) => !shipped), shipped = this.worlds.filter((each) => each.shipped);
+    const cards = (/** @type {typeof own} */ worlds) =>
+      createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
+    const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
+      onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
+    this.show(WORLDS, inRow(textButton(t('Empty room'), () => this.#upload(EMPTY)),
+      createElement('label', {className: 'file'}, t('Open a file'), file),
+      ...this.unsaved ? [textButton(t('Unsaved world of {date}', {date: this.unsaved}), () => this.#openUnsaved())] : []),
+    ...own.length ? [createElement('h3', {textContent: t('Yours')}), cards(own)] : [],
+    ...this.app.lessons.section(), createElement('h3', {textContent: t('To explore, simplest first')}), cards(shipped));
+  }
+
+  /**
+   * @param {string} name
+   * @returns {string} as people write it, of a shipped world in the language of the page
+   */
+  #headingOf(name) {
+    return this.worlds.some((each) => each.name === name && each.shipped) ? t(capital(name.replaceAll('_', ' '))) : name;
+  }
+
+  /** @param {typeof this.worlds[0]} world */
+  #card({name, title, picture, shipped}) {
+    const heading = this.#headingOf(name);
+    const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
+      picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
+      createElement('strong', {textContent: heading}),
+      // A title that only repeats the name tells nothing.
+      ...shipped && t(title) !== heading ? [createElement('small', {textContent: t(title)})] : []);
+    if (shipped) return card;
+    return createElement('div', {className: 'own'}, card, inRow(
+      textButton(t('Rename'), () => this.show(t('Rename {name}', {name}), this.#nameForm(t('New name'), name, t('Rename'), (to) => this.#rename(name, to)))),
+      textButton(t('Delete'), () => this.#delete(name), 'danger')));
+  }
+
+  /**
+   * @param {string} name
+   * @param {string} to
+   */
+  async #rename(name, to) {
+    if (!(await this.app.connection.ask('rename', {name, to})).ok) return;
+    this.app.notes.offer(t('Renamed to {name}', {name: to}), t('Undo'), () => this.app.connection.send('rename', {name: to, to: name}));
+  }
+
+  /** @param {string} name */
+  async #delete(name) {
+    this.dialog.close();
+    if (!(await this.app.connection.ask('remove', {name})).ok) return;
+    this.app.notes.offer(t('{name} is deleted', {name}), t('Undo'), () => this.app.connection.send('put_back', {name}));
+  }
+
+  /**
+   * @param {string} title
+   * @param {string} value
+   * @param {string} label of the button
+   * @param {(name: string) => void} done
+   * @returns {HTMLFormElement} that asks for the name of a world
+   */
+  #nameForm(title, value, label, done) {
+    const name = createElement('input', {value, required: true, maxLength: 64, autocomplete: 'off', 'aria-label': title,
+      pattern: NAME, title: t('Letters, digits, spaces, - and _; without / and .')});
+    queueMicrotask(() => name.select());
+    return fieldForm(name, label, (text) => {
+      this.dialog.close();
+      done(text);
+    });
+  }
+
+  /**
+   * @param {string} name
+   * @returns {string} that name, with a number where it is taken
+   */
+  #freeName(name) {
+    const taken = new Set(this.worlds.map((each) => each.name)), stem = name.replace(/ \d+$/, '');
+    for (let number = 1; ; number++) {
+      const free = number > 1 ? `${stem} ${number}` : stem;
+      if (!taken.has(free)) return free;
+    }
+  }
+
+  /**
+   * Save, and ask once where the name is taken.
+   * @param {string} name
+   * @param {boolean} replace
+   */
+  async #save(name, replace = false) {
+    this.dialog.close();
+    const {ok, code} = await this.app.connection.ask('save', {name, replace});
+    if (ok) {
+      this.name = name;
+      this.#sendPicture(name);
+      if (replace) this.app.notes.offer(t('{name} is replaced', {name}), t('Undo'), () => this.app.connection.send('put_back', {name}));
+      return;
+    }
+    if (code !== 'exists') return;
+    const free = this.#freeName(name), own = this.worlds.some((each) => each.name === name && !each.shipped);
+    const choices = [textButton(t('Save as {name}', {name: free}), () => this.#save(free))];
+    if (own) choices.push(textButton(t('Replace {name}', {name}), () => this.#save(name, true), 'danger'));
+    this.show(own ? t('There is a world {name} already', {name}) : t('{name} is a world that ships with physsim', {name}), inRow(...choices));
+  }
+
+  /** @param {string} name of the world that is shown */
+  #sendPicture(name) {
+    const {view: {canvas, insets, ratio}} = this.app, width = canvas.width - (insets.left + insets.right) * ratio;
+    const height = canvas.height - (insets.top + insets.bottom) * ratio;
+    const small = createElement('canvas', {width: 480, height: 200}), scale = Math.min(480 / width, 200 / height);
+    const ctx = small.getContext('2d');
+    if (!ctx || !(scale > 0)) return;
+    ctx.fillStyle = this.app.view.palette.paper;
+    ctx.fillRect(0, 0, 480, 200);
+    ctx.drawImage(canvas, insets.left * ratio, insets.top * ratio, width, height,
+      240 - width * scale / 2, 100 - height * scale / 2, width * scale, height * scale);
+    small.toBlob((body) => body && fetch(`/picture/${encodeURIComponent(name)}`, {method: 'POST', body}));
+  }
+
+  /** @param {number} saved when a world was kept that nobody has saved [s since 1970]; 0 is none */
+  #offerUnsaved(saved) {
+    if (!saved || this.app.viewOnly || this.offered === saved) return;
+    this.offered = saved;
+    this.unsaved = new Date(saved * 1000).toLocaleString(language, {dateStyle: 'medium', timeStyle: 'short'});
+    this.dismiss = this.app.notes.pin(() => null, [t('The world of {date} was not saved.', {date: this.unsaved}),
+      textButton(t('Open it'), () => this.#openUnsaved()), textButton(t('Discard it'), () => this.#forgetUnsaved())],
+    {kind: 'docked', shown: UNSAVED});
+  }
+
+  async #openUnsaved() {
+    const text = await fetch('/unsaved').then((response) => response.ok ? response.text() : null, () => null);
+    const {unsaved} = this;
+    if (text === null || !await this.#upload(text)) return;
+    await this.#forgetUnsaved();
+    this.app.notes.showMessage(t('Opened the world of {date}', {date: unsaved}));
+  }
+
+  #forgetUnsaved() {
+    this.dismiss();
+    this.unsaved = '';
+    return this.app.connection.ask('forget');
+  }
+
+  showSave() {
+    const name = this.name || this.#freeName(t('my world'));
+    this.show(t('Save'), this.#nameForm(t('Name of the world'), name, t('Save world'), (given) => this.#save(given)), inRow(
+      textButton(t('Download file'), () => this.#download()),
+      textButton(t('Copy link'), () => this.#copyLink()),
+      textButton(t('Picture (PNG)'), () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
+  }
+
+  /** @param {string} name */
+  async #open(name) {
+    this.dialog.close();
+    if (!(await this.app.connection.openWorld(name))) return;
+    this.dismiss();
+    this.app.room.frameNext();
+    this.app.notes.showMessage(t('Opened {name}', {name: this.#headingOf(name)}));
+    this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
+  }
+
+  /**
+   * @param {string} text of a world file
+   * @returns {Promise<boolean>} whether it is open
+   */
+  async #upload(text) {
+    this.dialog.close();
+    if (new Blob([text]).size > LARGEST) {
+      this.app.notes.showMessage(t('This file is too large: a world has at most 1 MiB here.'), {ok: false});
+      return false;
+    }
+    const {ok, message, code} = await fetch('/world', {method: 'POST', body: text, headers: {'Content-Type': 'application/yaml'}})
+      .then((response) => response.json().catch(() => ({ok: false, code: '', message: t('The server refused this file')})),
+        () => ({ok: false, code: '', message: t('Not done: the server is not reachable')}));
+    if (ok) {
+      await this.app.connection.ask('service', {name: 'reset'});
+      this.name = '';
+      this.dismiss();
+      this.app.room.frameNext();
+    }
+    this.app.notes.showMessage(this.app.words.tell({message, code, ok}), {ok});
+    return ok;
+  }
+
+  /** @returns {Promise<?string>} the world as a file; null where it is refused, as too large */
+  async #text() {
+    return (await this.app.connection.ask('share')).values.yaml ?? null;
+  }
+
+  async #download() {
+    const text = await this.#text();
+    if (text !== null) download('world.yaml', new Blob([text]));
+  }
+
+  async #copyLink() {
+    const world = await this.#text();
+    if (world === null) return;
+    const link = `${location.origin}/#world=${await packText(world)}`;
+    if (link.length > LONGEST_LINK) {
+      this.app.notes.showMessage(t('This world is too large for a link: download it as a file.'), {ok: false});
+      return;
+    }
+    const text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
+    this.show(t('A link that holds this world'), text);
+    text.select();
+    this.app.notes.showMessage(t('A link that holds this world'));
+    await navigator.clipboard?.writeText(link).catch(() => {});
+  }
+
+  /** Offer the world of a link: the link of a stranger does not replace the world of a class. */
+  #offerLink() {
+    const packed = /^#world=(.+)/.exec(location.hash)?.[1];
+    if (!packed || this.app.viewOnly) return;
+    history.replaceState(null, '', location.pathname + location.search);
+    this.show(t('This link contains a world'), inRow(textButton(t('Open it'), () => this.#openLink(packed))));
+  }
+
+  /** @param {string} packed */
+  async #openLink(packed) {
+    const text = await unpackText(packed).catch(() => null);
+    if (text !== null) {
+      await this.#upload(text);
+      return;
+    }
+    this.dialog.close();
+    this.app.notes.showMessage(t('This link is broken, or its world is too large.'), {ok: false});
+  }
+}
+
+/**
+ * @param {string} text
+ * @returns {Promise<string>} for a link: deflated, then base64 for addresses (RFC 4648, section 5)
+ */
+async function packText(text) {
+  const stream = new Blob([text]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+  const binary = Array.from(bytes, (byte) => String.fromCharCode(byte)).join('');
+  return btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+}
+
+/** @param {string} packed */
+async function unpackText(packed) {
+  const binary = atob(packed.replaceAll('-', '+').replaceAll('_', '/'));
+  const bytes = Uint8Array.from(binary, (character) => character.charCodeAt(0));
+  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
+  const parts = [];
+  for (let size = 0; ;) {
+    const {value, done} = await reader.read();
+    if (done) return new Blob(parts).text();
+    size += value.length;
+    if (size > LARGEST) throw new RangeError('the world of this link is too large');
+    parts.push(value);
+  }
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The help: keys, and where there are fingers, gestures and tools first. */
+
+import {createElement, icon, inRow} from '../dom.js';
+import {t} from '../strings.js';
+import {noteSeen, strokeCard} from './strokes.js';
+import {EDIT, TIME} from './time_bar.js';
+import {TOOLS} from './toolbar.js';
+
+/** @import {App} from '../types.js' */
+
+const TOUCHED = matchMedia('(pointer: coarse)');
+const GESTURES = [
+  [t('Draw'), t('The pen, with a finger; if you use a stylus, it draws, and a finger moves the view')],
+  [t('Grab and throw'), t('The hand, on a body; let go while it moves')],
+  [t('Place and turn'), t('While paused: the hand on a body; a second finger turns it')],
+  [t('Drive a robot'), t('Tap it, and drag the knob of its panel')],
+  [t('Change a body'), t('Tap it with pen, hand or lasso')],
+  [t('Move the view'), t('Two fingers; or the hand, away from bodies')],
+  [t('Zoom'), t('Pinch with two fingers')],
+  [t('Go back in time'), t('Drag the time line')],
+  [t('See what a button does'), t('Hold a finger on it')],
+];
+const MOVING = [
+  [t('Space'), t('Play or pause; held, dragging moves the view')],
+  [t('Arrow keys'), t('Move the cursor, with Shift in small steps; Enter presses and lifts the tool')],
+  ['R, Shift+R', t('Turn the body in the hand, while paused')],
+  ['N, Shift+N', t('Select the next or the previous body')],
+  ['W A S D', t('Drive the selected robot; Q and E move it sideways, if its drive can')],
+  [t('Shift, held'), t('Drawing and dragging with the mouse snaps to the grid; rectangles become squares, lines and handles turn by 15°, handles scale by quarters')],
+  [t('Alt, held'), t('Hand and lasso drag a copy')],
+  ['7, 6', t('Stopwatch by hand: start and stop; lap')],
+  [t('Delete'), t('Delete the selection')],
+  [t('Esc'), t('Cancel')],
+  ['+, −, F', t('Zoom; frame the world')],
+  ['Enter', t('Close a polygon')],
+  ['?', t('This list')],
+];
+
+/** @param {App} app */
+export function showHelp(app) {
+  const key = (/** @type {string} */ name) => createElement('kbd', {textContent: name});
+  const keys = [...TOOLS.flat().map(([, name, letter]) => [key(letter.toUpperCase()), name]),
+    ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
+  const tools = TOOLS.flat().map(([id, name, , hint]) => [icon(id), `${name}: ${hint}`]);
+  const strokes = [createElement('h3', {textContent: t('What the pen understands')}), strokeCard()];
+  noteSeen();
+  const parts = [strokes, section(t('Keys'), keys)];
+  if (TOUCHED.matches) parts.splice(1, 0, section(t('Gestures'), GESTURES), section(t('Tools'), tools));
+  app.gallery.show(t('Help'), inRow(...app.settings.fields()), ...parts.flat());
+}
+
+/**
+ * @param {string} title
+ * @param {(string | Node)[][]} rows what is done, and what it does
+ * @returns {Node[]}
+ */
+function section(title, rows) {
+  return [createElement('h3', {textContent: title}), createElement('dl', {}, ...rows.map(([done, does]) =>
+    createElement('div', {}, createElement('dt', {}, done), createElement('dd', {}, does))))];
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Hints: one line of help, how the tool in hand is used, and for somebody new the way from a first body to a changed
+ * past. What was done twice does not come again in this browser. Tips: the title of a button, beside it, as soon as it
+ * is pointed at, reached by Tab, or a finger stays on it.
+ */
+
+import {createElement, elementOf} from '../dom.js';
+import {t} from '../strings.js';
+
+/** @import {App, Camera, WorldState} from '../types.js' */
+
+/** Id, text, icon of the button that is pointed at, and when it is true. @type {[string, string, string, ((world: WorldState) => boolean)?][]} */
+const STEPS = [
+  ['draw', t('Draw a circle, a box, a line: it comes to life.'), ''],
+  ['play', t('Time is paused: press Play.'), 'play', ({paused}) => paused],
+  ['throw', t('A small circle over two bodies is an axle. Or take the hand and throw one.'), 'hand'],
+  ['rewind', t('Nothing is lost: rewind, or drag the time line.'), 'rewind', ({timeline: {oldest, now}}) => oldest < now],
+  ['change', t('This is the past. Draw or move something here, and the future changes.'), '', ({timeline: {newest, now}}) => now < newest],
+  ['ghost', t('Dashed: what happened before. The ring on the time line returns there.'), 'play', ({timeline}) => Boolean(timeline.courses?.length)],
+];
+const KEY = 'physsim-hints', TOOLS = 'physsim-tools';
+const KNOWN = 2; // times that a tool was used after its hint, which is not shown any more
+const TOOL_SHOWN = 5000, LAST_SHOWN = 12000; // ms: how a tool is used, the last step
+
+export class Hints {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.line = elementOf('hint', HTMLElement);
+    this.step = Number(localStorage.getItem(KEY) ?? 0);
+    /** @type {Record<string, number>} how often tools were used after their hints */
+    this.used = JSON.parse(localStorage.getItem(TOOLS) ?? '{}');
+    this.tool = ''; // whose hint was shown last, until it is used
+    this.timer = 0;
+    this.shown = ''; // id of the step whose text is shown
+    const {connection} = app;
+    connection.on('reading', ({built}) => built && this.completeStep('draw'));
+    connection.on('answer', ({request, ok, topic, subject}) => {
+      if (request && ok && topic === 'clicked_point' && subject) this.completeStep('draw');
+    });
+    // Only what this page does counts as a step.
+    connection.on('sent', ({type, name, time}) => {
+      if (type === 'speed' || name === 'play' && this.#isDone('draw')) this.completeStep('play');
+      if (type === 'seek' && time < app.world.frame.time || name === 'rewind') this.completeStep('rewind');
+    });
+    connection.on('timeline', ({courses = []}) => {
+      if (courses.length && this.#isDone('rewind')) this.completeStep('change');
+      if (this.shown !== 'tool' && this.#step()?.[0] !== this.shown) this.#showStep();
+    });
+    connection.on('scene', () => this.shown === 'tool' || this.#showStep());
+    this.#showStep();
+  }
+
+  /** @param {string} id of the step that was done; those before are known then too */
+  completeStep(id) {
+    if (this.#isDone(id)) return;
+    this.step = placeOf(id) + 1;
+    localStorage.setItem(KEY, String(this.step));
+    this.#showStep();
+  }
+
+  /** @param {string} id of a step */
+  #isDone(id) {
+    return placeOf(id) < this.step;
+  }
+
+  /** @returns {typeof STEPS[0] | undefined} the next one that is true now */
+  #step() {
+    // A lesson has its own hints.
+    if (this.app.world.scene.lesson) return undefined;
+    const step = STEPS[this.step], holds = !step?.[3] || step[3](this.app.world);
+    // In a world that plays, the step `play` is left out.
+    return holds ? step : step[0] === 'play' ? STEPS[this.step + 1] : undefined;
+  }
+
+  /**
+   * Tell how the tool in hand is used, until somebody has done so twice.
+   * @param {string} id of the tool
+   * @param {string} text
+   */
+  showTool(id, text) {
+    this.tool = id;
+    if ((this.used[id] ?? 0) >= KNOWN) return;
+    this.app.notes.hide();
+    this.#show(text);
+    this.shown = 'tool';
+    this.timer = setTimeout(() => this.#showStep(), TOOL_SHOWN);
+  }
+
+  /** Note that the tool in hand was used. */
+  noteUse() {
+    if (!this.tool) return;
+    this.used[this.tool] = (this.used[this.tool] ?? 0) + 1;
+    this.tool = '';
+    localStorage.setItem(TOOLS, JSON.stringify(this.used));
+  }
+
+  #showStep() {
+    const [id, text, button] = this.#step() ?? ['', '', ''];
+    this.#show(text);
+    this.shown = id;
+    for (const each of document.querySelectorAll('.next')) each.classList.remove('next');
+    if (button) document.querySelector(`button[data-icon=${button}]`)?.classList.add('next');
+    if (id === 'ghost') this.timer = setTimeout(() => this.completeStep('ghost'), LAST_SHOWN);
+  }
+
+  /** @param {string} text '' hides the line */
+  #show(text) {
+    clearTimeout(this.timer);
+    if (text) this.line.textContent = text;
+    this.line.classList.toggle('faded', !text);
+  }
+}
+
+/** @param {string} id of a step */
+function placeOf(id) {
+  return STEPS.findIndex(([each]) => each === id);
+}
+
+const HELD = 500; // ms that a finger stays on a button to ask what it does
+const GAP = 8; // px between a button and its tip, and to the edges of the page
+
+export class Tips {
+  /** @param {Camera} camera */
+  constructor(camera) {
+    this.camera = camera;
+    this.tip = document.body.appendChild(createElement('div', {id: 'tip', role: 'tooltip', hidden: true}));
+    /** @type {?HTMLElement} whose title is shown; it has none meanwhile, or the browser would show it too */
+    this.owner = null;
+    this.timer = 0;
+    this.asked = false; // by a finger, what a button does
+    document.addEventListener('pointerover', ({target, pointerType}) =>
+      pointerType !== 'touch' && this.#show(target));
+    document.addEventListener('focusin', ({target}) =>
+      target instanceof Element && target.matches(':focus-visible') && this.#show(target));
+    document.addEventListener('pointerdown', ({target, pointerType}) => {
+      this.asked = false;
+      if (pointerType === 'touch') this.timer = setTimeout(() => this.#ask(target), HELD);
+    });
+    document.addEventListener('pointerup', () => clearTimeout(this.timer));
+    document.addEventListener('click', (event) => {
+      if (!this.asked) return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+      this.#hide();
+    }, true);
+    for (const type of ['pointercancel', 'pointerdown', 'focusout', 'keydown', 'scroll', 'wheel']) {
+      document.addEventListener(type, () => this.#hide(), true);
+    }
+  }
+
+  /** @param {?EventTarget} target */
+  #show(target) {
+    const owner = target instanceof Element ?
+      /** @type {?HTMLElement} */ (target.closest('button, a')) : null;
+    if (owner === this.owner) return;
+    this.#hide();
+    if (!owner?.title) return;
+    this.owner = owner;
+    this.tip.textContent = owner.title;
+    owner.title = '';
+    owner.setAttribute('aria-describedby', 'tip');
+    this.tip.hidden = false;
+    const {left, right, top, bottom, width, height} = owner.getBoundingClientRect();
+    const tip = this.tip.getBoundingClientRect();
+    const column = owner.closest('#tools') && !this.camera.narrow;
+    const x = column ? right + GAP : left + (width - tip.width) / 2;
+    const y = column ? top + (height - tip.height) / 2 :
+      top > innerHeight / 2 ? top - tip.height - GAP : bottom + GAP;
+    this.tip.style.left = `${Math.max(Math.min(x, innerWidth - tip.width - GAP), GAP)}px`;
+    this.tip.style.top = `${y}px`;
+  }
+
+  /** @param {?EventTarget} target of a finger that stays: its button says what it does, and does nothing */
+  #ask(target) {
+    this.#show(target);
+    this.asked = this.owner !== null;
+  }
+
+  #hide() {
+    clearTimeout(this.timer);
+    this.tip.hidden = true;
+    if (this.owner && !this.owner.title) this.owner.title = this.tip.textContent ?? '';
+    this.owner?.removeAttribute('aria-describedby');
+    this.owner = null;
+  }
+}

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Lessons: their list, the card of the one that is open, the check of a measured figure, and links.
+ *
+ * A lesson belongs to its world (`scene.lesson`), so that all pages of the world have its card, each in its own language:
+ * the table of strings has the texts of shipped lessons.
+ */
+
+import {createElement, elementOf, fieldForm, icon, inRow, textButton} from '../dom.js';
+import {numberOf} from '../rounding.js';
+import {t} from '../strings.js';
+
+/** @import {App, Lesson} from '../types.js' */
+
+const SOLVED = 'physsim-lessons'; // titles of the lessons that were solved in this browser, as JSON
+const LINK = /[#?&]lesson=([^&]+)/;
+
+export class Lessons {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {{name: string, number: number, title: string, question: string}[]} in their order */
+    this.list = [];
+    this.card = elementOf('lesson', HTMLDetailsElement);
+    /** @type {string | undefined} */
+    this.shown = ''; // title of the lesson of the card
+    /** @type {?{lesson: string, answer: string, right: boolean}} the last one of this page */
+    this.answered = null;
+    // The server knows this page as a new one.
+    app.connection.on('welcome', () => this.answered && app.connection.send('answered', this.answered));
+    /** @type {Set<string>} */
+    this.solved = new Set(JSON.parse(localStorage.getItem(SOLVED) ?? '[]'));
+    app.connection.on('scene', ({lesson}) => lesson?.title === this.shown || this.#show(lesson));
+    app.connection.on('world', () => this.#show(app.world.scene.lesson));
+    app.connection.on('worlds', ({lessons}) => {
+      const first = !this.list.length;
+      this.list = lessons;
+      // The card names the next lesson.
+      if (first) this.#show(app.world.scene.lesson);
+      if (first) this.#offerLink();
+    });
+    addEventListener('hashchange', () => this.#offerLink());
+    this.card.addEventListener('toggle', () => {
+      // A page without room shows the card or the panel: what is opened last.
+      if (this.card.open && !app.room.isRoomy && app.panel.kind) app.selection.select([]);
+      app.room.fit();
+    });
+  }
+
+  /** @returns {Node[]} the list, with a heading; nothing where there are no lessons */
+  section() {
+    if (!this.list.length) return [];
+    return [createElement('h3', {textContent: t('Lessons')}),
+      createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
+        createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
+          createElement('strong', {}, number ? `${number}. ${t(title)} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
+          createElement('small', {textContent: t(question)})))))];
+  }
+
+  /** @param {string} name */
+  async #open(name) {
+    const {connection, gallery} = this.app;
+    gallery.dialog.close();
+    if (!(await connection.openLesson(name))) return;
+    gallery.dismiss();
+    this.app.room.frameNext();
+    this.app.notes.showMessage(t('Opened {name}', {name: t(this.list.find((each) => each.name === name)?.title ?? name)}));
+  }
+
+  /** Offer the lesson of a link: the link of a stranger does not replace the world of a class. */
+  #offerLink() {
+    const name = decodeURIComponent(LINK.exec(location.hash || location.search)?.[1] ?? '');
+    const lesson = this.list.find((each) => each.name === name), {gallery, notes, viewOnly, world} = this.app;
+    if (!name || viewOnly || lesson && lesson.title === world.scene.lesson?.title) return;
+    history.replaceState(null, '', location.pathname);
+    if (!lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
+    else gallery.show(t(lesson.title), createElement('p', {textContent: t(lesson.question)}), inRow(textButton(t('Open the lesson'), () => this.#open(name))));
+  }
+
+  /** @param {?Lesson | undefined} lesson whose card is made anew */
+  #show(lesson) {
+    const {card, app} = this;
+    this.shown = lesson?.title;
+    card.hidden = !lesson;
+    card.open = true;
+    if (lesson) {
+      card.replaceChildren(createElement('summary', {}, createElement('h2', {}, `${lesson.number}. ${t(lesson.title)}`)),
+        createElement('p', {textContent: t(lesson.question)}), ...app.viewOnly ? [] : this.#work(lesson));
+    }
+    app.room.fit();
+  }
+
+  /**
+   * @param {Lesson} lesson
+   * @returns {Node[]} what is measured, a hint, and buttons
+   */
+  #work({title, hint, measure, unit, figure, within, answer}) {
+    const result = createElement('p', {'aria-live': 'polite'}), shown = unit === '1' ? '' : unit;
+    const input = createElement('input', {inputMode: 'decimal', required: true, autocomplete: 'off', 'aria-label': t('Your answer {unit}', {unit: shown})});
+    const solution = folded(t('Answer'), t(answer));
+    solution.hidden = true;
+    const form = fieldForm(input, t('Check'), (typed) => {
+      const value = numberOf(typed), right = Math.abs(value - figure) <= within;
+      result.className = right ? 'right' : '';
+      result.textContent = right ? t('Right!') : Number.isNaN(value) ? t('That is not a number.') : t('Not yet. Measure again, or look at the hint.');
+      this.answered = {lesson: title, answer: typed, right};
+      if (typed) this.app.connection.send('answered', this.answered);
+      // Who has tried may look.
+      solution.hidden = false;
+      solution.open = right;
+      if (!right) return;
+      this.solved.add(title);
+      localStorage.setItem(SOLVED, JSON.stringify([...this.solved]));
+    }, shown);
+    const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
+    const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
+    if (next) buttons.push(textButton(t('Next lesson'), () => this.#open(next.name)));
+    return [createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${t(measure)}`), createElement('div', {className: 'answer'}, form, result),
+      folded(t('Hint'), t(hint)), solution, inRow(...buttons)];
+  }
+}
+
+/**
+ * @param {string} title
+ * @param {string} text that is shown when the title is pressed
+ */
+function folded(title, text) {
+  return createElement('details', {}, createElement('summary', {textContent: title}), createElement('p', {textContent: text}));
+}
+
+function solvedMark() {
+  return createElement('span', {role: 'img', 'aria-label': t('solved')}, icon('solved'));
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * What happens, for those who listen: sentences for screen readers about what moves, and a short note for a body that
+ * is hit, off at the start.
+ */
+
+import {elementOf} from '../dom.js';
+import {fixed} from '../rounding.js';
+import {t} from '../strings.js';
+
+/** @import {App, Frame} from '../types.js' */
+
+const PERIOD = 1500; // ms between two announcements
+const TOLD = 3; // sentences of an announcement, the newest ones
+const APART = 0.25; // s without a touch after which a pair touches anew
+const MOVES = 0.05, RESTS = 0.02; // m/s: faster is motion, slower rest
+const STILL = 0.5; // s of rest after which it is told
+
+/** @typedef {{moves: boolean, since: number}} Motion since: when the body was faster than a body at rest [s] */
+
+export class Narrator {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.line = elementOf('moves', HTMLElement);
+    this.time = 0; // of the last frame [s]
+    /** @type {Map<string, number>} when pairs of bodies touched last [s] */
+    this.touched = new Map();
+    /** @type {Map<string, Motion>} by name of the body */
+    this.motions = new Map();
+    /** @type {string[]} */
+    this.sentences = [];
+    this.timer = 0;
+    app.connection.on('frame', ({ghost}) => ghost || this.#follow());
+    app.connection.on('world', () => this.#forget());
+  }
+
+  #forget() {
+    this.touched.clear();
+    this.motions.clear();
+  }
+
+  #follow() {
+    const {world, selection, settings} = this.app, {frame: {time, velocities}, scene: {bodies}} = world;
+    // What was told of a time lies ahead again after a rewind.
+    if (time < this.time) this.#forget();
+    const later = time > this.time;
+    this.time = time;
+    if (!later || !velocities || !selection.names.size && !settings.speaks) return;
+    const rows = new Set();
+    for (let row = 0; row < world.count; row++) {
+      const {name, anchored} = bodies[row];
+      if (anchored || selection.names.size && !selection.names.has(name)) continue;
+      rows.add(row);
+      this.#followBody(row, Math.hypot(velocities.x[row], velocities.y[row]));
+    }
+    this.#followTouches(rows);
+  }
+
+  /**
+   * @param {number} row
+   * @param {number} speed [m/s]
+   */
+  #followBody(row, speed) {
+    const {world, words} = this.app, {name, centroid} = world.scene.bodies[row], time = fixed(this.time, 1);
+    const motion = this.motions.get(name) ?? {moves: speed > MOVES, since: this.time};
+    this.motions.set(name, motion);
+    if (speed > RESTS) motion.since = this.time;
+    if (!motion.moves && speed > MOVES) {
+      motion.moves = true;
+      this.#tell(t('{name} moves at {time} s', {name: words.item(name), time}));
+    } else if (motion.moves && this.time - motion.since > STILL) {
+      motion.moves = false;
+      const [x, y] = world.place(row, centroid);
+      this.#tell(t('{name} rests at {x}, {y} m, at {time} s', {name: words.item(name), x: fixed(x, 1), y: fixed(y, 1), time}));
+    }
+  }
+
+  /** @param {Set<number>} rows of the bodies that are followed */
+  #followTouches(rows) {
+    const {world: {frame: {contacts}, scene: {bodies}}, words} = this.app;
+    for (let i = 0; contacts && i < contacts.a.length; i++) {
+      const [one, other] = rows.has(contacts.a[i]) ? [contacts.a[i], contacts.b[i]] : [contacts.b[i], contacts.a[i]];
+      if (!rows.has(one)) continue;
+      const pair = `${bodies[one].name} ${bodies[other]?.name}`, before = this.touched.get(pair) ?? -Infinity;
+      this.touched.set(pair, this.time);
+      if (this.time - before < APART) continue;
+      this.#tell(t('{name} touches {other} at {time} s', {name: words.item(bodies[one].name),
+        other: bodies[other] ? words.item(bodies[other].name) : t('a wall'), time: fixed(this.time, 1)}));
+    }
+  }
+
+  /** @param {string} sentence */
+  #tell(sentence) {
+    this.sentences.push(sentence);
+    this.timer ||= setTimeout(() => {
+      this.timer = 0;
+      this.line.textContent = this.sentences.splice(0).slice(-TOLD).join('. ');
+    }, this.line.textContent ? PERIOD : 0);
+  }
+}
+
+const WEAKEST = 0.5; // m/s: a softer impact is not heard
+const LOUD = 8; // m/s: no impact is louder
+const VOICES = 4; // impacts of a frame that are heard, the hardest
+const LASTS = 0.18; // s
+const PITCH = 440; // Hz of a body of 1 kg; that of 16 kg is an octave lower
+
+export class Sound {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.heard = 0; // impacts since the page began
+    /** @type {?AudioContext} while it is on */
+    this.context = null;
+    /** @type {Set<string>} pairs of rows that touched in the frame before */
+    this.touching = new Set();
+    app.connection.on('frame', (frame) => {
+      if (this.context && !frame.ghost) this.#listen(frame, this.context);
+    });
+  }
+
+  get on() {
+    return this.context !== null;
+  }
+
+  /** Browsers let sound begin where somebody has pressed a button. */
+  toggle() {
+    if (this.context) this.context.close();
+    this.context = this.context ? null : new AudioContext();
+  }
+
+  /**
+   * @param {Frame} frame
+   * @param {AudioContext} context
+   */
+  #listen({contacts, speed, epoch}, context) {
+    const {scene} = this.app.world, now = new Set(), impacts = [];
+    if (!contacts || speed <= 0 || epoch !== scene.epoch) return;
+    for (let i = 0; i < contacts.a.length; i++) {
+      const a = contacts.a[i], b = contacts.b[i], pair = `${a} ${b}`;
+      now.add(pair);
+      if (this.touching.has(pair)) continue;
+      const masses = [a, b].filter((row) => row >= 0 && !scene.bodies[row].anchored).map((row) => scene.bodies[row].mass);
+      // The change of velocity of the lighter one.
+      const mass = Math.min(...masses), change = Math.hypot(contacts.jx[i], contacts.jy[i]) / mass;
+      if (change > WEAKEST && mass < Infinity) impacts.push({mass, change});
+    }
+    this.touching = now;
+    impacts.sort((one, other) => other.change - one.change);
+    for (const {mass, change} of impacts.slice(0, VOICES)) this.#play(context, mass, Math.min(change / LOUD, 1));
+  }
+
+  /**
+   * @param {AudioContext} context
+   * @param {number} mass [kg]
+   * @param {number} loudness 0 .. 1
+   */
+  #play(context, mass, loudness) {
+    const tone = context.createOscillator(), gain = context.createGain(), begin = context.currentTime;
+    tone.type = 'triangle';
+    tone.frequency.value = Math.min(Math.max(PITCH * mass ** -0.25, 60), 2000);
+    gain.gain.setValueAtTime(0.3 * loudness, begin);
+    gain.gain.exponentialRampToValueAtTime(0.001, begin + LASTS);
+    tone.connect(gain).connect(context.destination);
+    tone.start(begin);
+    tone.stop(begin + LASTS);
+    this.heard++;
+  }
+}

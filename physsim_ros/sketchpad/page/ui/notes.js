@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Answers in a line above the world; notes at places of the world; refusals beside the body that they name, or where they were asked for. */
+
+import {createElement, elementOf, textButton} from '../dom.js';
+import {t} from '../strings.js';
+import {personWord} from './classroom.js';
+
+/** @import {Answer, App, Point, SceneView} from '../types.js' */
+
+const SCENE_LATER = 250; // ms: greatest time from the answer to a request to the scene with its body
+/** Answers that are not shown: the clock and the hand show the same. */
+const SILENT = /^at [\d.]+ s$|^following |^grabbed |^let go of | holds no body$|^the (world as text|list of worlds|answer is noted|message is shown)$/;
+const REST = /^and \d+ more answers$/; // of a frame, to a page that did not ask
+const SHOWN = 2500, REFUSED = 5000, READ = 6000, OFFERED = 10000; // ms: an answer, a refusal, a note, a button
+
+export class Notes {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.status = elementOf('status', HTMLElement);
+    this.places = elementOf('places', HTMLElement);
+    this.dock = elementOf('dock', HTMLElement); // of notes without a place
+    this.dismissOffer = () => {};
+    /** @type {Map<HTMLElement, () => ?Point>} */
+    this.pinned = new Map();
+    this.timer = 0;
+    this.until = 0; // [ms] until then an answer to this page stays
+    this.parts = {of: '', left: 0}; // answers to come that are parts of what was told as one thing
+    this.expected = () => {}; // shows an answer with the next scene
+    app.view.overlays.push(() => this.#place());
+    app.connection.on('answer', (answer) => this.#tell(answer));
+    app.connection.on('scene', () => {
+      this.expected();
+      this.expected = () => {};
+    });
+  }
+
+  /** @param {Answer} answer */
+  #tell(answer) {
+    const {request, ok, code, message, topic} = answer, own = request !== '';
+    // A dialog asks about a name that is taken where a world is saved.
+    if (SILENT.test(message) || own && code === 'exists' && topic === '~/save_world' || !own && performance.now() < this.until) return;
+    const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0), rest = REST.test(message);
+    if (several > 1) this.parts = {of, left: several};
+    else if (this.parts.left && (rest || this.parts.of === of)) {
+      this.parts.left = rest ? 0 : this.parts.left - 1;
+      if (ok) return;
+    }
+    const who = own ? '' : personWord(this.app.classroom.nameOf(answer.page));
+    const tell = () => this.showMessage(`${who}${who && ': '}${this.app.words.tell(answer)}`, {ok, quiet: !own});
+    this.expected = () => {};
+    if (this.app.words.knows(answer.subject)) tell();
+    else {
+      this.expected = tell;
+      setTimeout(() => this.expected === tell && tell(), SCENE_LATER);
+    }
+  }
+
+  /**
+   * @param {string} message
+   * @param {{ok?: boolean, quiet?: boolean, unseen?: boolean}} how
+   */
+  showMessage(message, {ok = true, quiet = false, unseen = false} = {}) {
+    this.status.textContent = message;
+    this.status.className = `shown${ok ? '' : ' refused'}${quiet ? ' quiet' : ''}${unseen ? ' unseen' : ''}`;
+    const shown = ok ? SHOWN : REFUSED;
+    if (!quiet) this.until = performance.now() + shown;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.hide(), shown);
+  }
+
+  /**
+   * Say what was done, and offer a button for a while.
+   * @param {string} message
+   * @param {string} label
+   * @param {() => void} done
+   */
+  offer(message, label, done) {
+    this.hide();
+    this.dismissOffer();
+    this.dismissOffer = this.pin(() => null, [message, textButton(label, () => {
+      this.dismissOffer();
+      done();
+    })], {kind: 'docked', shown: OFFERED});
+  }
+
+  /** Hide the last answer. */
+  hide() {
+    this.status.classList.remove('shown');
+  }
+
+  /**
+   * @param {() => ?Point} at [m], or null where that is gone
+   * @param {(Node | string)[]} content
+   * @param {{kind?: string, shown?: number}} how  shown: for how long [ms]; 0 is until it is taken away
+   * @returns {() => void} takes it away
+   */
+  pin(at, content, {kind = '', shown = READ} = {}) {
+    const note = createElement('div', {className: `note ${kind}`}, ...content);
+    const remove = () => {
+      note.remove();
+      this.pinned.delete(note);
+    };
+    if (kind === 'docked') this.dock.append(note);
+    else {
+      this.places.append(note);
+      this.pinned.set(note, at);
+      this.#place();
+    }
+    if (shown) setTimeout(remove, shown);
+    return remove;
+  }
+
+  #place() {
+    const {camera} = this.app;
+    for (const [note, at] of this.pinned) {
+      const place = at();
+      if (!place) continue;
+      const [x, y] = camera.toPage(...place), half = note.offsetWidth / 2 + 8;
+      const left = Math.min(Math.max(x, half), Math.max(camera.width - half, half));
+      const top = Math.min(Math.max(y, note.offsetHeight + 70), camera.height - 120);
+      note.style.transform = `translate(${left}px, ${top}px) translate(-50%, calc(-100% - 14px))`;
+    }
+  }
+}
+
+/** @typedef {{point: ?Point, names: string[]}} Place of a request: a point [m], or bodies */
+
+const OUTLINED = 2500; // ms for which a body has an outline
+const KEPT = 100; // requests whose places are known: a stroke is answered by its reading, then by its requests
+/** Messages whose refusals are not shown: no reader has asked for them. */
+const QUIET = ['show', 'watch', 'move', 'let_go', 'drop', 'answered', 'list'];
+
+export class Refusals {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, Place>} by request, the last ones of this socket */
+    this.places = new Map();
+    /** @type {Map<string, number>} bodies, and when they were refused [ms] */
+    this.bodies = new Map();
+    this.dismiss = () => {};
+    const {connection} = app;
+    connection.on('sent', (message) => this.#note(message));
+    connection.on('unsent', (message) => {
+      if (!QUIET.includes(message.type)) this.#show(t('Not done: the server is not reachable'), placeOf(message));
+    });
+    connection.on('answer', ({request, ok, code, message, subject, values}) => {
+      const place = this.places.get(request) ?? {point: null, names: []};
+      if (ok || code === 'not_recognised' || code === 'exists' || request === '') return;
+      const name = values.body ?? subject;
+      this.#show(app.words.tell({message, code, ok}), name ? {...place, names: [name]} : place);
+    });
+    connection.on('closed', () => this.places.clear());
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** @param {any} message */
+  #note(message) {
+    if (QUIET.includes(message.type)) return;
+    this.places.set(message.id, placeOf(message));
+    if (this.places.size > KEPT) this.places.delete([...this.places.keys()][0]);
+  }
+
+  /**
+   * @param {string} reason
+   * @param {Place} place
+   */
+  #show(reason, {point, names}) {
+    const {app} = this, {world} = app;
+    const known = names.filter((name) => world.row(name) >= 0);
+    // What a note at the place says is said in the line for screen readers alone.
+    app.notes.showMessage(reason, {ok: false, unseen: known.length > 0 || point !== null});
+    this.dismiss();
+    for (const name of known) this.bodies.set(name, performance.now());
+    app.view.dirty = true;
+    if (known.length) this.dismiss = app.notes.pin(() => world.topOf(known[0]), [reason], {kind: 'refusal'});
+    else if (point) this.dismiss = app.notes.pin(() => point, [reason], {kind: 'refusal'});
+  }
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const now = performance.now();
+    for (const [name, since] of this.bodies) {
+      const row = this.app.world.row(name);
+      if (now - since > OUTLINED || row < 0) this.bodies.delete(name);
+      else view.outline(row, view.palette.warn);
+      view.dirty = true;
+    }
+  }
+}
+
+/**
+ * @param {any} message of the page
+ * @returns {Place}
+ */
+function placeOf({point = null, points = [], name, names}) {
+  const highest = points.reduce((/** @type {Point} */ top, /** @type {number[]} */ [x, y]) =>
+    y > top[1] ? [x, y] : top, [0, -Infinity]);
+  return {point: points.length ? highest : point, names: names ?? (name ? [name] : [])};
+}

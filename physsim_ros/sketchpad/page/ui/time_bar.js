@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Time: the buttons, the slider over the history, with the courses that were left, the clock. */
+
+import {createElement, elementOf, iconButton} from '../dom.js';
+import {fixed} from '../rounding.js';
+import {localized, t} from '../strings.js';
+
+/** @import {App} from '../types.js' */
+
+/** Name, service, key. @type {[string, string, string][]} */
+export const TIME = [
+  [t('Fast rewind'), 'fast_rewind', 'Shift+J'], [t('Rewind'), 'rewind', 'J'], [t('Pause'), 'pause', 'K'],
+  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'], [t('Step'), 'step', '.'],
+];
+/** @type {[string, string, string][]} */
+export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0']];
+/** Additions to names of buttons. */
+const MORE = new Map([['step', `: ${t('one frame forward')}`], ['reset', `: ${t('back to the beginning')}`]]);
+/** States of the timeline, as the server has them. */
+const STATES = new Map([['rewinding', t('rewinding')], ['in the past', t('in the past')], ['playing', t('playing')], ['paused', t('paused')]]);
+const SPEEDS = [1, 0.5, 0.25, 0.1];
+const WATCHED = 1500; // ms over which the pace is measured
+const EXPLAINED = 3000; // ms for which the world is slow before that is explained
+const SLOW = 0.9; // share of the speed asked for below which the pace is told
+
+export class TimeBar {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.slider = elementOf('slider', HTMLInputElement);
+    this.clock = elementOf('clock', HTMLElement);
+    this.marks = elementOf('marks', HTMLElement);
+    /** @type {Map<string, HTMLElement>} of courses that were left, by id and name */
+    this.rings = new Map();
+    this.speed = elementOf('speed', HTMLButtonElement);
+    /** @type {Map<string, HTMLButtonElement>} */
+    this.buttons = new Map();
+    for (const [id, group] of /** @type {const} */ ([['time', TIME], ['edit', EDIT]])) {
+      for (const [name, service, key] of group) {
+        const button = iconButton(name, service, () => this.callService(service), `${name}${MORE.get(service) ?? ''} (${key})`);
+        this.buttons.set(service, button);
+        elementOf(id, HTMLElement).append(button);
+      }
+    }
+    this.on = ''; // the button that is pressed
+    this.shown = ''; // speed
+    /** @type {[number, number, number][]} wall time [ms], simulation time [s] and speed of the last frames */
+    this.paces = [];
+    this.slowSince = 0; // [ms]; 0 where it is not
+    this.explained = false; // whether that was told in this world
+    this.rate = 1; // of playing, as this page has chosen it
+    this.held = false; // by a finger or the mouse
+    this.busy = false; // a seek is on its way
+    this.asked = 0; // speeds that are on their way
+    /** @type {?number} */
+    this.wanted = null;
+    this.slider.addEventListener('input', () => this.#slide());
+    this.slider.addEventListener('pointerdown', () => { this.held = true; });
+    this.slider.addEventListener('change', () => { this.held = false; });
+    this.speed.addEventListener('click', () => this.#changeSpeed());
+    app.connection.on('timeline', () => this.showTimeline());
+    app.connection.on('frame', ({ghost}) => ghost || this.#measurePace());
+    app.connection.on('world', () => { this.explained = false; });
+    app.connection.on('open', () => {
+      this.busy = false;
+      this.asked = 0;
+    });
+    app.view.overlays.push(() => this.#showTime());
+  }
+
+  /** @param {string} service */
+  callService(service) {
+    if (service === 'step' && !this.app.world.paused) this.callService('pause');
+    if (service === 'play' && this.rate !== 1) this.app.connection.send('speed', {speed: this.rate});
+    // Where several people draw, each undoes what is its own.
+    else if (service === 'undo' && this.app.classroom.isShared) this.app.connection.send('take_back');
+    else this.app.connection.send('service', {name: service});
+  }
+
+  toggle() {
+    this.callService(this.app.world.paused ? 'play' : 'pause');
+  }
+
+  /** Pause a world that runs back: it would go back beyond a change at once. */
+  endRewind() {
+    if (this.app.world.frame.speed < 0) this.callService('pause');
+  }
+
+  #slide() {
+    // In a paused world too: a request to play may be on its way.
+    if (!this.busy) this.callService('pause');
+    const {rate} = this.app.world, {value, min, max} = this.slider;
+    // The server keeps whole frames, which are shown at once.
+    this.wanted = Math.min(Math.max(Math.round(Number(value) * rate) / rate, Number(min)), Number(max));
+    this.#seek();
+  }
+
+  async #seek() {
+    if (this.busy || this.wanted === null) return;
+    this.busy = true;
+    const time = this.wanted;
+    this.wanted = null;
+    await this.app.connection.ask('seek', {time});
+    this.busy = false;
+    this.#seek();
+  }
+
+  async #changeSpeed() {
+    // While a speed is asked for, that of the last frame is another one.
+    const {speed} = this.app.world.frame, now = speed > 0 && !this.asked ? speed : this.rate;
+    this.rate = SPEEDS[(SPEEDS.indexOf(now) + 1) % SPEEDS.length];
+    if (!(speed > 0)) {
+      this.#showSpeed(this.rate);
+      return;
+    }
+    this.asked++;
+    await this.app.connection.ask('speed', {speed: this.rate});
+    this.asked--;
+  }
+
+  #measurePace() {
+    const {time, speed} = this.app.world.frame, now = performance.now();
+    const last = this.paces.at(-1);
+    if (last && (last[2] !== speed || time < last[1] || now - last[0] > WATCHED)) this.paces = [];
+    this.paces.push([now, time, speed]);
+    while (this.paces.length > 2 && now - this.paces[1][0] > WATCHED) this.paces.shift();
+  }
+
+  /** @returns {number} seconds of simulation a second, where that is known and less than asked for; else 0 */
+  get #slowPace() {
+    const [first] = this.paces, last = this.paces.at(-1);
+    if (!first || !last || !(last[2] > 0) || last[0] - first[0] < WATCHED / 2) return 0;
+    const pace = (last[1] - first[1]) / (last[0] - first[0]) * 1000;
+    return pace < SLOW * last[2] ? pace : 0;
+  }
+
+  /** @param {number} speed */
+  #showSpeed(speed) {
+    const pace = this.#slowPace, text = `${localized(String(Number((pace || speed).toFixed(2))))}×`.replace('-', '−');
+    const reason = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: this.app.world.scene.bodies.length}) : '';
+    this.#explain(reason);
+    if (text === this.shown) return;
+    this.shown = text;
+    this.speed.textContent = text;
+    this.speed.classList.toggle('slow', pace > 0);
+    this.speed.setAttribute('aria-label', pace ? t('Speed {pace}, slower than {speed}×', {pace: text, speed}) : t('Speed {pace}', {pace: text}));
+    this.speed.title = reason || t('Speed of playing');
+  }
+
+  /**
+   * Tell why the speed is red, once for a world that stays slow.
+   * @param {string} reason '' where it is not slow
+   */
+  #explain(reason) {
+    const now = performance.now();
+    this.slowSince = reason ? this.slowSince || now : 0;
+    if (!reason || this.explained || now - this.slowSince < EXPLAINED) return;
+    this.explained = true;
+    this.app.notes.pin(() => null, [reason], {kind: 'docked'});
+  }
+
+  #showTime() {
+    const {frame, timeline} = this.app.world;
+    this.clock.textContent = `${fixed(frame.time, 2)} s`;
+    if (!this.held && this.wanted === null && !this.busy) {
+      this.slider.max = String(Math.max(timeline.newest, frame.time));
+      this.slider.min = String(Math.min(timeline.oldest, frame.time));
+      this.slider.value = String(frame.time);
+    }
+    const {speed} = frame;
+    const on = speed === 0 ? 'pause' : speed > 1 ? 'fast_forward' : speed > 0 ? 'play' :
+      speed < -1 ? 'fast_rewind' : 'rewind';
+    this.#showSpeed(speed || this.rate);
+    if (on === this.on) return;
+    this.on = on;
+    for (const [, service] of TIME.slice(0, 5)) {
+      this.buttons.get(service)?.setAttribute('aria-pressed', String(service === on));
+    }
+  }
+
+  /**
+   * @param {string} service
+   * @param {string} title '' where there is nothing to do
+   * @param {string} otherwise what is told then
+   */
+  #showEdit(service, title, otherwise) {
+    const button = this.buttons.get(service);
+    button?.classList.toggle('idle', !title);
+    if (button) button.title = title || otherwise;
+  }
+
+  showTimeline() {
+    const {undo, redo, oldest, newest, state, courses = []} = this.app.world.timeline;
+    // What is undone is one's own, and that is not known here.
+    const gesture = (/** @type {string} */ told) => this.app.words.phrase(told.replace(/^(undo|redo) /, ''));
+    this.#showEdit('undo', this.app.classroom.isShared ? t('Undo what you did last') : undo && t('Undo: {gesture}', {gesture: gesture(undo)}), t('Nothing to undo'));
+    this.#showEdit('redo', redo && t('Redo: {gesture}', {gesture: gesture(redo)}), t('Nothing to redo'));
+    this.clock.classList.toggle('past', state === 'in the past');
+    this.clock.title = STATES.get(state) ?? state;
+    const before = this.rings;
+    this.rings = new Map(courses.map(({id, from}) => {
+      const name = t('Go back to how it went before, from {time}\u00a0s', {time: fixed(from, 1)}), key = `${id} ${name}`;
+      // While time runs it is the same element: one that was made anew could not be pressed.
+      const ring = before.get(key) ?? this.marks.appendChild(createElement('button', {type: 'button', 'aria-label': name, title: name,
+        onclick: () => this.app.connection.send('course', {course: id})}));
+      ring.style.left = `${100 * (from - oldest) / (newest - oldest || 1)}%`;
+      return [key, ring];
+    }));
+    for (const [key, ring] of before) if (!this.rings.has(key)) ring.remove();
+  }
+}

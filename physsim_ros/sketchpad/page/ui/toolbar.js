@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The bars of buttons: the tools at the left; above, worlds and how the world is shown. Tab reaches a bar once, and
+ * arrow keys move within it (WAI-ARIA, pattern *Toolbar*).
+ */
+
+import {createElement, elementOf, iconButton, showText, toggling} from '../dom.js';
+import {switchTheme} from './settings.js';
+import {t} from '../strings.js';
+import {ClickTool} from '../tools/click_tool.js';
+import {Lasso, Pen} from '../tools/freehand.js';
+import {Hand} from '../tools/hand.js';
+import {InclineTool} from '../tools/incline.js';
+import {Protractor, Ruler} from '../tools/measuring.js';
+import {Note} from '../tools/note.js';
+
+/** @import {App, Tool} from '../types.js' */
+
+/** Groups of tools: id, name, key, hint. @type {[string, string, string, string][][]} */
+export const TOOLS = [[
+  ['pen', t('Pen'), 'p', t('draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x an anchor')],
+  ['hand', t('Hand'), 'h', t('drag and throw bodies; tap one to change it')],
+  ['lasso', t('Lasso'), 's', t('select several bodies, to drag or delete them')],
+], [
+  ['circle', t('Circle'), 'c', t('from the centre to the rim')],
+  ['circle_diameter', t('Circle by diameter'), 'd', t('from edge to edge')],
+  ['rectangle', t('Rectangle'), 'b', t('drag from corner to corner, or click three')],
+  ['polygon', t('Polygon'), 'g', t('click each corner; click the first one again to close it')],
+  ['wall', t('Wall'), 'w', t('a fixed line')],
+  ['incline', t('Inclined plane'), '3', t('drag along the slope, or tap; its panel has its angle and length')],
+], [
+  ['anchor', t('Anchor'), 'a', t('fix a body to the background')],
+  ['release', t('Release'), 'e', t('remove anchor, pins and axles of a body')],
+  ['pin', t('Pin'), 'i', t('weld two bodies')],
+  ['axle', t('Axle'), 'x', t('let two bodies turn about a point')],
+  ['spring', t('Spring'), 'z', t('from body to body, or to the background')],
+  ['rod', t('Rod'), 'o', t('keeps two points at a distance')],
+  ['rope', t('Rope'), 'y', t('pulls, but does not push')],
+  ['chain', t('Chain'), '8', t('links from end to end; for a slack one, draw it with the pen as a rope')],
+], [
+  ['velocity', t('Velocity'), 'v', t('drag an arrow from a body: 1 m is 1 m/s')],
+  ['gravity', t('Gravity'), 'u', t('drag an arrow: that way is down')],
+  ['force', t('Force'), '1', t('drag an arrow from a point of a body: 1 m is a constant force of 10 N')],
+  ['knife', t('Knife'), '2', t('drag right through bodies: they are cut')],
+  ['delete', t('Delete'), 't', t('remove a body')],
+], [
+  ['ruler', t('Ruler'), 'm', t('drag from point to point; tap it to remove it')],
+  ['protractor', t('Protractor'), 'q', t('drag from the corner along one side, then click the other one; tap it to remove it')],
+  ['note', t('Note'), '9', t('press where it is to be, type, Enter')],
+]];
+
+/** @type {Record<string, new (app: App) => Tool>} */
+const OWN = {pen: Pen, hand: Hand, lasso: Lasso, incline: InclineTool, note: Note, ruler: Ruler, protractor: Protractor};
+
+export class Toolbar {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, {tool: Tool, button: HTMLButtonElement}>} */
+    this.tools = new Map();
+    const bar = elementOf('tools', HTMLElement);
+    for (const group of TOOLS) {
+      const box = createElement('div', {role: 'group'});
+      for (const [id, name, key, hint] of group) {
+        const button = iconButton(name, id, () => this.selectTool(id), `${name} (${key.toUpperCase()}): ${hint}`);
+        this.tools.set(id, {tool: OWN[id] ? new OWN[id](app) : new ClickTool(app, id), button});
+        box.append(button);
+      }
+      bar.append(box);
+    }
+    bar.lastElementChild?.append(iconButton(t('Measure'), 'measure', () => {
+      app.selection.select([]);
+      app.panel.show('measure');
+    }, t('Stopwatch with gates, counter of collisions')));
+    this.#select('pen');
+  }
+
+  /**
+   * Select a tool, and say how it is used.
+   * @param {string} id
+   */
+  selectTool(id) {
+    this.#select(id);
+    const [, name, , hint] = TOOLS.flat().find(([each]) => each === id) ?? ['', '', '', ''];
+    this.app.hints.showTool(id, `${name}: ${hint}.`);
+  }
+
+  /** @param {string} id */
+  #select(id) {
+    const selected = this.tools.get(id);
+    if (!selected) return;
+    this.app.tool?.cancel?.();
+    this.app.tool = selected.tool;
+    this.app.view.canvas.dataset.tool = id;
+    for (const [each, {button}] of this.tools) button.setAttribute('aria-pressed', String(each === id));
+    this.app.view.dirty = true;
+  }
+}
+
+export class TopBar {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    const zoom = createElement('span', {className: 'zoom'});
+    app.view.overlays.push(() => showText(zoom, `${Math.round(100 * app.camera.scale / app.camera.whole)} %`));
+    this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
+      textContent: 'Rerun', title: t('The recording')});
+    elementOf('files', HTMLElement).append(
+      iconButton(t('Worlds'), 'worlds', () => app.gallery.openWorlds(), t('Worlds to open')),
+      iconButton(t('Save'), 'save', () => app.gallery.showSave(), t('Save, link, picture')));
+    elementOf('looks', HTMLElement).append(
+      this.#toggle('velocities', t('Show velocities'), 'velocities', t('Velocities as arrows, in m/s')),
+      this.#toggle('forces', t('Show forces'), 'forces', t('Forces as arrows, in newtons; on a body that you tap, all')),
+      iconButton(t('Material'), 'material', () => {
+        app.selection.select([]);
+        app.panel.show('world');
+      }, t('Material of new bodies; gravity')),
+      iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)')), zoom,
+      iconButton(t('Light or dark'), 'theme', switchTheme),
+      iconButton(t('Help'), 'help', () => app.showHelp(), t('Help: keys and gestures (?)')));
+    elementOf('looks', HTMLElement).after(this.recording);
+    app.connection.on('recording', ({rerun}) => this.#link(rerun));
+    app.connection.on('welcome', ({rerun}) => this.#link(rerun));
+  }
+
+  /**
+   * @param {'velocities' | 'forces'} part of frames
+   * @param {string} name
+   * @param {string} id of its icon
+   * @param {string} title
+   */
+  #toggle(part, name, id, title) {
+    const {app} = this;
+    return toggling(iconButton(name, id, () => {}, title), () => app.arrows[part], () => {
+      app.arrows[part] = !app.arrows[part];
+      app.arrows.showLegend();
+      app.askForParts();
+    });
+  }
+
+  /** @param {string} address of Rerun's page on the machine of the world; '' where it serves none */
+  #link(address) {
+    const here = ['127.0.0.1', 'localhost', '[::1]'].includes(location.hostname);
+    Object.assign(this.recording, {href: address, hidden: !(address && here)});
+  }
+}
+
+/** Directions of keys on the page. @type {Record<string, [number, number]>} */
+export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]};
+const ASIDE = 3; // weight of the distance across the direction of an arrow key
+
+/**
+ * @param {HTMLElement} bar whose buttons may come and go
+ * @param {string} first selector of the button that Tab reaches at first
+ */
+export function makeToolbar(bar, first = 'button') {
+  bar.setAttribute('role', 'toolbar');
+  const items = () => [...bar.querySelectorAll('button')].filter((each) => each.checkVisibility());
+  /** @type {Element | null} */
+  let current = null;
+  const rove = (/** @type {Element | null} */ to = bar.querySelector(first)) => {
+    current = to;
+    for (const each of bar.querySelectorAll('button')) each.tabIndex = each === to ? 0 : -1;
+  };
+  bar.addEventListener('focusin', ({target}) => target instanceof HTMLButtonElement && rove(target));
+  bar.addEventListener('keydown', (event) => {
+    const all = items(), from = all.find((each) => each === event.target), {key} = event;
+    const to = key === 'Home' ? all[0] : key === 'End' ? all.at(-1) : from && key in ARROWS ? nextOf(all, from, ARROWS[key]) : undefined;
+    if (!to || event.altKey || event.ctrlKey || event.metaKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    to.focus();
+  });
+  // The one that Tab reaches may be taken away or hidden.
+  new MutationObserver(() => current?.isConnected && current.checkVisibility() ? rove(current) : rove(items()[0]))
+    .observe(bar, {childList: true, subtree: true, attributeFilter: ['hidden']});
+  rove();
+}
+
+/**
+ * @param {HTMLButtonElement[]} all
+ * @param {HTMLButtonElement} from
+ * @param {[number, number]} direction
+ * @returns {HTMLButtonElement | undefined} the next one in that direction; undefined where there is none
+ */
+function nextOf(all, from, [dx, dy]) {
+  const [x, y] = centreOf(from);
+  let least = Infinity, next;
+  for (const each of all) {
+    const [toX, toY] = centreOf(each), along = (toX - x) * dx + (toY - y) * dy;
+    const far = along + ASIDE * Math.abs((toX - x) * dy - (toY - y) * dx);
+    if (along > 1 && far < least) [least, next] = [far, each];
+  }
+  return next;
+}
+
+/** @param {Element} element */
+function centreOf(element) {
+  const {left, top, width, height} = element.getBoundingClientRect();
+  return [left + width / 2, top + height / 2];
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Arrows of velocities, momenta and forces, with their numbers, and their legend: the scales, which fit the
+ * view, and a switch for each kind of force.
+ *
+ * Of selected bodies all forces are shown, and of those that touch them or that a joint connects with them. Where
+ * none is selected, those of all bodies, as long as they are few, and of a force between two that move the one
+ * that bears.
+ */
+
+import {createElement, elementOf, showText, textButton, toggling} from '../dom.js';
+import {drawApplied} from '../panels/force_fields.js';
+import {bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
+import {digits, roundUp, threeDigits} from '../rounding.js';
+import {t} from '../strings.js';
+
+/** @import {App, Force, Palette, Point, SceneView} from '../types.js' */
+
+const BAR = 60; // px: of the bar that a scale is told by
+const ROOM = 0.3; // share of the view that the longest arrow may take
+const SHORT = 0.12; // share of that room below which the scale becomes finer
+const SETTLED = 400; // ms for which an arrow is too long or too short before the scale follows
+const CUT = 1.3; // times the room: longer arrows, of impacts, are cut
+const LEAST = 4; // px: of an arrow
+const LEAST_SPEED = 5; // m/s: that there is always room for
+const FEW = 12; // bodies that move, of which all forces are shown where none is selected
+const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
+/** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
+const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'), applied: t('applied force'), air: t('air'), sum: t('sum')};
+
+/**
+ * @typedef {{from: Point, x: number, y: number, scale: ArrowScale, color: string, text: string, width?: number, unit?: string,
+ *   named?: boolean}} Arrow from [px]; x, y in units, y up; text: its number; unit: of its components, where they are shown
+ */
+
+/** How many units are a bar's length: 1, 2 or 5 times a power of ten. */
+class ArrowScale {
+  constructor() {
+    this.unit = 0;
+    this.since = 0; // [ms] since when it does not fit
+  }
+
+  /**
+   * @param {number} most that is shown [unit]
+   * @param {number} room for it [px]
+   * @param {boolean} atOnce whether nothing moves
+   */
+  fit(most, room, atOnce) {
+    const length = this.length(most), now = performance.now();
+    if (length <= room && length >= SHORT * room || !(most > 0) && this.unit) {
+      this.since = 0;
+      return;
+    }
+    this.since ||= now;
+    if (this.unit && !atOnce && now - this.since < SETTLED) return;
+    this.since = 0;
+    this.unit = roundUp((most || 1) * BAR / room);
+  }
+
+  /** @param {number} value */
+  length(value) {
+    return value * BAR / this.unit;
+  }
+}
+
+export class Arrows {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.velocities = this.forces = false; // whether they are shown
+    this.momenta = this.components = false;
+    /** @type {Set<string>} kinds of forces that are not shown */
+    this.off = new Set();
+    this.newtons = new ArrowScale();
+    this.speeds = new ArrowScale();
+    this.impulses = new ArrowScale(); // of momenta
+    this.frozen = false; // the scale of velocities, while one is dragged
+    /** @type {{name: string, kind: string, force: Point, size: string, from: Point, to: Point}[]} */
+    this.drawn = []; // forces, as they are drawn
+    this.legend = elementOf('legend', HTMLElement);
+    /** The scales in the legend, by their unit. @type {Record<string, HTMLElement>} */
+    this.bars = {};
+    this.hint = createElement('span');
+    app.view.overlays.push((view) => this.#draw(view));
+  }
+
+  /** Show the legend of what is shown, with its switches. */
+  showLegend() {
+    const bar = (/** @type {string} */ unit, /** @type {string} */ kind) => {
+      this.bars[unit] = createElement('output');
+      return createElement('span', {className: `scale ${kind}`}, this.bars[unit]);
+    };
+    const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) => {
+      return toggling(textButton(name, () => {}, kind), isOn, () => {
+        change();
+        this.app.view.dirty = true;
+      });
+    };
+    const {legend, off} = this;
+    legend.hidden = !this.velocities && !this.forces;
+    legend.replaceChildren(
+      ...this.velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
+        this.momenta = !this.momenta;
+        this.showLegend();
+      }), ...this.momenta ? [bar('N s', 'momentum')] : []] : [],
+      ...this.forces ? [bar('N', ''), ...Object.entries(NAMES).map(([kind, name]) =>
+        part(name, kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
+      part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint);
+    this.app.room.fit();
+  }
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const {world, camera} = this.app;
+    const room = Math.max(ROOM * Math.min(camera.width - view.insets.left - view.insets.right,
+      camera.height - view.insets.top - view.insets.bottom), BAR);
+    this.drawn = [];
+    this.#fitSpeeds(room);
+    if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
+    this.hint.textContent = '';
+    if (!this.forces) drawApplied(this.app, view);
+    else if (world.count) this.#drawForces(view, room);
+    for (const [unit, scale] of /** @type {[string, ArrowScale][]} */ ([['m/s', this.speeds], ['N s', this.impulses], ['N', this.newtons]])) {
+      if (this.bars[unit]) showText(this.bars[unit], `${digits(scale.unit, 2)} ${unit}`);
+    }
+  }
+
+  /** @param {number} room [px] */
+  #fitSpeeds(room) {
+    const {world, selection} = this.app, {velocities} = world.frame;
+    if (!velocities || this.frozen) return;
+    let most = LEAST_SPEED, mostImpulse = 0;
+    world.scene.bodies.forEach(({name, anchored, mass}, row) => {
+      if (row < world.count && !anchored && (this.velocities || selection.names.has(name))) {
+        const speed = Math.hypot(velocities.x[row], velocities.y[row]) || 0;
+        most = Math.max(most, speed);
+        mostImpulse = Math.max(mostImpulse, mass * speed);
+      }
+    });
+    this.speeds.fit(most, room, world.paused);
+    this.impulses.fit(mostImpulse, room, world.paused);
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {number} room [px]
+   */
+  #drawVelocities(view, room) {
+    const {world, camera, panel} = this.app, {velocities} = world.frame, {accent, momentum} = view.palette;
+    for (let row = 0; velocities && row < world.count; row++) {
+      const {anchored, name, centroid, mass} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
+      if (anchored) continue;
+      const from = camera.toPage(...world.place(row, centroid)), speed = Math.hypot(x, y);
+      if (this.momenta) this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.impulses, color: momentum, text: `${threeDigits(mass * speed)} N s`, width: WIDE});
+      const velocity = {from, x, y, scale: this.speeds, color: accent, text: `${threeDigits(speed)} m/s`, unit: 'm/s'};
+      // The arrow of the selected body can be dragged (input/handles.js).
+      if (name !== panel.name) this.#arrow(view, room, velocity);
+      else if (this.components) this.#components(view, room, velocity);
+    }
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {number} room [px]
+   */
+  #drawForces(view, room) {
+    const {world, camera, selection, viewOnly} = this.app, all = forcesOf(world), {bodies} = world.scene;
+    const selected = new Set([...selection.names].map((name) => world.row(name)));
+    const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all);
+    const some = all.some(isSelected), beside = some ? neighboursOf(world, selected) : selected;
+    const few = viewOnly || bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).length <= FEW;
+    if (!some && !few) this.hint.textContent = t('Tap a body: its forces, and those of what touches it.');
+    const forces = [...all, ...sums].filter((force) => !this.off.has(force.kind) && (some ? isSelected(force) || beside.has(force.row) : few));
+    const shown = some ? forces : bearing(forces, world.scene.gravity);
+    this.newtons.fit(Math.max(...shown.map(({x, y}) => Math.hypot(x, y)), 0), room, world.paused);
+    for (const force of shown) {
+      const {kind, row, at, x, y} = force, named = some && isSelected(force), color = colorOf(kind, view.palette);
+      const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${NAMES[kind]} ${size}` : size;
+      const width = some && !named ? NARROW : kind === 'sum' ? WIDE : USUAL;
+      const to = this.#arrow(view, room, {from, x, y, scale: this.newtons, color, text, width, unit: named || !some ? 'N' : '', named});
+      if (!to && kind === 'sum' && named) view.number({text: `${NAMES.sum} 0 N`, color, tip: [from[0], from[1] - BAR / 2], along: [0, -1], named});
+      this.drawn.push({name: bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
+    }
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {number} room [px]: a much longer arrow is cut
+   * @param {Arrow} arrow
+   * @returns {?Point} its tip [px]; null where the arrow is too short to be seen
+   */
+  #arrow(view, room, arrow) {
+    const {from, x, y, scale, color, text, width = USUAL, unit = '', named = false} = arrow;
+    const size = Math.hypot(x, y), whole = scale.length(size), most = CUT * room;
+    if (!(whole >= LEAST)) return null;
+    const length = Math.min(whole, most), ux = x / size, uy = -y / size;
+    /** @type {Point} */
+    const tip = [from[0] + ux * length, from[1] + uy * length];
+    if (unit && this.components && whole <= most) this.#components(view, room, arrow);
+    view.arrow(from, tip, color, {width, cut: whole > most});
+    view.number({text, color, from, tip, along: [ux, uy], named});
+    return tip;
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {number} room [px]
+   * @param {Arrow} arrow
+   */
+  #components(view, room, {from, x, y, scale, color, unit = ''}) {
+    const [dx, dy] = [scale.length(x), -scale.length(y)];
+    if (Math.min(Math.abs(dx), Math.abs(dy)) < LEAST || Math.hypot(dx, dy) > CUT * room) return;
+    const {ctx} = view;
+    ctx.setLineDash([4, 3]);
+    for (const [ux, uy, value, name] of /** @type {[number, number, number, string][]} */ ([[dx, 0, x, 'x'], [0, dy, y, 'y']])) {
+      const tip = /** @type {Point} */ ([from[0] + ux, from[1] + uy]);
+      view.arrow(from, tip, color, {width: 1});
+      view.number({text: `${name} ${threeDigits(value)} ${unit}`, color, from, tip, along: [Math.sign(ux), Math.sign(uy)]});
+    }
+    ctx.setLineDash([]);
+  }
+}
+
+/**
+ * @param {Force['kind']} kind
+ * @param {Palette} palette
+ */
+function colorOf(kind, palette) {
+  return kind === 'sum' ? palette.ink : kind === 'normal' ? palette.force : palette[kind];
+}

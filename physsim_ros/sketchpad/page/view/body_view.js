@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Bodies on the canvas: filled, outlined, hatched where they are anchored, with a mark that turns. */
+
+import {pathOf, reachOf} from './body_path.js';
+
+/** @import {Body, Camera, Frame, Palette, Point} from '../types.js' */
+
+/** @typedef {{path: Path2D, reach: number, radius: number, inner: number, plain: boolean, dark: boolean,
+ *   fill: string, line: string, tiny: string}} Appearance
+ *   reach: of the farthest point from the body's origin, radius: of it from the centroid, inner: of a circle
+ *   round the centroid within the body [m]; plain: neither anchored, kinematic nor sensor */
+
+// Half of the size of a body [px]. Below SMALL it has no outline, below MARKED no mark; below MEDIUM its
+// outline is the rim that a smaller filling leaves free: without a GPU, a stroke costs twice a filling.
+const SMALL = 4, MARKED = 8, MEDIUM = 11;
+const RIM = 1.2, MARK = 1.8; // px
+const SHEER = 0.35; // opacity of a sensor
+
+export class BodyView {
+  /**
+   * @param {CanvasRenderingContext2D} ctx
+   * @param {Camera} camera
+   */
+  constructor(ctx, camera) {
+    this.ctx = ctx;
+    this.camera = camera;
+    this.ratio = 1; // pixels of the screen to one of the page
+    this.ink = '';
+    /** @type {CanvasPattern[]} */
+    this.hatches = [];
+    /** @type {WeakMap<Body, Appearance>} */
+    this.appearances = new WeakMap();
+  }
+
+  /** @param {Palette} palette */
+  repaint({ink}) {
+    this.ink = ink;
+    this.hatches = [this.#hatch('#111'), this.#hatch('#eee')]; // on light bodies, and on dark ones
+    this.appearances = new WeakMap();
+  }
+
+  /**
+   * @param {string} color
+   * @returns {CanvasPattern} slanted lines, as in drawings of fixed parts
+   */
+  #hatch(color) {
+    const tile = new OffscreenCanvas(8, 8);
+    const ctx = /** @type {OffscreenCanvasRenderingContext2D} */ (tile.getContext('2d'));
+    ctx.strokeStyle = color;
+    ctx.globalAlpha = 0.6;
+    ctx.lineWidth = 1.4;
+    for (const x of [-8, 0, 8]) {
+      ctx.moveTo(x, 8);
+      ctx.lineTo(x + 8, 0);
+    }
+    ctx.stroke();
+    return /** @type {CanvasPattern} */ (this.ctx.createPattern(tile, 'repeat'));
+  }
+
+  /**
+   * Draw in the frame of a body from now on.
+   * @param {Frame} frame
+   * @param {number} row
+   * @param {Point} by displacement [m]
+   */
+  setTransform(frame, row, by = [0, 0]) {
+    const {camera, ratio} = this, scale = camera.scale * ratio;
+    const cos = scale * Math.cos(frame.yaw[row]), sin = scale * Math.sin(frame.yaw[row]);
+    const [px, py] = camera.toPage(frame.x[row] + by[0], frame.y[row] + by[1]);
+    this.ctx.setTransform(cos, -sin, -sin, -cos, px * ratio, py * ratio);
+  }
+
+  /**
+   * @param {Body} body
+   * @returns {Appearance}
+   */
+  appearance(body) {
+    const {shape, color, centroid: [x, y]} = body;
+    let appearance = this.appearances.get(body);
+    if (!appearance) {
+      const radius = reachOf(shape, [x, y]);
+      const night = document.documentElement.dataset.theme === 'dark';
+      const dark = Math.max(...color.slice(0, 3)) < 0.45, fill = css(color);
+      const line = css(color, night ? 0.45 : -0.4), inner = innerRadius(body, radius);
+      const plain = !(body.anchored || body.kinematic || body.sensor);
+      appearance = {path: pathOf(shape), reach: radius + Math.hypot(x, y), radius, inner, plain, dark, fill, line,
+        // Without its outline a dark body could not be told from a dark paper.
+        tiny: night && dark ? line : fill};
+      this.appearances.set(body, appearance);
+    }
+    return appearance;
+  }
+
+  /**
+   * @param {Frame} frame
+   * @param {number} row
+   * @param {Appearance} appearance of that body
+   * @returns {boolean} whether it may be on the page; no body at NaN is
+   */
+  isOnPage(frame, row, appearance) {
+    const {camera} = this, reach = appearance.reach * camera.scale;
+    const [x, y] = camera.toPage(frame.x[row], frame.y[row]);
+    return x > -reach && y > -reach && x < camera.width + reach && y < camera.height + reach;
+  }
+
+  /**
+   * @param {Frame} frame
+   * @param {number} row
+   * @param {Body} body
+   */
+  draw(frame, row, body) {
+    const {ctx, camera} = this, appearance = this.appearance(body);
+    if (!this.isOnPage(frame, row, appearance)) return;
+    this.setTransform(frame, row);
+    const size = appearance.radius * camera.scale, pixel = 1 / camera.scale;
+    if (body.shape.kind === 'chain') this.#drawChain(body, appearance, pixel);
+    else if (size < SMALL) {
+      ctx.fillStyle = appearance.tiny;
+      ctx.fill(appearance.path);
+    } else {
+      if (size < MEDIUM && appearance.plain) this.#drawMedium(body, appearance, 1 - RIM / size);
+      else this.#drawLarge(body, appearance, pixel);
+      if (body.anchored) this.#drawRim(body, appearance, pixel);
+      else if (size >= MARKED) this.#drawMark(body, appearance, pixel);
+    }
+  }
+
+  /**
+   * @param {Body} body
+   * @param {Appearance} appearance
+   * @param {number} share of the size that is filled
+   */
+  #drawMedium({centroid: [x, y]}, {path, line, fill}, share) {
+    const {ctx} = this;
+    ctx.fillStyle = line;
+    ctx.fill(path);
+    ctx.translate(x * (1 - share), y * (1 - share));
+    ctx.scale(share, share);
+    ctx.fillStyle = fill;
+    ctx.fill(path);
+  }
+
+  /**
+   * @param {Body} body
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawLarge({kinematic, sensor}, {path, line, fill}, pixel) {
+    const {ctx} = this;
+    ctx.strokeStyle = line;
+    ctx.lineWidth = 3 * pixel;
+    ctx.lineJoin = 'round';
+    if (kinematic || sensor) ctx.setLineDash([6 * pixel, 4 * pixel]);
+    // Filled last, so that pieces of one body have one outline.
+    ctx.stroke(path);
+    ctx.setLineDash([]);
+    ctx.fillStyle = fill;
+    ctx.globalAlpha = sensor ? SHEER : 1;
+    ctx.fill(path, 'nonzero');
+    ctx.globalAlpha = 1;
+  }
+
+  /**
+   * The mark that turns with a body; the centre keeps the body's colour. Of a robot it is the front.
+   * @param {Body} body
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawMark({centroid: [x, y], robot}, {inner, line, dark}, pixel) {
+    if (robot) {
+      this.ctx.fillStyle = dark ? '#eee' : '#111';
+      this.ctx.beginPath();
+      for (const [ahead, aside] of [[0.85, 0], [0.2, 0.5], [0.2, -0.5]]) this.ctx.lineTo(x + ahead * inner, y + aside * inner);
+      this.ctx.fill();
+      return;
+    }
+    this.ctx.fillStyle = line;
+    this.ctx.fillRect(x + 0.45 * inner, y - MARK / 2 * pixel, 0.4 * inner, MARK * pixel);
+  }
+
+  /**
+   * @param {Body} body
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawRim({sensor}, {path, dark}, pixel) {
+    const {ctx} = this, hatch = this.hatches[Number(dark)];
+    hatch.setTransform(ctx.getTransform().inverse().scaleSelf(this.ratio, this.ratio));
+    ctx.save();
+    ctx.clip(path);
+    ctx.globalAlpha = sensor ? SHEER : 1;
+    ctx.strokeStyle = hatch;
+    ctx.lineWidth = 14 * pixel;
+    ctx.stroke(path);
+    ctx.restore();
+  }
+
+  /**
+   * @param {Body} body
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawChain({shape, anchored}, {path, line, fill}, pixel) {
+    const {ctx} = this, width = Math.max(shape.thickness, 2 * pixel);
+    ctx.lineCap = ctx.lineJoin = 'round';
+    ctx.strokeStyle = line;
+    ctx.lineWidth = width + 2 * pixel;
+    ctx.stroke(path);
+    ctx.strokeStyle = fill;
+    ctx.lineWidth = width;
+    ctx.stroke(path);
+    if (!anchored) return;
+    ctx.strokeStyle = this.ink;
+    ctx.lineWidth = 1.2 * pixel;
+    ctx.globalAlpha = 0.55;
+    ctx.beginPath();
+    for (let i = 1; i < shape.points.length; i++) groundTicks(ctx, shape.points[i - 1], shape.points[i],
+      width / 2 + pixel, 10 * pixel);
+    ctx.stroke();
+    ctx.globalAlpha = 1;
+  }
+}
+
+/**
+ * @param {number[]} color red, green, blue, alpha, each 0 .. 1
+ * @param {number} share of white (or, where it is negative, of black) mixed in
+ */
+function css([red, green, blue, alpha], share = 0) {
+  const mix = (/** @type {number} */ c) => 255 * (share > 0 ? c + (1 - c) * share : c * (1 + share));
+  return `rgb(${mix(red)} ${mix(green)} ${mix(blue)} / ${alpha})`;
+}
+
+/**
+ * @param {Body} body
+ * @param {number} radius of its farthest point [m]
+ * @returns {number} radius of a circle round the centroid that is within the body [m]
+ */
+function innerRadius({shape, centroid: [x, y]}, radius) {
+  if (!shape.outline) return shape.radius ?? radius / 3;
+  return 0.9 * Math.min(...shape.outline.map(([ax, ay], i) => {
+    const [bx, by] = shape.outline[(i + 1) % shape.outline.length];
+    return Math.abs((bx - ax) * (y - ay) - (by - ay) * (x - ax)) / Math.hypot(bx - ax, by - ay);
+  }));
+}
+
+/**
+ * Short slanted strokes on the lower side of a segment.
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Point} a
+ * @param {Point} b
+ * @param {number} away from the segment [m]
+ * @param {number} size [m]
+ */
+function groundTicks(ctx, a, b, away, size) {
+  const length = Math.hypot(b[0] - a[0], b[1] - a[1]), flip = b[0] < a[0] ? -1 : 1;
+  const ux = flip * (b[0] - a[0]) / length, uy = flip * (b[1] - a[1]) / length;
+  const start = flip > 0 ? a : b;
+  for (let s = size / 2; s < length; s += size) {
+    const x = start[0] + s * ux + away * uy, y = start[1] + s * uy - away * ux;
+    ctx.moveTo(x, y);
+    ctx.lineTo(x - 0.6 * size * ux + 0.6 * size * uy, y - 0.6 * size * uy - 0.6 * size * ux);
+  }
+}

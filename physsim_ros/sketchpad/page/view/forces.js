@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The forces on bodies in newtons: weight, constant forces, normal force and friction of contacts, joints, air, and
+ * their sum.
+ *
+ * A contact's impulse is divided by the simulated time that it was summed over, so that a force does not
+ * depend on how fast the world plays. Hands and commanded wrenches are not among them.
+ */
+
+import {appliedTo} from '../panels/force_fields.js';
+
+/** @import {Force, Point, WorldState} from '../types.js' */
+
+const LEAST = 1e-3; // N: below that, rounding of what does not act
+
+/**
+ * @param {WorldState} world
+ * @returns {Force[]} on the bodies that forces move
+ */
+export function forcesOf(world) {
+  const {frame: {contacts, pulls, velocities}, scene: {bodies, joints, gravity: [gx, gy], damping}} = world;
+  /** @type {Force[]} */
+  const forces = [];
+  const moves = (/** @type {number} */ row) => row >= 0 && !bodies[row].anchored && !bodies[row].kinematic;
+  /**
+   * @param {Force['kind']} kind
+   * @param {number} row
+   * @param {Point} at
+   * @param {number} x [N]
+   * @param {number} y [N]
+   * @param {number} by the row of the body that it comes from
+   */
+  const add = (kind, row, at, x, y, by = -1) => {
+    if (moves(row) && Math.hypot(x, y) > LEAST) forces.push({kind, row, at, x, y, mutual: moves(by)});
+  };
+  for (let row = 0; row < world.count; row++) {
+    const {mass, centroid} = bodies[row], at = world.place(row, centroid);
+    add('weight', row, at, mass * gx, mass * gy);
+    for (const {at: point, force: [x, y]} of appliedTo(world, row)) add('applied', row, point, x, y);
+    if (!velocities || !(damping > 0 && damping < 1)) continue;
+    const rate = mass * Math.log(1 - damping);
+    add('air', row, at, rate * velocities.x[row], rate * velocities.y[row]);
+  }
+  for (let i = 0; contacts && contacts.steps && i < contacts.x.length; i++) {
+    const {a, b, nx, ny} = contacts, rate = world.physicsRate / contacts.steps;
+    const x = contacts.jx[i] * rate, y = contacts.jy[i] * rate, along = x * nx[i] + y * ny[i];
+    const px = along * nx[i], py = along * ny[i];
+    /** @type {Point} */
+    const at = [contacts.x[i], contacts.y[i]];
+    for (const [row, by, sign] of [[b[i], a[i], 1], [a[i], b[i], -1]]) {
+      add('normal', row, at, sign * px, sign * py, by);
+      add('friction', row, at, sign * (x - px), sign * (y - py), by);
+    }
+  }
+  joints.forEach(({a, b, points}, i) => {
+    if (!pulls || i >= pulls.x.length) return;
+    add('joint', b, world.place(b, points[1]), pulls.x[i], pulls.y[i], a);
+    add('joint', a, world.place(a, points[0]), -pulls.x[i], -pulls.y[i], b);
+  });
+  return forces;
+}
+
+/**
+ * @param {WorldState} world
+ * @param {Force[]} forces
+ * @returns {Force[]} the sum for each body on which more than one acts and no hand draws
+ */
+export function sumsOf(world, forces) {
+  /** @type {Map<number, Force[]>} */
+  const byRow = new Map();
+  for (const force of forces) {
+    const on = byRow.get(force.row);
+    if (on) on.push(force);
+    else byRow.set(force.row, [force]);
+  }
+  const {hands} = world.frame, held = new Set();
+  for (let i = 0; hands && i < hands.x.length; i++) held.add(world.bodyAt([hands.x[i], hands.y[i]]));
+  return [...byRow].filter(([row, on]) => on.length > 1 && !held.has(row)).map(([row, on]) => {
+    const x = on.reduce((sum, force) => sum + force.x, 0), y = on.reduce((sum, force) => sum + force.y, 0);
+    const rest = Math.hypot(x, y) <= LEAST;
+    return {kind: 'sum', row, at: world.place(row, world.scene.bodies[row].centroid), mutual: false,
+      x: rest ? 0 : x, y: rest ? 0 : y};
+  });
+}
+
+/**
+ * @param {WorldState} world
+ * @param {Set<number>} rows of bodies
+ * @returns {Set<number>} rows of those that touch one of them, or that a joint connects with one
+ */
+export function neighboursOf({frame: {contacts}, scene: {joints}}, rows) {
+  /** @type {Set<number>} */
+  const found = new Set();
+  const note = (/** @type {number} */ a, /** @type {number} */ b) => {
+    if (rows.has(a)) found.add(b);
+    if (rows.has(b)) found.add(a);
+  };
+  for (let i = 0; contacts && i < contacts.a.length; i++) note(contacts.a[i], contacts.b[i]);
+  for (const {a, b} of joints) note(a, b);
+  return found;
+}
+
+/**
+ * @param {Force[]} forces
+ * @param {Point} gravity
+ * @returns {Force[]} of a force and its reaction, the one that bears
+ */
+export function bearing(forces, [gx, gy]) {
+  return forces.filter(({mutual, x, y}) => !mutual || (gx || gy ? x * gx + y * gy <= 0 : y > 0));
+}

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Joints as what they are: coil, rod, rope, axle, motor, rail, toothed wheels. */
+
+import {distance, rotated} from '../vectors.js';
+
+/** @import {BodyView} from './body_view.js' */
+/** @import {Camera, Joint, Palette, Point, WorldState} from '../types.js' */
+
+const SIZE = 0.12; // m: half of a symbol
+const LEAST = 4, GREATEST = 14; // px, whatever the zoom
+const COILS = 8, TEETH = 10;
+const RAIL = 1; // m of rail shown to each side where there is no limit
+const TENSE = 10; // weights at which a joint is drawn in the colour of warning
+
+export class JointView {
+  /**
+   * @param {CanvasRenderingContext2D} ctx in pixels of the page
+   * @param {WorldState} world
+   * @param {Camera} camera
+   * @param {Palette} palette
+   * @param {BodyView} bodies
+   */
+  constructor(ctx, world, camera, palette, bodies) {
+    this.ctx = ctx;
+    this.bodies = bodies;
+    this.world = world;
+    this.camera = camera;
+    this.palette = palette;
+    this.size = Math.min(Math.max(SIZE * camera.scale, LEAST), GREATEST);
+  }
+
+  draw() {
+    const {ctx, world, palette} = this;
+    ctx.lineJoin = ctx.lineCap = 'round';
+    const gravity = Math.hypot(...world.scene.gravity) || 9.81;
+    world.scene.joints.forEach((joint, number) => {
+      const weight = gravity * Math.max(...[joint.a, joint.b].map(
+        (row) => world.scene.bodies[row]?.mass ?? 0), 1e-6);
+      const share = (world.frame.forces?.[number] ?? 0) / (TENSE * weight);
+      ctx.strokeStyle = share > 1 ? palette.warn : share > 1 / 3 ? palette.force : palette.ink;
+      ctx.fillStyle = palette.paper;
+      ctx.lineWidth = 2;
+      this.#drawJoint(joint);
+    });
+  }
+
+  /** @param {Joint} joint */
+  #drawJoint(joint) {
+    const {world, size} = this;
+    const p = this.#page(world.place(joint.a, joint.points[0]));
+    const q = this.#page(world.place(joint.b, joint.points[1]));
+    const ground = joint.b < 0;
+    switch (joint.kind) {
+      case 'pin':
+        this.#line([[p[0] - size, p[1] - size], [p[0] + size, p[1] + size]]);
+        this.#line([[p[0] - size, p[1] + size], [p[0] + size, p[1] - size]]);
+        break;
+      case 'motor':
+        this.#arc(p, 1.9 * size, joint.rate ?? 1);
+      // falls through: a motor is an axle that drives
+      case 'axle':
+        if (ground) this.#support(p);
+        // Its circle would cover the links of a chain.
+        if (ground || this.#hasRoom(joint.a) || this.#hasRoom(joint.b)) this.#circle(p, size);
+        this.#dot(p);
+        break;
+      case 'spring':
+        this.#line(coil(p, q, size));
+        this.#ends(p, q, ground);
+        break;
+      case 'rod':
+        this.ctx.lineWidth = size * 0.7;
+        this.#line([p, q]);
+        this.ctx.lineWidth = 2;
+        this.#ends(p, q, ground);
+        break;
+      case 'rope':
+        this.#rope(p, q, joint.rest_length * this.camera.scale);
+        this.#ends(p, q, ground);
+        break;
+      case 'slider':
+        this.#rail(joint, p, q);
+        break;
+      case 'gear':
+        this.#wheel(joint.a);
+        this.#wheel(joint.b);
+        break;
+      default:
+        this.#line([p, q]);
+        this.#ends(p, q, ground);
+    }
+  }
+
+  /** @param {number} row of a body, whether it has room for a symbol */
+  #hasRoom(row) {
+    return this.bodies.appearance(this.world.scene.bodies[row]).inner * this.camera.scale > this.size;
+  }
+
+  /** @param {Point} point [m] */
+  #page(point) {
+    return this.camera.toPage(...point);
+  }
+
+  /** @param {Point[]} points */
+  #line(points) {
+    this.ctx.beginPath();
+    for (const [x, y] of points) this.ctx.lineTo(x, y);
+    this.ctx.stroke();
+  }
+
+  /**
+   * @param {Point} center
+   * @param {number} radius
+   */
+  #circle([x, y], radius) {
+    this.ctx.beginPath();
+    this.ctx.arc(x, y, radius, 0, 2 * Math.PI);
+    this.ctx.fill();
+    this.ctx.stroke();
+  }
+
+  /** @param {Point} center */
+  #dot([x, y]) {
+    this.ctx.fillStyle = this.ctx.strokeStyle;
+    this.ctx.beginPath();
+    this.ctx.arc(x, y, this.size / 3, 0, 2 * Math.PI);
+    this.ctx.fill();
+  }
+
+  /**
+   * @param {Point} p
+   * @param {Point} q
+   * @param {boolean} ground whether q is on the background
+   */
+  #ends(p, q, ground) {
+    this.#circle(p, this.size / 2);
+    if (ground) this.#support(q, p[1]);
+    this.#circle(q, this.size / 2);
+  }
+
+  /**
+   * The support of a joint to the background: a triangle on hatched ground.
+   * @param {Point} point
+   * @param {number} fromY where the joint comes from; the support lies on the other side
+   */
+  #support([x, y], fromY = y - 1) {
+    const s = this.size, up = fromY > y ? -s : s, base = y + 2.2 * up;
+    this.#line([[x, y], [x - 1.3 * s, base], [x + 1.3 * s, base], [x, y]]);
+    for (const dx of [-1.2, -0.3, 0.6, 1.5]) {
+      this.#line([[x + dx * s, base], [x + (dx - 0.6) * s, base + 0.7 * up]]);
+    }
+  }
+
+  /**
+   * @param {Point} center
+   * @param {number} radius
+   * @param {number} rate counter-clockwise where it is positive [rad/s]
+   */
+  #arc([x, y], radius, rate) {
+    const turn = -Math.sign(rate) || -1, end = turn * 1.5 * Math.PI, s = radius / 2.5;
+    this.ctx.beginPath();
+    this.ctx.arc(x, y, radius, 0, end, turn < 0);
+    this.ctx.stroke();
+    const [tx, ty] = [x, y + radius * Math.sin(end)];
+    this.#line([[tx - s, ty - s], [tx, ty], [tx - s, ty + s]]);
+  }
+
+  /**
+   * @param {Point} p
+   * @param {Point} q
+   * @param {number} length [px]
+   */
+  #rope(p, q, length) {
+    const span = distance(p, q);
+    // Depth of a shallow arc of that length: https://en.wikipedia.org/wiki/Parabola#Arc_length
+    const depth = Math.sqrt(3 / 8 * Math.max(0, length - span) * length);
+    this.ctx.beginPath();
+    this.ctx.moveTo(...p);
+    this.ctx.quadraticCurveTo((p[0] + q[0]) / 2, (p[1] + q[1]) / 2 + 2 * depth, ...q);
+    this.ctx.stroke();
+  }
+
+  /**
+   * @param {Joint} joint
+   * @param {Point} p the block
+   * @param {Point} q the seat of the rail
+   */
+  #rail({axis: [ux, uy], b, lower, upper}, p, q) {
+    const yaw = b < 0 ? 0 : this.world.frame.yaw[b], scale = this.camera.scale, s = this.size;
+    const [dx, up] = rotated([ux, uy], yaw), dy = -up;
+    /** @type {(along: number, across: number, from?: Point) => Point} */
+    const at = (along, across, from = q) => [from[0] + along * dx - across * dy,
+      from[1] + along * dy + across * dx];
+    const least = (lower ?? -RAIL) * scale, most = (upper ?? RAIL) * scale;
+    this.#line([at(least, 0), at(most, 0)]);
+    if (lower !== undefined) this.#line([at(least, -s), at(least, s)]);
+    if (upper !== undefined) this.#line([at(most, -s), at(most, s)]);
+    this.ctx.beginPath();
+    for (const [u, v] of [[1.5, 0.8], [-1.5, 0.8], [-1.5, -0.8], [1.5, -0.8]]) {
+      this.ctx.lineTo(...at(u * s, v * s, p));
+    }
+    this.ctx.closePath();
+    this.ctx.fill();
+    this.ctx.stroke();
+  }
+
+  /** @param {number} row a body with teeth, which turn with it */
+  #wheel(row) {
+    if (row < 0) return;
+    const {shape, centroid} = this.world.scene.bodies[row], yaw = this.world.frame.yaw[row];
+    const [x, y] = this.#page(this.world.place(row, centroid));
+    const radius = (shape.radius ?? 2 * SIZE) * 0.7 * this.camera.scale, tooth = Math.PI / TEETH / 2;
+    /** @type {Point[]} */
+    const points = [];
+    for (let i = 0; i <= 4 * TEETH; i++) {
+      const reach = radius * (i & 2 ? 1.1 : 0.9), angle = i * tooth - yaw;
+      points.push([x + reach * Math.cos(angle), y + reach * Math.sin(angle)]);
+    }
+    this.#line(points);
+  }
+}
+
+/**
+ * @param {Point} p
+ * @param {Point} q
+ * @param {number} size
+ * @returns {Point[]} a zigzag with straight ends
+ */
+function coil(p, q, size) {
+  const dx = q[0] - p[0], dy = q[1] - p[1], length = Math.hypot(dx, dy) || 1;
+  /** @type {Point[]} */
+  const points = [p];
+  for (let i = 0; i <= 2 * COILS; i++) {
+    const along = 0.1 + 0.8 * i / (2 * COILS);
+    const across = i % (2 * COILS) ? size * (i % 2 ? 1 : -1) / length : 0;
+    points.push([p[0] + along * dx - across * dy, p[1] + along * dy + across * dx]);
+  }
+  return [...points, q];
+}

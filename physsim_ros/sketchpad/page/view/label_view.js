@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * What is written around bodies: their labels, upright at the centre of mass and as large as the body has room for;
+ * numbers at arrows; and below them the grid in metres, rulers whose steps follow the zoom, and the beams of a laser.
+ */
+
+import {fixed, multiplesOf} from '../rounding.js';
+import {rotated} from '../vectors.js';
+
+/** @import {Camera, Frame, Palette, Point, SceneView} from '../types.js' */
+
+/**
+ * @typedef {{text: string, color: string, tip: Point, along: Point, from?: Point, named?: boolean}} Numbered a number at
+ *   the tip of an arrow [px], in whose direction it is put first; named: it is shown even where others are
+ */
+
+/** @typedef {[number, number, number, number]} Box left, top, right, bottom [px] */
+
+const SMALLEST = 11, LARGEST = 28; // px: size of letters
+const LINE = 1.25, MARGIN = 1.2; // em: height of a line, left free in a body beside and above the text
+const REMEMBERED = 500; // texts whose sizes are known
+
+/** @type {Map<string, [number, number]>} sizes by text [em] */
+const sizes = new Map();
+
+/** @param {SceneView} view */
+export function drawLabels({ctx, camera, palette, world, bodies}) {
+  /** @type {Box[]} */
+  const drawn = [];
+  for (let row = 0; row < world.count; row++) {
+    const body = world.scene.bodies[row], appearance = bodies.appearance(body);
+    if (!body.label || !bodies.isOnPage(world.frame, row, appearance)) continue;
+    const [wide, high] = sizeOf(ctx, body.label), {width = 0, height = 0, thickness} = body.shape;
+    const room = width ? Math.min(width / wide, height / high) :
+      (thickness ?? 2 * appearance.inner) / Math.hypot(wide, high);
+    const size = Math.min(Math.max(room * camera.scale, SMALLEST), LARGEST);
+    const [x, y] = camera.toPage(...world.place(row, body.centroid)), lines = body.label.split('\n');
+    const right = (wide - MARGIN) * size / 2, below = lines.length * LINE * size / 2;
+    const box = /** @type {Box} */ ([x - right, y - below, x + right, y + below]);
+    // Larger than its body, it may lie on others, but not on their labels.
+    if (room * camera.scale < SMALLEST && drawn.some((other) => overlap(box, other))) continue;
+    drawn.push(box);
+    ctx.font = `${size}px system-ui, sans-serif`;
+    ctx.textAlign = 'center';
+    ctx.textBaseline = 'middle';
+    ctx.lineJoin = 'round';
+    ctx.lineWidth = size / 4;
+    ctx.strokeStyle = palette.paper;
+    ctx.fillStyle = palette.ink;
+    lines.forEach((line, i) => {
+      const at = y + (i - (lines.length - 1) / 2) * LINE * size;
+      ctx.strokeText(line, x, at);
+      ctx.fillText(line, x, at);
+    });
+    ctx.textBaseline = 'alphabetic';
+  }
+}
+
+/**
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {string} label
+ * @returns {[number, number]} width and height of a box that it fills [em]
+ */
+export function sizeOf(ctx, label) {
+  let size = sizes.get(label);
+  if (!size) {
+    const lines = label.split('\n');
+    ctx.font = '100px system-ui, sans-serif';
+    size = [Math.max(...lines.map((line) => ctx.measureText(line).width / 100)) + MARGIN, lines.length * LINE + MARGIN];
+    if (sizes.size >= REMEMBERED) sizes.clear();
+    sizes.set(label, size);
+  }
+  return size;
+}
+
+/** @type {(a: Box, b: Box) => boolean} */
+function overlap(a, b) {
+  return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
+}
+
+const FONT = '13px system-ui, sans-serif';
+const HALF = 9, BETWEEN = 6, TIP = 7; // px: half of the height of a number, from a tip to it, half of what a tip takes
+const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; // rad and px of the places that are tried
+
+/**
+ * Write the numbers of arrows where they cover neither each other nor an arrow, as far as there is room: those of
+ * the selected bodies first.
+ * @param {SceneView} view
+ */
+export function drawNumbers(view) {
+  const {ctx, insets, camera, numbers} = view, sides = [insets.left + 4, insets.top + 4, camera.width - insets.right - 4, camera.height - insets.bottom - 4];
+  /** @type {Box[]} */
+  const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [];
+  ctx.font = FONT;
+  for (const {text, color, tip: [x, y], along: [ux, uy], from: [fx, fy] = [x, y], named = false} of [...numbers].sort((a, b) => Number(b.named ?? false) - Number(a.named ?? false))) {
+    // What lies beyond the page has no number at its edge.
+    if (fx < 0 || fy < 0 || fx > camera.width || fy > camera.height) continue;
+    const half = ctx.measureText(text).width / 2;
+    let best = /** @type {?Box} */ (null), least = Infinity;
+    for (const far of FAR) for (const turn of TURNS) {
+      const [dx, dy] = rotated([ux, uy], turn);
+      const cx = clamp(x + dx * (BETWEEN + half + far), sides[0] + half, sides[2] - half);
+      const cy = clamp(y + dy * (BETWEEN + HALF + far), sides[1] + HALF, sides[3] - HALF);
+      const box = /** @type {Box} */ ([cx - half, cy - HALF, cx + half, cy + HALF]);
+      const covers = 4 * written.filter((other) => overlap(box, other)).length + taken.filter((other) => overlap(box, other)).length +
+        numbers.filter(({from: begin, tip: end}) => begin && crosses(box, begin, end)).length;
+      if (covers < least) [best, least] = [box, covers];
+      if (!least) break;
+    }
+    if (!best || least >= 4 && !named) continue;
+    written.push(best);
+    view.write(text, [(best[0] + best[2]) / 2, best[3] - 5], color, 'center');
+  }
+}
+
+/** @type {(value: number, least: number, most: number) => number} */
+function clamp(value, least, most) {
+  return Math.max(Math.min(value, most), least);
+}
+
+/** @type {(box: Box, begin: Point, end: Point) => boolean} whether a line crosses a box, looked at in steps */
+function crosses([left, top, right, bottom], [px, py], [qx, qy]) {
+  for (let share = 0; share <= 1; share += 0.05) {
+    const x = px + share * (qx - px), y = py + share * (qy - py);
+    if (x > left && x < right && y > top && y < bottom) return true;
+  }
+  return false;
+}
+
+const DOT = 4; // px: of a hit
+
+/**
+ * @param {CanvasRenderingContext2D} ctx in pixels of the page
+ * @param {Camera} camera
+ * @param {Palette} palette
+ * @param {{left: number, bottom: number}} insets where the rulers lie [px]
+ */
+export function drawGrid(ctx, camera, palette, insets) {
+  const step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
+  const [left, top] = camera.toWorld(0, 0), [right, bottom] = camera.toWorld(camera.width, camera.height);
+  const pixelX = (/** @type {number} */ x) => Math.round(camera.toPage(x, 0)[0]) + 0.5;
+  const pixelY = (/** @type {number} */ y) => Math.round(camera.toPage(0, y)[1]) + 0.5;
+  ctx.lineWidth = 1;
+  for (const [spacing, color] of /** @type {[number, string][]} */ ([[camera.fineStep, palette.minor], [step, palette.major]])) {
+    ctx.strokeStyle = color;
+    ctx.beginPath();
+    for (const x of multiplesOf(spacing, left, right).map(pixelX)) {
+      ctx.moveTo(x, 0);
+      ctx.lineTo(x, camera.height);
+    }
+    for (const y of multiplesOf(spacing, bottom, top).map(pixelY)) {
+      ctx.moveTo(0, y);
+      ctx.lineTo(camera.width, y);
+    }
+    ctx.stroke();
+  }
+  ctx.fillStyle = palette.faint;
+  ctx.font = '11px system-ui, sans-serif';
+  const low = camera.height - insets.bottom;
+  ctx.textAlign = 'center';
+  for (const value of multiplesOf(step, left, right)) {
+    const x = pixelX(value);
+    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(`${fixed(value, digits)} m`, x, low - 6);
+  }
+  ctx.textAlign = 'left';
+  for (const value of multiplesOf(step, bottom, top)) {
+    const y = pixelY(value);
+    if (y > 20 && y < low - 24) ctx.fillText(`${fixed(value, digits)} m`, insets.left + 6, y - 4);
+  }
+}
+
+/**
+ * @param {CanvasRenderingContext2D} ctx
+ * @param {Camera} camera
+ * @param {Palette} palette
+ * @param {NonNullable<Frame['scan']>} scan
+ */
+export function drawScan(ctx, camera, {accent, force}, {x, y, hit}) {
+  ctx.fillStyle = accent;
+  ctx.globalAlpha = 0.16;
+  ctx.beginPath();
+  for (let i = 0; i < x.length; i++) ctx.lineTo(...camera.toPage(x[i], y[i]));
+  ctx.fill();
+  ctx.globalAlpha = 1;
+  ctx.fillStyle = force;
+  for (let i = 1; i < x.length; i++) {
+    const [px, py] = camera.toPage(x[i], y[i]);
+    if (hit[i]) ctx.fillRect(px - DOT / 2, py - DOT / 2, DOT, DOT);
+  }
+}

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The canvas: grid, bodies, ghost, joints, arrows, and on top what the tool in hand draws. */
+
+import {BodyView} from './body_view.js';
+import {JointView} from './joint_view.js';
+import {drawGrid, drawLabels, drawNumbers, drawScan} from './label_view.js';
+import {readPalette, watchTheme} from '../ui/settings.js';
+
+/** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
+/** @import {Numbered} from './label_view.js' */
+
+const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
+const DASHED = 9; // px: half of the size from which on the outline of a ghost is dashed
+
+export class SceneView {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {WorldState} world
+   * @param {Camera} camera
+   */
+  constructor(canvas, world, camera) {
+    this.canvas = canvas;
+    this.world = world;
+    this.camera = camera;
+    this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', {alpha: false}));
+    this.palette = readPalette();
+    this.bodies = new BodyView(this.ctx, camera);
+    /** @type {((view: SceneView) => void)[]} */
+    this.overlays = [];
+    /** @type {Numbered[]} of the arrows that were drawn */
+    this.numbers = [];
+    this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
+    this.ratio = 1;
+    this.dirty = true;
+    this.drawn = -1; // version of the world
+    new ResizeObserver(() => this.#resize()).observe(canvas);
+    watchTheme(() => this.#repaint());
+    this.#resize();
+    const loop = () => {
+      if (this.dirty || this.drawn !== world.version) this.#draw();
+      requestAnimationFrame(loop);
+    };
+    requestAnimationFrame(loop);
+  }
+
+  #repaint() {
+    this.palette = readPalette();
+    this.bodies.repaint(this.palette);
+    this.dirty = true;
+  }
+
+  #resize() {
+    this.ratio = this.bodies.ratio = devicePixelRatio;
+    this.camera.width = this.canvas.clientWidth;
+    this.camera.height = this.canvas.clientHeight;
+    this.canvas.width = Math.round(this.camera.width * this.ratio);
+    this.canvas.height = Math.round(this.camera.height * this.ratio);
+    this.dirty = true;
+  }
+
+  #draw() {
+    const {ctx, camera, palette, world} = this;
+    this.dirty = false;
+    this.drawn = world.version;
+    this.#toPixels();
+    ctx.fillStyle = palette.paper;
+    ctx.fillRect(0, 0, camera.width, camera.height);
+    drawGrid(ctx, camera, palette, this.insets);
+    this.#drawBounds();
+    if (world.frame.scan) drawScan(ctx, camera, palette, world.frame.scan);
+    for (let row = 0; row < world.count; row++) this.bodies.draw(world.frame, row, world.scene.bodies[row]);
+    if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
+    this.#toPixels();
+    if (world.count) new JointView(ctx, world, camera, palette, this.bodies).draw();
+    drawLabels(this);
+    this.#drawHands();
+    this.numbers = [];
+    for (const overlay of this.overlays) overlay(this);
+    drawNumbers(this);
+  }
+
+  /** @param {Numbered} number that is written when all arrows are drawn */
+  number(number) {
+    this.numbers.push(number);
+  }
+
+  #toPixels() {
+    this.ctx.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+  }
+
+  #drawBounds() {
+    const {ctx, camera, palette} = this, {bounds} = this.world.scene;
+    if (!bounds.length) return;
+    const [x, y] = camera.toPage(bounds[0], bounds[3]);
+    ctx.strokeStyle = palette.ink;
+    ctx.lineWidth = 2;
+    ctx.strokeRect(x, y, (bounds[2] - bounds[0]) * camera.scale, (bounds[3] - bounds[1]) * camera.scale);
+  }
+
+  /**
+   * Dashed outlines over the bodies, so that they are seen where both courses agree, too; in the colour of
+   * the ring on the time line that goes back to their course.
+   * @param {Frame} frame
+   * @param {Body[]} bodies
+   */
+  #drawGhost(frame, bodies) {
+    const {ctx, camera, palette} = this, pixel = 1 / camera.scale;
+    bodies.forEach((body, row) => {
+      if (body.anchored || row >= frame.x.length) return;
+      const appearance = this.bodies.appearance(body);
+      if (!this.bodies.isOnPage(frame, row, appearance)) return;
+      this.bodies.setTransform(frame, row);
+      const small = appearance.radius * camera.scale < DASHED;
+      ctx.setLineDash(small ? [] : [5 * pixel, 5 * pixel]);
+      if (!small) {
+        ctx.strokeStyle = palette.paper;
+        ctx.lineWidth = 3.5 * pixel;
+        ctx.stroke(appearance.path);
+      }
+      ctx.strokeStyle = palette.force;
+      ctx.lineWidth = (small ? 1.2 : 1.8) * pixel;
+      ctx.stroke(appearance.path);
+    });
+    ctx.setLineDash([]);
+    this.#toPixels();
+  }
+
+  #drawHands() {
+    const {palette, world} = this, {hands} = world.frame;
+    for (let i = 0; hands && i < hands.x.length; i++) {
+      this.line([[hands.x[i], hands.y[i]], [hands.toX[i], hands.toY[i]]], palette.accent, [2, 4]);
+      this.ring([hands.x[i], hands.y[i]], 4, palette.accent);
+    }
+  }
+
+  /**
+   * @param {Point[]} points [m]
+   * @param {string} color
+   * @param {number[]} dash [px]
+   */
+  line(points, color, dash = []) {
+    const {ctx} = this;
+    ctx.strokeStyle = color;
+    ctx.lineWidth = 2.5;
+    ctx.lineCap = ctx.lineJoin = 'round';
+    ctx.setLineDash(dash);
+    ctx.beginPath();
+    for (const point of points) ctx.lineTo(...this.camera.toPage(...point));
+    ctx.stroke();
+    ctx.setLineDash([]);
+  }
+
+  /**
+   * @param {Point} center [m]
+   * @param {number} radius [px]
+   * @param {string} color
+   */
+  ring(center, radius, color) {
+    const {ctx} = this, [x, y] = this.camera.toPage(...center);
+    ctx.strokeStyle = color;
+    ctx.lineWidth = 2.5;
+    ctx.beginPath();
+    ctx.arc(x, y, radius, 0, 2 * Math.PI);
+    ctx.stroke();
+  }
+
+  /**
+   * @param {Point} from [px]
+   * @param {Point} to [px]
+   * @param {string} color
+   * @param {{width?: number, cut?: boolean}} how  cut: as long parts are cut in drawings
+   */
+  arrow([px, py], [qx, qy], color, {width = 2.5, cut = false} = {}) {
+    const {ctx} = this, length = Math.hypot(qx - px, qy - py), head = Math.min(HEAD + width, length);
+    if (!(length > 3)) return;
+    const ux = (qx - px) / length, uy = (qy - py) / length;
+    const at = (/** @type {number} */ along, /** @type {number} */ across) =>
+      /** @type {Point} */ ([px + ux * along - uy * across, py + uy * along + ux * across]);
+    ctx.lineCap = 'butt';
+    this.onRim(color, width, (rim) => {
+      ctx.beginPath();
+      ctx.moveTo(px, py);
+      ctx.lineTo(...at(length - head / 2, 0));
+      ctx.stroke();
+      ctx.beginPath();
+      for (const side of [1, -1]) ctx.lineTo(...at(length - head - rim, side * (head * 0.45 + rim)));
+      ctx.lineTo(...at(length + rim, 0));
+      ctx.fill();
+    });
+    if (!cut) return;
+    ctx.strokeStyle = this.palette.paper;
+    ctx.lineWidth = 3;
+    for (const along of [0.45, 0.52]) {
+      ctx.beginPath();
+      ctx.moveTo(...at(along * length - 3, -6));
+      ctx.lineTo(...at(along * length + 3, 6));
+      ctx.stroke();
+    }
+  }
+
+  /**
+   * Draw twice, first on a rim of paper, so that it is seen on bodies of any colour.
+   * @param {string} color
+   * @param {number} width of lines [px]
+   * @param {(rim: number) => void} draw  rim: by which it is larger on each side [px]
+   */
+  onRim(color, width, draw) {
+    const {ctx} = this;
+    for (const [style, rim] of /** @type {[string, number][]} */ ([[this.palette.paper, RIM], [color, 0]])) {
+      ctx.strokeStyle = ctx.fillStyle = style;
+      ctx.lineWidth = width + 2 * rim;
+      draw(rim);
+    }
+  }
+
+  /**
+   * @param {string} text on a rim of paper
+   * @param {Point} at its begin, or its middle [px]; what begins on the page ends there, too
+   * @param {string} color
+   * @param {CanvasTextAlign} align
+   */
+  write(text, [x, y], color, align = 'left') {
+    const {ctx, camera} = this;
+    ctx.font = '13px system-ui, sans-serif';
+    ctx.textAlign = align;
+    if (align === 'left' && x < camera.width) x = Math.min(x, camera.width - ctx.measureText(text).width - 4);
+    ctx.lineJoin = 'round';
+    ctx.lineWidth = 4;
+    ctx.strokeStyle = this.palette.paper;
+    ctx.strokeText(text, x, y);
+    ctx.fillStyle = color;
+    ctx.fillText(text, x, y);
+  }
+
+  /**
+   * @param {number} row of a body that is selected or pointed at
+   * @param {string} color
+   * @param {Point} by displacement [m]
+   * @param {{turn: number, scale: number}} about  its centre of mass [rad], and its size
+   */
+  outline(row, color, by = [0, 0], {turn, scale} = {turn: 0, scale: 1}) {
+    const {ctx, camera, world} = this, body = world.scene.bodies[row];
+    this.bodies.setTransform(world.frame, row, by);
+    const [x, y] = body.centroid;
+    ctx.translate(x, y);
+    ctx.rotate(turn);
+    ctx.scale(scale, scale);
+    ctx.translate(-x, -y);
+    ctx.strokeStyle = color;
+    ctx.lineWidth = (body.shape.kind === 'chain' ? body.shape.thickness : 0) + 3 / camera.scale / scale;
+    ctx.stroke(this.bodies.appearance(body).path);
+    this.#toPixels();
+  }
+}
