@@ -50,12 +50,13 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     """
     pieces: dict[str, list[Shape]] = {}
     uncut = ''
-    for name in scene.names:
-        shape = scene.body(name).shape
-        found = _pieces(name, start, end, scene)
-        if found == [shape]:
+    middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    # In the order of spawning.
+    for name in reversed(scene.bodies_at(middle, math.dist(start, end) / 2)):
+        body, found = scene.body(name), _pieces(name, start, end, scene)
+        if found == [body.shape]:
             continue
-        if scene.body(name).robot is not None or scene.body(name).actor is not None:
+        if body.robot is not None or body.actor is not None:
             uncut = name
         else:
             pieces[name] = found
