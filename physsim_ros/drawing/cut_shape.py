@@ -23,6 +23,7 @@ import itertools
 import math
 
 import numpy as np
+from physsim_ros.drawing.strokes.joining import connected
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import BadSize
 from physsim_ros.model.shapes import (
@@ -184,8 +185,8 @@ def _kept_together(
     :param owners: of each piece the number of its part
     """
     areas = [abs(signed_area(each)) for each in pieces]
-    together = _components(_joined(pieces, start, end))
-    before = _components(_touching(parts))
+    together = connected(_joined(pieces, start, end))
+    before = connected(_touching(parts))
     apart: list[list[int]] = []
     untouched: list[int] = []
     for component in before:
@@ -198,20 +199,6 @@ def _kept_together(
         return [list(range(len(pieces)))]
     max(apart, key=lambda body: sum(areas[each] for each in body)).extend(untouched)
     return apart
-
-
-def _components(joined: Flags) -> list[list[int]]:
-    """Return the connected components of a symmetric relation, (n, n) bool."""
-    left = np.ones(len(joined), np.bool_)
-    found = []
-    while left.any():
-        reached = np.arange(len(joined)) == int(left.argmax())
-        count = 0
-        while count < (count := int(np.count_nonzero(reached))):
-            reached |= joined[reached].any(axis=0)
-        left &= ~reached
-        found.append(np.flatnonzero(reached).tolist())
-    return found
 
 
 def _joined(pieces: list[Floats], start: Floats, end: Floats) -> Flags:

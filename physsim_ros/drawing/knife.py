@@ -21,6 +21,7 @@ from typing import Any
 from physsim_ros.drawing import body_requests
 from physsim_ros.drawing.cut_shape import cut_shape
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
+from physsim_ros.drawing.strokes.bodies_under import nearest_points
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
@@ -28,7 +29,7 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import ChangeBody, Cut, Join, Spawn, Unjoin
 from physsim_ros.model.scene import Joint
-from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece, Shape
+from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import Point, rotated
 from physsim_ros.simulation.world.joint_requests import drawn_points
 
@@ -49,12 +50,13 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     """
     pieces: dict[str, list[Shape]] = {}
     uncut = ''
-    for name in scene.names:
-        shape = scene.body(name).shape
-        found = _pieces(name, start, end, scene)
-        if found == [shape]:
+    middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
+    # In the order of spawning.
+    for name in reversed(scene.bodies_at(middle, math.dist(start, end) / 2)):
+        body, found = scene.body(name), _pieces(name, start, end, scene)
+        if found == [body.shape]:
             continue
-        if scene.body(name).robot is not None or scene.body(name).actor is not None:
+        if body.robot is not None or body.actor is not None:
             uncut = name
         else:
             pieces[name] = found
@@ -181,19 +183,10 @@ def _piece_at(point: Point, shapes: dict[str, Shape]) -> str:
         pieces = shapes[name].form.pieces
         if contains(pieces, *point):
             return 0.0
-        return min(math.dist(point, corner) for piece in pieces for corner in _corners(piece))
+        near = (each for piece in pieces for each in nearest_points(piece, point))
+        return min(math.dist(point, each) for each in near)
 
     return min(shapes, key=distance)
-
-
-def _corners(piece: Piece) -> tuple[Point, ...]:
-    match piece:
-        case Circle(center):
-            return (center,)
-        case Capsule(start, end):
-            return start, end
-        case Convex(vertices):
-            return vertices
 
 
 def _moved_joint(

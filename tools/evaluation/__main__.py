@@ -12,6 +12,7 @@ arrows of a third kind with which nothing was chosen.
 from __future__ import annotations
 
 from collections import Counter, defaultdict
+import itertools
 import statistics
 import sys
 from test.drawing.machines import LAWS, Machine, strokes_of
@@ -26,13 +27,53 @@ from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.errors import Refusal
 
 from .people import drawn_by, PEOPLE
-from .reliability import Reliability
 from .scenes import faulty_scenes, MEANINGS, Scene, scenes
 from .several import show_several
 
 CLOSED = ('disc', 'rectangle', 'polygon')
 SETTINGS = DrawingSettings()
 _REFUSED = 'refused'
+# Bounds of the classes of confidence.
+_BOUNDS = (0.0, 0.5, 0.7, 0.9, 0.95, 0.99, 1.0)
+
+
+class Reliability:
+    """
+    Reliability of confidence: of the readings said to be so sure, how many are right.
+
+    The area under the curve (AUC) is the chance that a right reading has more confidence than a
+    wrong one.
+    """
+
+    def __init__(self) -> None:
+        self._confidences: list[float] = []
+        self._right: list[bool] = []
+
+    def add(self, confidence: float, *, right: bool) -> None:
+        """Add a reading."""
+        self._confidences.append(confidence)
+        self._right.append(right)
+
+    def show(self, where: str) -> None:
+        """Print a row for each class of confidence, and the area under the curve."""
+        confidences, right = np.array(self._confidences), np.array(self._right)
+        print(f'\n{f"{where}, said to be sure by":<34}{"mean":>8}{"right":>8}')
+        for low, high in itertools.pairwise(_BOUNDS):
+            rows = (confidences > low) & (confidences <= high)
+            if rows.any():
+                name = f'{low:.0%} to {high:.0%}'
+                said, true = confidences[rows].mean(), right[rows].mean()
+                print(f'{name:<34}{said:8.1%}{true:8.1%} of {rows.sum()}')
+        print(f'{"AUC of right against wrong":<34}{self.auc():8.2f}\n')
+
+    def auc(self) -> float:
+        """Return the area under the curve, 0 .. 1; ties count half."""
+        confidences, right = np.array(self._confidences), np.array(self._right)
+        wrong, well = np.sort(confidences[~right]), confidences[right]
+        if not len(wrong) or not len(well):
+            return 1.0
+        below = np.searchsorted(wrong, well, 'left'), np.searchsorted(wrong, well, 'right')
+        return float(np.mean(below) / len(wrong))
 
 
 class Tally:

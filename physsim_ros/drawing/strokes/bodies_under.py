@@ -186,11 +186,11 @@ def _surface(point: Point, name: str, scene: SceneQuery) -> Point:
     """Return the point of a body that is nearest to a point outside it."""
     local = scene.local(name, point)
     pieces = scene.body(name).shape.form.pieces
-    nearest = (near for piece in pieces for near in _nearest(piece, local))
+    nearest = (near for piece in pieces for near in nearest_points(piece, local))
     return scene.in_world(name, min(nearest, key=lambda each: math.dist(each, local)))
 
 
-def _nearest(piece: Piece, point: Point) -> Iterator[Point]:
+def nearest_points(piece: Piece, point: Point) -> Iterator[Point]:
     """Yield points of a piece, the one nearest to a point outside it among them."""
     match piece:
         case Circle(center, radius):

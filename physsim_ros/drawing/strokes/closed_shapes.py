@@ -66,19 +66,19 @@ def forms(features: Features, plain: float) -> Iterator[Form]:
     closed = plain * features.closure * features.swings.absence
     if stroke.outline is None or closed < LEAST:
         return
-    shapes = list(_shapes(stroke.outline, stroke.gap))
+    shapes = list(_shapes(stroke.outline))
     total = sum(shape.weight for shape in shapes)
     if total >= LEAST:
         for shape in shapes:
             yield replace(shape, weight=closed * shape.weight / total)
 
 
-def _shapes(outline: Floats, gap: float) -> Iterator[Form]:
+def _shapes(outline: Floats) -> Iterator[Form]:
     """Yield the shapes that an outline may have, with relative weights."""
     ellipse = fitting.ellipse(outline)
     error, aspect = ellipse.error, ellipse.aspect
     wide, narrowed = widened(outline)
-    at = corner_detection.corners(wide, closed=True, gap=gap)
+    at = corner_detection.corners(wide, closed=True)
     found = narrowed(corner_detection.vertices(wide, at, closed=True))
     size = size_of(wide)
     residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0
@@ -87,7 +87,7 @@ def _shapes(outline: Floats, gap: float) -> Iterator[Form]:
     off /= size
     sides = min(residual, off)
     edgeless = _edgelessness(sides=sides, error=error, aspect=aspect, bulge=_bulge(wide, at))
-    circle = edgeless * _winds_once(outline - ellipse.center) * falls(error, 0.1, 0.01)
+    circle = edgeless * falls(error, 0.1, 0.01)
     sided = (1.0 - edgeless) * falls(residual, 0.022, 0.003)
     circular = rises(aspect, _CIRCULAR, 0.02)
     rim = ellipse.center + np.array((ellipse.radius, 0.0))
@@ -223,9 +223,3 @@ def squareness(found: Floats) -> float:
     # The direction of a short side is less exact than its ends.
     slant = float(slants.mean()) * min(1.0, float(lengths.min() / lengths.max()) / 0.3)
     return falls(off, 0.115, 0.012) * falls(slant, 0.3, 0.024)
-
-
-def _winds_once(away: Floats) -> float:
-    """Return how well the winding number of a closed polyline fits ±1, 0 .. 1."""
-    turn = float(angles(away, np.roll(away, -1, axis=0)).sum()) / (2 * math.pi)
-    return falls(abs(abs(turn) - 1.0), 0.4, 0.05)

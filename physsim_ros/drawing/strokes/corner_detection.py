@@ -26,8 +26,6 @@ from physsim_ros.model.transform import cross, dots, norms, Point
 SMOOTHING, ARM = 1.5, 5
 # The least turn of a candidate, and the least turn of a corner [rad].
 CANDIDATE_TURN, CORNER_TURN = 0.25, 0.42
-# The greatest turn at which the lines of two sides are intersected [rad].
-SHARPEST = 2.6
 # The greatest number of candidates: the cost of the search grows with its square.
 CANDIDATES = 28
 # Cost of a corner: the decrease of the logarithm of the residual (mean square distance) that is
@@ -40,17 +38,13 @@ MOST_SIDES = 20
 ASTRAY = 0.75
 # The greatest length of an end that bends aside by mistake, in shares of the length.
 STUB = 0.07
-# A side that only bridges the gap of a closed stroke: its greatest distance from the gap; the
-# greatest overlap of the ends, both in shares of the length.
-SEAM, SLIP = 0.03, 0.045
 
 
-def corners(points: Floats, *, closed: bool, gap: float = 0.0) -> list[int]:
+def corners(points: Floats, *, closed: bool) -> list[int]:
     """
     Return the indices of the corners; the ends of an open polyline are corners.
 
     :param points: (n, 2) float64: evenly spaced; of a closed polyline, the first not repeated
-    :param gap: of a closed polyline, the undrawn share of its length, at its end
     """
     count = len(points)
     smooth = smoothed(points, SMOOTHING, closed=closed)
@@ -67,8 +61,7 @@ def corners(points: Floats, *, closed: bool, gap: float = 0.0) -> list[int]:
     path = np.roll(smooth, -start, axis=0)
     opened = np.array([*np.sort((places - start) % count), count])
     chosen = _corners_among(np.vstack((path, path[:1])), opened, WOBBLE_CLOSED)
-    at = sorted((each + int(start)) % count for each in chosen[:-1])
-    return _without_seam(smooth, at, gap)
+    return sorted((each + int(start)) % count for each in chosen[:-1])
 
 
 def vertices(points: Floats, at: list[int], *, closed: bool) -> Floats:
@@ -211,24 +204,6 @@ def _turn(a: Point, b: Point, c: Point) -> float:
     """Return the turning angle at b of the polyline a, b, c, 0 .. π [rad]."""
     (ux, uy), (vx, vy) = (b[0] - a[0], b[1] - a[1]), (c[0] - b[0], c[1] - b[1])
     return abs(math.atan2(ux * vy - uy * vx, ux * vx + uy * vy))
-
-
-def _without_seam(path: Floats, at: list[int], gap: float) -> list[int]:
-    """Drop the corners of a side that only bridges the gap of a closed stroke."""
-    count = len(path)
-    near = round(SEAM * count)
-    # The gap is at the end; a side that bridges it begins there and ends at the beginning.
-    bridge = [each for each in at if each >= count * (1.0 - gap / (1.0 + gap)) - near]
-    first, last = bridge[0] if bridge else at[0], at[0] if bridge else at[-1]
-    if len(at) < 4 or first == last or last > near:
-        return at
-    kept = [each for each in at if each > last and each < first]
-    into, out = path[first] - path[kept[-1]], path[kept[0]] - path[last]
-    turn = abs(float(angles(into, out)))
-    if turn > SHARPEST or (turn < CORNER_TURN and gap > SLIP):
-        # Its neighbours are nearly parallel, so that they do not meet: the side was drawn.
-        return at
-    return [*kept, first] if turn > CORNER_TURN else kept
 
 
 def _errors(path: Floats, places: NDArray[np.intp]) -> NDArray[np.float64]:

@@ -22,8 +22,8 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.geometry import COUNT, size_of
 from physsim_ros.drawing.strokes.joining import (
+    connected,
     few_points,
-    is_connected,
     joined_strokes,
     touch,
     touching,
@@ -227,7 +227,7 @@ def _groups(
     meeting = touching([stroke for each in group for stroke in each.strokes], settings.snap)
     for first in range(len(group) - 1):
         before = sum(len(each.strokes) for each in group[:first])
-        if is_connected(meeting[before:, before:]):
+        if len(connected(meeting[before:, before:])) == 1:
             yield group[first:]
 
 

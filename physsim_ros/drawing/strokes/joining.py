@@ -6,8 +6,8 @@ Several strokes as one: which touch each other, and their order as if the pen ha
 
 Law: the shape of a figure does not depend on the order and the directions of its strokes. A shaft
 and a head are joined as an arrow in one stroke, whose pen returns from the first barb to the tip.
-Other strokes are joined in the order and the directions with the shortest way between them. Of
-more than four strokes, each is followed by the one that begins nearest to its end.
+Of other strokes each is followed by the one that begins nearest to its end; the first one is that
+with the shortest ways between all.
 """
 
 from __future__ import annotations
@@ -33,8 +33,6 @@ _BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
 # length), the greatest angle between barbs [rad], the least length of the shorter barb by that of
 # the longer, and its greatest length and the greatest gap before the tip, in lengths of the shaft.
 _STRAIGHT, _WIDEST, _BALANCE, _LONGEST, _NECK = 0.8, 2.3, 0.35, 1.1, 0.35
-# The greatest number of strokes of which all orders are compared: 4! · 2⁴ = 384.
-_COMPARED = 4
 # The number of points along the way between two strokes, which is then no jump of the pen.
 _BETWEEN = 32
 
@@ -53,12 +51,14 @@ def joined_strokes(strokes: Sequence[Floats]) -> Floats:
         arrow = _arrow(*paths) or _arrow(*reversed(paths))
         if arrow is not None:
             return np.vstack(arrow)
-    if len(paths) <= _COMPARED:
-        ordered = min(_orders(paths), key=_way_between)
-    else:
-        ordered = min((_nearest_next(paths, first) for first in _ways(paths)), key=_way_between)
-    ways = [np.linspace(a[-1], b[0], _BETWEEN + 2)[1:-1] for a, b in itertools.pairwise(ordered)]
-    return np.vstack([ordered[0], *itertools.chain(*zip(ways, ordered[1:], strict=True))])
+    ways = [
+        _nearest_next(first, paths[:at] + paths[slice(at + 1, None)])
+        for at, path in enumerate(paths)
+        for first in (path, path[::-1])
+    ]
+    ordered = min(ways, key=_way_between)
+    gaps = [np.linspace(a[-1], b[0], _BETWEEN + 2)[1:-1] for a, b in itertools.pairwise(ordered)]
+    return np.vstack([ordered[0], *itertools.chain(*zip(gaps, ordered[1:], strict=True))])
 
 
 def _arrow(shaft: Floats, head: Floats) -> list[Floats] | None:
@@ -81,36 +81,15 @@ def _arrow(shaft: Floats, head: Floats) -> list[Floats] | None:
     return [shaft, neck, head[tip::-1], head[1:]]
 
 
-def _orders(paths: Sequence[Floats]) -> list[tuple[Floats, ...]]:
-    """Return the paths in all orders and directions, the first path forward or backward."""
-    both = [(path, path[::-1]) for path in paths]
-    return [
-        directed
-        for order in itertools.permutations(both)
-        for directed in itertools.product(*order)
-    ]
-
-
-def _ways(paths: Sequence[Floats]) -> list[tuple[int, bool]]:
-    """Return each path, by its index, forward and backward."""
-    return [(index, backward) for index in range(len(paths)) for backward in (False, True)]
-
-
-def _nearest_next(paths: Sequence[Floats], first: tuple[int, bool]) -> tuple[Floats, ...]:
-    """Return the paths in the order in which each begins nearest to the end of the last one."""
-    index, backward = first
-    rest = dict(enumerate(paths))
-    path = rest.pop(index)
-    ordered = [path[::-1] if backward else path]
-    while rest:
-        end = ordered[-1][-1]
-        index, at = min(
-            ((each, at) for each in rest for at in (0, -1)),
-            key=lambda start: math.dist(rest[start[0]][start[1]], end),
-        )
-        path = rest.pop(index)
-        ordered.append(path if at == 0 else path[::-1])
-    return tuple(ordered)
+def _nearest_next(first: Floats, others: Sequence[Floats]) -> list[Floats]:
+    """Return paths from a first one on, each the one that begins nearest to the end before it."""
+    ordered, left = [first], [way for path in others for way in (path, path[::-1])]
+    while left:
+        at = min(range(len(left)), key=lambda way: math.dist(left[way][0], ordered[-1][-1]))
+        ordered.append(left[at])
+        # Both directions of that path are done.
+        del left[slice(at - at % 2, at - at % 2 + 2)]
+    return ordered
 
 
 def _way_between(paths: Sequence[Floats]) -> float:
@@ -131,12 +110,17 @@ def touching(strokes: Sequence[Floats], snap: float) -> Flags:
     return touching | touching.T
 
 
-def is_connected(touching: Flags) -> bool:
-    """Return whether each stroke touches another one, directly or by others."""
-    reached = np.arange(len(touching)) == 0
-    for _ in range(len(touching)):
-        reached |= touching[reached].any(axis=0)
-    return bool(reached.all())
+def connected(touching: Flags) -> list[list[int]]:
+    """Return the numbers of those that touch each other, directly or by others, by group."""
+    left = np.ones(len(touching), np.bool_)
+    groups = []
+    while left.any():
+        reached = np.arange(len(left)) == int(left.argmax())
+        while (further := touching[reached].any(axis=0) & ~reached).any():
+            reached |= further
+        left &= ~reached
+        groups.append(np.flatnonzero(reached).tolist())
+    return groups
 
 
 def touch(one: Floats, other: Floats, size: float, snap: float) -> bool:

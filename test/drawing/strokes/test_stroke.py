@@ -33,7 +33,7 @@ def found(samples: Floats) -> Floats:
     drawn = resample_stroke(samples)
     assert drawn.outline is not None
     outline, narrowed = widened(drawn.outline)
-    at = corners(outline, closed=True, gap=drawn.gap)
+    at = corners(outline, closed=True)
     made = narrowed(vertices(outline, at, closed=True))
     middle = made.mean(axis=0)
     angle = np.arctan2(*(made - middle).T[::-1])
@@ -82,7 +82,7 @@ def test_an_end_that_was_drawn_twice_is_cut_off() -> None:
 
 
 def test_ends_that_do_not_meet_are_joined_where_the_sides_would() -> None:
-    unclosed = np.array([(0.3, 0), (2, 0), (2, 2), (0, 2), (0, 0.3)])
+    unclosed = np.array([(0.15, 0), (2, 0), (2, 2), (0, 2), (0, 0.15)])
 
     assert found(along(unclosed, 150)) == pytest.approx(
         np.array([(0, 0), (2, 0), (2, 2), (0, 2)]), abs=0.05

@@ -10,8 +10,8 @@ outcomes that several forms have in `outcomes`.
 """
 
 from physsim_ros.drawing.strokes.signs.arrow import ARROW
-from physsim_ros.drawing.strokes.signs.cross import CROSS
 from physsim_ros.drawing.strokes.signs.round_arrow import ROUND_ARROW
 from physsim_ros.drawing.strokes.signs.swings import SCRIBBLE, ZIGZAG
+from physsim_ros.drawing.strokes.signs.x import CROSS
 
 SIGNS = (ZIGZAG, SCRIBBLE, CROSS, ARROW, ROUND_ARROW)
