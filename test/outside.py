@@ -51,6 +51,23 @@ def installed_program(name: str) -> str | None:
     return shutil.which(name, path=path)
 
 
+def run_python(
+    *words: object, cwd: Path = ROOT, timeout: float = 3 * PATIENCE, **variables: str
+) -> str:
+    """Run Python with arguments and environment variables to its end; return what it prints."""
+    done = subprocess.run(
+        [sys.executable, *map(str, words)],
+        cwd=cwd,
+        env=os.environ | variables,
+        capture_output=True,
+        text=True,
+        timeout=timeout,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done.stdout
+
+
 class Program:
     """A process and the lines that it prints."""
 

@@ -7,15 +7,13 @@ from __future__ import annotations
 
 import ast
 import importlib
-from pathlib import Path
 import re
-import subprocess
-import sys
 
 import physsim_ros
 import pytest
 
-ROOT = Path(__file__).parents[1]
+from .outside import ROOT, run_python
+
 PAGE = (ROOT / 'docs' / 'python.md').read_text(encoding='utf-8')
 # Says which libraries a program has imported.
 IMPORTED = """
@@ -25,26 +23,12 @@ print('IMPORTED', sorted(heads & {'numpy', 'pymunk', 'rclpy', 'rerun', 'tornado'
 """
 
 
-def run(code: str) -> str:
-    done = subprocess.run(
-        [sys.executable, '-c', code],
-        cwd=ROOT,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=100,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout
-    return done.stdout
-
-
 def test_the_page_prints_what_it_says_and_imports_no_ros() -> None:
     programs = re.findall(r'^```python\n(.*?)^```', PAGE, re.MULTILINE | re.DOTALL)
     printed = re.findall(r'^```text\n(.*?)^```', PAGE, re.MULTILINE | re.DOTALL)
     assert len(programs) == len(printed)
 
-    told, imported = run('\n'.join(programs) + IMPORTED).split('IMPORTED ')
+    told, imported = run_python('-c', '\n'.join(programs) + IMPORTED).split('IMPORTED ')
     assert told == ''.join(printed)
     assert ast.literal_eval(imported) == ['numpy', 'pymunk', 'yaml']
 
@@ -56,7 +40,7 @@ def test_the_page_names_all_names() -> None:
 
 
 def test_the_package_imports_nothing_before_a_name_is_used() -> None:
-    assert run('import physsim_ros; dir(physsim_ros)' + IMPORTED) == 'IMPORTED []\n'
+    assert run_python('-c', 'import physsim_ros; dir(physsim_ros)' + IMPORTED) == 'IMPORTED []\n'
 
 
 def test_all_names_are_listed_and_found_and_typed_as_they_are_imported() -> None:

@@ -6,18 +6,16 @@
 from __future__ import annotations
 
 from importlib.util import find_spec
-import os
 from pathlib import Path
 import re
 import runpy
-import subprocess
-import sys
 
 import numpy as np
 from PIL import Image
 import pytest
 
-ROOT = Path(__file__).parents[1]
+from .outside import ROOT, run_python
+
 PAGE = (ROOT / 'docs' / 'learning.md').read_text(encoding='utf-8')
 TUTORIAL = ROOT / 'docs' / 'tutorials' / 'learn_to_follow_a_wall.md'
 EXAMPLE = ROOT / 'examples' / 'learn_wall_following.py'
@@ -28,18 +26,7 @@ needs_gymnasium = pytest.mark.skipif(not find_spec('gymnasium'), reason='needs g
 
 def run(folder: Path, program: str) -> str:
     (folder / 'program.py').write_text(program, encoding='utf-8')
-    done = subprocess.run(
-        [sys.executable, 'program.py'],
-        cwd=folder,
-        env={**os.environ, 'PYTHONPATH': str(ROOT)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout
-    return done.stdout
+    return run_python('program.py', cwd=folder, PYTHONPATH=str(ROOT))
 
 
 @needs_gymnasium

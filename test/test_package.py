@@ -8,20 +8,15 @@ Everything happens in a copy of the source tree below pytest's temporary directo
 """
 
 import ast
-from contextlib import contextmanager
 from importlib.metadata import Distribution, version
 from importlib.util import find_spec
 import os
 from pathlib import Path
-import queue
 import re
 import shutil
-import signal
 import subprocess
 import sys
 import tarfile
-import threading
-import time
 from xml.etree import ElementTree as ET
 from zipfile import ZipFile
 
@@ -31,6 +26,7 @@ from packaging.utils import parse_wheel_filename
 from packaging.version import Version
 import pytest
 
+from .outside import Program
 from .source_tree import copy_source, ROOT, zig_cache
 from .worlds.digests import digest_at, scene
 
@@ -46,7 +42,6 @@ SHIPPED = [
 BUILD = 300
 TEST = 200
 READY = 100
-EXIT = 60
 
 
 def _run(*command, **options):
@@ -90,41 +85,18 @@ def overlay(workspace, colcon):
     return dict(line.split('=', 1) for line in printed.split('\0') if line)
 
 
-@contextmanager
-def _running(*command, **options):
-    """Start a program, and yield a queue of its lines, then None; kill it at the end."""
-    lines = queue.SimpleQueue()
-
-    def read():
-        for line in process.stdout:
-            lines.put(line)
-        lines.put(None)
-
-    with subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options
-    ) as process:
-        reader = threading.Thread(target=read, daemon=True)
-        reader.start()
-        try:
-            yield process, lines
-        finally:
-            process.kill()
-            reader.join()
-
-
-def _wait_for(word, lines, timeout):
-    """Return the first line with that word; fail with all lines until then."""
-    seen = []
-    deadline = time.monotonic() + timeout
-    while not seen or word not in seen[-1]:
-        try:
-            line = lines.get(timeout=max(deadline - time.monotonic(), 0))
-        except queue.Empty:
-            pytest.fail(f'no {word!r} within {timeout} s of:\n{"".join(seen)}')
-        if line is None:
-            pytest.fail(f'ended without {word!r}:\n{"".join(seen)}')
-        seen.append(line)
-    return seen[-1]
+def _assert_runs_until_interrupted(executable, environment, folder):
+    """Start a world by an executable, elsewhere than in the source tree, and interrupt it."""
+    alone = {
+        # A domain of its own below 102, where the ports of DDS stay clear of ephemeral ones.
+        'ROS_DOMAIN_ID': str(1 + os.getpid() % 101),
+        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
+        'ROS_LOG_DIR': str(folder),
+    }
+    words = ['--ros-args', '-p', 'viewer:=none', '-p', 'world_file:=demo']
+    with Program(executable, *words, env=environment | alone, cwd=folder) as program:
+        program.wait_for('ready', READY)
+        assert program.interrupt() == 0, ''.join(program.lines)
 
 
 def _manifest():
@@ -404,21 +376,8 @@ def _without_ros():
 
 
 def test_the_wheel_runs_in_an_empty_environment(empty_environment, tmp_path):
-    alone = {
-        'ROS_DOMAIN_ID': str(1 + os.getpid() % 101),
-        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-        'ROS_LOG_DIR': str(tmp_path),
-    }
-    command = [empty_environment / 'bin' / 'physsim', '--ros-args', '-p', 'world_file:=demo']
-
-    with _running(*command, '-p', 'viewer:=none', cwd=tmp_path, env=_without_ros() | alone) as (
-        node,
-        lines,
-    ):
-        _wait_for('ready', lines, READY)
-        node.send_signal(signal.SIGINT)
-
-        assert node.wait(EXIT) == 0, ''.join(iter(lines.get, None))
+    executable = empty_environment / 'bin' / 'physsim'
+    _assert_runs_until_interrupted(executable, _without_ros(), tmp_path)
 
 
 def test_the_wheel_is_a_plugin_of_pytest_in_an_empty_environment(empty_environment, tmp_path):
@@ -491,25 +450,7 @@ def test_colcon_installs_every_world(workspace, overlay):
 
 def test_the_executable_that_colcon_installs_runs_until_interrupted(workspace, overlay, tmp_path):
     executable = workspace / 'install/physsim_ros/lib/physsim_ros/physsim'
-    # A domain of its own below 102, where the ports of DDS stay clear of ephemeral ones.
-    alone = {
-        'ROS_DOMAIN_ID': str(1 + os.getpid() % 101),
-        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-        'ROS_LOG_DIR': str(tmp_path),
-    }
-    parameters = ['viewer:=none', 'world_file:=demo']
-    arguments = [word for parameter in parameters for word in ('-p', parameter)]
-
-    # Elsewhere than in the source tree, so that only what is installed is found.
-    with _running(
-        executable, '--ros-args', *arguments, cwd=tmp_path, env={**overlay, **alone}
-    ) as (node, lines):
-        _wait_for('ready', lines, READY)
-        node.send_signal(signal.SIGINT)
-
-        code = node.wait(EXIT)
-
-        assert code == 0, ''.join(iter(lines.get, None))
+    _assert_runs_until_interrupted(executable, overlay, tmp_path)
 
 
 def test_the_overlay_hides_the_source_tree(workspace, overlay, tmp_path):

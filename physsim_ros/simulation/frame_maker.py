@@ -230,7 +230,7 @@ class FrameMaker:
         for drive in self.held.values():
             if not is_driving(self.world, drive, self.frame_steps):
                 # In the gesture before, with which it is undone: nobody undoes a tick.
-                self.requests.apply(drive, self.requests.gesture)
+                self.requests.apply_now(drive, self.requests.gesture)
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""

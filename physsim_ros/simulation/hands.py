@@ -57,7 +57,7 @@ class Hands:
     def __contains__(self, hand: str) -> bool:
         return hand in self._dragging
 
-    def apply(self, request: HandRequest, gesture: int, author: str) -> Answer:
+    def use(self, request: HandRequest, gesture: int, author: str) -> Answer:
         """
         Apply a request of a hand now.
 

@@ -249,7 +249,7 @@ class RequestQueue:
                         self._playback.changed = True
                         if isinstance(request, Unread):
                             request = request.convert()
-                        answer = self.apply(request, entry.gesture, entry.author)
+                        answer = self.apply_now(request, entry.gesture, entry.author)
                         # Moves and drives come at the rate of frames.
                         if not isinstance(request, DriveRobot | MoveHand | KeepHand):
                             self._answer(answer, entry)
@@ -308,7 +308,7 @@ class RequestQueue:
             result = Answer.refused(result, topic='', subject=entry.subject, field=entry.field)
         self.answers.append(replace(result, topic=entry.topic, asker=entry.asker))
 
-    def apply(self, request: Request, gesture: int, author: str = '') -> Answer:
+    def apply_now(self, request: Request, gesture: int, author: str = '') -> Answer:
         """
         Apply a request now.
 
@@ -318,7 +318,7 @@ class RequestQueue:
         """
         cursor, before = self._past.cursor, self._past.cursor.moment
         if isinstance(request, HandRequest):
-            answer = self.hands.apply(request, gesture, author)
+            answer = self.hands.use(request, gesture, author)
         else:
             self._playback.seek_shown()
             answer = self._past.apply(request, gesture, author)

@@ -163,7 +163,7 @@ class Simulation(FrameMaker):
         """
         self.requests.apply_waiting()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
-        message = self.requests.apply(request, gesture).message
+        message = self.requests.apply_now(request, gesture).message
         self.playback.changed = True
         return message
 

@@ -6,8 +6,6 @@
 from __future__ import annotations
 
 import pickle
-import subprocess
-import sys
 from typing import Any
 import warnings
 
@@ -21,6 +19,7 @@ from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownBod
 import pytest
 
 from .tasks import reward, task
+from ..outside import run_python
 
 
 def played(env: RobotEnv, steps: int, actions: int = 0) -> list[object]:
@@ -189,8 +188,7 @@ def test_gymnasium_is_imported_by_who_asks_for_it_alone() -> None:
         'import physsim_ros, sys; [getattr(physsim_ros, name) for name in physsim_ros.__all__];'
         "print([name for name in sys.modules if 'gymnasium' in name])"
     )
-    done = subprocess.run([sys.executable, '-c', code], capture_output=True, text=True, check=True)
-    assert done.stdout == '[]\n'
+    assert run_python('-c', code) == '[]\n'
 
 
 def test_what_is_no_saved_episode_is_refused() -> None:

@@ -5,11 +5,8 @@
 
 from hashlib import blake2b
 import math
-import os
 from pathlib import Path
 import random
-import subprocess
-import sys
 
 import numpy as np
 from physsim_ros.files import load_world, save_world
@@ -30,9 +27,9 @@ from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .scenes import floor, G, NOWHERE, run, spawn, turned, walls
+from ..outside import run_python
 from ..slow import slow
 
-ROOT = Path(__file__).resolve().parents[2]
 # Simulation time from one checkpoint to the next [s]: at the default of 3 s each scene would have
 # to be three times as long.
 CHECKPOINTS = 1.0
@@ -416,16 +413,7 @@ def _elsewhere(paths):
         'import sys; from test.laws.test_rewind import load_and_go_on; '
         'load_and_go_on(*sys.argv[1:])'
     )
-    done = subprocess.run(
-        [sys.executable, '-c', program, *paths],
-        env=os.environ | {'PYTHONPATH': str(ROOT)},
-        cwd=ROOT,
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-        timeout=250,
-    )
-    return [line.split() for line in done.stdout.splitlines()]
+    return [line.split() for line in run_python('-c', program, *paths).splitlines()]
 
 
 def _save(sim: Simulation, directory, name):

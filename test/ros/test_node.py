@@ -6,8 +6,6 @@
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from typing import Any
 
 from geometry_msgs.msg import PoseArray
@@ -24,7 +22,7 @@ from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
 from ..client import Client
-from ..outside import Outside, ROOT
+from ..outside import Outside, ROOT, run_python
 
 G = 9.81
 # One frame at 60 Hz; stamps are whole nanoseconds [ns].
@@ -79,8 +77,7 @@ def fallen(outside: Outside) -> list[Any]:
 def test_a_plain_start_does_not_import_what_only_viewers_pages_and_maps_need() -> None:
     late = {'rerun', 'tornado', 'PIL', 'pyarrow', 'simulation_interfaces', 'rclpy.action'}
     check = f'import sys, physsim_ros.ros.node\nprint(*({late} & {{*sys.modules}}))'
-    command = [sys.executable, '-c', check]
-    assert subprocess.run(command, check=True, capture_output=True, text=True).stdout == '\n'
+    assert run_python('-c', check) == '\n'
 
 
 def frames_of(stamps: list[int]) -> list[int]:

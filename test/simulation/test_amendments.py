@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Axle, Configure, Delete, Join, MoveBodies, Request
@@ -232,6 +234,22 @@ def test_what_a_person_added_is_what_was_added_last_by_them() -> None:
     bodies, joints = simulation.past.added_by('Anna')
     assert not bodies
     assert joints == tuple(joint.name for joint in simulation.world.scene.joints)
+
+
+def test_what_others_change_in_place_stays_theirs_who_added_it() -> None:
+    spring = Join(
+        name='j/0', kind=JointKind.SPRING, points=(LEFT[:2], (0.0, 9.0)), a='a/0', b='world'
+    )
+    stiffer = replace(spring, properties=JointProperties(stiffness=50.0))
+    simulation = world_after(
+        ANNA,
+        (25, 'Anna', spring),
+        (30, 'Ben', stiffer),
+        (31, 'Ben', spawning('a/0', BOX, LEFT)),
+    )
+
+    assert simulation.past.added_by('Anna') == (('a/0',), ('j/0',))
+    assert simulation.past.added_by('Ben') == ((), ())
 
 
 def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back() -> None:

@@ -10,9 +10,6 @@ HISTORIES says how many histories are played, 20 where it does not; `histories` 
 from __future__ import annotations
 
 import os
-from pathlib import Path
-import subprocess
-import sys
 
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Command, Request, Spawn
@@ -22,6 +19,7 @@ import pytest
 
 from .histories import check, Difference, difference_of, play, script, shrunk
 from .random_history import history_of, ROBOTS, SHAPES
+from ..outside import run_python
 
 SEEDS = range(int(os.environ.get('HISTORIES', '20')))
 
@@ -55,17 +53,8 @@ def test_a_world_is_loaded_as_it_was_saved_where_a_first_touch_has_moved_a_body(
 
 @pytest.mark.slow
 def test_a_history_shows_the_same_in_another_process() -> None:
-    root = str(Path(__file__).parents[2])
-    done = subprocess.run(
-        [sys.executable, '-m', 'test.simulation.histories', '17', '--digest'],
-        env={**os.environ, 'PYTHONHASHSEED': '7'},
-        cwd=root,
-        stdout=subprocess.PIPE,
-        text=True,
-        check=True,
-        timeout=120,
-    )
-    assert done.stdout.strip() == play(history_of(17)).digest()
+    words = ('-m', 'test.simulation.histories', '17', '--digest')
+    assert run_python(*words, PYTHONHASHSEED='7').strip() == play(history_of(17)).digest()
 
 
 @pytest.mark.slow

@@ -109,7 +109,7 @@ def applied(monkeypatch: pytest.MonkeyPatch) -> list[Any]:
         applied.append(what)
         return f'at {what}' if isinstance(what, int) else Answer(topic='')
 
-    monkeypatch.setattr(RequestQueue, 'apply', note)
+    monkeypatch.setattr(RequestQueue, 'apply_now', note)
     monkeypatch.setattr(RequestQueue, 'seek', note)
     return applied
 

@@ -107,7 +107,7 @@ def test_a_plot_has_axes_of_choice_and_several_bodies(sheet: Sheet) -> None:
     sheet.press('Copy table')
     sheet.page.get_by_role('status').get_by_text('Table copied').wait_for()
     head, *rows = sheet.page.evaluate('navigator.clipboard.readText()').splitlines()
-    assert head.split(',')[:4] == ['time [s]', 'x [m]', 'y [m]', 'vx [m/s]']
+    assert head.split(',')[:4] == ['Time [s]', 'x [m]', 'Height [m]', 'vx [m/s]']
     assert {row.split(',')[-1] for row in rows} == {'"ball/0"', '"ball/1"'}
     sheet.press('ball/0 ×')
     sheet.press('Close the plot')

@@ -182,7 +182,6 @@ def test_all_tools_are_in_sight(chromium: Any, program: Any, size: tuple[int, in
 def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
     note = sheet.page.locator('.docked')
     sheet.page.evaluate("""() => {
-        document.body.classList.add('frozen');
         const note = document.createElement('div');
         note.className = 'note docked';
         note.textContent = 'The world of yesterday was not saved.';

@@ -32,7 +32,7 @@ HTML = re.compile(r'>([^<>]*[a-z]{2}[^<>]*)<|(?:aria-label|alt|title|placeholder
 # A text that looks like one for people: words beside each other, or a capital at the begin.
 WORDS = re.compile(r'[A-Za-z]{2,} [A-Za-z(]|^\W*[A-Z][a-z]+')
 # Strings that look like texts for people, and are none: names of files and keys, styles, queries,
-# words of the server, heads of tables that other programs read, names of languages, errors for
+# words of the server, names of languages, errors for
 # developers.
 OTHER = re.compile(
     r"""\.js(on)?$ | system-ui | \((max|min)-width | ^[#.\[] | ^format: | ^Content-Type$ |
@@ -40,7 +40,7 @@ OTHER = re.compile(
     ^(Arrow|Page|Key)[A-Z] | ^\^\(Arrow | ^W\ A\ S\ D | ^(Teacher|Rerun|Deutsch|English)$ |
     ^(in\ the\ past|set\ (velocity|motion)\ of|(all|several)\ bodies|all\ joints)$ | \[[NJ]\]$ |
     ^the\ stroke\ passes\  |
-    ^(cards\ lessons|row\ legend|(normal|applied)\ force|force\ of\ joints|sum\ of\ forces)$ |
+    ^(cards\ lessons|row\ legend)$ |
     ^(another\ version\ of\ frames|the\ world\ of\ this\ link|no\ $|\ on\ this\ page$)""",
     re.VERBOSE,
 )
@@ -306,7 +306,7 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
     with sheet.page.expect_download() as download:
         sheet.press('Tabelle (CSV)')
     head, first, *_ = download.value.path().read_text().splitlines()
-    assert head.startswith('time [s];x [m];')
+    assert head.startswith('Zeit [s];x [m];Höhe [m];')
     assert re.fullmatch(r'[^;.]*(;[^;.]*)+;"block/0"', first)
     assert ',' in first
     other = sheet.context.new_page()

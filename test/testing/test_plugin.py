@@ -6,20 +6,18 @@
 from __future__ import annotations
 
 from importlib.metadata import entry_points
-import os
 from pathlib import Path
 import re
-import subprocess
-import sys
 
 from physsim_ros import testing
 from physsim_ros.testing import disc, own_context, PhysSim
 import pytest
 from rerun import chunk
 
+from ..outside import ROOT, run_python
+
 pytest_plugins = ['pytester']
 PLUGIN = 'physsim_ros.testing.plugin'
-ROOT = Path(__file__).parents[2]
 
 ROBOT = """
 import pytest
@@ -100,20 +98,10 @@ def run_pytest(directory: Path, *words: str, **environment: str) -> str:
     # An installed package brings its plugin by itself, as for everybody.
     found = entry_points(group='pytest11', name='physsim')
     plugin = [] if found else ['-p', PLUGIN]
+    options = ('-s', '-p', 'no:cacheprovider', *plugin)
     # colcon hands its arguments on by this variable, which is inherited.
-    inherited = {name: value for name, value in os.environ.items() if name != 'PYTEST_ADDOPTS'}
-    done = subprocess.run(
-        [sys.executable, '-m', 'pytest', '-s', '-p', 'no:cacheprovider', *plugin, *words],
-        cwd=directory,
-        env=inherited | environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=200,
-        check=False,
-    )
-    assert done.returncode == 0, done.stdout
-    return done.stdout
+    variables = {'PYTEST_ADDOPTS': ''} | environment
+    return run_python('-m', 'pytest', *options, *words, cwd=directory, **variables)
 
 
 @pytest.mark.slow

@@ -60,7 +60,7 @@ def test_a_recording_that_is_closed_is_complete_and_one_that_is_not_can_be_mende
     assert not verified(copy)
     assert rerun('rrd', 'optimize', copy, '-o', mended).wait(PATIENCE) == 0
     assert verified(mended)
-    assert rows(mended)[box] == rows(path)[box] == 100
+    assert 100 <= rows(mended)[box] <= rows(path)[box]
 
 
 def test_a_link_to_a_recording_stays_a_link(viewers, tmp_path):

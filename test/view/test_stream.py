@@ -6,11 +6,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-import subprocess
-import sys
 import textwrap
 
 import pytest
+
+from ..outside import ROOT, run_python
 
 # In a process of its own: what waits for ever there keeps the interpreter's lock.
 PROGRAM = """
@@ -45,12 +45,5 @@ PROGRAM = """
 
 @pytest.mark.slow
 def test_recordings_open_and_close_beside_one_that_goes_on(tmp_path: Path) -> None:
-    done = subprocess.run(
-        [sys.executable, '-c', textwrap.dedent(PROGRAM)],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        timeout=100,
-        check=False,
-    )
-    assert done.stdout.endswith('CLOSED\n'), done.stderr
+    printed = run_python('-c', textwrap.dedent(PROGRAM), cwd=tmp_path, PYTHONPATH=str(ROOT))
+    assert printed.endswith('CLOSED\n')

@@ -7,9 +7,6 @@ from __future__ import annotations
 
 from collections import Counter
 import os
-from pathlib import Path
-import subprocess
-import sys
 import textwrap
 import threading
 import time
@@ -22,7 +19,7 @@ from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 import pytest
 
 from ..building import PLAIN_BODY
-from ..outside import PATIENCE
+from ..outside import PATIENCE, run_python
 from ..rerun_program import free_port, is_open, rerun
 
 chunk = pytest.importorskip('rerun.chunk')
@@ -84,15 +81,7 @@ def rows_when(path, entity, count):
 
 def run_alone(program, *arguments):
     """Run a program in a process of its own, and return what it prints."""
-    done = subprocess.run(
-        [sys.executable, '-c', textwrap.dedent(program), *map(str, arguments)],
-        cwd=Path(__file__).parents[2],
-        stdout=subprocess.PIPE,
-        text=True,
-        timeout=2 * PATIENCE,
-        check=True,
-    )
-    return done.stdout
+    return run_python('-c', textwrap.dedent(program), *arguments)
 
 
 class Server:

@@ -4,10 +4,8 @@
 """Every shipped world and drawing moves as it did, to the bit; a rewind brings it back."""
 
 from importlib.util import find_spec
-import os
 import shlex
 import shutil
-import subprocess
 import sys
 
 import numpy as np
@@ -15,6 +13,7 @@ import pytest
 import yaml
 
 from .digests import digest_at, DIGESTS, scene, SCENES, TIMES
+from ..outside import run_python
 from ..simulation.histories import history_of, play
 from ..slow import slow
 from ..source_tree import compile_core, copy_source, ROOT, zig_cache
@@ -54,15 +53,7 @@ EXPECTED = yaml.safe_load(DIGESTS.read_text(encoding='utf-8'))
 
 def printed(module, *words, tree=ROOT, **variables):
     """Run a module of a source tree in a process of its own; return what it prints."""
-    done = subprocess.run(
-        [sys.executable, '-m', module, *words],
-        cwd=tree,
-        env=os.environ | {'PYTHONPATH': str(tree)} | variables,
-        check=True,
-        capture_output=True,
-        text=True,
-    )
-    return done.stdout
+    return run_python('-m', module, *words, cwd=tree, **{'PYTHONPATH': str(tree)} | variables)
 
 
 def test_every_scene_has_digests():

@@ -11,8 +11,8 @@ import gc
 import sys
 
 from . import (
+    browser,
     capacity,
-    chromium_page,
     classroom,
     crowd,
     engine,
@@ -54,7 +54,7 @@ _TABLES = {
         rewinding,
         pages,
         classroom,
-        chromium_page,
+        browser,
         picture,
         startup,
     )

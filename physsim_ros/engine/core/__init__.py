@@ -43,7 +43,9 @@ def _load() -> Any:
     paths = [path for suffix in EXTENSION_SUFFIXES if (path := _HERE / f'_core{suffix}').is_file()]
     if not paths:
         raise ImportError(f'the core of the engine has not been compiled; run {_BUILD}')
-    library = ffi.dlopen(str(paths[0]))
+    # A world that is freed at the very end of the interpreter calls it: it must not be unloaded
+    # with this module.
+    library = ffi.dlopen(str(paths[0]), ffi.RTLD_NOW | ffi.RTLD_NODELETE)
     ours, theirs = hash_of_sources(_HERE), ffi.string(library.core_sources()).decode()
     if ours not in {'', theirs}:
         raise ImportError(f'the core of the engine was compiled from other sources; run {_BUILD}')

@@ -29,7 +29,6 @@ from physsim_ros.model.robots.sensors import (
     Sensor,
     WheelEncoders,
 )
-from physsim_ros.model.robots.sensors.distance import Radiation
 from physsim_ros.model.transform import Pose
 from physsim_ros.ros.robots.frames import rotation_of
 from physsim_ros.sensing import read_sensor, View
@@ -115,7 +114,7 @@ def scan_message(view: StampedView, row: int, laser: Laser) -> LaserScan:
 def range_message(view: StampedView, row: int, finder: RangeFinder) -> Range:
     """Return the reading of a range finder."""
     least, greatest = finder.range
-    sonar = finder.radiation is Radiation.SONAR
+    sonar = finder.radiation == 'sonar'
     return Range(
         radiation_type=Range.ULTRASOUND if sonar else Range.INFRARED,
         field_of_view=finder.cone,

@@ -242,6 +242,7 @@ class Cursor(Replay):
             author=author,
             subject=subject,
             settings=settings,
+            adds=self._world.has_grown,
         )
         self.serial += 1
         if tree.is_log_long:

@@ -135,10 +135,14 @@ class LineInForce:
         return None
 
     def added_by(self, author: str, scene: Scene) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Return the bodies and the joints of a scene that a person was the last to add."""
+        """
+        Return the bodies and the joints of a scene that a person was the last to add.
+
+        What others have changed in place stays theirs who added it.
+        """
         bodies: dict[str, str] = {}
         joints: dict[str, str] = {}
-        for node in self.nodes[1:]:
+        for node in (each for each in self.nodes[1:] if each.adds):
             match node.request:
                 case Spawn(name=name):
                     bodies[name] = node.author

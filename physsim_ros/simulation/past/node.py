@@ -130,6 +130,7 @@ class Node:
     :param opening: serial of the first request of the gesture
     :param author: name of the person who did it; '' is nobody
     :param subject: name of the body or joint concerned, or ''
+    :param adds: whether it has added a body or joint
     :param size: memory of the request [bytes]
     :param shown: whether its step was shown with it; in a running world, a request is first shown
         in the next frame
@@ -151,6 +152,7 @@ class Node:
     opening: int = 0
     author: str = ''
     subject: str = ''
+    adds: bool = False
     size: int = 0
     shown: bool = False
     serial: int = field(init=False, default=0)

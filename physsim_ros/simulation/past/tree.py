@@ -162,6 +162,7 @@ class Tree(LineInForce):
         author: str,
         subject: str,
         settings: WorldSettings,
+        adds: bool,
     ) -> None:
         """
         Add a request that changed the world at a moment of this line, and follow it.
@@ -169,6 +170,7 @@ class Tree(LineInForce):
         :param author: name of the person who did it; '' is nobody
         :param subject: name of the body or joint concerned, or ''
         :param settings: of the world after the request
+        :param adds: whether it has added a body or joint
         """
         step, serial = moment
         opening = self._openings.get(gesture, serial + 1)
@@ -181,6 +183,7 @@ class Tree(LineInForce):
             opening=min(opening, serial + 1),
             author=author,
             subject=subject,
+            adds=adds,
             size=request_size(request),
         )
         self.size += node.size

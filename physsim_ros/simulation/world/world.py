@@ -102,6 +102,7 @@ class World(LiveSpace):
 
     :ivar reports_contacts: whether contacts are reported, which costs a tenth of a step
     :ivar changed: whether the last request changed anything; also one that was refused half done
+    :ivar has_grown: whether it left more bodies and joints than there were before
     """
 
     def __init__(
@@ -114,7 +115,7 @@ class World(LiveSpace):
         super().__init__(settings or WorldSettings(), physics_rate)
         self.frame_steps = frame_steps
         self.reports_contacts = False
-        self.changed = False
+        self.changed = self.has_grown = False
 
     # Reading
 
@@ -193,11 +194,16 @@ class World(LiveSpace):
 
         :raises Refusal: nothing is changed, or `changed` tells that it is half done
         """
-        before = self.space, self.space.changes
+        before, count = (self.space, self.space.changes), self._count
         try:
             return HANDLERS[type(request)](self, request)
         finally:
             self.changed = before != (self.space, self.space.changes)
+            self.has_grown = self._count > count
+
+    @property
+    def _count(self) -> int:
+        return len(self.space.bodies.by_name) + len(self.space.joints.by_name)
 
     def replay(self, request: Request) -> None:
         """

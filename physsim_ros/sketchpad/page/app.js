@@ -10,13 +10,14 @@ import {Arrows} from './view/arrows.js';
 import {Camera} from './view/camera.js';
 import {Classroom} from './ui/classroom.js';
 import {Connection} from './connection.js';
-import {createElement, elementOf, showText} from './dom.js';
+import {elementOf} from './dom.js';
 import {Driving} from './panels/driving.js';
 import {Gallery} from './ui/gallery.js';
 import {Handles} from './input/handles.js';
 import {Hints, Tips} from './ui/hints.js';
 import {Cursor, Keyboard} from './input/keyboard.js';
 import {Lessons} from './ui/lessons.js';
+import {Links} from './ui/links.js';
 import {Narrator, Sound} from './ui/narrator.js';
 import {Notes, Refusals} from './ui/notes.js';
 import {Numbers} from './measures/numbers.js';
@@ -25,7 +26,6 @@ import {LargePlot, Plots} from './measures/plots.js';
 import {Pointers} from './input/pointer.js';
 import {Records, Trail} from './measures/records.js';
 import {Room} from './view/room.js';
-import {fixed} from './rounding.js';
 import {SceneView} from './view/scene_view.js';
 import {Selection} from './input/selection.js';
 import {Settings} from './ui/settings.js';
@@ -34,13 +34,10 @@ import {t} from './strings.js';
 import {EmptyCard, Readings} from './ui/strokes.js';
 import {TimeBar} from './ui/time_bar.js';
 import {makeToolbar, Toolbar, TopBar} from './ui/toolbar.js';
-import {shapeWord, Words} from './words.js';
+import {Words} from './words.js';
 import {WorldState} from './world_state.js';
 
 /** @import {Tool} from './types.js' */
-
-const LISTED = 200; // bodies in the list for screen readers
-const LIST_EVERY = 1000; // ms
 
 export class App {
   constructor() {
@@ -78,6 +75,7 @@ export class App {
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);
     this.gallery = new Gallery(this);
+    this.links = new Links(this);
     /** @type {Tool} */
     this.tool = {up() {}};
     this.hints = new Hints(this);
@@ -95,7 +93,6 @@ export class App {
     makeToolbar(elementOf('time', HTMLElement), '[data-icon=play]');
     this.#listen();
     this.connection.connect();
-    setInterval(() => this.#listBodies(), LIST_EVERY);
   }
 
   #listen() {
@@ -142,21 +139,6 @@ export class App {
   async showHelp() {
     const {showHelp} = await import('./ui/help.js');
     showHelp(this);
-  }
-
-  #listBodies() {
-    const {world} = this, {bodies} = world.scene;
-    const texts = bodies.slice(0, LISTED).map((body, row) => {
-      const {name, anchored, label} = body;
-      const [x, y] = world.place(row, [0, 0]);
-      return `${name}: ${shapeWord(body)}${label && ` ${label}`}${anchored ? `, ${t('anchored')}` : ''}, ${t('at {x}, {y} m', {x: fixed(x, 1), y: fixed(y, 1)})}`;
-    });
-    if (bodies.length > LISTED) texts.push(t('and {count} more', {count: bodies.length - LISTED}));
-    const list = elementOf('list', HTMLElement);
-    while (list.children.length > texts.length) list.lastChild?.remove();
-    texts.forEach((text, i) => {
-      showText(/** @type {HTMLElement} */ (list.children[i] ?? list.appendChild(createElement('li'))), text);
-    });
   }
 }
 

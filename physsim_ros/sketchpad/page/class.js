@@ -65,7 +65,8 @@ class Card {
     this.lesson.textContent = lesson ? `${lesson.number}. ${t(lesson.title)}` : t('no lesson');
     this.hand.hidden = !pupil?.raised;
     const known = answered && answered.lesson === lesson?.title;
-    this.answer.textContent = known ? `${answered.answer} ${lesson?.unit === '1' ? '' : lesson?.unit} ${answered.right ? t('✓ right') : t('✗ not yet')}` : '';
+    const unit = lesson?.unit === '1' ? '' : lesson?.unit, verdict = answered?.right ? t('✓ right') : t('✗ not yet');
+    this.answer.textContent = known ? `${answered.answer} ${unit} ${verdict}` : '';
     this.answer.className = known && answered.right ? 'right' : '';
     this.element.classList.toggle('raised', Boolean(pupil?.raised));
   }

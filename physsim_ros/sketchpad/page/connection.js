@@ -30,7 +30,7 @@ export class Connection {
   }
 
   /**
-   * @param {string} type of messages: one of the protocol, or frame, open, closed, sent, unsent, world
+   * @param {string} type of messages: one of the protocol, or frame, ghost_frame, open, closed, sent, unsent, world
    * @param {(message: any) => void} listener
    */
   on(type, listener) {
@@ -108,7 +108,7 @@ export class Connection {
         this.#emit('scene', this.scene);
         this.scene = null;
       }
-      this.#emit('frame', frame);
+      this.#emit(frame.ghost ? 'ghost_frame' : 'frame', frame);
       return;
     }
     const message = JSON.parse(data);

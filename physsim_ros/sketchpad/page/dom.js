@@ -23,12 +23,19 @@ export function createElement(tag, properties = {}, ...children) {
 
 /** @param {string} id of a symbol in icons.svg */
 export function icon(id) {
-  const name = 'http://www.w3.org/2000/svg', svg = document.createElementNS(name, 'svg');
-  const use = document.createElementNS(name, 'use');
-  use.setAttribute('href', `/page/icons.svg#${id}`);
-  svg.setAttribute('aria-hidden', 'true');
-  svg.append(use);
-  return svg;
+  return createGraphic('svg', {'aria-hidden': 'true'}, createGraphic('use', {href: `/page/icons.svg#${id}`}));
+}
+
+/**
+ * @param {string} tag of SVG
+ * @param {Record<string, string>} attributes
+ * @param {Node[]} children
+ */
+export function createGraphic(tag, attributes, ...children) {
+  const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...children);
+  return element;
 }
 
 /**
@@ -75,7 +82,8 @@ export function textOf(field) {
 }
 
 /**
- * A field for a number, with a decimal point or comma. What is none becomes again what it was.
+ * A field for a number, with a decimal point or comma. What is none becomes again what it was. The keys `decimal` of a
+ * telephone (`inputMode`) have no minus.
  * @param {?number} value null is an empty field
  * @param {(value: ?number) => void} change gets null for a field that was emptied
  * @param {Record<string, any>} properties
@@ -101,7 +109,9 @@ export function numberField(value, change, properties = {}) {
  * @param {(value: number) => void} change when it is let go
  */
 export function range(label, min, max, step, value, change) {
-  const typed = numberField(value, (now) => now !== null && change(now), {'aria-label': t('{quantity}, typed', {quantity: label}),
+  const typed = numberField(value, (now) => now !== null && change(now), {
+    inputMode: min < 0 ? 'text' : 'decimal',
+    'aria-label': t('{quantity}, typed', {quantity: label}),
     oninput: () => {
       const now = numberOf(typed.value);
       input.max = String(Math.max(max, now || 0));
@@ -179,6 +189,21 @@ export function toggling(button, isOn, change) {
  */
 export function showText(element, text) {
   if (element.textContent !== text) element.textContent = text;
+}
+
+/**
+ * @param {() => void} show
+ * @param {number} pause [ms]
+ * @returns {() => void} has it shown soon, once for all calls of a pause
+ */
+export function soon(show, pause) {
+  let timer = 0;
+  return () => {
+    timer ||= setTimeout(() => {
+      timer = 0;
+      show();
+    }, pause);
+  };
 }
 
 /** @param {Node[]} children beside each other */

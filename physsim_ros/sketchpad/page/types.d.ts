@@ -8,6 +8,7 @@
 export type {App} from './app.js';
 export type {Camera} from './view/camera.js';
 export type {Connection} from './connection.js';
+export type {Palette} from './ui/settings.js';
 export type {SceneView} from './view/scene_view.js';
 export type {WorldState} from './world_state.js';
 
@@ -227,24 +228,6 @@ export interface Reading {
   guesses: [string, number][];
   outline: Point[];
   built: boolean;
-}
-
-/** Colours of the canvas. */
-export interface Palette {
-  paper: string;
-  minor: string;
-  major: string;
-  faint: string;
-  ink: string;
-  accent: string;
-  force: string;
-  warn: string;
-  weight: string;
-  friction: string;
-  joint: string;
-  air: string;
-  applied: string;
-  momentum: string;
 }
 
 /** A pointer on the canvas. */

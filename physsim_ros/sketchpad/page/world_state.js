@@ -41,9 +41,12 @@ export class WorldState {
       this.ghost = null;
       this.version++;
     });
+    connection.on('ghost_frame', (frame) => {
+      this.ghost = frame.epoch === this.ghostScene.epoch ? frame : null;
+      this.version++;
+    });
     connection.on('frame', (frame) => {
-      if (frame.ghost) this.ghost = frame.epoch === this.ghostScene.epoch ? frame : null;
-      else if (frame.epoch === this.scene.epoch) this.frame = frame;
+      if (frame.epoch === this.scene.epoch) this.frame = frame;
       this.version++;
     });
   }
@@ -51,6 +54,12 @@ export class WorldState {
   /** @returns {boolean} whether time stands still */
   get paused() {
     return this.frame.speed === 0;
+  }
+
+  /** @returns {{a: number, b: number}[]} rows of the bodies of each contact, as far as the frame has contacts; -1 is a wall */
+  get touches() {
+    const {contacts} = this.frame;
+    return contacts ? Array.from(contacts.a, (a, i) => ({a, b: contacts.b[i]})) : [];
   }
 
   /** @returns {number} of bodies whose poses are known */

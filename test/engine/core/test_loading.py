@@ -6,6 +6,7 @@
 import importlib
 from pathlib import Path
 import shutil
+import subprocess
 import sys
 
 from physsim_ros.engine import core
@@ -70,3 +71,18 @@ def test_an_installed_core_without_sources_is_loaded(folder):
     shutil.copy(COMPILED.with_name('core.h'), folder)
 
     assert load().core_sources() != core.ffi.NULL
+
+
+# The end of the interpreter closes the library, before or after the worlds are freed that it made.
+FREED_LAST = """
+from physsim_ros.engine.core import ffi, lib
+from physsim_ros.simulation.simulation import Simulation
+
+world = Simulation()
+ffi.dlclose(lib)
+del world
+"""
+
+
+def test_a_world_can_be_freed_after_the_core_was_closed():
+    assert subprocess.run([sys.executable, '-c', FREED_LAST], check=False).returncode == 0

@@ -539,14 +539,14 @@ def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: Phys
 def submitted(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """Give a test the times at which drives are submitted [s]."""
     times: list[float] = []
-    apply = RequestQueue.apply
+    apply = RequestQueue.apply_now
 
     def note(queue: RequestQueue, request: Any, *others: Any) -> Any:
         if isinstance(request, DriveRobot):
             times.append(flat.time)
         return apply(queue, request, *others)
 
-    monkeypatch.setattr(RequestQueue, 'apply', note)
+    monkeypatch.setattr(RequestQueue, 'apply_now', note)
     return times
 
 

@@ -8,11 +8,10 @@ Their messages are `sensor_msgs/LaserScan` and `sensor_msgs/Range`.
 """
 
 from dataclasses import dataclass
-from enum import StrEnum
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import shown, Whole, Within
+from physsim_ros.model.checks import OneOf, Whole, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors.sensor import (
     angles,
@@ -79,19 +78,6 @@ _WIDEST = 3.1416
 _MOST_RAYS = 1000
 
 
-class Radiation(StrEnum):
-    """The radiation with which a range finder measures."""
-
-    INFRARED = 'infrared'
-    SONAR = 'sonar'
-
-
-def _radiation(value: object, name: str) -> Radiation:
-    if not isinstance(value, str) or value not in list(Radiation):
-        raise BadProperty(f'{name} is {" or ".join(Radiation)}, not {shown(value)}', field=name)
-    return Radiation(value)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RangeFinder(Sensor):
     """
@@ -103,7 +89,9 @@ class RangeFinder(Sensor):
     KIND: ClassVar = 'range'
 
     name: str = 'range'
-    radiation: Annotated[Radiation, _radiation, '`infrared` or `sonar`'] = Radiation.INFRARED
+    radiation: Annotated[str, OneOf(('infrared', 'sonar')), 'waves with which it measures'] = (
+        'infrared'
+    )
     cone: Annotated[
         float, Within(0.0, _WIDEST, 'rad'), 'opening of the cone; 0 is a single ray'
     ] = 0.2

@@ -11,18 +11,12 @@ from dataclasses import dataclass, field
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import FASTEST, pair, Whole, Within
+from physsim_ros.model.checks import FASTEST, Row, Whole, Within
 from physsim_ros.model.robots.sensors.sensor import FULL_TURN, LENGTH, Sensor
 from physsim_ros.model.transform import Point
 
 # Greatest number of photodiodes in a row.
 _MOST_PIXELS = 1000
-_DEVIATION = Within(0.0, FASTEST)
-
-
-def _deviations(value: object, name: str) -> Point:
-    acceleration, turn_rate = pair(value, name)
-    return _DEVIATION(acceleration, name), _DEVIATION(turn_rate, name)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,7 +28,9 @@ class Imu(Sensor):
     name: str = 'imu'
     rate: float = 100.0
     noise: Annotated[
-        Point, _deviations, 'standard deviations of acceleration [m/s²] and turn rate [rad/s]'
+        Point,
+        Row((Within(0.0, FASTEST),) * 2),
+        'standard deviations of acceleration [m/s²] and turn rate [rad/s]',
     ] = (0.0, 0.0)
     # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
     gravity: Annotated[

@@ -2,6 +2,7 @@
 /** The numbers of the selected body now: mass, place, angle, velocity, momentum, energies, which can be typed, too. */
 
 import {createElement, numberField, showText} from '../dom.js';
+import {neighboursOf} from '../view/forces.js';
 import {energiesOf, momentumText, motionOf, number, originOf, placed} from './quantities.js';
 import {digits, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
@@ -33,7 +34,7 @@ export class Numbers {
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': word}));
     this.labels = ENERGIES.map((word) => createElement('span', {textContent: word}));
     this.values = ENERGIES.map(() => createElement('span'));
-    this.inputs = new Map(TYPED.map(([key]) => [key, numberField(null, (value) => this.#type(key, value))]));
+    this.inputs = new Map(TYPED.map(([key]) => [key, numberField(null, (value) => this.#type(key, value), {inputMode: key === 'mass' ? 'decimal' : 'text'})]));
     this.typed = createElement('details', {className: 'typed'}, createElement('summary', {textContent: t('Enter numbers')}),
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
     this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
@@ -62,13 +63,12 @@ export class Numbers {
    * @returns {string} the friction with each body that it touches
    */
   #pairsOf(row) {
-    const {world: {frame: {contacts}, scene: {bodies}}, words} = this.app, others = new Set();
-    for (let i = 0; contacts && i < contacts.a.length; i++) {
-      const other = contacts.a[i] === row ? contacts.b[i] : contacts.b[i] === row ? contacts.a[i] : -1;
-      if (other >= 0) others.add(other);
-    }
-    return [...others].slice(0, MOST_PAIRS).map((other) =>
-      t('Friction with {name}: {friction}', {name: words.of(bodies[other].name), friction: threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction))})).join(' · ');
+    const {world: {touches, scene: {bodies}}, words} = this.app;
+    const others = [...neighboursOf(touches, new Set([row]))].filter((other) => other >= 0);
+    return others.slice(0, MOST_PAIRS).map((other) => {
+      const friction = threeDigits(Math.sqrt(bodies[row].friction * bodies[other].friction));
+      return t('Friction with {name}: {friction}', {name: words.of(bodies[other].name), friction});
+    }).join(' · ');
   }
 
   /**

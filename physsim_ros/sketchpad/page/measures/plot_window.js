@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
 
-import {choice, createElement, download, elementOf, iconButton, inRow, textButton, toggling} from '../dom.js';
+import {choice, createElement, download, elementOf, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {FORCES, QUANTITIES, tableOf} from './quantities.js';
-import {drawChart} from './plots.js';
+import {drawChart, EVERY} from './plots.js';
 import {threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
@@ -13,7 +13,6 @@ import {distance} from '../vectors.js';
 
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
 const NARROW = 560; // px
-const EVERY = 80; // ms
 /** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
 const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
 
@@ -41,8 +40,9 @@ export class PlotWindow {
       this.pointed = null;
       this.#draw();
     };
-    app.connection.on('frame', () => this.#drawSoon());
-    app.connection.on('body', () => this.#drawSoon());
+    const drawSoon = soon(() => this.#draw(), EVERY);
+    app.connection.on('frame', drawSoon);
+    app.connection.on('body', drawSoon);
     app.connection.on('world', () => this.element.hidden || this.close());
     new ResizeObserver(() => this.#draw()).observe(this.element);
   }
@@ -115,15 +115,6 @@ export class PlotWindow {
       return button;
     }));
     this.#draw();
-  }
-
-  #drawSoon() {
-    if (this.waits || this.element.hidden) return;
-    this.waits = true;
-    setTimeout(() => {
-      this.waits = false;
-      this.#draw();
-    }, EVERY);
   }
 
   #draw() {

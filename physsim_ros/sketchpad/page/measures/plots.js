@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Charts: axes with round steps and curves on a canvas; and those of the selected body, beside the exact curves of free flight. */
 
-import {createElement, elementOf, inRow, textButton} from '../dom.js';
+import {createElement, elementOf, inRow, soon, textButton} from '../dom.js';
 import {QUANTITIES} from './quantities.js';
 import {digits, multiplesOf, roundUp} from '../rounding.js';
 import {t} from '../strings.js';
@@ -13,6 +13,7 @@ const LEAST_FLIGHT = 4; // samples
 // Velocities come as float32: of the change in a frame, and of the velocity itself.
 const SLACK = 5e-3, ROUNDING = 1e-6;
 const SHOWN = ['y', 'speed', 'energy'];
+export const EVERY = 80; // ms between pictures of a plot
 const CHART = {width: 272, height: 92, size: 11}; // px
 
 export class Plots {
@@ -24,8 +25,9 @@ export class Plots {
       createElement('p', {textContent: t('Broad: free flight by its formula. Dashed: the earlier course.')}),
       inRow(textButton(t('Large plot'), () => app.plotWindow.open([this.name])),
         textButton(t('Table (CSV)'), () => app.plotWindow.saveTable([this.name]))));
-    app.connection.on('frame', () => this.#drawSoon());
-    app.connection.on('body', () => this.#drawSoon());
+    const drawSoon = soon(() => this.#draw(), EVERY);
+    app.connection.on('frame', drawSoon);
+    app.connection.on('body', drawSoon);
   }
 
   /** @returns {string} name of the body; '' for none */
@@ -33,14 +35,7 @@ export class Plots {
     return this.app.panel.name;
   }
 
-  #drawSoon() {
-    if (this.waits || !this.name) return;
-    this.waits = true;
-    setTimeout(() => this.#draw(), 80);
-  }
-
   #draw() {
-    this.waits = false;
     const {world, view, records} = this.app, row = world.row(this.name), samples = records.samples(this.name);
     if (row < 0 || !samples.length) return;
     const body = world.scene.bodies[row], {gravity, damping} = world.scene, now = world.frame.time;

@@ -93,38 +93,38 @@ export function momentumText([px, py]) {
 }
 
 /**
- * @typedef {{label: string, column: string, of: (sample: Sample, body: Body, gravity: number[]) => number, sums?: boolean}} Quantity
- *   label: of an axis, column: of a table; of: NaN where it is not known; sums: whether that of several bodies is their sum
+ * @typedef {{label: string, of: (sample: Sample, body: Body, gravity: number[]) => number, sums?: boolean}} Quantity
+ *   label: of an axis, and of a column; of: NaN where it is not known; sums: whether that of several bodies is their sum
  */
 
 /** Kinds of forces, as they are recorded, with their names on axes and in tables. */
-export const FORCES = {weight: [t('Weight'), 'weight'], normal: [t('Normal force'), 'normal force'], friction: [t('Friction'), 'friction'],
-  joint: [t('Force of joints'), 'force of joints'], applied: [t('Applied force'), 'applied force'], sum: [t('Sum of forces'), 'sum of forces']};
+export const FORCES = {weight: t('Weight'), normal: t('Normal force'), friction: t('Friction'), joint: t('Force of joints'),
+  applied: t('Applied force'), sum: t('Sum of forces')};
 
 /** By key, in the order of the columns. @type {Record<string, Quantity>} */
 export const QUANTITIES = {
-  time: {label: t('Time [s]'), column: 'time [s]', of: ({time}) => time},
-  x: {label: 'x [m]', column: 'x [m]', of: ({x}) => x},
-  y: {label: t('Height [m]'), column: 'y [m]', of: ({y}) => y},
-  vx: {label: 'vx [m/s]', column: 'vx [m/s]', of: ({vx}) => vx},
-  vy: {label: 'vy [m/s]', column: 'vy [m/s]', of: ({vy}) => vy},
-  spin: {label: t('Spin [rad/s]'), column: 'spin [rad/s]', of: ({spin}) => spin},
-  speed: {label: t('Speed [m/s]'), column: 'speed [m/s]', of: ({vx, vy}) => Math.hypot(vx, vy)},
-  energy: {label: t('Energy [J]'), column: 'energy [J]', sums: true, of: (sample, body, gravity) => {
+  time: {label: t('Time [s]'), of: ({time}) => time},
+  x: {label: 'x [m]', of: ({x}) => x},
+  y: {label: t('Height [m]'), of: ({y}) => y},
+  vx: {label: 'vx [m/s]', of: ({vx}) => vx},
+  vy: {label: 'vy [m/s]', of: ({vy}) => vy},
+  spin: {label: t('Spin [rad/s]'), of: ({spin}) => spin},
+  speed: {label: t('Speed [m/s]'), of: ({vx, vy}) => Math.hypot(vx, vy)},
+  energy: {label: t('Energy [J]'), sums: true, of: (sample, body, gravity) => {
     const [motion, height] = energiesOf(body, sample, gravity);
     return motion + height;
   }},
-  px: {label: 'px [N s]', column: 'px [N s]', sums: true, of: ({vx}, {mass}) => mass * vx},
-  py: {label: 'py [N s]', column: 'py [N s]', sums: true, of: ({vy}, {mass}) => mass * vy},
-  momentum: {label: t('Momentum [N s]'), column: 'momentum [N s]', of: ({vx, vy}, {mass}) => mass * Math.hypot(vx, vy)},
-  ax: {label: 'ax [m/s²]', column: 'ax [m/s²]', of: ({ax = NaN}) => ax},
-  ay: {label: 'ay [m/s²]', column: 'ay [m/s²]', of: ({ay = NaN}) => ay},
-  acceleration: {label: t('Acceleration [m/s²]'), column: 'acceleration [m/s²]', of: ({ax = NaN, ay = NaN}) => Math.hypot(ax, ay)},
-  yaw: {label: t('Angle [rad]'), column: 'yaw [rad]', of: ({yaw}) => yaw},
-  motion: {label: t('Energy of motion [J]'), column: 'energy of motion [J]', sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[0]},
-  height: {label: t('Energy of height [J]'), column: 'energy of height [J]', sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[1]},
-  ...Object.fromEntries(Object.entries(FORCES).map(([kind, [name, column]]) => [kind, /** @type {Quantity} */ ({label: `${name} [N]`, column: `${column} [N]`,
-    of: ({forces}) => forces?.[kind] ?? NaN})])),
+  px: {label: 'px [N s]', sums: true, of: ({vx}, {mass}) => mass * vx},
+  py: {label: 'py [N s]', sums: true, of: ({vy}, {mass}) => mass * vy},
+  momentum: {label: t('Momentum [N s]'), of: ({vx, vy}, {mass}) => mass * Math.hypot(vx, vy)},
+  ax: {label: 'ax [m/s²]', of: ({ax = NaN}) => ax},
+  ay: {label: 'ay [m/s²]', of: ({ay = NaN}) => ay},
+  acceleration: {label: t('Acceleration [m/s²]'), of: ({ax = NaN, ay = NaN}) => Math.hypot(ax, ay)},
+  yaw: {label: t('Angle [rad]'), of: ({yaw}) => yaw},
+  motion: {label: t('Energy of motion [J]'), sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[0]},
+  height: {label: t('Energy of height [J]'), sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[1]},
+  ...Object.fromEntries(Object.entries(FORCES).map(([kind, name]) =>
+    [kind, /** @type {Quantity} */ ({label: `${name} [N]`, of: ({forces}) => forces?.[kind] ?? NaN})])),
 };
 
 /**
@@ -138,5 +138,5 @@ export function tableOf(records, gravity) {
   const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : localized(String(value));
   const rows = records.flatMap(({name, body, samples}) => samples.map((sample) =>
     [...columns.map(({of}) => cell(of(sample, body, gravity))), `"${name.replaceAll('"', '""')}"`]));
-  return [[...columns.map(({column}) => column), 'body'], ...rows].map((row) => `${row.join(separator)}\n`).join('');
+  return [[...columns.map(({label}) => label), t('Body')], ...rows].map((row) => `${row.join(separator)}\n`).join('');
 }

@@ -26,7 +26,7 @@ export class Records {
     this.recordsForces = false; // where they are plotted
     this.course = 0;
     this.began = 0; // [s] when this world was opened
-    app.connection.on('frame', ({ghost}) => ghost || this.#record());
+    app.connection.on('frame', () => this.#record());
     app.connection.on('timeline', ({course, now}) => this.#follow(course, now));
     app.connection.on('body', (body) => this.#addPast(body));
     // The answers to what was asked are lost.
@@ -98,8 +98,9 @@ export class Records {
       // A replay of the same course gives the same samples: those that were recorded stay.
       if (row < 0 || time <= (samples.at(-1)?.time ?? -Infinity)) continue;
       const [x, y] = world.place(row, world.scene.bodies[row].centroid);
-      const last = samples.at(-1), sample = /** @type {Sample} */ ({time, x, y, yaw: yaw[row], vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]});
-      accelerate(sample, last);
+      /** @type {Sample} */
+      const sample = {time, x, y, yaw: yaw[row], vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]};
+      accelerate(sample, samples.at(-1));
       if (all) sample.forces = sizesOf(all.filter((force) => force.row === row));
       samples.push(sample);
       if (samples.length > MOST) samples.shift();

@@ -39,7 +39,7 @@ export class Stopwatch {
     this.details = createElement('p');
     this.count = createElement('output', {className: 'reading', 'aria-label': t('Number of collisions')});
     app.connection.on('touches', ({touches}) => this.#add(touches));
-    app.connection.on('frame', ({ghost, time}) => ghost || this.#goTo(time));
+    app.connection.on('frame', ({time}) => this.#goTo(time));
     app.connection.on('open', () => this.#follow());
     app.connection.on('world', () => {
       this.start = this.stop = this.counted = '';

@@ -117,7 +117,9 @@ export class Panel {
 
   #fold() {
     const {app, element} = this, inUse = this.rest.contains(document.activeElement) && !this.more.matches(':focus');
-    const folded = !this.more.hidden && (this.chosen ?? (!app.room?.isRoomy || this.kind === 'body' && !inUse && (!app.world.paused || !app.plotWindow.element.hidden)));
+    const isWatched = !app.world.paused || !app.plotWindow.element.hidden;
+    const usual = !app.room?.isRoomy || this.kind === 'body' && !inUse && isWatched;
+    const folded = !this.more.hidden && (this.chosen ?? usual);
     if (folded === this.isFolded) return;
     element.classList.toggle('folded', folded);
     this.more.setAttribute('aria-expanded', String(!folded));

@@ -48,7 +48,7 @@ export class InclineTool {
   }
 
   /** @param {Touch} touch */
-  up(touch) {
+  async up(touch) {
     const {app, start} = this;
     this.last = touch;
     const incline = start && this.#drawn(start, touch), names = new Set(app.world.scene.bodies.map(({name}) => name));
@@ -57,7 +57,8 @@ export class InclineTool {
     let number = 1;
     while (names.has(`incline/${number}`)) number++;
     this.fresh = `incline/${number}`;
-    app.connection.send('spawn', {body: {name: this.fresh, anchored: true, ...shapeOf(incline)}});
+    const {ok} = await app.connection.ask('spawn', {body: {name: this.fresh, anchored: true, ...shapeOf(incline)}});
+    if (!ok) this.fresh = '';
   }
 
   cancel() {
@@ -109,7 +110,7 @@ export function inclineFields(app, {name, shape}) {
       app.notes.showMessage(t('The angle of a slope lies between 0° and 90°, and its length is not 0'), {ok: false});
       app.panel.render();
     }
-  }));
+  }, {inputMode: 'decimal'}));
   return [field(t('Angle of the slope [°]'), 'angle'), field(t('Length of the slope [m]'), 'length')];
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Worlds: a gallery to open from, saving by name, files, a link that holds the world, a picture. */
+/** Worlds: a gallery to open from, saving by name, files, a picture. */
 
 import {createElement, download, elementOf, fieldForm, icon, iconButton, inRow, textButton} from '../dom.js';
 import {language, t} from '../strings.js';
@@ -11,9 +11,8 @@ const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
 const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
 const WORLDS = t('Worlds'); // title
 const UNSAVED = 30000; // ms for which the unsaved world is offered beside the world; then it is in the list
-const LONGEST_LINK = 16000; // characters
 const PRESSED = 200; // ms until it is looked again whether a dialog is still pressed
-const LARGEST = 1 << 20; // bytes; no larger world is unpacked from a link
+export const LARGEST = 1 << 20; // bytes of a world
 
 export class Gallery {
   /** @param {App} app */
@@ -34,10 +33,7 @@ export class Gallery {
     this.unsaved = ''; // date of the unsaved world, until it is opened or discarded
     this.dismiss = () => {};
     this.name = ''; // of the own world that is open
-    app.connection.on('welcome', ({unsaved}) => {
-      this.#offerLink();
-      this.#offerUnsaved(unsaved);
-    });
+    app.connection.on('welcome', ({unsaved}) => this.#offerUnsaved(unsaved));
   }
 
   /**
@@ -76,26 +72,18 @@ export class Gallery {
     const cards = (/** @type {typeof own} */ worlds) =>
       createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
-      onchange: async () => file.files?.[0] && this.#upload(await file.files[0].text())});
-    this.show(WORLDS, inRow(textButton(t('Empty room'), () => this.#upload(EMPTY)),
+      onchange: async () => file.files?.[0] && this.upload(await file.files[0].text())});
+    this.show(WORLDS, inRow(textButton(t('Empty room'), () => this.upload(EMPTY)),
       createElement('label', {className: 'file'}, t('Open a file'), file),
       ...this.unsaved ? [textButton(t('Unsaved world of {date}', {date: this.unsaved}), () => this.#openUnsaved())] : []),
     ...own.length ? [createElement('h3', {textContent: t('Yours')}), cards(own)] : [],
     ...this.app.lessons.section(), createElement('h3', {textContent: t('To explore, simplest first')}), cards(shipped));
   }
 
-  /**
-   * @param {string} name
-   * @returns {string} as people write it, of a shipped world in the language of the page
-   */
-  #headingOf(name) {
-    return this.worlds.some((each) => each.name === name && each.shipped) ? t(capital(name.replaceAll('_', ' '))) : name;
-  }
-
   /** @param {typeof this.worlds[0]} world */
   #card({name, title, picture, shipped}) {
-    const heading = this.#headingOf(name);
-    const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
+    const heading = shipped ? t(capital(name.replaceAll('_', ' '))) : name;
+    const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.follow(this.app.connection.openWorld(name), heading, shipped ? '' : name)},
       picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
       createElement('strong', {textContent: heading}),
       // A title that only repeats the name tells nothing.
@@ -199,7 +187,7 @@ export class Gallery {
   async #openUnsaved() {
     const text = await fetch('/unsaved').then((response) => response.ok ? response.text() : null, () => null);
     const {unsaved} = this;
-    if (text === null || !await this.#upload(text)) return;
+    if (text === null || !await this.upload(text)) return;
     await this.#forgetUnsaved();
     this.app.notes.showMessage(t('Opened the world of {date}', {date: unsaved}));
   }
@@ -214,25 +202,30 @@ export class Gallery {
     const name = this.name || this.#freeName(t('my world'));
     this.show(t('Save'), this.#nameForm(t('Name of the world'), name, t('Save world'), (given) => this.#save(given)), inRow(
       textButton(t('Download file'), () => this.#download()),
-      textButton(t('Copy link'), () => this.#copyLink()),
+      textButton(t('Copy link'), () => this.app.links.copy()),
       textButton(t('Picture (PNG)'), () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
   }
 
-  /** @param {string} name */
-  async #open(name) {
+  /**
+   * Show the world that is being opened, as soon as it is.
+   * @param {Promise<boolean>} opening whether it is open
+   * @param {string} heading
+   * @param {string} name of an own world, under which it is saved again
+   */
+  async follow(opening, heading, name = '') {
     this.dialog.close();
-    if (!(await this.app.connection.openWorld(name))) return;
+    if (!(await opening)) return;
     this.dismiss();
     this.app.room.frameNext();
-    this.app.notes.showMessage(t('Opened {name}', {name: this.#headingOf(name)}));
-    this.name = this.worlds.some((each) => each.name === name && !each.shipped) ? name : '';
+    this.app.notes.showMessage(t('Opened {name}', {name: heading}));
+    this.name = name;
   }
 
   /**
    * @param {string} text of a world file
    * @returns {Promise<boolean>} whether it is open
    */
-  async #upload(text) {
+  async upload(text) {
     this.dialog.close();
     if (new Blob([text]).size > LARGEST) {
       this.app.notes.showMessage(t('This file is too large: a world has at most 1 MiB here.'), {ok: false});
@@ -252,72 +245,12 @@ export class Gallery {
   }
 
   /** @returns {Promise<?string>} the world as a file; null where it is refused, as too large */
-  async #text() {
+  async text() {
     return (await this.app.connection.ask('share')).values.yaml ?? null;
   }
 
   async #download() {
-    const text = await this.#text();
+    const text = await this.text();
     if (text !== null) download('world.yaml', new Blob([text]));
-  }
-
-  async #copyLink() {
-    const world = await this.#text();
-    if (world === null) return;
-    const link = `${location.origin}/#world=${await packText(world)}`;
-    if (link.length > LONGEST_LINK) {
-      this.app.notes.showMessage(t('This world is too large for a link: download it as a file.'), {ok: false});
-      return;
-    }
-    const text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
-    this.show(t('A link that holds this world'), text);
-    text.select();
-    this.app.notes.showMessage(t('A link that holds this world'));
-    await navigator.clipboard?.writeText(link).catch(() => {});
-  }
-
-  /** Offer the world of a link: the link of a stranger does not replace the world of a class. */
-  #offerLink() {
-    const packed = /^#world=(.+)/.exec(location.hash)?.[1];
-    if (!packed || this.app.viewOnly) return;
-    history.replaceState(null, '', location.pathname + location.search);
-    this.show(t('This link contains a world'), inRow(textButton(t('Open it'), () => this.#openLink(packed))));
-  }
-
-  /** @param {string} packed */
-  async #openLink(packed) {
-    const text = await unpackText(packed).catch(() => null);
-    if (text !== null) {
-      await this.#upload(text);
-      return;
-    }
-    this.dialog.close();
-    this.app.notes.showMessage(t('This link is broken, or its world is too large.'), {ok: false});
-  }
-}
-
-/**
- * @param {string} text
- * @returns {Promise<string>} for a link: deflated, then base64 for addresses (RFC 4648, section 5)
- */
-async function packText(text) {
-  const stream = new Blob([text]).stream().pipeThrough(new CompressionStream('deflate-raw'));
-  const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
-  const binary = Array.from(bytes, (byte) => String.fromCharCode(byte)).join('');
-  return btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
-}
-
-/** @param {string} packed */
-async function unpackText(packed) {
-  const binary = atob(packed.replaceAll('-', '+').replaceAll('_', '/'));
-  const bytes = Uint8Array.from(binary, (character) => character.charCodeAt(0));
-  const reader = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw')).getReader();
-  const parts = [];
-  for (let size = 0; ;) {
-    const {value, done} = await reader.read();
-    if (done) return new Blob(parts).text();
-    size += value.length;
-    if (size > LARGEST) throw new RangeError('the world of this link is too large');
-    parts.push(value);
   }
 }

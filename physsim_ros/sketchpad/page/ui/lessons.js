@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * Lessons: their list, the card of the one that is open, the check of a measured figure, and links.
+ * Lessons: their list, the card of the one that is open, and the check of a measured figure.
  *
  * A lesson belongs to its world (`scene.lesson`), so that all pages of the world have its card, each in its own language:
  * the table of strings has the texts of shipped lessons.
@@ -13,7 +13,6 @@ import {t} from '../strings.js';
 /** @import {App, Lesson} from '../types.js' */
 
 const SOLVED = 'physsim-lessons'; // titles of the lessons that were solved in this browser, as JSON
-const LINK = /[#?&]lesson=([^&]+)/;
 
 export class Lessons {
   /** @param {App} app */
@@ -37,9 +36,7 @@ export class Lessons {
       this.list = lessons;
       // The card names the next lesson.
       if (first) this.#show(app.world.scene.lesson);
-      if (first) this.#offerLink();
     });
-    addEventListener('hashchange', () => this.#offerLink());
     this.card.addEventListener('toggle', () => {
       // A page without room shows the card or the panel: what is opened last.
       if (this.card.open && !app.room.isRoomy && app.panel.kind) app.selection.select([]);
@@ -52,29 +49,15 @@ export class Lessons {
     if (!this.list.length) return [];
     return [createElement('h3', {textContent: t('Lessons')}),
       createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
-        createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.#open(name)},
+        createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.open({name, title})},
           createElement('strong', {}, number ? `${number}. ${t(title)} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
           createElement('small', {textContent: t(question)})))))];
   }
 
-  /** @param {string} name */
-  async #open(name) {
+  /** @param {{name: string, title: string}} lesson */
+  open({name, title}) {
     const {connection, gallery} = this.app;
-    gallery.dialog.close();
-    if (!(await connection.openLesson(name))) return;
-    gallery.dismiss();
-    this.app.room.frameNext();
-    this.app.notes.showMessage(t('Opened {name}', {name: t(this.list.find((each) => each.name === name)?.title ?? name)}));
-  }
-
-  /** Offer the lesson of a link: the link of a stranger does not replace the world of a class. */
-  #offerLink() {
-    const name = decodeURIComponent(LINK.exec(location.hash || location.search)?.[1] ?? '');
-    const lesson = this.list.find((each) => each.name === name), {gallery, notes, viewOnly, world} = this.app;
-    if (!name || viewOnly || lesson && lesson.title === world.scene.lesson?.title) return;
-    history.replaceState(null, '', location.pathname);
-    if (!lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
-    else gallery.show(t(lesson.title), createElement('p', {textContent: t(lesson.question)}), inRow(textButton(t('Open the lesson'), () => this.#open(name))));
+    gallery.follow(connection.openLesson(name), t(title));
   }
 
   /** @param {?Lesson | undefined} lesson whose card is made anew */
@@ -114,8 +97,10 @@ export class Lessons {
     }, shown);
     const place = this.list.findIndex((each) => each.title === title), next = place < 0 ? undefined : this.list[place + 1];
     const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
-    if (next) buttons.push(textButton(t('Next lesson'), () => this.#open(next.name)));
-    return [createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${t(measure)}`), createElement('div', {className: 'answer'}, form, result),
+    if (next) buttons.push(textButton(t('Next lesson'), () => this.open(next)));
+    return [
+      createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${t(measure)}`),
+      createElement('div', {className: 'answer'}, form, result),
       folded(t('Hint'), t(hint)), solution, inRow(...buttons)];
   }
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * What happens, for those who listen: sentences for screen readers about what moves, and a short note for a body that
- * is hit, off at the start.
+ * What happens, for those who listen: the list of bodies and sentences about what moves, for screen readers; and a short
+ * note for a body that is hit, off at the start.
  */
 
-import {elementOf} from '../dom.js';
+import {createElement, elementOf, showText} from '../dom.js';
 import {fixed} from '../rounding.js';
 import {t} from '../strings.js';
+import {shapeWord} from '../words.js';
 
 /** @import {App, Frame} from '../types.js' */
 
 const PERIOD = 1500; // ms between two announcements
+const LISTED = 200, LIST_EVERY = 1000; // bodies that are listed, and ms from list to list
 const TOLD = 3; // sentences of an announcement, the newest ones
 const APART = 0.25; // s without a touch after which a pair touches anew
 const MOVES = 0.05, RESTS = 0.02; // m/s: faster is motion, slower rest
@@ -31,8 +33,9 @@ export class Narrator {
     /** @type {string[]} */
     this.sentences = [];
     this.timer = 0;
-    app.connection.on('frame', ({ghost}) => ghost || this.#follow());
+    app.connection.on('frame', () => this.#follow());
     app.connection.on('world', () => this.#forget());
+    setInterval(() => this.#listBodies(), LIST_EVERY);
   }
 
   #forget() {
@@ -78,9 +81,9 @@ export class Narrator {
 
   /** @param {Set<number>} rows of the bodies that are followed */
   #followTouches(rows) {
-    const {world: {frame: {contacts}, scene: {bodies}}, words} = this.app;
-    for (let i = 0; contacts && i < contacts.a.length; i++) {
-      const [one, other] = rows.has(contacts.a[i]) ? [contacts.a[i], contacts.b[i]] : [contacts.b[i], contacts.a[i]];
+    const {world: {touches, scene: {bodies}}, words} = this.app;
+    for (const {a, b} of touches) {
+      const [one, other] = rows.has(a) ? [a, b] : [b, a];
       if (!rows.has(one)) continue;
       const pair = `${bodies[one].name} ${bodies[other]?.name}`, before = this.touched.get(pair) ?? -Infinity;
       this.touched.set(pair, this.time);
@@ -88,6 +91,22 @@ export class Narrator {
       this.#tell(t('{name} touches {other} at {time} s', {name: words.item(bodies[one].name),
         other: bodies[other] ? words.item(bodies[other].name) : t('a wall'), time: fixed(this.time, 1)}));
     }
+  }
+
+  /** List the bodies, with their places now. */
+  #listBodies() {
+    const {world} = this.app, {bodies} = world.scene;
+    const texts = bodies.slice(0, LISTED).map((body, row) => {
+      const {name, anchored, label} = body, [x, y] = world.place(row, [0, 0]);
+      return [`${name}: ${shapeWord(body)}${label && ` ${label}`}`, ...anchored ? [t('anchored')] : [],
+        t('at {x}, {y} m', {x: fixed(x, 1), y: fixed(y, 1)})].join(', ');
+    });
+    if (bodies.length > LISTED) texts.push(t('and {count} more', {count: bodies.length - LISTED}));
+    const list = elementOf('list', HTMLElement);
+    while (list.children.length > texts.length) list.lastChild?.remove();
+    texts.forEach((text, i) => {
+      showText(/** @type {HTMLElement} */ (list.children[i] ?? list.appendChild(createElement('li'))), text);
+    });
   }
 
   /** @param {string} sentence */
@@ -116,7 +135,7 @@ export class Sound {
     /** @type {Set<string>} pairs of rows that touched in the frame before */
     this.touching = new Set();
     app.connection.on('frame', (frame) => {
-      if (this.context && !frame.ghost) this.#listen(frame, this.context);
+      if (this.context) this.#listen(frame, this.context);
     });
   }
 

@@ -4,7 +4,7 @@
 import {checkField, languageField} from '../dom.js';
 import {t} from '../strings.js';
 
-/** @import {App, Palette} from '../types.js' */
+/** @import {App} from '../types.js' */
 
 const WORDS = 'physsim-words', SPEAKS = 'physsim-speaks'; // keys
 
@@ -44,13 +44,15 @@ export class Settings {
 }
 
 const KEY = 'physsim-theme';
-const NAMES = ['paper', 'minor', 'major', 'faint', 'ink', 'accent', 'force', 'warn', 'weight', 'friction', 'joint', 'air', 'applied', 'momentum'];
+/** Colours of the canvas, as the style sheet names them. */
+const NAMES = /** @type {const} */ (['paper', 'minor', 'major', 'faint', 'ink', 'accent', 'force', 'warn', 'weight', 'friction',
+  'joint', 'air', 'applied', 'momentum']);
+/** @typedef {Record<typeof NAMES[number], string>} Palette */
 
 /** @returns {Palette} */
 export function readPalette() {
   const style = getComputedStyle(document.documentElement);
-  const entries = NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]);
-  return Object.fromEntries(entries);
+  return /** @type {Palette} */ (Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()])));
 }
 
 /** @param {() => void} listener */

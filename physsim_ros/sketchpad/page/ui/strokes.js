@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Strokes: the card of what the pen understands, each as a small picture that draws itself; and how strokes are read, with other guesses to choose. */
 
-import {createElement, elementOf, iconButton, textButton} from '../dom.js';
+import {createElement, createGraphic, elementOf, iconButton, textButton} from '../dom.js';
 import {t} from '../strings.js';
 import {thingWord} from '../words.js';
 
@@ -77,15 +77,9 @@ export function noteSeen() {
  * @param {string} before
  */
 function picture(stroke, before = '') {
-  const make = (/** @type {string} */ tag, /** @type {Record<string, string>} */ attributes) => {
-    const element = document.createElementNS('http://www.w3.org/2000/svg', tag);
-    for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
-    return element;
-  };
-  const svg = make('svg', {viewBox: '0 0 60 40', 'aria-hidden': 'true'});
-  if (before) svg.append(make('path', {d: before, class: 'before'}));
-  svg.append(make('path', {d: stroke, class: 'stroke', pathLength: '1'}));
-  return svg;
+  return createGraphic('svg', {viewBox: '0 0 60 40', 'aria-hidden': 'true'},
+    ...before ? [createGraphic('path', {d: before, class: 'before'})] : [],
+    createGraphic('path', {d: stroke, class: 'stroke', pathLength: '1'}));
 }
 
 const LIKELY = 0.05; // the least confidence of a runner-up that is offered

@@ -59,7 +59,7 @@ export class TimeBar {
     this.slider.addEventListener('change', () => { this.held = false; });
     this.speed.addEventListener('click', () => this.#changeSpeed());
     app.connection.on('timeline', () => this.showTimeline());
-    app.connection.on('frame', ({ghost}) => ghost || this.#measurePace());
+    app.connection.on('frame', () => this.#measurePace());
     app.connection.on('world', () => { this.explained = false; });
     app.connection.on('open', () => {
       this.busy = false;
@@ -137,7 +137,8 @@ export class TimeBar {
   /** @param {number} speed */
   #showSpeed(speed) {
     const pace = this.#slowPace, text = `${localized(String(Number((pace || speed).toFixed(2))))}×`.replace('-', '−');
-    const reason = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count: this.app.world.scene.bodies.length}) : '';
+    const count = this.app.world.scene.bodies.length;
+    const reason = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count}) : '';
     this.#explain(reason);
     if (text === this.shown) return;
     this.shown = text;
@@ -193,7 +194,8 @@ export class TimeBar {
     const {undo, redo, oldest, newest, state, courses = []} = this.app.world.timeline;
     // What is undone is one's own, and that is not known here.
     const gesture = (/** @type {string} */ told) => this.app.words.phrase(told.replace(/^(undo|redo) /, ''));
-    this.#showEdit('undo', this.app.classroom.isShared ? t('Undo what you did last') : undo && t('Undo: {gesture}', {gesture: gesture(undo)}), t('Nothing to undo'));
+    const undone = this.app.classroom.isShared ? t('Undo what you did last') : undo && t('Undo: {gesture}', {gesture: gesture(undo)});
+    this.#showEdit('undo', undone, t('Nothing to undo'));
     this.#showEdit('redo', redo && t('Redo: {gesture}', {gesture: gesture(redo)}), t('Nothing to redo'));
     this.clock.classList.toggle('past', state === 'in the past');
     this.clock.title = STATES.get(state) ?? state;

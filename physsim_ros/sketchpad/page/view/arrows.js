@@ -26,7 +26,8 @@ const LEAST_SPEED = 5; // m/s: that there is always room for
 const FEW = 12; // bodies that move, of which all forces are shown where none is selected
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
 /** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
-const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'), applied: t('applied force'), air: t('air'), sum: t('sum')};
+const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'),
+  applied: t('applied force'), air: t('air'), sum: t('sum')};
 
 /**
  * @typedef {{from: Point, x: number, y: number, scale: ArrowScale, color: string, text: string, width?: number, unit?: string,
@@ -151,7 +152,10 @@ export class Arrows {
       const {anchored, name, centroid, mass} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
       if (anchored) continue;
       const from = camera.toPage(...world.place(row, centroid)), speed = Math.hypot(x, y);
-      if (this.momenta) this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.impulses, color: momentum, text: `${threeDigits(mass * speed)} N s`, width: WIDE});
+      if (this.momenta) {
+        this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.impulses, color: momentum,
+          text: `${threeDigits(mass * speed)} N s`, width: WIDE});
+      }
       const velocity = {from, x, y, scale: this.speeds, color: accent, text: `${threeDigits(speed)} m/s`, unit: 'm/s'};
       // The arrow of the selected body can be dragged (input/handles.js).
       if (name !== panel.name) this.#arrow(view, room, velocity);
@@ -167,7 +171,7 @@ export class Arrows {
     const {world, camera, selection, viewOnly} = this.app, all = forcesOf(world), {bodies} = world.scene;
     const selected = new Set([...selection.names].map((name) => world.row(name)));
     const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all);
-    const some = all.some(isSelected), beside = some ? neighboursOf(world, selected) : selected;
+    const some = all.some(isSelected), beside = some ? neighboursOf([...world.touches, ...world.scene.joints], selected) : selected;
     const few = viewOnly || bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).length <= FEW;
     if (!some && !few) this.hint.textContent = t('Tap a body: its forces, and those of what touches it.');
     const forces = [...all, ...sums].filter((force) => !this.off.has(force.kind) && (some ? isSelected(force) || beside.has(force.row) : few));

@@ -84,19 +84,17 @@ export function sumsOf(world, forces) {
 }
 
 /**
- * @param {WorldState} world
+ * @param {Iterable<{a: number, b: number}>} pairs of rows: contacts or joints
  * @param {Set<number>} rows of bodies
- * @returns {Set<number>} rows of those that touch one of them, or that a joint connects with one
+ * @returns {Set<number>} rows of those that are paired with one of them; -1 is a wall or the background
  */
-export function neighboursOf({frame: {contacts}, scene: {joints}}, rows) {
+export function neighboursOf(pairs, rows) {
   /** @type {Set<number>} */
   const found = new Set();
-  const note = (/** @type {number} */ a, /** @type {number} */ b) => {
+  for (const {a, b} of pairs) {
     if (rows.has(a)) found.add(b);
     if (rows.has(b)) found.add(a);
-  };
-  for (let i = 0; contacts && i < contacts.a.length; i++) note(contacts.a[i], contacts.b[i]);
-  for (const {a, b} of joints) note(a, b);
+  }
   return found;
 }
 

@@ -92,7 +92,8 @@ export function drawNumbers(view) {
   /** @type {Box[]} */
   const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [];
   ctx.font = FONT;
-  for (const {text, color, tip: [x, y], along: [ux, uy], from: [fx, fy] = [x, y], named = false} of [...numbers].sort((a, b) => Number(b.named ?? false) - Number(a.named ?? false))) {
+  const inOrder = [...numbers].sort((a, b) => Number(b.named ?? false) - Number(a.named ?? false));
+  for (const {text, color, tip: [x, y], along: [ux, uy], from: [fx, fy] = [x, y], named = false} of inOrder) {
     // What lies beyond the page has no number at its edge.
     if (fx < 0 || fy < 0 || fx > camera.width || fy > camera.height) continue;
     const half = ctx.measureText(text).width / 2;
