@@ -11,7 +11,8 @@
 // dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007). This is how a straight chain stops what falls on it: its
 // rows have no velocity, only a gap of second order. A gap thus never becomes energy.
 
-#include "joint_solver.h"
+#include "joint_positions.h"
+#include "mixed_lcp.h"
 #include <string.h>
 
 // Violated limits are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.

@@ -15,7 +15,8 @@
 // pay for it; those of a taut straight chain, whose rows are singular, pay nothing for what no impulse can give. A
 // limit that holds, as a taut rope does, bends too, if that presses it on.
 
-#include "joint_solver.h"
+#include "joint_velocities.h"
+#include "mixed_lcp.h"
 #include <string.h>
 
 // E, as a share of the diagonal of J M⁻¹ Jᵀ. The impulses are Chipmunk's next guess; without E those of joints that

@@ -16,7 +16,7 @@
 //
 // Cost: 30 ns a pair, and 0.1 µs a wall.
 
-#include "actors.h"
+#include "orca.h"
 
 // Time in which overlaps are undone [s].
 static const double parting_time = 0.1;

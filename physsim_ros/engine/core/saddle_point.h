@@ -78,12 +78,6 @@ static inline void add_momenta(Jacobian jacobian, Ends ends, double impulse, Twi
 // Return u M v of two changes of velocities [J].
 double mass_product(const System *system, const Twist *u, const Twist *v);
 
-// Solve rows with bounds. `solution` has the first guess of `sides`.
-void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena);
-
-// Come closer to the targets, which E keeps a solution from.
-void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
-
 // The diagonal of J M⁻¹ Jᵀ of a row [1/kg, 1/(kg m²)].
 double inverse_effective_mass(Jacobian jacobian, Inverse a, Inverse b);
 
@@ -92,6 +86,10 @@ void set_row(System *system, int row, Jacobian jacobian, double stiffness);
 
 // Solve the factored system for λ of all rows.
 void solve_rows(System *system, const double *wanted, double *impulses);
+
+// Solve the factored system for λ of active rows, given the momenta that the others bring; NULL is none.
+void solve_with(System *system, const int8_t *sides, const double *wanted, const Twist *momenta, double *impulses,
+                Twist *changes);
 
 // Solve active rows with the factors of the last solution: λ of the others is 0.
 void solve_active(System *system, const int8_t *sides, const double *wanted, double *impulses, Twist *changes);

@@ -13,7 +13,7 @@
 //
 // Cost: 30 ns a pair, and 0.1 µs a wall.
 
-#include "actors.h"
+#include "social_force.h"
 
 // Least half axis [m], so that the force of two at one place is finite.
 static const double least_axis = 0.01;

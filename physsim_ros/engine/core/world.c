@@ -1,13 +1,8 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-#include "joint_parts.h"
-#include "stages.h"
+#include "world.h"
 #include <stdlib.h>
-
-const char *core_sources(void) {
-    return CORE_SOURCES;
-}
 
 void *allocated(size_t count, size_t size) {
     void *memory = calloc(count > 0 ? count : 1, size);
@@ -15,74 +10,6 @@ void *allocated(size_t count, size_t size) {
         abort(); // as every allocation of Chipmunk's does
     }
     return memory;
-}
-
-World *core_new(cpSpace *space, Chipmunk chipmunk, double dt, cpConstraint *hook) {
-    World *world = allocated(1, sizeof(World));
-    world->space = space;
-    world->chipmunk = chipmunk;
-    world->dt = dt;
-    world->stages = STAGE_ALL;
-    world->own = allocated(1, sizeof(Private));
-    world->own->hook = hook;
-    hook->userData = world;
-    return world;
-}
-
-void core_free(World *world) {
-    arena_free(&world->own->arena);
-    arena_free(&world->own->static_arena);
-    free_report(world);
-    free(world->own->jointed);
-    free(world->own);
-    free(world);
-}
-
-void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *former) {
-    rename_contacts(world, former, count);
-    world->bodies = bodies;
-    world->body_count = count;
-    world->statics_moved = true;
-    world->own->least_depth = INFINITY;
-    for (int place = 0; place < count; place++) {
-        bodies[place].engine->userData = bodies + place;
-        world->own->least_depth = least(world->own->least_depth, bodies[place].safe_depth);
-    }
-}
-
-// List the places of dynamic bodies with joints that have rows.
-static void list_jointed(World *world) {
-    Private *own = world->own;
-    free(own->jointed);
-    own->jointed = allocated((size_t)world->body_count, sizeof(int));
-    own->jointed_count = 0;
-    for (int place = 0; place < world->body_count; place++) {
-        if (world->bodies[place].jointed && world->bodies[place].dynamic) {
-            own->jointed[own->jointed_count++] = place;
-        }
-    }
-}
-
-void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
-                     int32_t row_count) {
-    world->joints = joints;
-    world->joint_count = joint_count;
-    world->parts = parts;
-    world->part_count = part_count;
-    world->rows = rows;
-    world->row_count = row_count;
-    for (int place = 0; place < world->body_count; place++) {
-        world->bodies[place].jointed = world->bodies[place].joined = false;
-    }
-    for (int number = 0; number < joint_count; number++) {
-        Body *ends[2] = {world->bodies + joints[number].a, world->bodies + joints[number].b};
-        for (int end = 0; end < 2; end++) {
-            ends[end]->joined = true;
-            ends[end]->jointed = ends[end]->jointed || joints[number].row_count > 0;
-        }
-    }
-    list_jointed(world);
-    prepare_springs(world);
 }
 
 void set_pose(cpBody *body, Pose pose) {

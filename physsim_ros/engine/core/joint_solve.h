@@ -1,8 +1,8 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-#ifndef PHYSSIM_JOINT_SOLVER_H
-#define PHYSSIM_JOINT_SOLVER_H
+#ifndef PHYSSIM_JOINT_SOLVE_H
+#define PHYSSIM_JOINT_SOLVE_H
 
 #include "joint_islands.h"
 
@@ -20,6 +20,9 @@ typedef struct Solve {
     bool *holds;         // (joint_row_count): rows of joints that have not reached their greatest force
     bool *springs;       // (row_count)
 } Solve;
+
+// Begin to solve an island; memory is of the arena.
+Solve joint_solve(World *world, const Island *island);
 
 // Read the rows of joints at some poses: C, and J as the first of `jacobians`.
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians);
@@ -51,8 +54,5 @@ static inline double paid_share(double lost, double gained) {
 
 // Add changes to the velocities, here and in Chipmunk.
 void change_velocities(Solve *solve, const Twist *changes, double share);
-
-void solve_velocities(Solve *solve);
-void solve_positions(Solve *solve);
 
 #endif

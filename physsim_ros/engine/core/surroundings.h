@@ -1,10 +1,10 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// What pedestrians see of a world, and the models by which they walk.
+// What pedestrians see of a world.
 
-#ifndef PHYSSIM_ACTORS_H
-#define PHYSSIM_ACTORS_H
+#ifndef PHYSSIM_SURROUNDINGS_H
+#define PHYSSIM_SURROUNDINGS_H
 
 #include "world.h"
 
@@ -46,14 +46,18 @@ static inline bool passes_through(const Body *self, const Body *other) {
     return self == other || (self->group != 0 && self->group == other->group);
 }
 
+// The robot of an actor; NULL if it is none.
+Robot *robot_of(const World *world, const Actor *actor);
+
+// The arm from the centre of mass to the point that is led.
+Vec arm_of(const World *world, const Actor *actor);
+
+bool has_begun(const World *world, const Actor *actor);
+
+// Of bodies that move, and of anchored discs, the disc around them; of others each shape.
+Surroundings look_around(World *world);
+
 // A wall as a pedestrian at a place sees it; false if it is too far away.
 bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *nearest);
-
-// The velocity of a pedestrian at the end of a step, by its model.
-//
-// `desired` is the velocity that it would have alone; `dt` the length of the step [s].
-Vec walk_by_social_force(const World *world, const Surroundings *around, const Actor *actor, const Disc *self,
-                         Vec desired, double dt);
-Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *actor, const Disc *self, Vec desired);
 
 #endif

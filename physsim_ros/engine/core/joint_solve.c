@@ -1,0 +1,57 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// One island in one step: what the solvers of velocities and of positions share.
+
+#include "joint_solve.h"
+
+void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians) {
+    int row = 0;
+    for (int number = 0; number < island->joint_count; number++) {
+        const Joint *joint = island->joints[number];
+        Pose a = poses[island->ends[row].a], b = poses[island->ends[row].b];
+        Anchors anchors = anchors_at(joint, a, b);
+        for (int each = 0; each < joint->row_count; each++, row++) {
+            const Row *of_joint = island->rows[row];
+            double x = row_at(of_joint, joint, &anchors, a, b, jacobians + row);
+            excess[row] = greatest(x - of_joint->upper, 0.0) + least(x - of_joint->lower, 0.0);
+        }
+    }
+}
+
+void change_velocities(Solve *solve, const Twist *changes, double share) {
+    for (int body = 0; body < solve->island->body_count; body++) {
+        Twist *twist = solve->velocities + body;
+        twist->v = add(twist->v, scaled(changes[body].v, share));
+        twist->w += changes[body].w * share;
+        if (solve->island->inverses[body].mass > 0.0) {
+            set_twist(solve->island->engine[body], *twist);
+        }
+    }
+}
+
+Solve joint_solve(World *world, const Island *island) {
+    Arena *arena = &world->own->arena;
+    Solve solve = {.arena = arena, .space = world->space, .dt = world->dt, .island = island};
+    solve.velocities = island->velocities;
+    solve.poses = island->poses;
+    solve.excess = TAKE(arena, double, island->joint_row_count);
+    solve.jacobians = TAKE(arena, Jacobian, island->row_count);
+    solve.holds = TAKE(arena, bool, island->joint_row_count);
+    solve.springs = TAKE(arena, bool, island->row_count);
+    solve.system =
+        system_of(arena, island->body_count, island->inverses, island->row_count, island->ends, island->groups);
+    for (int row = 0; row < island->joint_row_count; row++) {
+        solve.holds[row] = island->rows[row]->kind != ROW_SPRING;
+        solve.springs[row] = !solve.holds[row];
+    }
+    read_rows(island, island->poses, solve.excess, solve.jacobians);
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    for (int number = 0; number < island->touch_count; number++) {
+        const Bearing *touch = island->touches + number;
+        Vec against = negated(touch->normal);
+        solve.jacobians[normal + number] = along(against, touch->arm_a, touch->arm_b);
+        solve.jacobians[tangent + number] = along(perpendicular(against), touch->arm_a, touch->arm_b);
+    }
+    return solve;
+}

@@ -1,0 +1,15 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+#ifndef PHYSSIM_MIXED_LCP_H
+#define PHYSSIM_MIXED_LCP_H
+
+#include "saddle_point.h"
+
+// Solve rows with bounds. `solution` has the first guess of `sides`.
+void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena);
+
+// Come closer to the targets, which E keeps a solution from.
+void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
+
+#endif

@@ -1,0 +1,85 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// What pedestrians see of a world.
+
+#include "surroundings.h"
+#include "outline.h"
+
+Robot *robot_of(const World *world, const Actor *actor) {
+    return actor->robot < 0 ? NULL : world->robots + actor->robot;
+}
+
+Vec arm_of(const World *world, const Actor *actor) {
+    const Robot *robot = robot_of(world, actor);
+    if (robot == NULL) {
+        return (Vec){0};
+    }
+    Vec local = {actor->ahead - robot->center.x, -robot->center.y};
+    return rotated(local, rotation(world->bodies[actor->body].engine->a));
+}
+
+bool has_begun(const World *world, const Actor *actor) {
+    return actor->begun <= world->step;
+}
+
+bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *nearest) {
+    double x = greatest(greatest(wall->bb[0] - place.x, place.x - wall->bb[2]), 0.0);
+    double y = greatest(greatest(wall->bb[1] - place.y, place.y - wall->bb[3]), 0.0);
+    if (greatest(x, y) > farthest_seen) {
+        return false;
+    }
+    cpPointQueryInfo found;
+    world->chipmunk.point_query(wall, place, &found);
+    *nearest = (Nearest){found.distance, found.gradient};
+    return true;
+}
+
+static bool is_anchored_disc(const Body *body) {
+    const cpShape *shape = body->engine->shapeList;
+    return body->anchored && shape != NULL && shape->next == NULL && kind_of(shape) == SHAPE_CIRCLE;
+}
+
+// The arm from the origin of the engine to the centre of a disc: the engine's origin of an anchored body is its own.
+static Vec to_center(const Body *body) {
+    Vec center = body->anchored ? ((const cpCircleShape *)body->engine->shapeList)->c : (Vec){0};
+    return rotated(center, rotation(body->engine->a));
+}
+
+Surroundings look_around(World *world) {
+    Arena *arena = &world->own->arena;
+    int wall_count = 0;
+    for (int place = 0; place < world->body_count; place++) {
+        const cpShape *shape = world->bodies[place].anchored ? world->bodies[place].engine->shapeList : NULL;
+        for (; shape != NULL; shape = shape->next) {
+            wall_count++;
+        }
+    }
+    Surroundings around = {.discs = TAKE(arena, Disc, world->body_count),
+                           .walls = TAKE(arena, const cpShape *, wall_count)};
+    for (int list = 0; list < 2; list++) {
+        around.planes[list] = TAKE(arena, HalfPlane, world->body_count + wall_count);
+    }
+    const Actor *actor = world->actors, *last = actor + world->actor_count;
+    for (int place = 0; place < world->body_count; place++) {
+        const Body *body = world->bodies + place;
+        const cpBody *engine = body->engine;
+        const Actor *own = actor < last && actor->body == place ? actor++ : NULL;
+        // A pedestrian is no sensor (`simulation/world/body_description.py`), and is found here.
+        if (body->sensor && own == NULL) {
+            continue;
+        }
+        if (!body->anchored || is_anchored_disc(body)) {
+            Disc *disc = around.discs + around.disc_count++;
+            Vec arm = own != NULL ? arm_of(world, own) : to_center(body);
+            bool walks = own != NULL && own->kind != ACTOR_PATH && has_begun(world, own);
+            *disc = (Disc){body, add(engine->p, arm), velocity_at(twist_of(engine), arm),
+                           body->reach + (own != NULL ? own->ahead : 0.0), walks};
+            continue;
+        }
+        for (const cpShape *shape = engine->shapeList; shape != NULL; shape = shape->next) {
+            around.walls[around.wall_count++] = shape;
+        }
+    }
+    return around;
+}
