@@ -16,7 +16,8 @@ import math
 import numpy as np
 
 from .figures import Figure
-from .hands import Hand, turning
+from .hand import Hand
+from .hands import turning
 from .outlines import Floats, Random
 
 # The greatest sum of turns that ten samples show [rad]: that of an L is 9.4.

@@ -17,7 +17,8 @@ import numpy as np
 
 from .faults import all_arrive, Fault, FAULTS
 from .figures import Figure
-from .hands import drawn, Hand, hand
+from .hand import Hand
+from .hands import drawn, hand
 from .outlines import Floats
 from .scenes import SEEDS
 

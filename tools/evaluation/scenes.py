@@ -24,7 +24,8 @@ from physsim_ros.simulation.world import World
 from . import arrows, figures, strangers
 from .faults import Fault, FAULTS
 from .figures import Figure
-from .hands import drawn, Hand, hand
+from .hand import Hand
+from .hands import drawn, hand
 from .outlines import Floats, Random
 
 SEEDS = {'tuning': 1, 'report': 2, 'apart': 3, 'strangers': 4}

@@ -25,7 +25,8 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.simulation import Simulation
 
 from . import arrows, figures, strangers
-from .hands import drawn, Hand, hand
+from .hand import Hand
+from .hands import drawn, hand
 from .outlines import Floats, Random
 from .people import figure_of, placed
 from .scenes import SEEDS

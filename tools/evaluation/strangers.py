@@ -14,15 +14,12 @@ from __future__ import annotations
 from dataclasses import replace
 import itertools
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .figures import Figure, turned, turned_about_origin
+from .hand import Hand
 from .outlines import Floats, Random
-
-if TYPE_CHECKING:
-    from .hands import Hand
 
 # The time constant of the wandering of a hand [s].
 _MEMORY = 0.15

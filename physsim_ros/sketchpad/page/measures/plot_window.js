@@ -2,14 +2,14 @@
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
 
 import {choice, createElement, download, elementOf, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
+import {drawChart, EVERY} from './chart.js';
 import {FORCES, QUANTITIES, tableOf} from './quantities.js';
-import {drawChart, EVERY} from './plots.js';
 import {threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
 /** @import {App, Palette, Sample} from '../types.js' */
-/** @import {Curve, Scales} from './plots.js' */
+/** @import {Curve, Scales} from './chart.js' */
 
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
 const NARROW = 560; // px
