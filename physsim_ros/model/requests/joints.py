@@ -94,6 +94,15 @@ class Axle(AtPoint):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Rejoin(Request):
+    """Put a joint on pieces of its bodies: its points stay, and its limits count as before."""
+
+    name: Annotated[str, text, 'of the joint']
+    a: Annotated[str, text, 'name of the piece of its body a']
+    b: Annotated[str, text, "the same of b; 'world' for the background"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Unjoin(Request):
     """Remove the joint of that name."""
 
@@ -132,7 +141,9 @@ class Cut(Request):
         _parts(ChangeBody, Spawn),
         'a change of each body into its largest piece, and the other pieces',
     ]
-    joints: Annotated[tuple[Join, ...], _parts(Join), 'joints that are then on another piece'] = ()
+    joints: Annotated[
+        tuple[Rejoin, ...], _parts(Rejoin), 'joints that are then on another piece'
+    ] = ()
     severed: Annotated[
         tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
     ] = ()

@@ -104,7 +104,7 @@ def cut(live: LiveSpace, request: Cut) -> Answer:
             whole.append(change_body(live, piece).subject)
     for joint in request.joints:
         if joint.name in joints:
-            joint_requests.join(live, joint)
+            joint_requests.rejoin(live, joint)
     subjects = whole + severed
     subject = subjects[0] if len(subjects) == 1 else ''
     cuts = [f'into {len(request.pieces)} pieces'] * bool(whole) + severed

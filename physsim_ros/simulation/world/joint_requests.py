@@ -18,7 +18,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import names_in, WORLD
-from physsim_ros.model.requests import Axle, Join, Pin, Unjoin, UnjoinAll
+from physsim_ros.model.requests import Axle, Join, Pin, Rejoin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
@@ -71,6 +71,25 @@ def join(live: LiveSpace, request: Join) -> Answer:
     if old is not None:
         return Answer(subject=request.name, message=f'changed {which} of {a} and {other}')
     return Answer(subject=request.name, message=f'joined {a} to {other} by {which}')
+
+
+def rejoin(live: LiveSpace, request: Rejoin) -> Answer:
+    """
+    Put a joint on pieces of its bodies, with its seat.
+
+    :raises UnknownJoint: there is none of that name
+    :raises UnknownBody: there is no body of a name
+    """
+    space = live.space
+    check_names(space, (request.name,), 'name')
+    for field, name in (('a', request.a), ('b', request.b)):
+        if name != WORLD:
+            body_of_name(space, name, field, others=(WORLD,))
+    old = space.joints.by_name[request.name].joint
+    joint = replace(old, a=request.a, b=request.b)
+    live.capacity.check_joint(joint)
+    space.join(joint)
+    return Answer(subject=joint.name, message=f'changed {joint.kind} {joint.name}')
 
 
 def join_at_point(live: LiveSpace, request: Pin | Axle) -> Answer:
