@@ -13,7 +13,7 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, WorldFull
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Anchor, Join, Spawn
+from physsim_ros.model.requests import Anchor, Grab, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.transform import cross
@@ -148,6 +148,18 @@ def test_joints_and_forces_stay_at_their_points():
     kept, piece = scene.bodies
     assert [force.force for force in kept.forces] == [(0, 1), (2, 2)]
     assert [force.force for force in piece.forces] == [(1, 0)]
+
+
+def test_a_hand_holds_the_piece_at_its_point():
+    simulation = world_of(Box(width=2.0, height=1.0))
+    left, right = in_world(simulation, (-0.9, 0.1), (0.9, 0.1))
+    simulation.perform(Grab(hand='left', point=left))
+    simulation.perform(Grab(hand='right', point=right))
+
+    cut(simulation, *in_world(simulation, (0.3, -2.0), (0.3, 2.0)))
+
+    held = {grip.hand: grip.body for grip in simulation.world.snapshot().grips}
+    assert held == {'left': 'a/0', 'right': 'drawn/0'}
 
 
 @pytest.mark.parametrize('kind', [JointKind.AXLE, JointKind.SLIDER])
