@@ -14,7 +14,14 @@ from physsim_ros.model.errors import BadProperty, BadSize, Malformed
 from physsim_ros.model.joints import joined_from, JointKind, JointProperties, kind_from
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests.bodies import ChangeBody, Spawn
-from physsim_ros.model.requests.request import AtPoint, OfNamespace, Request, texts, UNSET
+from physsim_ros.model.requests.request import (
+    AtPoint,
+    OfNamespace,
+    Request,
+    several,
+    texts,
+    UNSET,
+)
 from physsim_ros.model.transform import Point
 
 
@@ -134,8 +141,6 @@ def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
 class Cut(Request):
     """Cut bodies into pieces, and joints through; if a part of it is refused, nothing is cut."""
 
-    OBJECT = 'several bodies'
-
     pieces: Annotated[
         tuple[ChangeBody | Spawn, ...],
         _parts(ChangeBody, Spawn),
@@ -147,6 +152,10 @@ class Cut(Request):
     severed: Annotated[
         tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
     ] = ()
+
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with what is cut."""
+        return Request.phrase(self, subject or several(self.pieces, self.severed))
 
 
 def join_from(

@@ -227,7 +227,8 @@ def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
         live.space.remove(name)
     if request.names:
         return _done('deleted', request.names)
-    return Answer(message=f'deleted {counted(len(request.joints), "joint")}')
+    subject = request.joints[0] if len(request.joints) == 1 else ''
+    return Answer(subject=subject, message=f'deleted {counted(len(request.joints), "joint")}')
 
 
 def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
