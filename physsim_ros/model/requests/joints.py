@@ -25,6 +25,14 @@ from physsim_ros.model.requests.request import (
 from physsim_ros.model.transform import Point
 
 
+def _check_ends(a: str, b: str) -> None:
+    """Refuse a joint of the background alone, or of a body and itself."""
+    if a == WORLD:
+        raise BadProperty('a is a body; the background can only be b', field='a')
+    if a and a == b:
+        raise BadProperty(f'{a} cannot be joined to itself', field='b')
+
+
 def _points(value: object, name: str) -> tuple[Point, ...]:
     if not isinstance(value, Iterable):
         raise Malformed(f'{name} must be a list of points, not {shown(value)}', field=name)
@@ -72,10 +80,7 @@ class Join(Request):
                 f'{self.kind.phrase} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
                 field='points',
             )
-        if self.a == WORLD:
-            raise BadProperty('a is a body; the background can only be b', field='a')
-        if self.a and self.a == self.b:
-            raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
+        _check_ends(self.a, self.b)
         self.properties.check_kind(self.kind, self.unset)
         least = self.kind.schema.least_distance
         if least and math.dist(*self.points) < least:
@@ -107,6 +112,10 @@ class Rejoin(Request):
     name: Annotated[str, text, 'of the joint']
     a: Annotated[str, text, 'name of the piece of its body a']
     b: Annotated[str, text, "the same of b; 'world' for the background"]
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        _check_ends(self.a, self.b)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
