@@ -5,8 +5,9 @@
 The knife: all that a straight stroke passes right through is cut, along it.
 
 A body becomes the pieces of its shape (`cut_shape.py`). The largest is the body of before, changed
-in place; joints and forces stay at their points. A rope, rod or spring that the stroke crosses
-beside its bodies is removed. Robots and actors are not cut.
+in place. Each piece has the frame of that body, in which joints and forces stay at their points. A
+rope, rod or spring that the stroke crosses beside its bodies is removed. Robots and actors are not
+cut.
 
 Laws: mass and momentum stay, and so does the angular momentum about the common centre of mass.
 """
@@ -27,7 +28,7 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
-from physsim_ros.model.requests import ChangeBody, Cut, Join, Spawn, Unjoin
+from physsim_ros.model.requests import ChangeBody, Cut, Rejoin, Spawn, Unjoin
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import Point, rotated
@@ -77,9 +78,7 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
         number += len(new)
         names[name] = dict(zip((name, *new), shapes, strict=True))
         parts += _requests_of(name, names[name], scene)
-    moved = (
-        _moved_joint(joint, names, scene) for joint in scene.joints if joint.name not in severed
-    )
+    moved = (_moved_joint(joint, names) for joint in scene.joints if joint.name not in severed)
     return Cut(
         pieces=tuple(parts),
         joints=tuple(join for join in moved if join is not None),
@@ -189,22 +188,9 @@ def _piece_at(point: Point, shapes: dict[str, Shape]) -> str:
     return min(shapes, key=distance)
 
 
-def _moved_joint(
-    joint: Joint, names: Mapping[str, dict[str, Shape]], scene: SceneQuery
-) -> Join | None:
+def _moved_joint(joint: Joint, names: Mapping[str, dict[str, Shape]]) -> Rejoin | None:
     """Return the request that puts a joint on the pieces with its points, if it is not there."""
     seat = joint.seat
     ends = ((joint.a, (seat.ax, seat.ay)), (joint.b, (seat.bx, seat.by)))
     a, b = (_piece_at(point, names[name]) if name in names else name for name, point in ends)
-    if (a, b) == (joint.a, joint.b):
-        return None
-    poses = {name: scene.pose(name) for name in (joint.a, joint.b) if name != WORLD}
-    return Join(
-        name=joint.name,
-        kind=joint.kind,
-        points=drawn_points(joint, poses),
-        a=a,
-        b=b,
-        # Lengths that were measured when it was drawn stay.
-        properties=replace(joint.properties, **dict[str, Any](joint.drawn_values())),
-    )
+    return None if (a, b) == (joint.a, joint.b) else Rejoin(name=joint.name, a=a, b=b)

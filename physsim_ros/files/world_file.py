@@ -183,7 +183,9 @@ def _refused(name: str, text: str, refusal: Refusal, message: str) -> BadWorldFi
     )
 
 
-def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: float) -> Path:
+def save_world(
+    state: WorldState, name: str, *, world_dir: str | Path, physics_rate: float
+) -> Path:
     """
     Write a world, whole or not at all.
 
@@ -194,6 +196,7 @@ def save_world(state: WorldState, name: str, *, world_dir: Path, physics_rate: f
     :return: path of the file
     :raises BadWorldFile: it cannot be written, lies elsewhere, is hidden, or is no world file
     """
+    world_dir = Path(world_dir)
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
     try:

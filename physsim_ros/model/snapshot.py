@@ -319,6 +319,11 @@ class Frame:
     past: bool = False
     course: int = 1
 
+    @property
+    def passing(self) -> bool:
+        """Return whether time runs here, so that the next frame comes of itself."""
+        return self.moved and self.speed != 0.0
+
 
 def run_state(speed: float) -> str:
     """Return the word for a speed: paused, playing or rewinding, with its factor if not 1."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 import math
 
+from physsim_ros.model.checks import number
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Answer, Frame
@@ -148,8 +149,9 @@ class FrameMaker:
         No frame is made but the last one, when it is read; its contacts are those of all steps
         since the one that was read before.
 
-        :raises BadProperty: they are below 0, or not finite
+        :raises BadProperty: they are no number, below 0, or not finite
         """
+        seconds = number(seconds, 'seconds')
         periods = seconds * self.physics_rate / self.frame_steps
         if not 0.0 <= periods < math.inf:
             raise BadProperty(f'seconds must be finite and >= 0, not {seconds:g}', field='seconds')

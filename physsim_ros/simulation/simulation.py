@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from numbers import Integral
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.checks import number, shown, Within
+from physsim_ros.model.checks import number, OfClass, shown, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
 from physsim_ros.model.requests import DriveRobot, Request, Restore
@@ -66,7 +66,7 @@ class Simulation(FrameMaker):
     :param checkpoints: from one checkpoint to the next [s]
     :param boundary: of the requests; None lets unexpected errors pass
     :raises BadProperty: a number is out of range, or publish_rate does not divide physics_rate
-    :raises Malformed: a number is not finite
+    :raises Malformed: a number is not finite, or a value of another type
     """
 
     def __init__(
@@ -90,10 +90,12 @@ class Simulation(FrameMaker):
                 f'{physics_rate:g} Hz',
                 field='publish_rate',
             )
+        settings = WorldSettings() if settings is None else settings
+        OfClass(WorldSettings)(settings, 'settings')
         past = Past(
             physics_rate=physics_rate,
             frame_steps=round(steps),
-            settings=settings or WorldSettings(),
+            settings=settings,
             length=history,
             checkpoints=checkpoints,
             memory=history_memory,
@@ -161,6 +163,7 @@ class Simulation(FrameMaker):
         :param gesture: its gesture; None is a new one
         :raises Refusal: and nothing is changed
         """
+        OfClass(Request)(request, 'request')
         self.requests.apply_waiting()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
         message = self.requests.apply_now(request, gesture).message
@@ -234,7 +237,12 @@ class Simulation(FrameMaker):
         )
 
     def restore(self, saved: SavedMoment) -> None:
-        """Continue from a moment, at its time and without a past."""
+        """
+        Continue from a moment, at its time and without a past.
+
+        :raises Malformed: it is none
+        """
+        OfClass(SavedMoment)(saved, 'saved')
         self.past.restore(saved.checkpoint, saved.loaded)
         self._note_beginning()
         self.held = {drive.name: drive for drive in saved.held}

@@ -143,6 +143,8 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
                 for name, point in ((a, points[0]), (b, points[-1]))
                 for each in ((name,) if name else query.bodies_at(point)[:1])
             )
+        case requests.Rejoin(a=a, b=b):
+            return (a, b)
         case requests.Cut(pieces=pieces, joints=moved, severed=severed):
             parts = (_bodies_of(each, snapshot) for each in (*pieces, *moved, *severed))
             return tuple(name for names in parts for name in names)

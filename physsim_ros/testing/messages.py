@@ -90,7 +90,8 @@ def polygon(
     name: str = 'body/0', *, outline: Sequence[Numbers], **more: Unpack[MarkerOptions]
 ) -> Marker:
     """Return the marker of a solid polygon, whose corners are in order, x and y [m] each."""
-    closed = [*outline, *outline[:1]] if tuple(outline[0]) != tuple(outline[-1]) else outline
+    is_open = len(outline) > 0 and tuple(outline[0]) != tuple(outline[-1])
+    closed = [*outline, *outline[:1]] if is_open else outline
     return marker(Marker.LINE_STRIP, name, scale=(0.02, 0.0, 0.0), points=closed, **more)
 
 

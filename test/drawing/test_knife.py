@@ -3,6 +3,7 @@
 
 """The knife: pieces together are the body, in mass and motion; joints and forces stay in place."""
 
+from dataclasses import replace
 import math
 
 import numpy as np
@@ -12,7 +13,7 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, WorldFull
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Join, Spawn
+from physsim_ros.model.requests import Anchor, Grab, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.transform import cross
@@ -143,11 +144,49 @@ def test_joints_and_forces_stay_at_their_points():
         'j/0': 'drawn/0', 'j/1': 'drawn/0', 'j/2': 'a/0'}  # fmt: skip
     assert joints['j/1'].stiffness == 7.0
     for name, joint in joints.items():
-        assert joint.rest_length == pytest.approx(before[name].rest_length)
-        assert joint.seat[:4] == pytest.approx(before[name].seat[:4], abs=1e-12)
+        assert joint.seat == before[name].seat
     kept, piece = scene.bodies
     assert [force.force for force in kept.forces] == [(0, 1), (2, 2)]
     assert [force.force for force in piece.forces] == [(1, 0)]
+
+
+def test_a_hand_holds_the_piece_at_its_point():
+    simulation = world_of(Box(width=2.0, height=1.0))
+    left, right = in_world(simulation, (-0.9, 0.1), (0.9, 0.1))
+    simulation.perform(Grab(hand='left', point=left))
+    simulation.perform(Grab(hand='right', point=right))
+
+    cut(simulation, *in_world(simulation, (0.3, -2.0), (0.3, 2.0)))
+
+    held = {grip.hand: grip.body for grip in simulation.world.snapshot().grips}
+    assert held == {'left': 'a/0', 'right': 'drawn/0'}
+
+
+@pytest.mark.parametrize('kind', [JointKind.AXLE, JointKind.SLIDER])
+def test_limits_of_a_joint_count_from_where_they_did_before_the_cut(kind):
+    simulation = world_of(Box(width=2.0, height=1.0), velocity=(0.3, 0.0), spin=0.3)
+    points = in_world(simulation, *((-0.9, 0.0), (0.0, 0.0))[: kind.points])
+    limits = JointProperties(lower=-0.5, upper=0.5)
+    simulation.perform(
+        Join(name='j/0', kind=kind, points=points, a='a/0', b='world', properties=limits)
+    )
+    simulation.run(0.5)
+    before = simulation.world.scene.joints[0]
+
+    cut(simulation, *in_world(simulation, (-0.3, -2.0), (-0.3, 2.0)))
+
+    assert simulation.world.scene.joints == (replace(before, a='drawn/0'),)
+
+
+def test_joints_of_anchored_bodies_stay_for_when_they_are_released():
+    simulation = world_of(Box(width=2.0, height=1.0))
+    (left,) = in_world(simulation, (-0.9, 0.0))
+    simulation.perform(Join(name='j/0', kind=JointKind.AXLE, points=(left,), a='a/0', b='world'))
+    simulation.perform(Anchor(point=in_world(simulation, (0.0, 0.0))[0]))
+
+    cut(simulation, *in_world(simulation, (-0.3, -2.0), (-0.3, 2.0)))
+
+    assert simulation.world.scene.joints[0].a == 'drawn/0'
 
 
 @pytest.mark.parametrize(

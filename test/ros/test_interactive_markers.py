@@ -109,6 +109,20 @@ def test_a_viewer_drags_a_body_by_its_marker(physsim: PhysSim, client: Client) -
     assert not physsim.node.frame.snapshot.grips
 
 
+def test_each_step_of_a_paused_world_is_told(physsim: PhysSim, client: Client) -> None:
+    physsim.spawn(disc('ball/0', at=(0.0, 5.0)))
+    client.call('~/pause')
+    physsim.node.apply_requests()
+    viewer = Viewer(client)
+    for _ in range(3):
+        client.call('~/step')
+        physsim.node.apply_requests()
+
+        position = viewer.catch_up()['ball/0'].pose.position
+        assert (position.x, position.y) == physsim.pose('ball/0')[:2]
+    assert physsim.pose('ball/0').y < 5.0
+
+
 def test_what_stands_is_not_told_again(physsim: PhysSim, client: Client) -> None:
     physsim.spawn(box('wall/0', anchored=True))
     physsim.step()

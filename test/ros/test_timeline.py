@@ -9,6 +9,7 @@ from typing import Any
 
 from diagnostic_msgs.msg import DiagnosticStatus
 from physsim_ros.testing import command, delete, disc, PhysSim
+import pytest
 
 from ..client import Client, KEPT, set_parameter
 
@@ -78,6 +79,18 @@ def test_a_shorter_history_is_told_while_time_is_paused(physsim: PhysSim, client
     physsim.settle()
     status = told(messages[-1])
     assert (status['oldest'], status['undo']) == ('0.800000', '')
+
+
+def test_each_step_of_a_paused_world_is_told(physsim: PhysSim, client: Client) -> None:
+    messages = client.listen(DiagnosticStatus, '~/timeline', KEPT)
+    client.call('~/pause')
+    for _ in range(3):
+        client.call('~/step')
+        physsim.node.apply_requests()
+        physsim.settle()
+
+        assert float(told(messages[-1])['now']) == pytest.approx(physsim.time, abs=1e-6)
+    assert physsim.time == pytest.approx(3 / 60)
 
 
 def test_times_of_a_running_world_come_some_times_a_second(

@@ -37,6 +37,7 @@ from physsim_ros.model.requests import (
     Join,
     MoveBodies,
     Pin,
+    Rejoin,
     Release,
     Request,
     Spawn,
@@ -305,10 +306,11 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
 
 def cut_of(rng: Choices) -> Cut:
     """Return a cut; a part of it may be refused after others."""
+    first, second = rng.sample(rng.names, 2)
     largest = ChangeBody(name=rng.choice(rng.names), shape=rng.choice(SHAPES))
     return Cut(
         pieces=(largest, spawn_of(rng)),
-        joints=(join_of(rng),),
+        joints=(Rejoin(name=rng.choice(rng.joints), a=first, b=rng.choice((second, 'world'))),),
         severed=(Unjoin(name=rng.choice(rng.joints)),),
     )
 

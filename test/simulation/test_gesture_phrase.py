@@ -3,6 +3,7 @@
 
 """Undo and redo name a gesture by a verb and its object."""
 
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Axle,
     ChangeBody,
@@ -12,10 +13,12 @@ from physsim_ros.model.requests import (
     DeleteAll,
     DeleteBodies,
     Grab,
+    Join,
     MoveBodies,
     Pin,
     Request,
     Restore,
+    Unjoin,
     UnjoinAll,
 )
 from physsim_ros.simulation.simulation import Simulation
@@ -26,10 +29,13 @@ from ..building import BOX, DISC, spawning
 
 @pytest.fixture
 def sim() -> Simulation:
-    """Return a paused world of two boxes."""
+    """Return a paused world of two boxes, joined by two rods."""
     sim = Simulation(speed=0.0)
     for number in range(2):
         sim.perform(spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0)))
+    rod = {'kind': JointKind.ROD, 'points': ((0.0, 0.0), (2.0, 0.0)), 'a': 'a/0', 'b': 'a/1'}
+    for number in range(2):
+        sim.perform(Join(name=f'j/{number}', **rod))
     return sim
 
 
@@ -42,11 +48,16 @@ def sim() -> Simulation:
         (Delete(name='a/0'), 'delete a/0'),
         (DeleteBodies(names=('a/0',)), 'delete a/0'),
         (DeleteBodies(names=('a/0', 'a/1')), 'delete several bodies'),
+        (DeleteBodies(names=('a/0', 'a/1'), joints=('j/0',)), 'delete several bodies and joints'),
+        (DeleteBodies(names=(), joints=('j/0', 'j/1')), 'delete several joints'),
+        (DeleteBodies(names=(), joints=('j/1',)), 'delete j/1'),
         (DeleteAll(), 'delete all bodies'),
         (DeleteAll(namespace='a'), 'delete all bodies of a'),
         (MoveBodies(names=('a/0', 'a/1'), by=(1.0, 0.0)), 'move several bodies'),
         (Grab(hand='me', point=(0.0, 0.0)), 'place a/0'),
         (Cut(pieces=(ChangeBody(name='a/0', shape=DISC), spawning('a/2'))), 'cut a/0'),
+        (Cut(pieces=(), severed=(Unjoin(name='j/0'),)), 'cut j/0'),
+        (Cut(pieces=(), severed=(Unjoin(name='j/0'), Unjoin(name='j/1'))), 'cut several joints'),
     ],
 )
 def test_a_gesture_is_named_by_verb_and_object(

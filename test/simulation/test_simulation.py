@@ -4,6 +4,7 @@
 """Requests go in and are answered, in order, one each; frames come out, at their time."""
 
 import math
+from typing import Any
 
 import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, NothingThere, UnknownBody
@@ -301,6 +302,24 @@ def test_perform_raises_what_is_refused_and_changes_nothing() -> None:
         sim.perform(Delete(name='a/0'))
     with pytest.raises(NothingThere):
         sim.perform(Anchor(point=(0.0, 0.0)))
+
+    assert sim.world.digest() == before
+
+
+@pytest.mark.parametrize('wrong', ['a', None, 3, Delete])
+def test_what_is_of_another_type_is_refused_and_changes_nothing(wrong: Any) -> None:
+    sim = simulation()
+    before = sim.world.digest()
+
+    with pytest.raises(Malformed, match='request must be of class Request'):
+        sim.perform(wrong)
+    with pytest.raises(Malformed, match='saved must be of class SavedMoment'):
+        sim.restore(wrong)
+    with pytest.raises(BadProperty, match='seconds must be a number'):
+        sim.run([wrong])  # type: ignore[arg-type]
+    if wrong is not None:
+        with pytest.raises(Malformed, match='settings must be of class WorldSettings'):
+            Simulation(settings=wrong)
 
     assert sim.world.digest() == before
 

@@ -51,6 +51,11 @@ def test_a_polygon_is_closed_and_a_chain_is_not(physsim: PhysSim) -> None:
     assert kinds == ['polygon', 'polygon', 'chain']
 
 
+def test_an_outline_without_corners_is_refused_by_the_world(physsim: PhysSim) -> None:
+    with pytest.raises(Refused):
+        physsim.spawn(polygon('a/0', outline=[]))
+
+
 def test_a_joint_joins_the_bodies_that_it_names(physsim: PhysSim) -> None:
     physsim.spawn(MarkerArray(markers=[box('a/0'), disc('a/1', at=(3.0, 0.0))]))
     ends = [(0.0, 0.0), (3.0, 0.0)]

@@ -37,6 +37,7 @@ from physsim_ros.model.requests.joints import (
     Join,
     join_from,
     Pin,
+    Rejoin,
     Unjoin,
     UnjoinAll,
 )
@@ -69,6 +70,7 @@ __all__ = [
     'MoveHand',
     'OfNamespace',
     'Pin',
+    'Rejoin',
     'Release',
     'Request',
     'Restore',

@@ -30,6 +30,7 @@ from physsim_ros.model.requests.request import (
     AtPoint,
     OfNamespace,
     Request,
+    several,
     texts,
     UNSET,
 )
@@ -172,7 +173,6 @@ class DeleteBodies(Request):
     """
 
     VERB = 'delete'
-    OBJECT = 'several bodies'
 
     names: Annotated[tuple[str, ...], _each_once, 'the bodies']
     joints: Annotated[tuple[str, ...], _each_once, 'the joints'] = ()
@@ -181,6 +181,10 @@ class DeleteBodies(Request):
         Checked.__post_init__(self)
         if not self.names and not self.joints:
             raise Malformed('no body is named', field='names')
+
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with what is deleted."""
+        return Request.phrase(self, subject or several(self.names, self.joints))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

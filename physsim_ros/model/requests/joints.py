@@ -14,8 +14,23 @@ from physsim_ros.model.errors import BadProperty, BadSize, Malformed
 from physsim_ros.model.joints import joined_from, JointKind, JointProperties, kind_from
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests.bodies import ChangeBody, Spawn
-from physsim_ros.model.requests.request import AtPoint, OfNamespace, Request, texts, UNSET
+from physsim_ros.model.requests.request import (
+    AtPoint,
+    OfNamespace,
+    Request,
+    several,
+    texts,
+    UNSET,
+)
 from physsim_ros.model.transform import Point
+
+
+def _check_ends(a: str, b: str) -> None:
+    """Refuse a joint of the background alone, or of a body and itself."""
+    if a == WORLD:
+        raise BadProperty('a is a body; the background can only be b', field='a')
+    if a and a == b:
+        raise BadProperty(f'{a} cannot be joined to itself', field='b')
 
 
 def _points(value: object, name: str) -> tuple[Point, ...]:
@@ -65,10 +80,7 @@ class Join(Request):
                 f'{self.kind.phrase} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
                 field='points',
             )
-        if self.a == WORLD:
-            raise BadProperty('a is a body; the background can only be b', field='a')
-        if self.a and self.a == self.b:
-            raise BadProperty(f'{self.a} cannot be joined to itself', field='b')
+        _check_ends(self.a, self.b)
         self.properties.check_kind(self.kind, self.unset)
         least = self.kind.schema.least_distance
         if least and math.dist(*self.points) < least:
@@ -91,6 +103,19 @@ class Axle(AtPoint):
     """Join the two topmost bodies at a point by an axle, or the only one to the background."""
 
     VERB = 'join axle'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rejoin(Request):
+    """Put a joint on pieces of its bodies: its points stay, and its limits count as before."""
+
+    name: Annotated[str, text, 'of the joint']
+    a: Annotated[str, text, 'name of the piece of its body a']
+    b: Annotated[str, text, "the same of b; 'world' for the background"]
+
+    def __post_init__(self) -> None:
+        Checked.__post_init__(self)
+        _check_ends(self.a, self.b)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -125,17 +150,21 @@ def _parts(*kinds: type) -> Callable[[object, str], tuple[Any, ...]]:
 class Cut(Request):
     """Cut bodies into pieces, and joints through; if a part of it is refused, nothing is cut."""
 
-    OBJECT = 'several bodies'
-
     pieces: Annotated[
         tuple[ChangeBody | Spawn, ...],
         _parts(ChangeBody, Spawn),
         'a change of each body into its largest piece, and the other pieces',
     ]
-    joints: Annotated[tuple[Join, ...], _parts(Join), 'joints that are then on another piece'] = ()
+    joints: Annotated[
+        tuple[Rejoin, ...], _parts(Rejoin), 'joints that are then on another piece'
+    ] = ()
     severed: Annotated[
         tuple[Unjoin, ...], _parts(Unjoin), 'ropes, rods and springs that are cut through'
     ] = ()
+
+    def phrase(self, subject: str) -> str:
+        """Return the phrase for it, with what is cut."""
+        return Request.phrase(self, subject or several(self.pieces, self.severed))
 
 
 def join_from(

@@ -3,7 +3,7 @@
 
 """The base of requests, what several kinds have in common, and requests for the whole world."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, ClassVar
 
@@ -49,6 +49,12 @@ class Request(Checked):
 def as_field(field: str, check: Callable[[Any, str], Any]) -> Callable[[object, str], Any]:
     """Return a check that names another field in its refusal: that of the message."""
     return lambda value, _: check(value, field)
+
+
+def several(bodies: Collection[object], joints: Collection[object]) -> str:
+    """Return the object of a phrase about bodies, joints or both."""
+    kinds = ['bodies'] * bool(bodies) + ['joints'] * bool(joints)
+    return f'several {" and ".join(kinds)}'
 
 
 def texts(value: object, name: str) -> tuple[str, ...]:

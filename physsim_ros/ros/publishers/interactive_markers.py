@@ -69,14 +69,14 @@ class InteractiveMarkers:
         self._wait = 0
 
     def show(self, frame: Frame) -> None:
-        """Publish what has changed, if somebody listens; poses not at every frame."""
+        """Publish what has changed, if somebody listens; of running time, not every pose."""
         self._frame = frame
         told = self._told
         if told is None or not self._publisher.get_subscription_count():
             return
         self._wait -= 1
         same = told.snapshot.scene is frame.snapshot.scene
-        if same and frame.moved and self._wait > 0:
+        if same and frame.passing and self._wait > 0:
             return
         self._wait = FRAMES
         self._update(told.snapshot, frame)

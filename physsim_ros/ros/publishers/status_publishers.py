@@ -162,7 +162,7 @@ class TimelinePublisher:
 
     def show(self, frame: Frame) -> None:
         """Publish the status of the timeline at a frame, if it has changed."""
-        self.publish(may_wait=frame.moved)
+        self.publish(may_wait=frame.passing)
 
     def publish(self, *, may_wait: bool) -> None:
         """

@@ -10,7 +10,7 @@ changed nothing. No two robots have one topic.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -39,7 +39,7 @@ from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
-from physsim_ros.model.transform import ORIGIN, Point, Pose, REST
+from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import joint_requests
 from physsim_ros.simulation.world.body_description import (
     changed_body,
@@ -91,7 +91,11 @@ def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
 
 
 def cut(live: LiveSpace, request: Cut) -> Answer:
-    """Cut bodies into pieces, and put the joints that are there on them; may end half done."""
+    """
+    Cut bodies into pieces, and put the joints and hands that are there on them.
+
+    It may end half done.
+    """
     joints = live.space.joints.by_name
     severed = [each.name for each in request.severed if each.name in joints]
     for name in severed:
@@ -104,11 +108,21 @@ def cut(live: LiveSpace, request: Cut) -> Answer:
             whole.append(change_body(live, piece).subject)
     for joint in request.joints:
         if joint.name in joints:
-            joint_requests.join(live, joint)
+            joint_requests.rejoin(live, joint)
+    _regrip(live.space, whole, {piece.name for piece in request.pieces})
     subjects = whole + severed
     subject = subjects[0] if len(subjects) == 1 else ''
     cuts = [f'into {len(request.pieces)} pieces'] * bool(whole) + severed
     return Answer(subject=subject, message=f'cut {", ".join(cuts)}')
+
+
+def _regrip(space: Space, whole: Collection[str], pieces: Collection[str]) -> None:
+    """Put the grips of hands on bodies that were cut on the pieces under their points."""
+    for grip in [each for each in space.grips if each.body in whole]:
+        point = local_to_world(grip.anchor, space.bodies.by_name[grip.body].pose)
+        under = [name for name in space.bodies.at(point) if name in pieces]
+        if under and grip.body not in under:
+            space.set_grip(grip._replace(body=under[0]))
 
 
 def move_bodies(live: LiveSpace, request: MoveBodies) -> Answer:
@@ -213,7 +227,8 @@ def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
         live.space.remove(name)
     if request.names:
         return _done('deleted', request.names)
-    return Answer(message=f'deleted {counted(len(request.joints), "joint")}')
+    subject = request.joints[0] if len(request.joints) == 1 else ''
+    return Answer(subject=subject, message=f'deleted {counted(len(request.joints), "joint")}')
 
 
 def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:

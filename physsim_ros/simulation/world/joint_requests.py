@@ -18,7 +18,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import names_in, WORLD
-from physsim_ros.model.requests import Axle, Join, Pin, Unjoin, UnjoinAll
+from physsim_ros.model.requests import Axle, Join, Pin, Rejoin, Unjoin, UnjoinAll
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
@@ -71,6 +71,27 @@ def join(live: LiveSpace, request: Join) -> Answer:
     if old is not None:
         return Answer(subject=request.name, message=f'changed {which} of {a} and {other}')
     return Answer(subject=request.name, message=f'joined {a} to {other} by {which}')
+
+
+def rejoin(live: LiveSpace, request: Rejoin) -> Answer:
+    """
+    Put a joint on pieces of its bodies, with its seat.
+
+    :raises UnknownJoint: there is none of that name
+    :raises UnknownBody: there is no body of a name
+    :raises BadProperty: one is a robot
+    """
+    space = live.space
+    check_names(space, (request.name,), 'name')
+    for field, name in (('a', request.a), ('b', request.b)):
+        if name != WORLD:
+            body_of_name(space, name, field, others=(WORLD,))
+    old = space.joints.by_name[request.name].joint
+    _check_robots(space, request.a, request.b)
+    joint = replace(old, a=request.a, b=request.b)
+    live.capacity.check_joint(joint)
+    space.join(joint)
+    return Answer(subject=joint.name, message=f'changed {joint.kind} {joint.name}')
 
 
 def join_at_point(live: LiveSpace, request: Pin | Axle) -> Answer:
@@ -172,12 +193,8 @@ def _members(
 
 def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
     """Refuse a joint of a robot, or of two bodies that are not dynamic."""
+    _check_robots(space, a, b)
     bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
-    for field, body in zip('ab', bodies, strict=False):
-        if body.robot is not None:
-            raise BadProperty(
-                f'{body.name} is a robot; it has no joints', field=field, body=body.name
-            )
     if not any(body.dynamic for body in bodies):
         immovable = ' and '.join(
             f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies
@@ -185,6 +202,12 @@ def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
         other = '' if len(bodies) == 2 else ', and so is the background'
         message = f'{immovable}{other}; there is nothing for the {kind} to hold'
         raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
+
+
+def _check_robots(space: Space, a: str, b: str) -> None:
+    for field, name in (('a', a), ('b', b)):
+        if name != WORLD and space.bodies.by_name[name].body.robot is not None:
+            raise BadProperty(f'{name} is a robot; it has no joints', field=field, body=name)
 
 
 def _seat(

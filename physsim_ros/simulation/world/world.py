@@ -78,6 +78,7 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.DeleteBodies: body_requests.delete_bodies,
     requests.DeleteAll: body_requests.delete_all,
     requests.Join: joint_requests.join,
+    requests.Rejoin: joint_requests.rejoin,
     requests.Pin: joint_requests.join_at_point,
     requests.Axle: joint_requests.join_at_point,
     requests.Unjoin: joint_requests.unjoin,
