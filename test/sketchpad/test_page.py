@@ -521,7 +521,7 @@ def test_all_of_it_goes_by_keys_alone(sheet: Sheet) -> None:
     keyboard.press('n')
     assert 'ball/0' in sheet.page.get_by_role('complementary', name='Body').inner_text()
     keyboard.press('?')
-    assert sheet.page.get_by_role('dialog').is_visible()
+    sheet.page.get_by_role('dialog').wait_for()
 
 
 def test_the_velocity_arrow_of_a_body_is_dragged_to_another_velocity(sheet: Sheet) -> None:
