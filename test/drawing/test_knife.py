@@ -196,6 +196,17 @@ def test_one_stroke_cuts_all_bodies_on_its_way_but_robots_and_actors():
     assert refused.value.body == 'a/1'
 
 
+def test_a_robot_that_is_grazed_does_not_keep_others_from_being_cut():
+    simulation, box = Simulation(), Box(width=1.0, height=1.0)
+    robot = Properties.from_mapping({'robot': {'drive': {'kind': 'omni'}}})
+    simulation.perform(Spawn(name='a/0', shape=box, pose=(0.0, 0.5, 0.0)))
+    simulation.perform(Spawn(name='r/0', shape=box, pose=(4.0, 0.0, 0.0), properties=robot))
+
+    answer = cut(simulation, (-1.0, 0.4999), (5.0, 0.4999))
+
+    assert answer == 'cut into 2 pieces'
+
+
 def test_elements_of_a_compound_stay_round_and_parts_that_nothing_cuts_stay_on_the_largest():
     apart = Compound(element=Disc(radius=0.3), centers=((0, 0), (0.5, 0), (1, 0), (9, 0)))
     simulation = world_of(apart)
