@@ -29,7 +29,7 @@ from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import ChangeBody, Cut, Rejoin, Spawn, Unjoin
-from physsim_ros.model.scene import Joint
+from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import Point, rotated
 from physsim_ros.simulation.world.joint_requests import drawn_points
@@ -49,24 +49,21 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     :raises NothingThere: it passes right through nothing that can be cut
     :raises BadSize: a piece would be too thin
     """
-    pieces: dict[str, list[Shape]] = {}
-    uncut = ''
     middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
     # In the order of spawning.
-    for name in reversed(scene.bodies_at(middle, math.dist(start, end) / 2)):
-        body, found = scene.body(name), _pieces(name, start, end, scene)
-        if found == [body.shape]:
-            continue
-        if body.robot is not None or body.actor is not None:
-            uncut = name
-        else:
-            pieces[name] = found
+    near = scene.bodies_at(middle, math.dist(start, end) / 2)[::-1]
+    pieces = {
+        name: found
+        for name in near
+        if _can_be_cut(scene.body(name)) and (found := _pieces(name, start, end, scene))
+    }
     severed = [joint.name for joint in scene.joints if _is_crossed(joint, start, end, scene)]
-    if uncut and not pieces and not severed:
-        raise NothingThere(
-            f'{uncut} is a robot or an actor, which no knife cuts', field='point', body=uncut
-        )
     if not pieces and not severed:
+        for name in near:
+            if _pieces(name, start, end, scene):
+                raise NothingThere(
+                    f'{name} is a robot or an actor, which no knife cuts', field='point', body=name
+                )
         raise NothingThere(
             'the stroke passes right through no body, rope, rod or spring', field='point'
         )
@@ -86,18 +83,24 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     )
 
 
+def _can_be_cut(body: Body) -> bool:
+    return body.robot is None and body.actor is None
+
+
 def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shape]:
     """
-    Return the shapes of the pieces of a body in its frame, the largest first.
+    Return the shapes of the pieces of a body in its frame, the largest first; [] if it is whole.
 
     :raises BadSize: one would be too thin
     """
+    shape = scene.body(name).shape
     try:
-        return cut_shape(scene.body(name).shape, scene.local(name, start), scene.local(name, end))
+        pieces = cut_shape(shape, scene.local(name, start), scene.local(name, end))
     except (BadOutline, BadSize) as error:
         raise BadSize(
             f'a piece of {name} would be too thin to be simulated', field='point', body=name
         ) from error
+    return [] if pieces == [shape] else pieces
 
 
 def _is_crossed(joint: Joint, start: Point, end: Point, scene: SceneQuery) -> bool:
@@ -107,15 +110,16 @@ def _is_crossed(joint: Joint, start: Point, end: Point, scene: SceneQuery) -> bo
     bodies = [name for name in (joint.a, joint.b) if name != WORLD]
     a, b = drawn_points(joint, {name: scene.pose(name) for name in bodies})
     along, stroke = (b[0] - a[0], b[1] - a[1]), (end[0] - start[0], end[1] - start[1])
-    sine = along[0] * stroke[1] - along[1] * stroke[0]
-    if sine == 0.0:
+    determinant = along[0] * stroke[1] - along[1] * stroke[0]
+    if determinant == 0.0:
         return False
     away = start[0] - a[0], start[1] - a[1]
-    share = (away[0] * stroke[1] - away[1] * stroke[0]) / sine
-    cut_at = (away[0] * along[1] - away[1] * along[0]) / sine
-    if not (0.0 < share < 1.0 and 0.0 < cut_at < 1.0):
+    # Where the lines cross, in shares of the joint and of the stroke.
+    of_joint = (away[0] * stroke[1] - away[1] * stroke[0]) / determinant
+    of_stroke = (away[0] * along[1] - away[1] * along[0]) / determinant
+    if not (0.0 < of_joint < 1.0 and 0.0 < of_stroke < 1.0):
         return False
-    point = a[0] + share * along[0], a[1] + share * along[1]
+    point = a[0] + of_joint * along[0], a[1] + of_joint * along[1]
     return not set(bodies) & set(scene.bodies_at(point))
 
 

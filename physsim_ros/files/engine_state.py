@@ -21,7 +21,7 @@ from physsim_ros.engine.core import sub_step_of
 from physsim_ros.files.world_schema import ROUNDING
 from physsim_ros.model.actors import ActorState, WAITING
 from physsim_ros.model.checkpoint import BodyState, Motion
-from physsim_ros.model.checks import check_finite, LONGEST, number, pair, shown, Whole, Within
+from physsim_ros.model.checks import LONGEST, number, pair, Row, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Command
@@ -32,29 +32,15 @@ from physsim_ros.simulation.world.body_requests import check_command
 
 # Greatest number of a robot's state, as of a motion [m, rad, m/s, rad/s].
 _GREATEST = 1e12
+_POSE = Row((Within(-_GREATEST, _GREATEST),) * 3)
 # Squares and products of such numbers.
-_VARIANCE = Within(-(_GREATEST**2), _GREATEST**2)
+_PRODUCTS = Row((Within(-(_GREATEST**2), _GREATEST**2),) * len(SPAWNED.covariance))
 # Greatest number of points that an actor has reached, and of steps that a wrench acts.
 _MOST_REACHED, _MOST_STEPS = 2**53, 10**14
 
 
-def _pose(value: object, name: str) -> Pose:
-    if not isinstance(value, list | tuple):
-        raise BadProperty(
-            f'{name} must be a list of three numbers, not {shown(value)}', field=name
-        )
-    numbers = tuple(number(each, name) for each in value)
-    check_finite(numbers, 3, name)
-    if max(map(abs, numbers)) > _GREATEST:
-        raise BadProperty(f'{name} is out of range', field=name)
-    x, y, turn = numbers
-    return x, y, turn
-
-
 def _covariance(value: object, name: str) -> Covariance:
-    if not isinstance(value, list | tuple) or len(value) != len(SPAWNED.covariance):
-        raise BadProperty(f'{name} must be a list of six numbers, not {shown(value)}', field=name)
-    xx, xy, yy, x_yaw, y_yaw, yaw_yaw = (_VARIANCE(each, name) for each in value)
+    xx, xy, yy, x_yaw, y_yaw, yaw_yaw = _PRODUCTS(value, name)
     if min(xx, yy, yaw_yaw) < 0.0:
         raise BadProperty('a variance is not negative', field=name)
     return xx, xy, yy, x_yaw, y_yaw, yaw_yaw
@@ -76,10 +62,10 @@ class _Wrench(Checked):
 class _Driven(Checked):
     """The state of a robot, as of `RobotState`."""
 
-    aim: Annotated[Pose, _pose, 'commanded velocity'] = ORIGIN
-    wheels: Annotated[Pose, _pose, 'velocity of the wheels'] = ORIGIN
-    travel: Annotated[Pose, _pose, 'way of the wheels'] = ORIGIN
-    odometry: Annotated[Pose, _pose, 'pose by odometry'] = ORIGIN
+    aim: Annotated[Pose, _POSE, 'commanded velocity'] = ORIGIN
+    wheels: Annotated[Pose, _POSE, 'velocity of the wheels'] = ORIGIN
+    travel: Annotated[Pose, _POSE, 'way of the wheels'] = ORIGIN
+    odometry: Annotated[Pose, _POSE, 'pose by odometry'] = ORIGIN
     covariance: Annotated[Covariance, _covariance, 'of that pose'] = SPAWNED.covariance
     seconds: Annotated[float | None, Within(0.0, LONGEST, 's'), 'until the command ends'] = None
 

@@ -25,10 +25,9 @@ from physsim_ros.files.world_schema import entries_of
 from physsim_ros.files.yaml12 import load_mapping
 from physsim_ros.maps import MOST_CELLS, OccupancyGrid, walls_of
 from physsim_ros.model.arrays import Flags
-from physsim_ros.model.checks import number, shown, Within
-from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.checks import number, Row, shown, Within
+from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.shapes import LARGEST, SMALLEST
-from physsim_ros.model.transform import Pose
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -41,6 +40,8 @@ _MOST_BYTES = 64 * 2**20
 _FORMATS = ('PPM', 'PNG')
 _NEEDED = ('image', 'resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh')
 _SHARE = Within(0.0, 1.0)
+# x, y [m], yaw [rad].
+_ORIGIN = Row((number, number, number))
 
 
 def with_map_walls(content: Mapping[Any, Any], folder: Path, most: int) -> dict[Any, Any]:
@@ -74,7 +75,7 @@ def load_map(name: object, folder: Path) -> OccupancyGrid:
     :param name: of the YAML file, below the folder
     :param folder: below which both files lie, as paths without symbolic links
     :raises BadProperty: there is no such file, or a value is missing or of the wrong kind
-    :raises Malformed: it is not YAML, or a number is not finite
+    :raises Malformed: it is not YAML, a number is not finite, or the origin has not three
     :raises BadSize: cells or the whole are too small or too large
     :raises WorldFull: it has too many cells
     """
@@ -97,7 +98,7 @@ def load_map(name: object, folder: Path) -> OccupancyGrid:
     return OccupancyGrid(
         occupied=_occupied(image, negate=_negate(content), threshold=thresholds[1]),
         resolution=resolution,
-        origin=_origin(content['origin']),
+        origin=_ORIGIN(content['origin'], 'origin'),
     )
 
 
@@ -126,15 +127,6 @@ def _negate(content: Mapping[Any, Any]) -> bool:
     if negate not in (0, 1):
         raise BadProperty(f'negate is 0 or 1, not {shown(negate)}', field='negate')
     return bool(negate)
-
-
-def _origin(value: object) -> Pose:
-    if not isinstance(value, list):
-        raise BadProperty(f'origin must be [x, y, yaw], not {shown(value)}', field='origin')
-    if len(value) != 3:
-        raise Malformed(f'origin needs three numbers, not {len(value)}', field='origin')
-    x, y, yaw = (number(each, 'origin') for each in value)
-    return x, y, yaw
 
 
 def _occupied(path: Path, *, negate: bool, threshold: float) -> Flags:

@@ -76,7 +76,7 @@ class Loader(Composer, yaml.CSafeLoader):
     constructors raise ValueError and others.
 
     :param text: YAML
-    :param entries: of the scalars with the tag `_JSON_LINE`
+    :param entries: values of the scalars with the tag `_JSON_LINE`, by number
     """
 
     yaml_implicit_resolvers: dict[str, list[tuple[str, re.Pattern[str]]]] = {}  # noqa: RUF012
@@ -196,7 +196,8 @@ def load_mapping(
 
     :param text: YAML
     :param field: name of the text, for the refusal
-    :param entries: of the lines that stand for them, by number; those that are met are taken out
+    :param entries: values of the scalars with the tag `_JSON_LINE`, by number; each that is used
+        is removed
     :raises NotYaml: the text is not YAML
     :raises Malformed: it is no mapping
     """

@@ -52,10 +52,10 @@ class TakeBack:
 @dataclass(frozen=True, slots=True)
 class Unread:
     """
-    A request in a message that is converted when its turn comes, as of an array of thousands.
+    A request that is made when its turn comes: of an array of thousands, or of what there then is.
 
     :param subject: name of the body or joint that it names
-    :param convert: returns the request; raises a Refusal
+    :param convert: returns the request, at the moment that is shown; raises a Refusal
     """
 
     subject: str

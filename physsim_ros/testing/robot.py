@@ -77,7 +77,7 @@ class Robot:
 
     def odom(self) -> Odometry:
         """
-        Return where its wheels and its gyroscope tell that it is.
+        Return its pose and velocity as wheels and gyroscope measure them, as of now.
 
         :raises UnknownName: the robot is not there
         """
@@ -86,7 +86,7 @@ class Robot:
 
     def truth(self) -> Odometry:
         """
-        Return where it is.
+        Return its true pose and velocity, as of now.
 
         :raises UnknownName: the robot is not there
         """

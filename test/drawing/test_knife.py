@@ -11,7 +11,7 @@ from physsim_ros.drawing import knife
 from physsim_ros.drawing.cut_shape import cut_shape
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, WorldFull
+from physsim_ros.model.errors import BadOutline, BadSize, NothingThere, UnknownJoint, WorldFull
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Anchor, Grab, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
@@ -235,6 +235,17 @@ def test_one_stroke_cuts_all_bodies_on_its_way_but_robots_and_actors():
     assert refused.value.body == 'a/1'
 
 
+def test_a_robot_that_is_grazed_does_not_keep_others_from_being_cut():
+    simulation, box = Simulation(), Box(width=1.0, height=1.0)
+    robot = Properties.from_mapping({'robot': {'drive': {'kind': 'omni'}}})
+    simulation.perform(Spawn(name='a/0', shape=box, pose=(0.0, 0.5, 0.0)))
+    simulation.perform(Spawn(name='r/0', shape=box, pose=(4.0, 0.0, 0.0), properties=robot))
+
+    answer = cut(simulation, (-1.0, 0.4999), (5.0, 0.4999))
+
+    assert answer == 'cut into 2 pieces'
+
+
 def test_elements_of_a_compound_stay_round_and_parts_that_nothing_cuts_stay_on_the_largest():
     apart = Compound(element=Disc(radius=0.3), centers=((0, 0), (0.5, 0), (1, 0), (9, 0)))
     simulation = world_of(apart)
@@ -292,6 +303,37 @@ def test_a_rope_is_cut_where_it_is_crossed_beside_its_bodies():
 
     assert simulation.world.snapshot().scene.joints == ()
     assert answer == 'cut j/0, j/1, j/2'
+
+
+def test_a_rope_that_is_cut_again_is_refused():
+    simulation = Simulation()
+    simulation.perform(Spawn(name='a/0', shape=Disc(radius=0.5)))
+    rope = Join(name='j/0', kind=JointKind.ROPE, points=((0.0, 0.0), (4.0, 0.0)), a='a/0')
+    simulation.perform(rope)
+    twice = knife.cut((2.0, 1.0), (2.0, -1.0), SceneQuery(simulation.world.snapshot()))
+    simulation.perform(twice)
+    before = simulation.world.digest()
+    with pytest.raises(UnknownJoint, match='j/0'):
+        simulation.perform(twice)
+    assert simulation.world.digest() == before
+
+
+def test_pieces_are_theirs_who_cut_a_rope_with_the_same_stroke():
+    simulation = Simulation(settings=WorldSettings(gravity=(0.0, 0.0)))
+    queue = simulation.requests
+    queue.submit(Spawn(name='a/0', shape=Box(width=2.0, height=1.0)), topic='t', author='ann')
+    queue.submit(
+        Join(name='j/0', kind=JointKind.ROPE, points=((0.9, 0.0), (0.0, 4.0)), a='a/0'),
+        topic='t',
+        author='ann',
+    )
+    simulation.advance_frame()
+    scene = SceneQuery(simulation.world.snapshot())
+    queue.submit(knife.cut((0.3, -2.0), (0.3, 3.5), scene), topic='t', author='ben')
+    simulation.advance_frame()
+    assert simulation.world.scene.names == ('a/0', 'drawn/0')
+    assert simulation.world.scene.joints == ()
+    assert simulation.past.added_by('ben') == (('drawn/0',), ())
 
 
 @pytest.mark.parametrize('seed', range(40))

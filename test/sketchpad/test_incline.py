@@ -13,7 +13,7 @@ import pytest
 from .chromium import Sheet
 
 ANGLE, LENGTH = 'Angle of the slope [°]', 'Length of the slope [m]'
-# Corners of the body that is selected, as its last spawn has them: its outline is drawn there.
+# Greatest distance of a foot from where it was [m]: poses come as float32.
 NEAR = 1e-6
 
 

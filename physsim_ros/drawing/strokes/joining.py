@@ -111,7 +111,11 @@ def touching(strokes: Sequence[Floats], snap: float) -> Flags:
 
 
 def connected(touching: Flags) -> list[list[int]]:
-    """Return the numbers of those that touch each other, directly or by others, by group."""
+    """
+    Return the connected components of a graph, as sorted lists of indices.
+
+    :param touching: (n, n) bool: whether two touch each other, symmetric
+    """
     left = np.ones(len(touching), np.bool_)
     groups = []
     while left.any():

@@ -119,20 +119,19 @@ def resample_stroke(samples: Floats) -> Stroke:
 
 
 def _checked(samples: Floats) -> Floats:
-    """Return the positions of the samples, in order, (n, 2) float64 [m]."""
+    """Return the positions of the samples of the stroke, in order, (n, 2) float64 [m]."""
     if len(samples) == 0:
         raise Malformed('the stroke has no samples', field='poses')
     places = samples[:, :2]
-    if samples.shape[1] > 2:
-        order = np.argsort(samples[:, 2], kind='stable')
-        places = places[order]
-        if _begins_elsewhere(places, samples[order, 2]):
-            places = places[1:]
     if not np.isfinite(places).all():
         raise Malformed('a sample of the stroke is not finite', field='poses')
     if np.abs(places).max() > FARTHEST:
         raise BadSize(f'the stroke reaches further than {FARTHEST:g} m', field='poses')
-    return places
+    if samples.shape[1] == 2:
+        return places
+    order = np.argsort(samples[:, 2], kind='stable')
+    places = places[order]
+    return places[1:] if _begins_elsewhere(places, samples[order, 2]) else places
 
 
 def _begins_elsewhere(places: Floats, times: Floats) -> bool:

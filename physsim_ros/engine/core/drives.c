@@ -6,7 +6,7 @@
 // Problem: a robot does not have its commanded velocity at once, and not for ever: motors accelerate wheels by so much,
 // and a command counts until its timeout.
 // Method: the velocity of the wheels goes to the commanded one on a straight line, as fast as the rim of no wheel
-// accelerates more than it can; a robot that starts on an arc stays on it. The wheels turn as told whatever the body
+// accelerates more than it can; a robot that starts on an arc stays on it. The wheels turn so whatever the body
 // does: where the floor cannot move it, they slip. Law: the way of the wheels is the integral of their velocity by the
 // trapezoidal rule, and exact.
 //
@@ -109,17 +109,17 @@ void reckon_odometry(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
         const Body *body = world->bodies + robot->body;
-        Vec way = scaled(robot->mean.v, world->dt), told = way;
+        Vec way = scaled(robot->mean.v, world->dt), measured = way;
         double turn = body->engine->a - body->begin.yaw, drift = 0.0, distance = length(way);
         if (robot->noise != NULL) {
             const cpVect noise = scaled(robot->noise[world->own->call_step], 1.0 / sqrt(SUB_STEPS));
             double share = distance > 0.0 ? 1.0 + noise.x * robot->slip[0] / sqrt(distance) : 1.0;
-            told = scaled(way, share);
+            measured = scaled(way, share);
             drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));
         }
         robot->travel = twist_sum(robot->travel, robot->mean, world->dt);
         Pose before = robot->odometry;
-        robot->odometry = reckoned(before, told, turn + drift);
+        robot->odometry = reckoned(before, measured, turn + drift);
         if (robot->noise != NULL) {
             propagate_covariance(robot, sub(robot->odometry.p, before.p), distance, turn);
         }

@@ -48,7 +48,7 @@ def _names(value: object, name: str) -> tuple[str, ...]:
 def _each_once(value: object, name: str) -> tuple[str, ...]:
     names = texts(value, name)
     if len(set(names)) != len(names):
-        raise Malformed('a body is named twice', field=name)
+        raise Malformed(f'{name} has a name twice', field=name)
     return names
 
 
@@ -167,9 +167,11 @@ class Delete(Request):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DeleteBodies(Request):
     """
-    Remove several bodies with their joints, and other joints; if one is not there, none goes.
+    Remove several bodies with their joints, and other joints.
 
-    :raises Malformed: nothing is named, or something twice
+    If a body or joint does not exist, nothing is removed.
+
+    :raises Malformed: nothing is named, or something is named twice
     """
 
     VERB = 'delete'

@@ -20,6 +20,8 @@ class HandRequest(Request):
     :raises Malformed: the name is empty, too long or unprintable
     """
 
+    VERB = 'drag'
+
     hand: Annotated[
         str, as_field('client_id', check_hand_name), 'name of the hand, unique in its world'
     ]
@@ -68,5 +70,3 @@ class KeepHand(HandRequest):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LetGo(HandRequest):
     """Have a hand let go of its body, which flies on."""
-
-    VERB = 'drag'

@@ -21,8 +21,8 @@ class Request(Checked):
     """
     The base of requests.
 
-    :cvar VERB: for it in phrases of undo and redo; '' is the name of its class
-    :cvar OBJECT: that it concerns where that is no single body or joint
+    :cvar VERB: verb of the phrase by which undo and redo name it; '' is the name of its class
+    :cvar OBJECT: object of that phrase where the request concerns no single body or joint
     """
 
     __slots__ = ()

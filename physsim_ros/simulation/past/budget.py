@@ -45,8 +45,10 @@ def request_size(request: Request) -> int:
     match request:
         case Command(names=names):
             return _VALUE + request.nbytes + _NAME * len(names)
-        case MoveBodies(names=names) | DeleteBodies(names=names):
+        case MoveBodies(names=names):
             return _VALUE + _NAME * len(names)
+        case DeleteBodies(names=names, joints=joints):
+            return _VALUE + _NAME * (len(names) + len(joints))
         case Spawn(shape=shape) | ChangeBody(shape=shape) if shape is not None:
             return _VALUE + _shape_size(shape)
         case Cut(pieces=pieces, joints=joints, severed=severed):

@@ -92,12 +92,16 @@ def change_body(live: LiveSpace, request: ChangeBody) -> Answer:
 
 def cut(live: LiveSpace, request: Cut) -> Answer:
     """
-    Cut bodies into pieces, and put the joints and hands that are there on them.
+    Cut bodies into pieces, move joints and hands to them, and remove severed joints.
 
-    It may end half done.
+    It may end half done. Joints that have broken since the cut was drawn are ignored.
+
+    :raises UnknownJoint: it would cut joints alone, all of which have broken
     """
     joints = live.space.joints.by_name
     severed = [each.name for each in request.severed if each.name in joints]
+    if not severed and not request.pieces:
+        joint_requests.check_names(live.space, (each.name for each in request.severed), 'severed')
     for name in severed:
         live.space.unjoin(name)
     whole = []

@@ -4,8 +4,9 @@
 """
 The world: requests go in, snapshots come out.
 
-Laws: the world changes between steps only by `apply`; a refusal changes nothing; the same requests
-at the same steps give the same bits, in another process too.
+Laws: the world changes between steps only by `apply`; a refusal changes nothing, or `changed`
+tells that the caller is to rebuild the world; the same requests at the same steps give the same
+bits, in another process too.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 import hashlib
+from operator import gt
 from typing import Any
 
 import numpy as np
@@ -103,7 +105,7 @@ class World(LiveSpace):
 
     :ivar reports_contacts: whether contacts are reported, which costs a tenth of a step
     :ivar changed: whether the last request changed anything; also one that was refused half done
-    :ivar has_grown: whether it left more bodies and joints than there were before
+    :ivar has_grown: whether it left more bodies, or more joints, than there were before
     """
 
     def __init__(
@@ -195,16 +197,18 @@ class World(LiveSpace):
 
         :raises Refusal: nothing is changed, or `changed` tells that it is half done
         """
-        before, count = (self.space, self.space.changes), self._count
+        before, counts = (self.space, self.space.changes), self._counts
         try:
             return HANDLERS[type(request)](self, request)
         finally:
             self.changed = before != (self.space, self.space.changes)
-            self.has_grown = self._count > count
+            # One by one: a cut may add a body, and remove a joint.
+            self.has_grown = any(map(gt, self._counts, counts))
 
     @property
-    def _count(self) -> int:
-        return len(self.space.bodies.by_name) + len(self.space.joints.by_name)
+    def _counts(self) -> tuple[int, int]:
+        """Return the numbers of bodies and of joints."""
+        return len(self.space.bodies.by_name), len(self.space.joints.by_name)
 
     def replay(self, request: Request) -> None:
         """

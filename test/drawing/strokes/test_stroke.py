@@ -164,6 +164,16 @@ def test_what_is_no_stroke_is_refused(
     assert caught.value.field == 'poses'
 
 
+@pytest.mark.parametrize(('number', 'refusal'), [(math.inf, Malformed), (1e300, BadSize)])
+def test_samples_with_times_are_refused_before_they_are_computed_with(
+    number: float, refusal: type[Exception]
+) -> None:
+    samples = np.column_stack((ARC, ANGLE))
+    samples[[3, 7], 0] = number
+    with np.errstate(all='raise'), pytest.raises(refusal):
+        resample_stroke(samples)
+
+
 def length(points: Floats) -> float:
     return float(np.hypot(*np.diff(points, axis=0).T).sum())
 

@@ -129,7 +129,6 @@ export class Pointers {
     this.worked.up(this.#touch(event));
     if (this.worked === this.app.tool) this.app.hints.noteUse();
     this.app.handles.point(this.#touch(event), event.pointerType === 'touch');
-    if (this.app.room.late) this.app.room.fit();
     this.app.view.dirty = true;
   }
 

@@ -4,7 +4,7 @@
  * touches, also those before a gate was chosen; and a stopwatch by hand, in the time of the world, with laps.
  */
 
-import {choice, createElement, inRow, textButton} from '../dom.js';
+import {choice, createElement, inRow, showText, textButton} from '../dom.js';
 import {fixed} from '../rounding.js';
 import {t} from '../strings.js';
 
@@ -139,13 +139,14 @@ export class Stopwatch {
   #show() {
     const {start, stop} = this.#run(), begin = this.start ? start?.time : 0;
     const end = stop?.time ?? (this.stop ? this.shown : undefined);
-    this.time.textContent = begin === undefined || end === undefined ? '–' : `${fixed(end - begin, 4)} s`;
-    this.byHand.textContent = this.#handText();
-    this.lapList.textContent = this.#lapTexts().slice(-MOST_LAPS).join(', ');
+    showText(this.time, begin === undefined || end === undefined ? '–' : `${fixed(end - begin, 4)} s`);
+    showText(this.byHand, this.#handText());
+    showText(this.lapList, this.#lapTexts().slice(-MOST_LAPS).join(', '));
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
-    this.details.textContent = [start && t('started at {time} s by {name}', {time: fixed(start.time, 4), name: start.other || t('a wall')}),
-      stop && t('stopped at {time} s by {name}', {time: fixed(stop.time, 4), name: stop.other || t('a wall')})].filter(Boolean).join(', ');
-    this.count.textContent = this.counted ? String(this.touches.filter(({name, time}) => name === this.counted && time > this.since).length) : '–';
+    showText(this.details, [start && t('started at {time} s by {name}', {time: fixed(start.time, 4), name: start.other || t('a wall')}),
+      stop && t('stopped at {time} s by {name}', {time: fixed(stop.time, 4), name: stop.other || t('a wall')})].filter(Boolean).join(', '));
+    const collisions = this.touches.filter(({name, time}) => name === this.counted && time > this.since).length;
+    showText(this.count, this.counted ? String(collisions) : '–');
   }
 
   /** @returns {{start?: Touched, stop?: Touched}} the last run from gate to gate of one body, else the first that goes on */

@@ -9,8 +9,7 @@
  */
 
 import {createElement, elementOf, showText, textButton, toggling} from '../dom.js';
-import {drawApplied} from '../panels/force_fields.js';
-import {bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
+import {appliedTo, bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {digits, roundUp, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 
@@ -22,6 +21,7 @@ const SHORT = 0.12; // share of that room below which the scale becomes finer
 const SETTLED = 400; // ms for which an arrow is too long or too short before the scale follows
 const CUT = 1.3; // times the room: longer arrows, of impacts, are cut
 const LEAST = 4; // px: of an arrow
+const LENGTH = 34; // px: of the arrow of a constant force, where forces are not shown to scale
 const LEAST_SPEED = 5; // m/s: that there is always room for
 const FEW = 12; // bodies that move, of which all forces are shown where none is selected
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
@@ -231,4 +231,24 @@ export class Arrows {
  */
 function colorOf(kind, palette) {
   return kind === 'sum' ? palette.ink : kind === 'normal' ? palette.force : palette[kind];
+}
+
+/**
+ * Draw the constant forces of all bodies as arrows of one length, with the newtons of those on selected ones.
+ * @param {App} app
+ * @param {SceneView} view
+ */
+function drawApplied({world, camera, selection}, view) {
+  const color = view.palette.applied;
+  for (let row = 0; row < world.count; row++) {
+    const {forces, name} = world.scene.bodies[row];
+    for (const {at, force: [x, y]} of forces ? appliedTo(world, row) : []) {
+      const size = Math.hypot(x, y), [px, py] = camera.toPage(...at);
+      if (!size) continue;
+      const along = /** @type {Point} */ ([x / size, -y / size]);
+      const tip = /** @type {Point} */ ([px + LENGTH * along[0], py + LENGTH * along[1]]);
+      view.arrow([px, py], tip, color);
+      if (selection.names.has(name)) view.number({text: `${threeDigits(size)} N`, color, from: [px, py], tip, along, named: true});
+    }
+  }
 }

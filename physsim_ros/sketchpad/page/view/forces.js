@@ -7,7 +7,7 @@
  * depend on how fast the world plays. Hands and commanded wrenches are not among them.
  */
 
-import {appliedTo} from '../panels/force_fields.js';
+import {rotated} from '../vectors.js';
 
 /** @import {Force, Point, WorldState} from '../types.js' */
 
@@ -58,6 +58,17 @@ export function forcesOf(world) {
     add('joint', a, world.place(a, points[0]), -pulls.x[i], -pulls.y[i], b);
   });
   return forces;
+}
+
+/**
+ * @param {WorldState} world
+ * @param {number} row of a body
+ * @returns {{at: Point, force: Point}[]} its constant forces now, in world axes [m, N]
+ */
+export function appliedTo(world, row) {
+  const {forces = [], centroid} = world.scene.bodies[row];
+  return forces.map(({force, at = centroid, axes}) => ({at: world.place(row, at),
+    force: axes === 'body' ? rotated(force, world.frame.yaw[row]) : force}));
 }
 
 /**

@@ -28,6 +28,9 @@ export class Room {
     this.bounds = ''; // of the world that was framed; a world with other bounds is framed again
     this.extent = [0, 0, 0, 0]; // that was framed [m]
     this.late = false; // whether the world is framed when the gesture ends
+    app.view.overlays.push(() => {
+      if (this.late && !this.#isInGesture) this.fit();
+    });
     const bar = elementOf('bar', HTMLElement), top = elementOf('top', HTMLElement);
     const sizes = new ResizeObserver(() => {
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
@@ -44,6 +47,11 @@ export class Room {
   /** @returns {boolean} whether a panel in full leaves room for the world */
   get isRoomy() {
     return innerWidth >= WIDE && innerHeight >= LOW;
+  }
+
+  get #isInGesture() {
+    const {pointers, tool} = this.app;
+    return pointers?.down.size > 0 || tool.open === true;
   }
 
   /** Frame the world as it is now. */
@@ -64,7 +72,7 @@ export class Room {
 
   /** Fit what was framed into the room, and dock legend and plot there. */
   fit() {
-    const {camera, view, pointers, tool} = this.app, [xmin, ymin, xmax, ymax] = this.extent;
+    const {camera, view} = this.app, [xmin, ymin, xmax, ymax] = this.extent;
     const gap = this.isRoomy ? GAP : SMALL_GAP;
     /** How large the world is in a room [px/m]. */
     const scaleIn = (/** @type {Box} */ {left, top, right, bottom}) => Math.min(
@@ -78,7 +86,7 @@ export class Room {
     }
     view.insets = {left: room.left, top: room.top, right: camera.width - room.right, bottom: camera.height - room.bottom};
     view.dirty = true;
-    this.late = camera.fitted && (pointers?.down.size > 0 || tool.open === true);
+    this.late = camera.fitted && this.#isInGesture;
     if (camera.fitted && !this.late) {
       const {left, top, right, bottom} = view.insets;
       camera.fit(this.extent, {left: left + gap + LABELS, top: top + gap, right: right + gap, bottom: bottom + gap});
