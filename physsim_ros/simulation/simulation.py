@@ -279,8 +279,8 @@ class Simulation(FrameMaker):
         :raises OutOfHistory: nothing was undone, or a request was applied since
         """
         with self._jump():
-            self.past.redo()
-        return f'redid what was undone, at {self.playback.time}'
+            redone = self.past.redo()
+        return f'redid {redone}, at {self.playback.time}'
 
     def return_to_course(self, number: int) -> str:
         """

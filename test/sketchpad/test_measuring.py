@@ -51,6 +51,15 @@ HAS_COLOR = """([x, y, half, name]) => {
     return false;
 }"""
 
+# What a list lacks of the width of its widest item [px].
+WIDTH_MISSING = """(select) => {
+    const whole = document.body.appendChild(select.cloneNode(true));
+    whole.style.position = 'absolute';
+    const missing = whole.offsetWidth - select.offsetWidth;
+    whole.remove();
+    return missing;
+}"""
+
 
 @pytest.fixture(scope='module')
 def address(outside: Outside) -> str:
@@ -193,6 +202,23 @@ def test_gates_start_and_stop_the_clock_to_the_step(sheet: Sheet) -> None:
     sheet.until(lambda: clock.inner_text() == '–', 'a clock that has not started')
     sheet.play_until(3.0)
     sheet.until(lambda: panel.inner_text() == first, 'the same times')
+
+
+def test_a_gate_tells_what_touched_it_as_lists_do(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.press('Circle')
+    sheet.drag((-4.0, 5.0), (-3.7, 5.0))
+    number = sheet.wait_for_new(before).partition('/')[2]
+    sheet.press('Measure')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    start = panel.get_by_label('Starts when touched')
+    start.select_option('rail/0')
+    # What is chosen can be read whole.
+    start.select_option(label=f'Circle {number}')
+    assert start.evaluate(WIDTH_MISSING) <= 0
+    start.select_option('rail/0')
+    sheet.play_until(1.5)
+    panel.get_by_text(re.compile(f'started at .* by Circle {number}')).wait_for()
 
 
 def test_gates_that_are_chosen_after_the_run_tell_the_same_time(sheet: Sheet) -> None:

@@ -218,6 +218,8 @@ def test_a_body_that_is_tapped_has_its_numbers_of_now(sheet: Sheet) -> None:
     sheet.page.mouse.click(*sheet.place(0.0, 0.5), delay=300)
     numbers = sheet.page.get_by_role('region', name='Numbers')
     numbers.get_by_text('0.785 kg · at 0, 0.50 m · 0° · 0 m/s · 0 rad/s').wait_for()
+    # A line does not break before a unit.
+    assert '0\u00a0rad/s' in numbers.text_content()
     # m g h of pi / 4 kg in half a metre.
     numbers.get_by_text('3.85 J').wait_for()
     with sheet.dragging((0.0, 0.5), (-2.0, 4.5)):

@@ -223,6 +223,28 @@ def test_the_view_does_not_move_in_the_midst_of_a_gesture(
     sheet.close()
 
 
+@pytest.mark.parametrize('size', SIZES[:1])
+def test_what_is_drawn_beyond_the_first_view_stays_in_sight(
+    chromium: Any, outside: Outside, size: tuple[int, int]
+) -> None:
+    _, address = started_world(outside, world='format: 1')
+    sheet = Sheet(chromium, address, viewport={'width': size[0], 'height': size[1]})
+    sheet.wait('heard.people && physsim.time >= 0')
+    sheet.press('Pause')
+    bar = sheet.page.locator('#bar')
+    # An anchored plane near the time bar; its panel opens, and makes the room narrower.
+    top = bar.bounding_box()['y']
+    foot = sheet.page.evaluate('at => physsim.toWorld(...at)', [300, top - 20])
+    sheet.press('Inclined plane')
+    sheet.page.mouse.click(300, top - 20)
+    sheet.page.get_by_role('heading', name='Inclined plane').wait_for()
+    before = sheet.place(*foot)
+    sheet.press('Close')
+    sheet.until(lambda: sheet.place(*foot) != before, 'a world in the larger room')
+    assert sheet.place(*foot)[1] < bar.bounding_box()['y']
+    sheet.close()
+
+
 @pytest.mark.parametrize('size', SIZES[1:3])
 def test_a_telephone_shows_the_lesson_or_the_panel(
     chromium: Any, program: Any, size: tuple[int, int]

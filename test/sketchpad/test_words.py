@@ -56,6 +56,20 @@ def test_what_nobody_has_named_is_called_what_it_is(sheet: Sheet) -> None:
     sheet.press('Undo')
     sheet.press('Undo')
     said(sheet, 'Undone: add the circle')
+    sheet.press('Redo')
+    said(sheet, 'Redone: add the circle')
+
+
+def test_a_knife_tells_that_it_passed_a_joint_too(sheet: Sheet) -> None:
+    for tool, points in (
+        ('Rectangle', ((-1.0, 4.0), (1.0, 5.0))),
+        ('Rod', ((-4.0, 3.0), (4.0, 0.5))),
+        ('Knife', ((0.7, 5.5), (0.7, 1.2))),
+    ):
+        sheet.press(tool)
+        sheet.drag(*points)
+        sheet.page.evaluate('new Promise(requestAnimationFrame)')
+    said(sheet, 'Cut into 2 pieces, and joints cut through')
 
 
 def test_a_chain_is_told_as_one_thing_not_as_its_last_axle(sheet: Sheet) -> None:

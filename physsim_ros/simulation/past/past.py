@@ -299,20 +299,23 @@ class Past:
         tree.undone.append(left)
         return words
 
-    def redo(self) -> None:
+    def redo(self) -> str:
         """
         Return to the moment of the last undo.
 
+        :return: the phrase for what was redone
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
         tree, era = self.tree, self.tree.era
         if not tree.has_undone:
             raise OutOfHistory('there is nothing to redo', field='history')
+        words = tree.undone[-1].words
         left, _ = self.go_to(tree.undone[-1])
         if tree.era == era:
             tree.drop(left)
         else:
             tree.resets.append(left)
+        return words
 
     def return_to_course(self, number: int) -> bool:
         """

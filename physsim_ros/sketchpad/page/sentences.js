@@ -58,7 +58,8 @@ export const SENTENCES = [
   [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')],
   [/^(?:moved|set pose of) (\d+) bodies$/, t('Moved $1 bodies')],
   [/^copied (\d+) bodies$/, t('Copied $1 bodies')],
-  [/^cut into (\d+) pieces.*/, t('Cut into $1 pieces')],
+  [/^cut into (\d+) pieces$/, t('Cut into $1 pieces')],
+  [/^cut into (\d+) pieces, .*/, t('Cut into $1 pieces, and joints cut through')],
   [/^cut .*/, t('Cut through')],
   [/^loaded (\d+) bod(y|ies)/, t('Loaded $1 bodies')],
   [/^deleted joint .*/, t('Joint deleted')],
@@ -91,7 +92,7 @@ export const SENTENCES = [
   [/^the yaw of pose /, t('the angle') + ' '],
   [/^there is nothing by .+ to undo$/, t('Nothing of yours to undo')],
   [/^undid (.+?)(, back at .*)?$/, t('Undone: $1')],
-  [/^redid .*/, t('Redone')],
+  [/^redid (.+?)(, at .*)?$/, t('Redone: $1')],
   [/^(back )?at the beginning, .*/, t('Back at the beginning')],
   [/ at \([^)]*\)$/, ` ${t('here')}`],
 ];

@@ -115,6 +115,15 @@ export class WorldState {
   }
 
   /**
+   * @param {number[]} box xmin, ymin, xmax, ymax [m]
+   * @returns {number[]} of the bodies that lie in it whole [m]; infinite where there are none
+   */
+  boundsWithin([xmin, ymin, xmax, ymax]) {
+    const boxes = this.scene.bodies.slice(0, this.count).map((_, row) => this.#boundsOf(row));
+    return unionOf(boxes.filter(([left, low, right, high]) => left >= xmin && low >= ymin && right <= xmax && high <= ymax));
+  }
+
+  /**
    * @param {number} row
    * @returns {number[]} xmin, ymin, xmax, ymax of a body [m]
    */

@@ -51,7 +51,8 @@ export class Numbers {
     const {world} = this.app, row = world.row(name);
     if (row < 0) return;
     const body = world.scene.bodies[row], {vx, vy} = motionOf(world, row), {mass} = body;
-    showText(this.line, `${threeDigits(mass)} kg · ${placed(world, row)}`);
+    // The line breaks between quantities, not before a unit.
+    showText(this.line, `${threeDigits(mass)} kg · ${placed(world, row)}`.replace(/(?<!·) /g, '\u00a0'));
     showText(this.momentum, t('Momentum {momentum}', {momentum: momentumText([mass * vx, mass * vy])}));
     showText(this.pairs, this.#pairsOf(row));
     this.#showTyped(body, row);

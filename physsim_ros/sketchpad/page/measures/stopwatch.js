@@ -143,8 +143,9 @@ export class Stopwatch {
     showText(this.byHand, this.#handText());
     showText(this.lapList, this.#lapTexts().slice(-MOST_LAPS).join(', '));
     this.time.classList.toggle('running', begin !== undefined && this.stop !== '' && !stop);
-    showText(this.details, [start && t('started at {time} s by {name}', {time: fixed(start.time, 4), name: start.other || t('a wall')}),
-      stop && t('stopped at {time} s by {name}', {time: fixed(stop.time, 4), name: stop.other || t('a wall')})].filter(Boolean).join(', '));
+    const told = (/** @type {Touched} */ {time, other}) => ({time: fixed(time, 4), name: other ? this.app.words.item(other) : t('a wall')});
+    showText(this.details, [start && t('started at {time} s by {name}', told(start)),
+      stop && t('stopped at {time} s by {name}', told(stop))].filter(Boolean).join(', '));
     const collisions = this.touches.filter(({name, time}) => name === this.counted && time > this.since).length;
     showText(this.count, this.counted ? String(collisions) : '–');
   }

@@ -4,10 +4,11 @@
  * legend of arrows, the plot and notes without a place are docked to the edges of that rectangle.
  *
  * The world is framed there when a panel opens, closes or changes its size, unless somebody has moved the view; not in
- * the midst of a gesture, but at its end.
+ * the midst of a gesture, but at its end. What was drawn meanwhile, and is in sight, stays in sight.
  */
 
 import {elementOf} from '../dom.js';
+import {unionOf} from './body_path.js';
 
 /** @import {App} from '../types.js' */
 
@@ -60,7 +61,7 @@ export class Room {
     this.extent = app.world.extent();
     this.framed = app.camera.fitted = true;
     this.bounds = String(app.world.scene.bounds);
-    this.fit();
+    this.#arrange();
   }
 
   /** Frame the world that comes next, in which nothing is selected. */
@@ -70,8 +71,18 @@ export class Room {
     this.app.selection.select([]);
   }
 
-  /** Fit what was framed into the room, and dock legend and plot there. */
+  /** Fit what was framed, and what is in sight, into the room. */
   fit() {
+    const {camera, view, world} = this.app, {left, top, right, bottom} = view.insets;
+    if (camera.fitted && this.framed) {
+      const [xmin, ymax] = camera.toWorld(left, top), [xmax, ymin] = camera.toWorld(camera.width - right, camera.height - bottom);
+      this.extent = unionOf([this.extent, world.boundsWithin([xmin, ymin, xmax, ymax])]);
+    }
+    this.#arrange();
+  }
+
+  /** Fit what is to be framed into the room, and dock legend and plot there. */
+  #arrange() {
     const {camera, view} = this.app, [xmin, ymin, xmax, ymax] = this.extent;
     const gap = this.isRoomy ? GAP : SMALL_GAP;
     /** How large the world is in a room [px/m]. */
