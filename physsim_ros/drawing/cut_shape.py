@@ -207,9 +207,10 @@ def _joined(pieces: list[Floats], start: Floats, end: Floats) -> Flags:
     across = [_across(each, start, end) for each in pieces]
     left = np.array([each.min() >= 0.0 for each in across])
     right = np.array([each.max() <= 0.0 for each in across])
-    length, axis = math.dist(start, end), (end - start) / math.dist(start, end)
+    length = math.dist(start, end)
+    axis = (end - start) / length
     for a, b in np.argwhere(joined & left[:, None] & right).tolist():
-        # Where each lies on the line of the cut, as distances from its start.
+        # The corners of each on the line of the cut, as distances from its start.
         spans = [dots(pieces[it][across[it] == 0.0] - start, axis) for it in (a, b)]
         if all(map(len, spans)):
             begin, stop = max(map(min, spans)), min(map(max, spans))

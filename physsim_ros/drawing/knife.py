@@ -19,10 +19,12 @@ from dataclasses import replace
 import math
 from typing import Any
 
+import numpy as np
 from physsim_ros.drawing import body_requests
 from physsim_ros.drawing.cut_shape import cut_shape
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.strokes.bodies_under import nearest_points
+from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
@@ -31,7 +33,7 @@ from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import ChangeBody, Cut, Rejoin, Spawn, Unjoin
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import contains, Shape
-from physsim_ros.model.transform import Point, rotated
+from physsim_ros.model.transform import cross, Point, rotated
 from physsim_ros.simulation.world.joint_requests import drawn_points
 
 # Joints along a line, which a knife cuts.
@@ -108,19 +110,17 @@ def _is_crossed(joint: Joint, start: Point, end: Point, scene: SceneQuery) -> bo
     if joint.kind not in _LINES:
         return False
     bodies = [name for name in (joint.a, joint.b) if name != WORLD]
-    a, b = drawn_points(joint, {name: scene.pose(name) for name in bodies})
-    along, stroke = (b[0] - a[0], b[1] - a[1]), (end[0] - start[0], end[1] - start[1])
-    determinant = along[0] * stroke[1] - along[1] * stroke[0]
+    points = drawn_points(joint, {name: scene.pose(name) for name in bodies})
+    a, b, first, last = np.array((*points, start, end))
+    along, stroke, away = b - a, last - first, first - a
+    determinant = cross(along, stroke)
     if determinant == 0.0:
         return False
-    away = start[0] - a[0], start[1] - a[1]
-    # Where the lines cross, in shares of the joint and of the stroke.
-    of_joint = (away[0] * stroke[1] - away[1] * stroke[0]) / determinant
-    of_stroke = (away[0] * along[1] - away[1] * along[0]) / determinant
+    # The crossing of the two lines, in shares of the joint and of the stroke.
+    of_joint, of_stroke = cross(away, stroke) / determinant, cross(away, along) / determinant
     if not (0.0 < of_joint < 1.0 and 0.0 < of_stroke < 1.0):
         return False
-    point = a[0] + of_joint * along[0], a[1] + of_joint * along[1]
-    return not set(bodies) & set(scene.bodies_at(point))
+    return not set(bodies) & set(scene.bodies_at(point_of(a + of_joint * along)))
 
 
 def _requests_of(

@@ -71,7 +71,8 @@ class RequestQueue:
         self._is_applying = False
         # Gesture of the last request that was applied.
         self._applied = 0
-        # What a later entry replaces: by hand its waiting move, and by '' the waiting seek.
+        # Entries that a later one replaces: the waiting move of each hand, by its name, and the
+        # waiting seek, by '', which is the name of no hand.
         self._replaceable: dict[str, Entry] = {}
         # Number of answers that the last entry stands for.
         self._untold = 0

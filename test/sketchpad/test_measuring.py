@@ -51,7 +51,7 @@ HAS_COLOR = """([x, y, half, name]) => {
     return false;
 }"""
 
-# What a list lacks of the width of its widest item [px].
+# The width by which a list is narrower than its widest item [px].
 WIDTH_MISSING = """(select) => {
     const whole = document.body.appendChild(select.cloneNode(true));
     whole.style.position = 'absolute';
@@ -213,7 +213,7 @@ def test_a_gate_tells_what_touched_it_as_lists_do(sheet: Sheet) -> None:
     panel = sheet.page.get_by_role('complementary', name='Body')
     start = panel.get_by_label('Starts when touched')
     start.select_option('rail/0')
-    # What is chosen can be read whole.
+    # The chosen item can be read whole.
     start.select_option(label=f'Circle {number}')
     assert start.evaluate(WIDTH_MISSING) <= 0
     start.select_option('rail/0')

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What goes beside the bodies: plots, the track of time, scans and paths of robots."""
+"""Entities beside the bodies: plots, the track of time, scans and paths of robots."""
 
 from __future__ import annotations
 

@@ -205,8 +205,8 @@ def _page_messages() -> str:
 
 def _titled(title: str, columns: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
     """Return a line and below it a table, if there are rows."""
-    table = _rows(columns, *rows).rstrip('\n') if rows else ''
-    return f'\n{title}\n{table}\n'
+    table = _rows(columns, *rows).rstrip('\n') + '\n' if rows else ''
+    return f'\n{title}\n{table}'
 
 
 def _list(words: Iterable[str]) -> str:

@@ -148,7 +148,7 @@ class Commands:
         return changed
 
     def _choose(self, publishers: Sequence[TopicEndpointInfo]) -> tuple[_Heard | None, str]:
-        """Return what to subscribe to, and why some publishers are not heard; '' where all are."""
+        """Return the subscription, and why some publishers are not heard; '' where all are."""
         names = {each.topic_type for each in publishers}
         types = [kind for name, kind in self._types.items() if name in names]
         deaf = ''
