@@ -26,10 +26,8 @@ from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
-from physsim_ros.model.actors import ActorStates
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.robot_states import RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Grip
@@ -259,11 +257,6 @@ class Space:
 
     # Robots
 
-    @property
-    def robot_states(self) -> RobotStates:
-        """Return drives and odometry of the robots, in the order of the scene."""
-        return self.table.robot_states
-
     def drive(self, rigid: RigidBody, velocity: Twist, until: int) -> None:
         """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""
         robot = rigid.body.robot
@@ -284,13 +277,6 @@ class Space:
         robots = self.table.robots
         record: np.void = robots[int(robots['body'].searchsorted(rigid.row))]
         return record
-
-    # Actors
-
-    @property
-    def actor_states(self) -> ActorStates:
-        """Return the states of the actors, in the order of the scene."""
-        return self.table.actor_states
 
     # Grips
 

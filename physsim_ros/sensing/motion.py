@@ -44,7 +44,7 @@ def read_odometry(snapshot: Snapshot, row: int) -> OdometryReading:
     """
     place = int(np.searchsorted(snapshot.scene.robot_rows, row))
     states = snapshot.robots
-    (x, y, yaw), twist = states.odometry[place].tolist(), states.wheels[place].tolist()
+    (x, y, yaw), twist = states['odometry'][place].tolist(), states['wheels'][place].tolist()
     return OdometryReading((x, y, yaw), tuple(twist))
 
 
@@ -91,8 +91,8 @@ def read_wheels(snapshot: Snapshot, row: int) -> WheelReading:
     states = snapshot.robots
     return WheelReading(
         tuple(robot.drive.wheels),
-        (rims * states.travel[place]).sum(axis=1),
-        (rims * states.wheels[place]).sum(axis=1),
+        (rims * states['travel'][place]).sum(axis=1),
+        (rims * states['wheels'][place]).sum(axis=1),
     )
 
 

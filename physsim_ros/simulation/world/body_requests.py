@@ -34,10 +34,10 @@ from physsim_ros.model.requests import (
     Release,
     Spawn,
 )
-from physsim_ros.model.robot_states import NEVER
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.states import NEVER
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import joint_requests

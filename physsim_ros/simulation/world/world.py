@@ -152,7 +152,7 @@ class World(LiveSpace):
             compressed=pressing,
             springs=self.space.joints.springs(),
             grips=self.grips,
-            robots=self.space.robot_states,
+            robots=self.space.table.robot_states,
             pulls=pulls if self.reports_contacts else np.empty((0, 2)),
         )
 
@@ -176,8 +176,9 @@ class World(LiveSpace):
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
         for grip in self.grips:
             digest.update(repr(grip).encode())
-        for column in (*self.space.robot_states, *self.space.actor_states):
-            digest.update(column.tobytes())
+        for states in (self.space.table.robot_states, self.space.table.actor_states):
+            for name in states.dtype.names or ():
+                digest.update(states[name].tobytes())
         return digest.hexdigest()
 
     @property

@@ -582,10 +582,10 @@ def test_a_drive_counts_again_after_the_command_of_another_node(flat: PhysSim) -
     publisher.publish(other)
     flat.step()
     robots = flat.node.simulation.world.snapshot().robots
-    assert robots.aim[0, 0] == -0.2
+    assert robots['aim'][0, 0] == -0.2
     flat.step()
     robots = flat.node.simulation.world.snapshot().robots
-    assert robots.aim[0, 0] == 0.2
+    assert robots['aim'][0, 0] == 0.2
     node.destroy_node()
 
 
