@@ -28,16 +28,12 @@ from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
 from physsim_ros.model.requests import ChangeBody, Cut, Rejoin, Spawn, Unjoin
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import cross, Point, rotated
-from physsim_ros.simulation.world.joint_requests import drawn_points
 
-# Joints along a line, which a knife cuts.
-_LINES = {JointKind.ROPE, JointKind.ROD, JointKind.SPRING}
 # Difference of the areas of a body and of its pieces above which material was lost, in shares.
 _SAME_AREA = 1e-9
 
@@ -107,10 +103,10 @@ def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shap
 
 def _is_crossed(joint: Joint, start: Point, end: Point, scene: SceneQuery) -> bool:
     """Return whether a stroke crosses a rope, rod or spring beside the bodies at its ends."""
-    if joint.kind not in _LINES:
+    if not joint.kind.schema.along_line:
         return False
     bodies = [name for name in (joint.a, joint.b) if name != WORLD]
-    points = drawn_points(joint, {name: scene.pose(name) for name in bodies})
+    points = joint.drawn_points({name: scene.pose(name) for name in bodies})
     a, b, first, last = np.array((*points, start, end))
     along, stroke, away = b - a, last - first, first - a
     determinant = cross(along, stroke)

@@ -9,6 +9,7 @@ Law: everything here is immutable, and constant while the world steps.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -26,7 +27,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, rotated
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,6 +151,22 @@ class Joint:
         """Return a property that has a number as its default."""
         value: float | None = getattr(self.properties, name)
         return DEFAULTS[name] if value is None else value
+
+    def drawn_points(self, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
+        """
+        Return the points of the world with which it would be drawn now [m].
+
+        :param poses: of its bodies, by name
+        """
+        seat = self.seat
+        x, y = local_to_world((seat.ax, seat.ay), poses[self.a])
+        if self.kind.points == 1:
+            return ((x, y),)
+        pose_b = ORIGIN if self.b == WORLD else poses[self.b]
+        if self.kind.schema.has_axis:
+            ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
+            return (x, y), (x + ux, y + uy)
+        return (x, y), local_to_world((seat.bx, seat.by), pose_b)
 
     def drawn_values(self) -> dict[str, float]:
         """Return the properties whose default is the value as drawn, by name."""

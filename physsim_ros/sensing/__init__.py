@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What sensors of robots read: functions of a frame, the sensor and the seed.
+What sensors of robots read: functions of a frame and the sensor.
 
-Law: the same frame, sensor and seed have the same reading, whoever else senses, in any order and
+Law: the same frame and sensor have the same reading, whoever else senses, in any order and
 after a rewind. No state, no clock, and of the engine only the core, which casts the rays;
 messages of readings are in `ros`. Start with `distance`, then `surroundings` (what rays meet).
 """

@@ -118,14 +118,13 @@ class FloorMarks:
         return colors
 
 
-def read_floor(marks: FloorMarks, row: int, eye: FloorEye, seed: int) -> NDArray[np.uint8]:
+def read_floor(marks: FloorMarks, row: int, eye: FloorEye) -> NDArray[np.uint8]:
     """
     Return (pixels, 3) uint8: red, green, blue of each photodiode, from left to right.
 
     :param marks: of the frame
     :param row: of the robot's body in the scene
     :param eye: on it
-    :param seed: of all noise of the world
     """
     snapshot = marks.snapshot
     x, y, yaw = placed(snapshot, row, eye)
@@ -135,6 +134,6 @@ def read_floor(marks: FloorMarks, row: int, eye: FloorEye, seed: int) -> NDArray
     points += np.array((x, y))
     colors = marks.colors_at(points)
     if eye.noise:
-        noise = noise_of(snapshot, row, eye, seed, 3 * eye.pixels)
+        noise = noise_of(snapshot, row, eye, 3 * eye.pixels)
         colors += eye.noise * noise.reshape(-1, 3)
     return np.rint(255.0 * np.clip(colors, 0.0, 1.0)).astype(np.uint8)

@@ -11,7 +11,7 @@ from physsim_ros.model.shapes import Box, Chain, Disc
 from physsim_ros.sensing import FloorMarks, read_floor
 import pytest
 
-from .worlds import add_robot, plane
+from .worlds import add_robot, plane, seen
 from ..building import INSIDE, SHAPES, spawn
 
 BLACK, RED = (0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0)
@@ -20,7 +20,7 @@ WHITE = [255, 255, 255]
 
 
 def read(world, row, eye, seed=1):
-    return read_floor(FloorMarks(world.snapshot()), row, eye, seed)
+    return read_floor(FloorMarks(seen(world, seed)), row, eye)
 
 
 def test_a_line_under_the_row_is_seen_where_it_is():
