@@ -97,7 +97,7 @@ class SceneQuery:
         :param slack: the greatest distance of the point from a body that still covers it [m]
         """
         offsets = self.snapshot.centers - point
-        near = np.hypot(offsets[:, 0], offsets[:, 1]) <= self._outer_radii + slack
+        near = np.hypot(offsets[:, 0], offsets[:, 1]) <= self.snapshot.scene.outer_radii + slack
         rows = np.flatnonzero(near)[::-1]
         forms = [self.snapshot.scene.bodies[row].shape.form for row in rows]
         poses = self.snapshot.poses[rows]
@@ -168,11 +168,6 @@ class SceneQuery:
     @cached_property
     def _rows(self) -> dict[str, int]:
         return {name: row for row, name in enumerate(self.names)}
-
-    @cached_property
-    def _outer_radii(self) -> Floats:
-        """(n,) float64: outer radius of each body about its centre of mass [m]."""
-        return np.array([body.shape.form.outer for body in self.snapshot.scene.bodies])
 
 
 def _next_number(names: Iterable[str]) -> int:

@@ -230,6 +230,12 @@ class Scene:
         rows = [row for row, body in enumerate(self.bodies) if body.actor is not None]
         return np.array(rows, np.int64)
 
+    @cached_property
+    def sensor_rows(self) -> Ints:
+        """Rows of the bodies that are sensors, in spawn order: (s,) int64."""
+        rows = [row for row, body in enumerate(self.bodies) if body.sensor]
+        return np.array(rows, np.int64)
+
     @property
     def floor_friction(self) -> Floats:
         """Return (n,) float64: coefficient of friction with the floor; 0 where none acts."""
@@ -262,6 +268,11 @@ class Scene:
         """(n, 2) float64: centre of mass in the body's frame [m]."""
         rows = [body.shape.form.centroid for body in self.bodies]
         return np.array(rows, dtype=np.float64).reshape(-1, 2)
+
+    @cached_property
+    def outer_radii(self) -> Floats:
+        """(n,) float64: greatest distance of a point of each body from its centre of mass [m]."""
+        return np.array([body.shape.form.outer for body in self.bodies], np.float64)
 
     @cached_property
     def joint_rows(self) -> Ints:

@@ -22,12 +22,11 @@ from physsim_ros.sensing.motion import (
 )
 from physsim_ros.sensing.mounting import is_due
 from physsim_ros.sensing.surroundings import Surroundings
-from physsim_ros.sensing.touch import FloorMarks, is_bumped, read_bumper, read_floor
+from physsim_ros.sensing.touch import is_bumped, read_bumper, read_floor
 from physsim_ros.sensing.view import read_sensor, View
 
 __all__ = [
     'Fix',
-    'FloorMarks',
     'InertialReading',
     'OdometryReading',
     'Surroundings',

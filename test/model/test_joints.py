@@ -49,6 +49,6 @@ def test_a_word_that_is_no_kind_is_bad(word: object) -> None:
 
 
 @pytest.mark.parametrize('kind', [kind for kind in JointKind if kind.schema.along_line])
-def test_a_force_along_a_line_needs_two_points_and_no_axis(kind):
+def test_a_force_along_a_line_needs_two_points_and_no_axis(kind: JointKind) -> None:
     assert kind.points == 2
     assert not kind.schema.has_axis
