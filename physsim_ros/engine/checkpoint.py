@@ -88,7 +88,7 @@ def saved_state(space: Space, step: int) -> WorldState:
     driven = dict(zip(robots, states_in(checkpoint.robots, RobotState), strict=True))
     acting = dict(zip(actors, states_in(checkpoint.actors, ActorState), strict=True))
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
-    _, twists = space.observe()
+    _, twists = space.core.observe()
     rigids = enumerate(space.bodies.by_name.values())
     for (row, rigid), (state, free) in zip(rigids, motions, strict=True):
         body, until = rigid.body, rigid.wrench_until
@@ -211,10 +211,10 @@ def restore_checkpoint(
     table.set_pushes(checkpoint.memory.pushes)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
-    space.write_state(at_rest)
+    space.core.write_state(at_rest)
     space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in rigids)
     write_impulses(space.pm_space, space.shapes, checkpoint.memory, dt)
-    space.write_state(checkpoint.state)
+    space.core.write_state(checkpoint.state)
     for joint in scene.joints:
         space.joints.add(joint)
     space.joints.set_unstepped(checkpoint.unstepped)

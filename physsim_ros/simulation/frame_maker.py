@@ -23,7 +23,7 @@ from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
-from physsim_ros.simulation.world.body_requests import is_driving
+from physsim_ros.simulation.world.robot_requests import is_driving
 
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2

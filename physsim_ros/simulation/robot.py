@@ -27,7 +27,7 @@ from physsim_ros.sensing import (
     true_motion,
 )
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world.body_requests import robot_of_name
+from physsim_ros.simulation.world.robot_requests import robot_of_name
 
 
 class Robot:

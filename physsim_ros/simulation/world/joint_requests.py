@@ -29,11 +29,13 @@ from physsim_ros.model.transform import (
     rotated,
     world_to_local,
 )
-from physsim_ros.simulation.world.live_space import body_of_name, LiveSpace, points_in_world
+from physsim_ros.simulation.world.live_space import (
+    are_same,
+    body_of_name,
+    LiveSpace,
+    points_in_world,
+)
 
-# Distance within which two points are the same [1, of their size]: markers that come back have the
-# digits of a double; no person draws a point twice so exactly.
-_SAME = 1e-9
 # A click means a weld or an axle within this share of the body's inner radius [1], and within at
 # least this distance [m].
 _NEAR_SHARE, _NEAR = 0.35, 0.1
@@ -231,10 +233,7 @@ def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
             points[0],
             (x + (points[1][0] - x) / length, y + (points[1][1] - y) / length),
         )
-    size = 1.0 + max(abs(number) for point in drawn for number in point)
-    return all(
-        math.dist(here, there) <= _SAME * size for here, there in zip(drawn, points, strict=True)
-    )
+    return are_same(drawn, points)
 
 
 def _drawn(space: Space, joint: Joint) -> tuple[Point, ...]:

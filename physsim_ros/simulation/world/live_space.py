@@ -12,7 +12,7 @@ into a space that is built from it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 import math
 from typing import NamedTuple
 
@@ -29,6 +29,10 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import local_to_world, Point, Pose
 from physsim_ros.simulation.world.capacity import Capacity
+
+# Difference within which places are the same [1, of their size]: markers that come back have the
+# digits of a double; no person draws a point twice so exactly.
+_SAME = 1e-9
 
 
 class LiveSpace:
@@ -186,6 +190,19 @@ def pose_in_world(space: Space, pose: Pose, frame: str) -> Pose:
     result = (*local_to_world(pose[:2], origin), origin[2] + pose[2])
     check_pose(result, 'pose')
     return result
+
+
+def are_same(points: Sequence[Point], others: Sequence[Point]) -> bool:
+    """Return whether points are the same as others, but for rounding [m]."""
+    size = 1.0 + max(abs(number) for point in points for number in point)
+    pairs = zip(points, others, strict=True)
+    return all(math.dist(here, there) <= _SAME * size for here, there in pairs)
+
+
+def is_same_pose(pose: Pose, other: Pose) -> bool:
+    """Return whether two poses are the same, but for rounding and whole turns [m, rad]."""
+    turn = math.remainder(other[2] - pose[2], math.tau)
+    return are_same((pose[:2],), (other[:2],)) and abs(turn) <= _SAME
 
 
 def points_in_world(space: Space, points: Iterable[Point], frame: str) -> tuple[Point, ...]:
