@@ -120,17 +120,15 @@ def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Re
     """
     requests: list[Request] = []
     poses = {name: scene.pose(name) for name in _known(names, scene, 'names')}
-    _, number = split_name(scene.next_body())
     copies = {WORLD: WORLD}
-    for each, (name, (x, y, yaw)) in enumerate(poses.items(), number):
-        copies[name] = copied = f'{DRAWN}/{each}'
+    for copied, (name, (x, y, yaw)) in zip(scene.new_bodies(), poses.items(), strict=False):
+        copies[name] = copied
         requests.append(copy_of(copied, scene.body(name), (x + by[0], y + by[1], yaw)))
-    _, number = split_name(scene.next_joint())
-    among = (joint for joint in scene.joints if joint.a in copies and joint.b in copies)
-    for each, joint in enumerate(among, number):
+    among = [joint for joint in scene.joints if joint.a in copies and joint.b in copies]
+    for copied, joint in zip(scene.new_joints(), among, strict=False):
         points, lengths = joint.drawn_points(poses), joint.drawn_values()
         join = Join(
-            name=f'{DRAWN}/{each}',
+            name=copied,
             kind=joint.kind,
             points=tuple((x + by[0], y + by[1]) for x, y in points),
             a=copies[joint.a],

@@ -9,8 +9,9 @@ Law: queries read a snapshot, past or present, and need neither engine nor clock
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cached_property
+from itertools import count
 import math
 
 import numpy as np
@@ -156,23 +157,34 @@ class SceneQuery:
             )
         return strength
 
+    def new_bodies(self) -> Iterator[str]:
+        """Return names for the next drawn bodies, numbered above all drawn before."""
+        return _new_names(self.names, self._first)
+
+    def new_joints(self) -> Iterator[str]:
+        """Return names for the next drawn joints, numbered above all drawn before."""
+        return _new_names((joint.name for joint in self.joints), self._first_joint)
+
     def next_body(self) -> str:
-        """Return the name of the next drawn body, numbered above all drawn before."""
-        return f'{DRAWN}/{max(_next_number(self.names), self._first)}'
+        """Return the name of the next drawn body."""
+        return next(self.new_bodies())
 
     def next_joint(self) -> str:
-        """Return the name of the next drawn joint, numbered above all drawn before."""
-        names = (joint.name for joint in self.joints)
-        return f'{DRAWN}/{max(_next_number(names), self._first_joint)}'
+        """Return the name of the next drawn joint."""
+        return next(self.new_joints())
 
     @cached_property
     def _rows(self) -> dict[str, int]:
         return {name: row for row, name in enumerate(self.names)}
 
 
-def _next_number(names: Iterable[str]) -> int:
-    """Return the lowest number above those of all drawn names among these."""
+def _new_names(names: Iterable[str], first: int) -> Iterator[str]:
+    """
+    Return drawn names, numbered above all drawn ones among others.
+
+    :param first: the lowest number
+    """
     # Of thousands of names, few are drawn.
     numbers = (split_name(name) for name in names if name.startswith(DRAWN))
     drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _NUMBER_LIMIT)
-    return 1 + max(drawn, default=-1)
+    return (f'{DRAWN}/{number}' for number in count(max(first, 1 + max(drawn, default=-1))))
