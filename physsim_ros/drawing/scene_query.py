@@ -16,14 +16,13 @@ import math
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.errors import BadProperty, UnknownFrame
+from physsim_ros.model.errors import BadProperty, no_frame
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import contain_each, contains_each
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import (
     local_to_world,
     Point,
@@ -137,11 +136,7 @@ class SceneQuery:
         if not frame:
             return point
         if frame not in self._rows:
-            raise UnknownFrame(
-                f'frame {frame!r} is neither the world nor a body'
-                f'{nearest_name(frame, self._rows)}',
-                field='header.frame_id',
-            )
+            raise no_frame(frame, self._rows)
         return self.in_world(frame, point)
 
     def gravity_strength(self) -> float:

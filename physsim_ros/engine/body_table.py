@@ -115,11 +115,6 @@ class BodyTable:
                 names.append(rigid.body.name)
         return names
 
-    @property
-    def asleep(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-        """Return (n,) bool: bodies that sleep in the engine."""
-        return np.array([rigid.pm_body.is_sleeping for rigid in self.bodies], np.bool_)
-
     # Floor and robots
 
     @property

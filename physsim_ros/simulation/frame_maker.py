@@ -17,7 +17,7 @@ import math
 from physsim_ros.model.checks import number
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import DriveRobot
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.sensing import View
 from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
@@ -41,7 +41,7 @@ class FrameMaker:
     :ivar past: the lines of events, cached frames, and their budget of memory
     :ivar playback: the moment that is shown
     :ivar requests: queue of the requests that wait for the next frame, and what applies them
-    :ivar held: the commands with which robots drive on, by the names of their bodies
+    :ivar driving: the commands with which robots drive on, by the names of their bodies
     """
 
     def __init__(self, past: Past, speed: float) -> None:
@@ -50,7 +50,7 @@ class FrameMaker:
         self.past = past
         self.playback = Playback(past, speed=speed)
         self.requests = RequestQueue(past, self.playback)
-        self.held: dict[str, DriveRobot] = {}
+        self.driving: dict[str, DriveRobot] = {}
         self._view: View | None = None
 
     @property
@@ -73,11 +73,11 @@ class FrameMaker:
         self.playback.speed = speed
         if self.playback.speed < 0.0:
             self.requests.hands.clear()
-            self.let_go()
+            self.stop_driving()
 
-    def let_go(self) -> None:
+    def stop_driving(self) -> None:
         """End what `Robot.drive` has robots do; their last commands end with their timeouts."""
-        self.held.clear()
+        self.driving.clear()
 
     @property
     def view(self) -> View:
@@ -97,10 +97,6 @@ class FrameMaker:
     def frame(self) -> Frame:
         """Return the frame of now, which is made when it is first read."""
         return self.view.frame
-
-    def apply_waiting(self) -> None:
-        """Apply the requests that wait, at whose seeks the world goes at once."""
-        self.requests.apply_waiting()
 
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
@@ -133,10 +129,6 @@ class FrameMaker:
         self.requests.apply_waiting()
         return self._observe_frame(moved=False) if self.playback.changed else None
 
-    def take_answers(self) -> tuple[Answer, ...]:
-        """Return the answers that no frame has taken, and drop them."""
-        return self.requests.take_answers()
-
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
         self._advance_period()
@@ -160,7 +152,7 @@ class FrameMaker:
 
     def _advance_period(self) -> None:
         """Apply the requests that wait, and advance by one publish period."""
-        self._hold_drives()
+        self._drive_on()
         self.requests.apply_waiting()
         self.requests.release_grips()
         self.playback.clock.restart()
@@ -192,7 +184,7 @@ class FrameMaker:
         if not self.finish_seek(is_overdue):
             return ()
         if playback.speed > 0.0:
-            self._hold_drives()
+            self._drive_on()
         self.requests.apply_up_to_seek(is_spent)
         if not self.finish_seek(is_overdue):
             return ()
@@ -227,9 +219,9 @@ class FrameMaker:
             if playback.speed == 0 or is_overdue():
                 return
 
-    def _hold_drives(self) -> None:
+    def _drive_on(self) -> None:
         """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
-        for drive in self.held.values():
+        for drive in self.driving.values():
             if not is_driving(self.world, drive, self.frame_steps):
                 # In the gesture before, with which it is undone: nobody undoes a tick.
                 self.requests.apply_now(drive, self.requests.gesture)

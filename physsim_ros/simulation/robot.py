@@ -76,7 +76,7 @@ class Robot:
         :raises Malformed: a number is not finite
         """
         command = DriveRobot(name=self.name, velocity=(speed, sideways, turn))
-        self.simulation.held[self.name] = command
+        self.simulation.driving[self.name] = command
 
     def place(self, x: float, y: float, yaw: float = 0.0) -> None:
         """

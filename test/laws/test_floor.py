@@ -11,6 +11,7 @@ from physsim_ros.model.shapes import Box, Disc, Polygon
 import pytest
 
 from .scenes import DT, G, NOWHERE, simulation, spawn, steps, turned
+from ..building import sleepers
 
 # Of all floors here.
 MU = 0.5
@@ -113,7 +114,7 @@ def test_a_body_at_rest_stays_and_sleeps():
     last = _after(sim, 5.0)
 
     assert np.array_equal(last.poses, first.poses)
-    assert sim.world.space.table.asleep.all()
+    assert sleepers(sim.world) == ['box/0']
 
 
 @pytest.mark.parametrize(('speed', 'turn'), [(0.2, 0.0), (0.2, 1.0), (-0.1, -2.8), (0.0, 2.0)])

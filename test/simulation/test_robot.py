@@ -169,7 +169,7 @@ def test_a_saved_moment_is_continued_to_the_bit(
     digest = simulation.world.digest()
     for another in (simulation, Simulation(history=0.0)):
         another.restore(saved)
-        assert another.held['robot/0'] == saved.held[0]
+        assert another.driving['robot/0'] == saved.driving[0]
         again = Robot(another, 'robot/0')
         assert (another.step, again.bumped, again.read('imu')) == (step, bumped, imu)
         assert wander(again, 60) == first
@@ -241,10 +241,10 @@ def test_another_world_and_a_seek_end_what_a_robot_is_held_to() -> None:
     robot.drive(0.2)
     robot.simulation.run(1.0)
     robot.simulation.seek(500_000_000)
-    assert not robot.simulation.held
+    assert not robot.simulation.driving
     robot.drive(0.2)
     robot.simulation.load(load_world(find_world('boxes')))
-    assert not robot.simulation.held
+    assert not robot.simulation.driving
 
 
 def test_what_is_no_robot_or_has_no_such_sensor_is_refused() -> None:

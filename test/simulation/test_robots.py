@@ -24,6 +24,7 @@ from physsim_ros.simulation.world import World
 import pytest
 
 from .driven import assert_refused, body_request, put, seen_from_above
+from ..building import sleepers
 
 DRIVE = {'kind': 'differential', 'timeout': 0.5}
 SLIPPING = {'drive': DRIVE, 'odometry': {'slip': [0.02, 0.03]}}
@@ -170,7 +171,7 @@ def test_a_sleeping_robot_is_woken_up_by_a_command():
     world = seen_from_above()
     put(world, 'a/0', robot={'drive': DRIVE})
     world.step(240)
-    assert world.space.table.asleep.all()
+    assert sleepers(world) == ['a/0']
 
     world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
     world.step(60)

@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
-from physsim_ros.drawing.strokes.geometry import headings, quarter_heading
+from physsim_ros.drawing.strokes.geometry import headings, meeting_point, quarter_heading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself
 from physsim_ros.model.transform import cross, dots, next_vertices, norms, Pose
@@ -119,11 +119,10 @@ def _squared(corners: Floats, tolerance: float) -> Floats:
     along = np.column_stack((np.cos(angles), np.sin(angles)))
     result = corners.copy()
     for corner in range(len(corners)):
-        (p, u), (q, v) = ((middles[side], along[side]) for side in (corner - 1, corner))
-        sine = float(cross(u, v))
-        # The intersection of nearly parallel lines is ill-conditioned.
-        if abs(sine) > 0.3:
-            result[corner] = p + u * (float(cross(q - p, v)) / sine)
+        before = corner - 1
+        meeting = meeting_point(middles[before], along[before], middles[corner], along[corner])
+        if meeting is not None:
+            result[corner] = meeting
     moved = norms(result - corners)
     return result if moved.max() <= tolerance * lengths.mean() + 1e-12 else corners
 

@@ -23,10 +23,9 @@ from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import no_body, UnknownFrame
+from physsim_ros.model.errors import no_body, no_frame
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import local_to_world, Point, Pose
 from physsim_ros.simulation.world.capacity import Capacity
 
@@ -181,11 +180,7 @@ def pose_in_world(space: Space, pose: Pose, frame: str) -> Pose:
     if not frame:
         return pose
     if frame not in space.bodies.by_name:
-        raise UnknownFrame(
-            f'frame {frame!r} is neither the world nor a body'
-            f'{nearest_name(frame, space.bodies.by_name)}',
-            field='header.frame_id',
-        )
+        raise no_frame(frame, space.bodies.by_name)
     origin = space.bodies.by_name[frame].pose
     result = (*local_to_world(pose[:2], origin), origin[2] + pose[2])
     check_pose(result, 'pose')
