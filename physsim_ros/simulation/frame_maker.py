@@ -223,8 +223,8 @@ class FrameMaker:
         """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
         for drive in self.driving.values():
             if not is_driving(self.world, drive, self.frame_steps):
-                # In the gesture before, with which it is undone: nobody undoes a tick.
-                self.requests.apply_now(drive, self.requests.gesture)
+                # Nobody undoes a tick.
+                self.past.apply_unasked(drive)
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""

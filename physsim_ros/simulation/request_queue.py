@@ -344,7 +344,7 @@ class RequestQueue:
 
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
-        self.answers += self.hands.release_grips(self.gesture)
+        self.answers += self.hands.release_grips()
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, and drop them."""
