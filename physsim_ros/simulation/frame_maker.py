@@ -19,7 +19,7 @@ from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.sensing import View
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.past import finish, Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
@@ -117,12 +117,15 @@ class FrameMaker:
         :param is_overdue: whether the work is to continue in another call
         :return: whether it is done
         """
-        while self.playback.continue_work():
-            if is_overdue():
-                # The time of this replay is not made up for.
-                self.playback.clock.restart()
-                return False
-        return True
+        return self._replay(self.playback.parts_of_work(), is_overdue)
+
+    def _replay(self, parts: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+        """Carry out a replay until time is up, and return whether it is done."""
+        if _carry_out(parts, is_overdue):
+            return True
+        # The time of this replay is not made up for.
+        self.playback.clock.restart()
+        return False
 
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
@@ -156,7 +159,7 @@ class FrameMaker:
         self.requests.apply_waiting()
         self.requests.release_grips()
         self.playback.clock.restart()
-        self.playback.play(self.playback.steps_to_period)
+        finish(self.playback.play(self.playback.steps_to_period))
 
     def advance(
         self,
@@ -210,7 +213,7 @@ class FrameMaker:
             if steps == 0:
                 return
             if steps > 0:
-                playback.play(steps, is_overdue)
+                _carry_out(playback.play(steps), is_overdue)
                 yield self._observe_frame(moved=True)
             elif frame := self._rewind_frame(-steps, is_overdue):
                 yield frame
@@ -229,14 +232,9 @@ class FrameMaker:
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
         before = self.playback.step
-        while not self.playback.rewind(steps):
-            if is_overdue():
-                # The time of this replay is not made up for.
-                self.playback.clock.restart()
-                return None
-        for _ in self.playback.replay_ahead(steps):
-            if is_overdue():
-                break
+        if not self._replay(self.playback.rewind(steps), is_overdue):
+            return None
+        _carry_out(self.playback.replay_ahead(steps), is_overdue)
         if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
             self.requests.report_oldest('; paused')
@@ -263,3 +261,8 @@ class FrameMaker:
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before
         self._view = View(frame, before)
         return frame
+
+
+def _carry_out(parts: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+    """Carry out parts of work until time is up, and return whether all are done."""
+    return not any(is_overdue() for _ in parts)
