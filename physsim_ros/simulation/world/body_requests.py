@@ -70,8 +70,8 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
         changes = fields_set_by(request, expires)
         if math.dist(changes.get('color', old.body.color), old.body.color) <= _SAME_COLOR:
             changes['color'] = old.body.color
-        kept = old.pose if is_same_pose(old.pose, pose) else pose
-        _change(live, old, changes, kept, request)
+        here = old.pose
+        _change(live, old, changes, here if is_same_pose(here, pose) else pose, request)
         return Answer(subject=name, message=f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
     check_robot(space, body)
