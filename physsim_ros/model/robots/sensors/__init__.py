@@ -4,8 +4,8 @@
 """
 Sensors of robots: what is mounted where, and how well it measures.
 
-A sensor is a value. What it reads in a frame is for the simulation, its message an encoder in
-`ros`. A new kind is a class and a member of `SENSORS`. Start with `sensor`, then `distance`.
+A sensor is a value. A function in `sensing` reads it in a frame, one in `ros` makes the message. A
+new kind is a class and a member of `SENSORS`. Start with `sensor`, then `distance`.
 """
 
 from __future__ import annotations
