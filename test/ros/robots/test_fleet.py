@@ -454,6 +454,27 @@ def waiting(flat: PhysSim) -> PhysSim:
     return flat
 
 
+def test_a_controller_is_not_waited_for_with_a_scan_from_before_it_came(
+    flat: PhysSim, client: Client
+) -> None:
+    flat.robot('turtlebot3_burger')
+    scans = heard(flat, client, LaserScan, '/robot_0/scan')
+    set_parameter(flat, 'lockstep', 1e3)
+    flat.run(1.0)
+    assert scans
+    driver = Driver(flat.context, kind=TwistStamped, looks=False)
+    flat.add(driver)
+    assert not flat.node.fleet.is_waiting
+    count = len(scans)
+    while len(scans) == count:
+        flat.node.advance_frame()
+        flat.settle()
+    assert flat.node.fleet.is_waiting
+    driver.send(0.2, stamp=scans[-1].header.stamp)
+    flat.settle()
+    assert not flat.node.fleet.is_waiting
+
+
 def test_a_frozen_past_does_not_wait_for_an_answer(waiting: PhysSim) -> None:
     set_parameter(waiting, 'robots_in_past', 'freeze')
     waiting.rewind(0.5)
