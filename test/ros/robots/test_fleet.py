@@ -522,6 +522,17 @@ def test_a_rewind_does_not_wait_for_a_controller_that_is_silent(waiting: PhysSim
     assert waiting.time == pytest.approx(0.4, abs=0.05)
 
 
+@pytest.mark.parametrize('service', ['reset', 'undo'])
+def test_who_goes_back_does_not_wait_for_a_controller_that_is_silent(
+    waiting: PhysSim, client: Client, service: str
+) -> None:
+    waiting.node.tick(0)
+    assert client.call(f'~/{service}').success
+    waiting.node.tick(SECOND // 60)
+    assert waiting.time < 0.1
+    assert not waiting.node.fleet.is_waiting
+
+
 def test_commands_without_a_stamp_are_not_waited_for(waiting: PhysSim) -> None:
     sender = Driver(waiting.context, kind=TwistStamped, looks=False)
     sender.send(0.1)
