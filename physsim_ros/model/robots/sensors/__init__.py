@@ -22,7 +22,19 @@ SENSORS: dict[str, type[Sensor]] = {
 
 
 # The check of a sensor.
-sensor_from = OfKind('sensor', SENSORS)
+sensor_from = OfKind(
+    'sensor',
+    SENSORS,
+    {
+        'laser': ('lidar', 'scan', 'scanner', 'laser_scan'),
+        'range': ('sonar', 'ultrasonic', 'ultrasound', 'infrared', 'distance', 'proximity'),
+        'bumper': ('contact', 'touch', 'switch'),
+        'imu': ('gyro', 'gyroscope', 'accelerometer'),
+        'joint_states': ('encoder', 'encoders', 'wheel_encoders', 'wheels'),
+        'floor': ('line', 'line_sensor', 'camera', 'color', 'photodiodes'),
+        'gps': ('gnss', 'navsat', 'fix'),
+    },
+)
 
 __all__ = [
     'SENSORS',
