@@ -22,6 +22,7 @@ from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, U
 import pytest
 import rclpy
 from rclpy.context import Context
+from rclpy.time import Time as SimulationTime
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, Imu, JointState, LaserScan, NavSatFix, Range
 from std_msgs.msg import Bool
@@ -44,6 +45,11 @@ def heard(physsim: PhysSim, client: Client, kind: type, topic: str) -> list[Any]
     client.spin_until(lambda: client.node.count_publishers(topic))
     physsim.settle()
     return messages
+
+
+def stamp_of(message: Any) -> int:
+    """Return the time of a message [ns]."""
+    return SimulationTime.from_msg(message.header.stamp).nanoseconds
 
 
 @pytest.mark.parametrize('kind', [Twist, TwistStamped])
@@ -439,6 +445,21 @@ def test_a_scan_after_a_rewind_waits_for_an_answer_of_its_own(flat: PhysSim) -> 
     flat.run(0.5)
     assert commands.awaited is not None
     assert commands.awaited <= 1.5e9
+
+
+def test_of_several_lasers_the_first_one_that_is_heard_is_answered(
+    flat: PhysSim, client: Client
+) -> None:
+    lasers = [{'kind': 'laser', 'name': name, 'beams': 4} for name in ('front', 'rear')]
+    flat.robot({'from': 'turtlebot3_burger', 'sensors': lasers})
+    flat.add(Driver(flat.context, kind=TwistStamped, looks=False))
+    commands = flat.node.fleet.robots['robot/0'].commands
+    rear = heard(flat, client, LaserScan, '/robot_0/rear')
+    flat.run(0.5)
+    assert commands.awaited == stamp_of(rear[-1])
+    front = heard(flat, client, LaserScan, '/robot_0/front')
+    flat.run(until=lambda: front and stamp_of(rear[-1]) > stamp_of(front[-1]))
+    assert commands.awaited == stamp_of(front[-1])
 
 
 @pytest.fixture
