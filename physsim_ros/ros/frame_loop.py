@@ -76,8 +76,7 @@ class FrameLoop:
         frames: tuple[Frame, ...] = ()
         request_time = _RequestTime(self._rest_ns)
         # While time goes back, no command counts, and controllers may be silent.
-        is_back = self._simulation.speed < 0.0 or self._has_jumped
-        if is_back or not self._fleet.is_waiting:
+        if self._simulation.speed < 0.0 or not self._fleet.is_waiting:
             # Parts of a seek or an amendment are no frames, which controllers answer one by one.
             self.finish_short_seek()
             frames = self._simulation.advance(
@@ -85,6 +84,9 @@ class FrameLoop:
                 is_overdue=lambda: self._fleet.in_lockstep or _is_overdue(began),
                 is_spent=request_time.is_spent,
             )
+        elif self._simulation.playback.changed:
+            # By a service, as a reset, after which a robot may be gone, or its scan.
+            frames = (self._simulation.frame,)
         stepped = time.perf_counter_ns()
         for frame in frames:
             self._outputs.show(frame)
@@ -146,12 +148,6 @@ class FrameLoop:
             self.apply_requests()
         shown = self._outputs.frame
         return self._simulation.world.snapshot() if shown is None else shown.snapshot
-
-    @property
-    def _has_jumped(self) -> bool:
-        """Whether the world is at another time than the frame that is shown, as after a reset."""
-        shown = self._outputs.frame
-        return shown is not None and shown.snapshot.step != self._simulation.step
 
     def finish_short_seek(self) -> None:
         """Have a seek be done at once if it is short; else the next ticks go on with it."""

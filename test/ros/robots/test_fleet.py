@@ -543,15 +543,18 @@ def test_a_rewind_does_not_wait_for_a_controller_that_is_silent(waiting: PhysSim
     assert waiting.time == pytest.approx(0.4, abs=0.05)
 
 
-@pytest.mark.parametrize('service', ['reset', 'undo'])
-def test_who_goes_back_does_not_wait_for_a_controller_that_is_silent(
+@pytest.mark.parametrize('service', ['reset', 'undo', 'clear'])
+def test_a_service_that_takes_a_scan_or_its_robot_away_ends_the_wait(
     waiting: PhysSim, client: Client, service: str
 ) -> None:
     waiting.node.tick(0)
     assert client.call(f'~/{service}').success
     waiting.node.tick(SECOND // 60)
-    assert waiting.time < 0.1
+    assert waiting.names == ()
     assert not waiting.node.fleet.is_waiting
+    waiting.node.tick(2 * SECOND // 60)
+    waiting.node.tick(3 * SECOND // 60)
+    assert waiting.time == pytest.approx(1.0 * (service == 'clear'), abs=0.1)
 
 
 def test_commands_without_a_stamp_are_not_waited_for(waiting: PhysSim) -> None:
