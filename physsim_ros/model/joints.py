@@ -4,7 +4,8 @@
 """
 Kinds of joints and their properties: one table of properties, one table of kinds.
 
-Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its glyph (`view`).
+Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its glyph
+(`appearance`).
 """
 
 from collections.abc import Mapping

@@ -84,6 +84,9 @@ class FrameLoop:
                 is_overdue=lambda: self._fleet.in_lockstep or _is_overdue(began),
                 is_spent=request_time.is_spent,
             )
+        elif self._simulation.playback.changed:
+            # By a service, as a reset, after which a robot may be gone, or its scan.
+            frames = (self._simulation.frame,)
         stepped = time.perf_counter_ns()
         for frame in frames:
             self._outputs.show(frame)

@@ -333,9 +333,16 @@ class PhysSim(ObservedWorld):
     # Recording
 
     def record(self, path: str | Path) -> None:
-        """Record all frames from now on in a `.rrd` file, which is complete after the test."""
+        """
+        Record all frames from now on in a `.rrd` file, which is complete after the test.
+
+        :raises Refused: the file cannot be written, as in a folder that does not exist
+        """
+        viewer = self.node.outputs.viewer
+        viewer.record(Path(path))
+        if reason := viewer.wait_for_file():
+            raise Refused('record_failed', f'{path}: {reason}', 'path')
         self.recording = Path(path)
-        self.node.outputs.viewer.record(self.recording)
 
     def record_past(self, path: Path) -> None:
         """
@@ -351,7 +358,7 @@ class PhysSim(ObservedWorld):
                 robot.commands.take()
         simulation.seek(round(status.oldest * 1e9))
         self.node.apply_requests()
-        self.record(path)
+        self.node.outputs.viewer.record(path)
         for _ in range(self._frames(status.newest - status.oldest)):
             self.node.advance_frame()
 

@@ -217,7 +217,7 @@ typedef struct Joint {
     uint8_t broken;     // in the last step
     int32_t a, b;       // places of its bodies in the table
     int32_t first_part, part_count;
-    int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring
+    int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring without damping
 } Joint;
 
 // Functions of Chipmunk, from Pymunk's own library.

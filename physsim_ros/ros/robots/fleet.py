@@ -187,7 +187,7 @@ class Fleet:
             robot = self.robots.get(snapshot.scene.names[row])
             with self._boundary.output('robots'):
                 if robot is not None and robot.publish(view, row, number):
-                    robot.commands.awaited = snapshot.stamp
+                    robot.commands.expect_answer(snapshot.stamp)
             if robot is not None and not self._has_told_timeout and _has_stopped(view, number):
                 self._tell_timeout(robot)
 

@@ -186,13 +186,18 @@ class RobotTopics:
         :param view: of the frame
         :param row: of the robot's body in the scene
         :param number: of the robot among those of the scene
-        :return: whether a scan is among it
+        :return: whether a scan of the first laser with subscribers is among it, which is the one
+            that a controller answers: others may be heard by a recording alone
         """
-        scanned = False
+        scanned, first = False, None
         for topic in self._topics:
-            if topic.is_heard and self._is_due(topic, view):
+            if not topic.is_heard:
+                continue
+            if first is None and isinstance(topic.sensor, Laser):
+                first = topic
+            if self._is_due(topic, view):
                 topic.publisher.publish(topic.message(view, row, number))
-                scanned |= isinstance(topic.sensor, Laser)
+                scanned |= topic is first
         return scanned
 
     def _transforms(self, kind: type, view: StampedView, _: int, number: int) -> Any:
