@@ -111,8 +111,8 @@ def test_a_rope_is_as_long_as_it_was_drawn(world: World) -> None:
 
 TURNS = math.tau * np.arange(7) / 7
 SEVEN = tuple(zip(0.5 * np.cos(TURNS), 0.5 * np.sin(TURNS), strict=True))
-# Bodies that are there, middle and radius of a circle, the axle's bodies, and its place: the middle
-# of a round wheel, or else that of the circle.
+# Bodies that are there, middle and radius of a circle, the axle's bodies, and its place: the
+# middle of a round wheel, or else that of the circle.
 AXLES: dict[str, tuple[Sequence[Spawn], tuple[float, float, float], tuple[str, str], Point]] = {
     'within a body': (
         [spawning('plank/0', Box(width=4.0, height=0.6))],
