@@ -40,11 +40,13 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Chain, Disc, MOST_POINTS, Polygon
+from physsim_ros.model.shapes import Box, Chain, Disc, MOST_POINTS, Polygon, Shape
 from physsim_ros.model.snapshot import NO_PREVIEW
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation.world import World
 import pytest
+
+from ..building import DISC, spawning
 
 WEIGHTLESS = WorldSettings(gravity=(0.0, 0.0))
 SIDE, TURN = (3.0, 1.0), 0.7
@@ -86,13 +88,8 @@ def populated(*bodies: Spawn) -> World:
     return world
 
 
-def disc(name: str, x: float, y: float, radius: float = 0.5, **said: object) -> Spawn:
-    return Spawn(
-        name=name,
-        shape=Disc(radius=radius),
-        pose=(x, y, 0.0),
-        properties=Properties(**said),
-    )
+def disc(name: str, x: float, y: float, **said: object) -> Spawn:
+    return spawning(name, DISC, (x, y, 0.0), **said)
 
 
 def corners(width: float, height: float) -> list[Point]:
@@ -111,16 +108,26 @@ def test_there_is_a_function_for_every_tool_but_none() -> None:
 # Bodies
 
 
-def test_a_circle_has_its_centre_and_its_rim_where_they_were_clicked() -> None:
-    spawn = drawn(Tool.CIRCLE, (1.0, 2.0), (1.0 + 3.0, 2.0 - 4.0))
-    assert spawn.shape == Disc(radius=5.0)
-    assert spawn.pose == (1.0, 2.0, 0.0)
-
-
-def test_a_circle_by_its_diameter_lies_between_the_clicks() -> None:
-    spawn = drawn(Tool.CIRCLE_DIAMETER, (1.0, 2.0), (4.0, 6.0))
-    assert spawn.shape == Disc(radius=2.5)
-    assert spawn.pose == (2.5, 4.0, 0.0)
+@pytest.mark.parametrize(
+    ('tool', 'clicks', 'shape', 'pose'),
+    [
+        (Tool.CIRCLE, [(1, 2), (4, -2)], Disc(radius=5.0), (1, 2, 0)),
+        (Tool.CIRCLE_DIAMETER, [(1, 2), (4, 6)], Disc(radius=2.5), (2.5, 4, 0)),
+        # Its frame lies along it.
+        (
+            Tool.WALL,
+            [(1, 1), (4, 5)],
+            Chain(points=((-2.5, 0.0), (2.5, 0.0)), thickness=0.2),
+            (2.5, 3, math.atan2(4, 3)),
+        ),
+    ],
+)
+def test_a_circle_or_a_wall_is_where_it_was_clicked(
+    tool: Tool, clicks: Sequence[Point], shape: Shape, pose: Pose
+) -> None:
+    spawn = drawn(tool, *clicks, wall_thickness=0.2)
+    assert (spawn.shape, spawn.pose) == (shape, pose)
+    assert spawn.properties == Properties(**({'anchored': True} if tool == Tool.WALL else {}))
 
 
 @pytest.mark.parametrize('height', [0.5, -0.5])
@@ -192,36 +199,23 @@ def test_a_polygon_has_as_many_corners_as_an_outline_may_have_and_one_more_drops
     assert len(spawn.shape.outline) == MOST_POINTS
 
 
-def test_a_wall_is_an_anchored_segment_with_its_frame_along_it() -> None:
-    spawn = drawn(Tool.WALL, (1.0, 1.0), (4.0, 5.0), wall_thickness=0.2)
-    assert spawn.shape == Chain(points=((-2.5, 0.0), (2.5, 0.0)), thickness=0.2)
-    assert spawn.pose == (2.5, 3.0, math.atan2(4.0, 3.0))
-    assert spawn.properties == Properties(anchored=True)
-
-
 @pytest.mark.parametrize(
-    ('tool', 'points'),
+    ('tool', 'points', 'properties'),
     [
-        (Tool.CIRCLE, [(0, 0), (1, 0)]),
-        (Tool.CIRCLE_DIAMETER, [(0, 0), (1, 0)]),
-        (Tool.RECTANGLE, [(0, 0), (1, 0), (1, 1)]),
-        (Tool.POLYGON, [(0, 0), (1, 0), (1, 1), (0, 0)]),
+        (Tool.CIRCLE, [(0, 0), (1, 0)], {'velocity': (3.0, -1.0)}),
+        (Tool.CIRCLE_DIAMETER, [(0, 0), (1, 0)], {'velocity': (3.0, -1.0)}),
+        (Tool.RECTANGLE, [(0, 0), (1, 0), (1, 1)], {'velocity': (3.0, -1.0)}),
+        (Tool.POLYGON, [(0, 0), (1, 0), (1, 1), (0, 0)], {'velocity': (3.0, -1.0)}),
+        (Tool.WALL, [(0, 0), (1, 0)], {'anchored': True}),
     ],
 )
-def test_what_is_drawn_takes_velocity_and_colour_from_the_settings(
-    tool: Tool, points: Sequence[Point]
+def test_what_is_drawn_takes_colour_and_if_it_moves_velocity_from_the_settings(
+    tool: Tool, points: Sequence[Point], properties: dict[str, object]
 ) -> None:
     color = (1.0, 0.5, 0.0, 1.0)
     spawn = drawn(tool, *points, draw_velocity=(3.0, -1.0), draw_color=color)
-    assert spawn.properties == Properties(velocity=(3.0, -1.0))
+    assert spawn.properties == Properties(**properties)
     assert spawn.color == color
-
-
-def test_a_wall_takes_the_colour_and_no_velocity() -> None:
-    color = (1.0, 0.5, 0.0, 1.0)
-    spawn = drawn(Tool.WALL, (0, 0), (1, 0), draw_velocity=(3.0, -1.0), draw_color=color)
-    assert spawn.color == color
-    assert populated(spawn).snapshot().twists.tolist() == [[0.0, 0.0, 0.0]]
 
 
 # Names
@@ -232,25 +226,16 @@ def test_names_count_up_from_the_highest_in_the_world() -> None:
     assert drawn(Tool.CIRCLE, (5, 5), (6, 5), world=world).name == 'drawn/5'
 
 
-def test_a_name_is_not_given_twice_though_the_world_has_lost_or_refused_its_body() -> None:
-    hand, snapshot = pen(Tool.WALL), World().snapshot()
-    names = []
+@pytest.mark.parametrize('tool', [Tool.WALL, Tool.ROPE])
+def test_a_name_is_not_given_twice_and_joints_count_apart_from_bodies(tool: Tool) -> None:
+    # The world has not heard of what was drawn: it may have lost or refused it.
+    snapshot = populated(disc('drawn/1' if tool == Tool.ROPE else 'a/0', 0.0, 0.0)).snapshot()
+    hand, names = pen(tool), []
     for _ in range(3):
         hand.click((0.0, 0.0), '', snapshot)
-        (spawn,) = hand.click((1.0, 0.0), '', snapshot).requests
-        names.append(spawn.name)
+        (request,) = hand.click((3.0, 0.0), '', snapshot).requests
+        names.append(request.name)
     assert names == ['drawn/0', 'drawn/1', 'drawn/2']
-
-
-def test_joints_count_apart_from_bodies() -> None:
-    world = populated(disc('drawn/7', 0.0, 0.0))
-    hand = pen(Tool.ROPE)
-    names = []
-    for _ in range(2):
-        hand.click((0.0, 0.0), '', world.snapshot())
-        (join,) = hand.click((3.0, 0.0), '', world.snapshot()).requests
-        names.append(join.name)
-    assert names == ['drawn/0', 'drawn/1']
 
 
 # Tools for bodies and joints that are there
@@ -284,9 +269,10 @@ def test_two_bodies_are_joined_where_they_were_clicked(tool: Tool) -> None:
 
 def test_a_body_is_joined_to_the_background_whichever_was_clicked_first() -> None:
     world = populated(disc('a/0', 0.0, 0.0))
-    (join,) = draw(Tool.SPRING, (0.0, 3.0), (0.25, 0.0), world=world)
-    assert (join.a, join.b) == ('a/0', 'world')
-    assert join.points == ((0.25, 0.0), (0.0, 3.0))
+    for clicks in (((0.0, 3.0), (0.25, 0.0)), ((0.25, 0.0), (0.0, 3.0))):
+        (join,) = draw(Tool.SPRING, *clicks, world=world)
+        assert (join.a, join.b) == ('a/0', 'world')
+        assert join.points == ((0.25, 0.0), (0.0, 3.0))
 
 
 def test_a_joint_holds_the_place_that_was_clicked_though_the_body_has_moved_on() -> None:
