@@ -7,10 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.files import (
-    load_world,
-    save_world,
-)
+from physsim_ros.files import find_world, load_world, save_world
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.requests import Restore
@@ -31,6 +28,11 @@ def write(folder: Path, text: str, name: str = 'w.yaml') -> Path:
     path = folder / name
     path.write_text(text, encoding='utf-8')
     return path
+
+
+def find(name: str, folder: Path, *, confined: bool = True) -> Path:
+    """Return the path of a world by its name."""
+    return find_world(name, world_dir=folder, confined=confined)
 
 
 def load(path: Path, *, rate: float = RATE, **settings: Any) -> WorldState:
