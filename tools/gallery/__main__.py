@@ -67,9 +67,10 @@ BATCH = 60
 
 def record(recording: Recording, frames: list[Frame]) -> int:
     """Draw frames batch by batch; return the time of the last on the picture's timeline [ns]."""
-    starts, pace = range(0, len(frames), BATCH), frames[-1].speed
-    times = [recording.draw(*frames[n : n + BATCH], real_time_factor=pace) for n in starts]
-    return times[-1]
+    for first in range(0, len(frames), BATCH):
+        end = first + BATCH
+        now = recording.draw(*frames[first:end], real_time_factor=frames[-1].speed)
+    return now
 
 
 def frames_until(simulation: Simulation, seconds: float) -> Iterator[Frame]:
