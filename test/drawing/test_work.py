@@ -112,7 +112,8 @@ def test_a_stroke_is_read_with_the_newest_strokes_alone() -> None:
 
     grown = calls[:MOST_STROKES]
     assert grown == sorted(grown)
-    assert max(calls) < 1.01 * grown[-1]
+    # One stroke more would be a fifth more.
+    assert max(calls) < 1.1 * grown[-1]
 
 
 @pytest.mark.parametrize(('pause', 'meaning'), [(0.0, 'rectangle'), (0.003, 'wall')])
