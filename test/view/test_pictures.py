@@ -141,20 +141,3 @@ def test_bodies_are_where_they_were_in_the_past_in_a_branch_and_now(film):
     assert np.ptp(wedge, axis=0) == pytest.approx([0.0, 0.0], abs=0.5)
     for mark in ('first', 'past'):
         assert not len(pixels_of(pictures[mark], BLUE)[0]), 'the branch is seen before it began'
-
-
-def test_a_disc_is_round_to_the_pixel(film):
-    simulation = world(
-        spawning('disc/0', Disc(radius=3.5), (0.0, 4.0, 0.0), color=BLUE, anchored=True),
-        gravity=(0.0, 0.0),
-    )
-    film.draw(simulation.advance_frame(), mark='now')
-
-    picture = film.look('now')
-
-    rows, columns = pixels_of(picture, color=BLUE)
-    center = (np.array((np.ptp(columns), np.ptp(rows))) / 2) + (columns.min(), rows.min())
-    reach = np.hypot(columns - center[0], rows - center[1])
-    angles = np.arctan2(rows - center[1], columns - center[0])
-    rim = [reach[np.abs(angles - angle) < 0.05].max() for angle in np.linspace(-3.0, 3.0, 60)]
-    assert np.ptp(rim) < 2.0
