@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""State that only the engine reads: packed arrays and robots come back to the bit or are refused."""
+"""State that only the engine reads: arrays and robots come back to the bit, or are refused."""
 
 from __future__ import annotations
 
