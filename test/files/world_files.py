@@ -57,9 +57,9 @@ def save(world: World | WorldState, folder: Path, name: str = 'w') -> Path:
 
 def rewrite(path: Path, change: Callable[[dict[str, Any]], object], **load_as: Any) -> WorldState:
     """Change the content of a file, and return the state that it then has."""
-    content = yaml.safe_load(path.read_text())
+    content = yaml.load(path.read_text(), yaml.CSafeLoader)
     change(content)
-    path.write_text(yaml.safe_dump(content, sort_keys=False))
+    path.write_text(yaml.dump(content, Dumper=yaml.CSafeDumper, sort_keys=False))
     return load(path, **load_as)
 
 
