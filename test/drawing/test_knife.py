@@ -278,6 +278,8 @@ def test_a_rope_is_cut_where_it_is_crossed_beside_its_bodies():
     for kind in ('rope', 'spring', 'rod'):
         join(simulation, kind, (0.0, 0.0), (4.0, 0.0), b='a/1')
     cut(simulation, (0.2, 1.0), (0.2, -1.0))
+    with pytest.raises(NothingThere):
+        cut(simulation, (9.0, 1.0), (9.0, -1.0))
     assert len(simulation.world.scene.joints) == 3
 
     answer = cut(simulation, (2.0, 1.0), (2.0, -1.0))

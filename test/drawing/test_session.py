@@ -137,6 +137,13 @@ GROUPS: dict[str, tuple[Sequence[Spawn], Sequence[Way | Floats], str, str, str]]
     'lines that cross in the open': (
         [], [[(0.0, 0.0), (3.0, 3.0)], [(0.0, 3.0), (3.0, 0.1)]], 'wall', 'Chain Chain', '',
     ),
+    'lines beside one another': (
+        [], [[(0.0, 0.0), (3.0, 0.0)], [(0.0, 1.0), (3.0, 1.05)]], 'wall', 'Chain Chain', '',
+    ),
+    'sides of a square far from one another': (
+        [], [[(-1.0, 0.5), (-1.0, 2.5)], [(0.5, -1.0), (2.5, -1.0)], [(4.0, 2.5), (4.0, 0.5)],
+             [(2.5, 4.0), (0.5, 4.0)]], 'wall', 'Chain Chain Chain Chain', '',
+    ),
     'an arrow from a body, its head first': (
         [spawning('a/0', Disc(radius=0.5))],
         [[(1.5, 0.5), (2.0, 0.0), (1.5, -0.5)], [(0.0, 0.0), (1.95, 0.0)]], 'velocity', 'Disc', '',
