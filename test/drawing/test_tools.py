@@ -52,6 +52,7 @@ WEIGHTLESS = WorldSettings(gravity=(0.0, 0.0))
 SIDE, TURN = (3.0, 1.0), 0.7
 # Rounding of a few sums [m].
 CLOSE = 1e-12
+JOINING = (Tool.SPRING, Tool.ROD, Tool.ROPE)
 
 
 def pen(tool: Tool, **settings: object) -> DrawingSession:
@@ -241,38 +242,41 @@ def test_a_name_is_not_given_twice_and_joints_count_apart_from_bodies(tool: Tool
 # Tools for bodies and joints that are there
 
 
+def drawn_join(tool: Tool, points: tuple[Point, Point], a: str, b: str) -> Join:
+    return Join(name='drawn/0', kind=JointKind(tool), points=points, a=a, b=b)
+
+
+TWO = (0.25, 0.0), (2.75, 0.25)
+AWAY = (0.25, 0.0), (0.0, 3.0)
+
+
 @pytest.mark.parametrize(
-    ('tool', 'kind'),
+    ('tool', 'clicks', 'request_'),
     [
-        (Tool.ANCHOR, Anchor),
-        (Tool.RELEASE, Release),
-        (Tool.PIN, Pin),
-        (Tool.AXLE, Axle),
+        (Tool.ANCHOR, [(1, 2)], Anchor(point=(1, 2))),
+        (Tool.RELEASE, [(1, 2)], Release(point=(1, 2))),
+        (Tool.PIN, [(1, 2)], Pin(point=(1, 2))),
+        (Tool.AXLE, [(1, 2)], Axle(point=(1, 2))),
+        # The topmost body.
+        (Tool.DELETE, [(9.2, 0.0)], Delete(name='b/1')),
+        *((tool, TWO, drawn_join(tool, TWO, 'a/0', 'a/1')) for tool in JOINING),
+        # To the background, whichever was clicked first.
+        (Tool.SPRING, AWAY, drawn_join(Tool.SPRING, AWAY, 'a/0', 'world')),
+        (Tool.SPRING, AWAY[::-1], drawn_join(Tool.SPRING, AWAY, 'a/0', 'world')),
+        # The spin stays.
+        (
+            Tool.VELOCITY,
+            [(0.25, 0.0), (0.25, -1.5)],
+            Command(names=('a/0',), twists=((0.0, -1.5, 2.0),)),
+        ),
     ],
 )
-def test_one_click_holds_or_frees_what_is_under_it(tool: Tool, kind: type) -> None:
-    assert draw(tool, (1.0, 2.0)) == (kind(point=(1.0, 2.0)),)
-
-
-def test_the_topmost_body_under_a_click_is_deleted() -> None:
-    world = populated(disc('a/0', 0.0, 0.0), disc('a/1', 0.4, 0.0), disc('a/2', 3.0, 0.0))
-    assert draw(Tool.DELETE, (0.2, 0.0), world=world) == (Delete(name='a/1'),)
-
-
-@pytest.mark.parametrize('tool', [Tool.SPRING, Tool.ROD, Tool.ROPE])
-def test_two_bodies_are_joined_where_they_were_clicked(tool: Tool) -> None:
-    world = populated(disc('a/0', 0.0, 0.0), disc('a/1', 3.0, 0.0))
-    (join,) = draw(tool, (0.25, 0.0), (2.75, 0.25), world=world)
-    points = ((0.25, 0.0), (2.75, 0.25))
-    assert join == Join(name='drawn/0', kind=JointKind(tool), points=points, a='a/0', b='a/1')
-
-
-def test_a_body_is_joined_to_the_background_whichever_was_clicked_first() -> None:
-    world = populated(disc('a/0', 0.0, 0.0))
-    for clicks in (((0.0, 3.0), (0.25, 0.0)), ((0.25, 0.0), (0.0, 3.0))):
-        (join,) = draw(Tool.SPRING, *clicks, world=world)
-        assert (join.a, join.b) == ('a/0', 'world')
-        assert join.points == ((0.25, 0.0), (0.0, 3.0))
+def test_a_tool_acts_on_what_was_clicked(
+    tool: Tool, clicks: Sequence[Point], request_: Request
+) -> None:
+    spinning = disc('a/0', 0.0, 0.0, velocity=(4.0, 0.0), spin=2.0)
+    others = [disc('a/1', 3.0, 0.0), disc('b/0', 9.0, 0.0), disc('b/1', 9.4, 0.0)]
+    assert draw(tool, *clicks, world=populated(spinning, *others)) == (request_,)
 
 
 def test_a_joint_holds_the_place_that_was_clicked_though_the_body_has_moved_on() -> None:
@@ -287,12 +291,6 @@ def test_a_joint_holds_the_place_that_was_clicked_though_the_body_has_moved_on()
     assert join.points[0] == pytest.approx((x, y), abs=1e-9)
     assert join.points[1] == (4.0, 3.0)
     assert join.a == 'a/0'
-
-
-def test_an_arrow_from_a_body_is_its_velocity_and_its_spin_stays() -> None:
-    world = populated(disc('a/0', 0.0, 0.0, velocity=(4.0, 0.0), spin=2.0))
-    requests = draw(Tool.VELOCITY, (0.25, 0.0), (0.25, -1.5), world=world)
-    assert requests == (Command(names=('a/0',), twists=((0.0, -1.5, 2.0),)),)
 
 
 @pytest.mark.parametrize(
