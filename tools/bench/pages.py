@@ -12,6 +12,7 @@ frames, so that neither a machine whose speed drifts nor a frame that was distur
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 import math
 from pathlib import Path
@@ -95,14 +96,25 @@ def ticks(nodes: Sequence[PhysSimNode], frames: int) -> np.ndarray:
     return 1e3 * times
 
 
+def run_until(
+    nodes: Sequence[PhysSimNode], read_line: Callable[[], str], count: int = 1
+) -> list[str]:
+    """Run nodes until their pages have printed so many lines, and return these."""
+    with ThreadPoolExecutor(1) as pool:
+        found = pool.submit(lambda: [read_line() for _ in range(count)])
+        ticks(nodes, WARM)
+        while not found.done():
+            ticks(nodes, WARM)
+    return found.result()
+
+
 def measure(bodies: int) -> None:
     """Print the rows of a count of bodies."""
     alone, paged = served_world(bodies), served_world(bodies)
     try:
         for count in COUNTS:
             with open_pages(paged, count) as read_line:
-                ticks((alone, paged), WARM)
-                read_line()
+                run_until((alone, paged), read_line)
                 times = ticks((alone, paged), FRAMES)
             words = [f'{bodies:6} {count:6}']
             for kind in range(2):
@@ -124,16 +136,14 @@ def measure_strokes(bodies: int) -> None:
     node = served_world(bodies)
     try:
         with open_pages(node, 1, STROKES) as read_line:
-            # Each frame has a tick; the client has finished long before.
-            ticks((node,), WARM + 60 * STROKES // 3)
-            assert read_line() == 'open\n'
-            took = [float(read_line()) for _ in range(STROKES)]
-            size = float(read_line())
+            opened, *took, size = run_until((node,), read_line, STROKES + 2)
+            assert opened == 'open\n'
     finally:
         node.destroy_node()
-    median = statistics.median(took)
+    times, each = [float(line) for line in took], float(size)
     print(
-        f'{bodies:6} {median:16.1f} {max(took):8.1f} {size:12.0f} {size / bodies:12.1f}',
+        f'{bodies:6} {statistics.median(times):16.1f} {max(times):8.1f} {each:12.0f}'
+        f' {each / bodies:12.1f}',
         flush=True,
     )
 
