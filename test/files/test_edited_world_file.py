@@ -21,7 +21,7 @@ from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
 import pytest
 
-from .world_files import edited, load, restored, rewrite, save
+from .world_files import edited, load, restored, rewrite, save, write
 from ..building import body, DISC, ELL, pose, spawn, stack, twist
 
 
@@ -103,13 +103,19 @@ def test_a_body_that_was_anchored_in_the_file_needs_no_more_than_that(folder: Pa
     assert pose(again, 'a/0').tolist() == [1.0, 2.0, 0.3]
 
 
-@pytest.fixture
-def resting(folder: Path) -> Path:
-    """Return the file of a stack at rest, with what the engine remembers of its contacts."""
+@pytest.fixture(scope='module')
+def rested(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Return the text of a stack at rest, with what the engine remembers of its contacts."""
     world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
     stack(world, 5)
     world.step(960)
-    return save(world, folder)
+    return save(world, tmp_path_factory.mktemp('rested')).read_text()
+
+
+@pytest.fixture
+def resting(rested: str, folder: Path) -> Path:
+    """Return a file of that text."""
+    return write(folder, rested)
 
 
 def packed(*rows: object, kind: type = np.int64) -> str:
