@@ -73,6 +73,12 @@ def test_a_triangle_with_two_sides_nearly_equal_is_isosceles() -> None:
     assert left == pytest.approx(right, abs=1e-9)
 
 
+def test_a_triangle_with_sides_of_its_own_stays() -> None:
+    drawn = np.array([(0.0, 0.0), (3.9, 0.8), (1.0, 2.3)])
+
+    assert regularisation.polygon_outline(drawn, NEAR) == pytest.approx(drawn, abs=1e-9)
+
+
 def test_lines_are_level_and_upright_where_they_nearly_are() -> None:
     made = regularisation.line(np.array([(0.1, 2.0), (0.0, 0.0), (3.0, 0.2), (5.0, 1.5)]), NEAR)
 
