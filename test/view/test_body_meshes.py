@@ -121,8 +121,9 @@ def test_a_later_body_lies_above_an_earlier_one(recording):
     assert first.z < recording.shape('world/bodies/a/1').z < last.z
 
 
-def test_an_anchored_body_bears_an_anchor_and_a_free_one_does_not(recording):
-    both = scene(body(anchored=True), body('box/1', color=BLUE))
+@pytest.mark.parametrize('shape', [Box(width=2.0, height=1.0), Disc(radius=1.0)])
+def test_an_anchored_body_bears_an_anchor_and_a_free_one_does_not(recording, shape):
+    both = scene(body(shape=shape, anchored=True), body('box/1', color=BLUE))
     recording.draw(frame(both, [(3.0, 4.0, 0.0), (9.0, 4.0, 0.0)]))
 
     anchored, free = recording.shape('world/bodies/box/0'), recording.shape('world/bodies/box/1')
