@@ -18,7 +18,7 @@ from physsim_ros.files.engine_state import state_entry, with_saved_state
 from physsim_ros.files.impulse_cache import pack, unpack
 from physsim_ros.model.checkpoint import BodyState
 from physsim_ros.model.errors import BadProperty, Refusal
-from physsim_ros.model.robot_states import NEVER, RobotState, SPAWNED
+from physsim_ros.model.states import NEVER, RobotState, SPAWNED
 import pytest
 
 from ..sensing.worlds import add_robot, plane
