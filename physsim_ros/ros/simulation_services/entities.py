@@ -23,8 +23,7 @@ from physsim_ros.model.shapes import extent_of
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, Pose, REST
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.requests.conversions import named_frame, planar_pose
-from physsim_ros.ros.robots.frames import rotation_of
+from physsim_ros.ros.planar import named_frame, planar_pose, pose_message
 from physsim_ros.ros.simulation_services.results import box_around, failed, failing_with
 from simulation_interfaces.msg import (
     Bounds,
@@ -144,9 +143,7 @@ class Entities:
         state = EntityState()
         state.header.frame_id = self._frame_id
         state.header.stamp.sec, state.header.stamp.nanosec = divmod(snapshot.stamp, 10**9)
-        x, y, yaw = snapshot.poses[row].tolist()
-        state.pose.position.x, state.pose.position.y = x, y
-        state.pose.orientation = rotation_of(yaw)
+        state.pose = pose_message(snapshot.poses[row].tolist())
         vx, vy, spin = snapshot.twists[row].tolist()
         state.twist.linear.x, state.twist.linear.y, state.twist.angular.z = vx, vy, spin
         return state

@@ -23,7 +23,8 @@ from physsim_ros.model.requests import Spawn
 from physsim_ros.model.robots.robot import check_namespace
 from physsim_ros.model.texts import counted
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.requests.conversions import mapping_of, named_frame, planar_pose
+from physsim_ros.ros.planar import named_frame, planar_pose
+from physsim_ros.ros.requests.conversions import mapping_of
 from physsim_ros.ros.simulation_services.results import (
     box_around,
     Failed,

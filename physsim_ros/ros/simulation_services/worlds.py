@@ -23,7 +23,7 @@ from physsim_ros.model.errors import BadWorldFile, UnknownBody
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.robots.frames import rotation_of
+from physsim_ros.ros.planar import pose_message
 from physsim_ros.ros.simulation_services.entities import passes_tags, tags_of
 from physsim_ros.ros.simulation_services.results import box_around, Failed, failed
 from simulation_interfaces.msg import NamedPose, Resource, Result, WorldResource
@@ -206,8 +206,9 @@ def _places(snapshot: Snapshot) -> Iterator[tuple[int, Body]]:
 
 
 def _named_pose(snapshot: Snapshot, row: int, body: Body) -> NamedPose:
-    named = NamedPose(name=body.name, description=body.label, tags=list(tags_of(body)))
-    x, y, yaw = snapshot.poses[row].tolist()
-    named.pose.position.x, named.pose.position.y = x, y
-    named.pose.orientation = rotation_of(yaw)
-    return named
+    return NamedPose(
+        name=body.name,
+        description=body.label,
+        tags=list(tags_of(body)),
+        pose=pose_message(snapshot.poses[row].tolist()),
+    )
