@@ -19,7 +19,7 @@ from physsim_ros.files import (
     worlds_in,
 )
 from physsim_ros.model import errors
-from physsim_ros.sketchpad.page_handlers import PAGE
+from physsim_ros.sketchpad.server.page_handlers import PAGE
 import pytest
 
 from .chromium import Sheet

@@ -24,11 +24,10 @@ from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
-from physsim_ros.sketchpad.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
-from physsim_ros.sketchpad.listening import BoundedServer
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_handlers import Site
 from physsim_ros.sketchpad.rights import Role
+from physsim_ros.sketchpad.server.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
+from physsim_ros.sketchpad.server.site import BoundedServer, Site
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
 
