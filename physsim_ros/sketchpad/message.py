@@ -144,7 +144,7 @@ def read_message(text: str, role: Role, boundary: ErrorBoundary) -> tuple[str, M
     request = ''
     try:
         with boundary.reading('page'):
-            fields = _mapping_from(text)
+            fields = json_object(text)
             request = _request_from(fields.pop('id', ''))
             return request, _checked(request, fields.pop('type', None), fields, role)
     except Refusal as refusal:
@@ -175,13 +175,14 @@ def _request_from(value: object) -> str:
     return value
 
 
-def _mapping_from(text: str) -> dict[str, Any]:
+def json_object(text: str | bytes) -> dict[str, Any]:
     """
-    Return the JSON object of a text.
+    Return the JSON object of a text, or of its bytes in UTF-8.
 
     :raises Malformed: it is no JSON object, or has too many levels
     """
     try:
+        text = text if isinstance(text, str) else text.decode()
         value = json.loads(text, parse_constant=_refuse_constant)
         if '\\u' in text:
             # JSON may escape half of a surrogate pair (RFC 8259, section 8.2), which no file name

@@ -24,7 +24,7 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, Pose, REST
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.planar import named_frame, planar_pose, pose_message
-from physsim_ros.ros.simulation_services.results import box_around, failed, failing_with
+from physsim_ros.ros.simulation_services.results import box_around, coded, coding_refusals
 from simulation_interfaces.msg import (
     Bounds,
     EntityCategory,
@@ -64,7 +64,7 @@ class Entities:
         snapshot = self._control.current_snapshot()
         body = snapshot.scene.bodies[snapshot.row(name)]
         if named_frame(state.header.frame_id, self._frame_id):
-            raise failed(
+            raise coded(
                 f'a state is set in the frame {self._control.values["frame_id"]!r} only',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='state.header.frame_id',
@@ -73,7 +73,7 @@ class Entities:
         twist = linear.x, linear.y, angular.z
         # An anchored body takes a pose, and rest.
         rests = body.anchored and twist == REST
-        with failing_with(SetEntityState.Response.INVALID_POSE):
+        with coding_refusals(SetEntityState.Response.INVALID_POSE):
             pose = check_pose(planar_pose(state.pose, 'state.pose'), 'state.pose')
         command = Command(
             names=(name,),
@@ -115,14 +115,14 @@ class Entities:
         # The first category is also that of a message in which none was set.
         categories = EntityCategory.CATEGORY_OBJECT, category_of(body)
         if info.category.category not in categories:
-            raise failed(
+            raise coded(
                 f'category {category_of(body)} follows from what the body is',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='info.category',
             )
         tags = set(tags_of(body))
         if info.tags and set(info.tags) != tags:
-            raise failed(
+            raise coded(
                 f'the tags {", ".join(sorted(tags))} follow from what the body is',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='info.tags',
@@ -212,7 +212,7 @@ def _matching(names: tuple[str, ...], pattern: str) -> list[bool]:
     try:
         matches: list[bool] = pc.match_substring_regex(pa.array(names), pattern).to_pylist()
     except (pa.ArrowInvalid, UnicodeError) as error:
-        raise failed(
+        raise coded(
             f'{pattern!r} is no regular expression', Result.RESULT_OPERATION_FAILED, field='filter'
         ) from error
     return matches
@@ -224,13 +224,13 @@ def _overlap(bounds: Bounds) -> Callable[[Body, Pose], bool]:
         return lambda _body, _pose: True
     points = [(each.x, each.y) for each in bounds.points]
     if bounds.type not in (Bounds.TYPE_BOX, Bounds.TYPE_SPHERE):
-        raise failed(
+        raise coded(
             'bounds are empty, a box or a sphere',
             Result.RESULT_FEATURE_UNSUPPORTED,
             field='bounds.type',
         )
     if len(points) != 2 or not np.isfinite(points).all():
-        raise failed(
+        raise coded(
             'bounds need two finite points', Result.RESULT_OPERATION_FAILED, field='bounds.points'
         )
     (first, second) = points

@@ -72,7 +72,7 @@ class PageSocket(GuardedSocket):
         """Check a message and hand it to the world's thread."""
         if self._page is None or self.role is None or not self.take_token():
             return
-        # Binary messages are no JSON either.
+        # A binary message is no JSON.
         text = message if isinstance(message, str) else ''
         request, checked = read_message(text, self.role, self.boundary)
         if isinstance(checked, Refusal):
