@@ -10,7 +10,7 @@ import socket
 
 from physsim_ros.sketchpad import Role
 from physsim_ros.sketchpad.inbox import CAPACITY
-from physsim_ros.sketchpad.server import site
+from physsim_ros.sketchpad.server import website
 from physsim_ros.sketchpad.server.access import Access
 from physsim_ros.sketchpad.server.open_pages import MOST_PAGES
 from physsim_ros.sketchpad.server.server import MOST_BYTES
@@ -325,7 +325,7 @@ def test_one_page_too_many_is_refused(browser: Browser) -> None:
 def test_one_connection_too_many_is_closed(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(site, 'MOST_CONNECTIONS', 3)
+    monkeypatch.setattr(website, 'MOST_CONNECTIONS', 3)
     host, port = browser.base.removeprefix('http://').split(':')
     with ExitStack() as closing:
         for _ in range(3):

@@ -27,7 +27,7 @@ from physsim_ros.sketchpad.message import json_object
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
-from physsim_ros.sketchpad.server.site import BoundedServer, Site
+from physsim_ros.sketchpad.server.website import BoundedServer, Site
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
 

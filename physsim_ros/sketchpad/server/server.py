@@ -28,7 +28,7 @@ from physsim_ros.sketchpad.server.guarded import LEFT
 from physsim_ros.sketchpad.server.page_handlers import Files
 from physsim_ros.sketchpad.server.page_socket import PageSocket
 from physsim_ros.sketchpad.server.scene_codec import compact
-from physsim_ros.sketchpad.server.site import BoundedServer, Site
+from physsim_ros.sketchpad.server.website import BoundedServer, Site
 from physsim_ros.sketchpad.server.world_handlers import Download, Picture, Unsaved, UploadWorld
 
 # Size of a message of a page, and of an uploaded world [bytes].
