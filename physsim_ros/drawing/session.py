@@ -84,6 +84,11 @@ class DrawingSession:
             self._gesture = Gesture(tool)
             self.preview = NO_PREVIEW
 
+    def drop(self) -> None:
+        """Drop the unfinished gesture; the tool stays."""
+        self._gesture = Gesture(self.tool)
+        self.preview = NO_PREVIEW
+
     def click(self, point: Point, frame: str, snapshot: Snapshot) -> ClickResult:
         """
         Add a click to the gesture, and return its requests where that ends it.

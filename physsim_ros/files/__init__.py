@@ -36,7 +36,7 @@ from physsim_ros.files.world_file import (
 )
 from physsim_ros.files.world_reader import robot_spawn, spawn_from, state_from
 from physsim_ros.files.world_schema import PROPERTIES, SETTINGS
-from physsim_ros.files.world_writer import text_of
+from physsim_ros.files.world_writer import text_of, yaml_line
 from physsim_ros.files.yaml12 import load_mapping
 
 __all__ = [
@@ -73,4 +73,5 @@ __all__ = [
     'with_shipped_robot',
     'worlds_in',
     'write_file',
+    'yaml_line',
 ]

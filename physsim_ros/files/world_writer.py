@@ -54,23 +54,23 @@ def _lines(state: WorldState, physics_rate: float) -> Iterator[str]:
     yield f'format: {FORMAT}\n'
     for key in SETTINGS:
         value = getattr(state.settings, key)
-        yield f'{key}: {_flow([] if value is None else entry_of(value))}\n'
+        yield f'{key}: {yaml_line([] if value is None else entry_of(value))}\n'
     if state.lesson is not None:
-        yield f'lesson: {_flow(state.lesson.entry())}\n'
+        yield f'lesson: {yaml_line(state.lesson.entry())}\n'
     yield 'bodies:\n' if state.bodies else 'bodies: []\n'
     for body in state.bodies:
-        yield f'  - {_flow(_entry(body, physics_rate))}\n'
+        yield f'  - {yaml_line(_entry(body, physics_rate))}\n'
     if state.joints:
         poses = {body.body.name: body.pose for body in state.bodies}
         yield 'joints:\n'
         for joint in state.joints:
-            yield f'  - {_flow(_joint_entry(joint, poses))}\n'
+            yield f'  - {yaml_line(_joint_entry(joint, poses))}\n'
     if state.memory is not None:
         yield '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'
-        yield f'memory: {_flow(cache_entry(state.memory))}\n'
+        yield f'memory: {yaml_line(cache_entry(state.memory))}\n'
 
 
-def _flow(value: object) -> str:
+def yaml_line(value: object) -> str:
     """Return a value in one line that is JSON and YAML, 1.1 and 1.2."""
     text = json.dumps(value, ensure_ascii=False)
     if 'e' in text:

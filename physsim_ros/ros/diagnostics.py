@@ -16,9 +16,9 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, run_state, Snapshot
 from physsim_ros.ros.outputs import Outputs
-from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents, SAME_NAME_REMEDY
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
+from rclpy.node import Node
 from rclpy.time import Time
 
 # From one message to the next [ns].
@@ -29,6 +29,10 @@ LONG_DELAY = 1.0
 LONG_MESSAGE = 0.1
 # Real-time factor over speed, below which late frames are an error and not a warning [1].
 FAR_BEHIND = 0.5
+# ROS 2 allows nodes of one name, and each of them receives the requests of both.
+_SAME_NAME_REMEDY = (
+    'give one a namespace (--ros-args -r __ns:=/other), or a ROS_DOMAIN_ID of its own'
+)
 
 
 class Diagnostics:
@@ -46,7 +50,7 @@ class Diagnostics:
 
     def __init__(
         self,
-        node: NodeWithoutQosEvents,
+        node: Node,
         simulation: Simulation,
         outputs: Outputs,
         topics: RequestTopics,
@@ -167,10 +171,13 @@ class Diagnostics:
 
     def _new_namesakes(self) -> list[Answer]:
         """Return an event if there are more nodes of this name than at the last count."""
-        before, self._namesakes = self._namesakes, self._node.count_nodes(self._name)
+        # As far as this node has discovered them.
+        nodes = self._node.get_node_names_and_namespaces()
+        names = [f'{namespace.rstrip("/")}/{name}' for name, namespace in nodes]
+        before, self._namesakes = self._namesakes, names.count(self._name)
         if self._namesakes <= max(before, 1):
             return []
         message = f'{self._namesakes} nodes are named {self._name}, and all do what one is asked'
         return [
-            Answer(topic='same_name', message=f'{message}: {SAME_NAME_REMEDY}', code='same_name')
+            Answer(topic='same_name', message=f'{message}: {_SAME_NAME_REMEDY}', code='same_name')
         ]

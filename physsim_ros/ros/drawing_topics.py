@@ -19,6 +19,7 @@ from physsim_ros.drawing import DrawingSession, Reading, submit_reading
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.snapshot import Answer, Snapshot
 from physsim_ros.ros.frame_loop import FrameLoop
+from physsim_ros.ros.planar import named_frame, point_in_frame
 from physsim_ros.ros.requests import conversions
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
@@ -65,7 +66,7 @@ class DrawingTopics:
     def _click(self, message: PointStamped) -> None:
         topic, field = 'clicked_point', 'point'
         with self._drawing_on_snapshot(topic, field) as snapshot:
-            point, frame = conversions.point_in_frame(message, frame_id=self._frame_id)
+            point, frame = point_in_frame(message, frame_id=self._frame_id)
             result = self._session.click(point, frame, snapshot)
             queue = self._simulation.requests
             if result.message:
@@ -76,7 +77,7 @@ class DrawingTopics:
     def _stroke(self, message: Path) -> None:
         with self._drawing_on_snapshot('~/stroke', 'poses') as snapshot:
             name, samples, began = conversions.stroke_samples(message)
-            frame = conversions.named_frame(name, self._frame_id)
+            frame = named_frame(name, self._frame_id)
             began = time.monotonic() if began is None else began
             reading = self._session.stroke(samples, frame, snapshot, began=began)
             self._submit_reading(reading, '~/stroke')

@@ -26,23 +26,8 @@ from rclpy.subscription import Subscription
 LOSSLESS = QoSProfile(history=HistoryPolicy.KEEP_ALL, reliability=ReliabilityPolicy.RELIABLE)
 
 
-# ROS 2 allows nodes of one name, and each of them receives the requests of both.
-SAME_NAME_REMEDY = (
-    'give one a namespace (--ros-args -r __ns:=/other), or a ROS_DOMAIN_ID of its own'
-)
-
-
 class NodeWithoutQosEvents(Node):
     """A node whose publishers and subscriptions have no QoS event handlers."""
-
-    def count_nodes(self, name: str) -> int:
-        """
-        Return the number of nodes with a name, as far as this node has discovered them.
-
-        :param name: with namespace, as `/physsim`
-        """
-        nodes = self.get_node_names_and_namespaces()
-        return sum(f'{namespace.rstrip("/")}/{each}' == name for each, namespace in nodes)
 
     def create_publisher(self, *args: Any, **options: Any) -> Publisher:
         """Create a publisher, as `Node.create_publisher` does."""

@@ -4,14 +4,19 @@
 """
 The sketchpad: a page in the browser that shows the world and draws in it.
 
-Not here: ROS (`ros` has the node's `WorldControl`), the reading of strokes (`drawing`). The
-server runs on a thread of its own. Start with `sketchpad`, then `page_socket`, `message` and
-`page_session`, the path of a message; `server` and `frame_feed` are the way back. `page/` has the
-files that a browser runs. Other folders import the names below.
+A message goes down, an answer and a frame go up::
+
+    page/                               scripts in the browser
+    server/page_socket, frame_feed      the server's thread: checks messages, sends frames
+    inbox                               messages between the threads
+    sketchpad, page_session, messages/  the world's thread: carries messages out
+
+Not here: ROS (`ros` has the node's `WorldControl`), the reading of strokes (`drawing`). Start with
+`sketchpad`. Other folders import the names below.
 """
 
-from physsim_ros.sketchpad.class_server import ClassServer, World
 from physsim_ros.sketchpad.rights import locks_of, Role
+from physsim_ros.sketchpad.server.class_server import ClassServer, World
 from physsim_ros.sketchpad.sketchpad import Sketchpad
 from physsim_ros.sketchpad.world_control import WorldControl
 

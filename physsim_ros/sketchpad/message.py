@@ -52,12 +52,15 @@ class Kind(NamedTuple):
     :ivar fields: checks by the name of the field
     :ivar handle: carries it out on the world's thread, with the page's session, the origin of the
         message and the checked fields
+    :ivar for_world: whether it does; else it is carried out on the server's thread, with the feed
+        of frames, the open page and the checked fields, and has no answer but a refusal
     """
 
     topic: str
     right: Right
     fields: Mapping[str, Read | Optional]
     handle: Callable[..., object]
+    for_world: bool = True
 
 
 class Message(NamedTuple):
@@ -65,12 +68,12 @@ class Message(NamedTuple):
     A checked message.
 
     :ivar request: identifier that the page gave to it; its answers carry it
-    :ivar kind: name of its kind
+    :ivar kind: what it is
     :ivar arguments: checked fields by name
     """
 
     request: str
-    kind: str
+    kind: Kind
     arguments: dict[str, Any]
 
 
@@ -116,6 +119,18 @@ def message(
     return declare
 
 
+def server_message(
+    type_: str, right: Right, /, **fields: Read | Optional
+) -> Callable[[_Handler], _Handler]:
+    """Declare a kind of message that the world's thread never receives, as `message` does."""
+
+    def declare(handle: _Handler) -> _Handler:
+        KINDS[type_] = Kind('', right, fields, handle, for_world=False)
+        return handle
+
+    return declare
+
+
 def read_message(text: str, role: Role, boundary: ErrorBoundary) -> tuple[str, Message | Refusal]:
     """
     Return the identifier of a message ('' if it cannot be read), and the message or its refusal.
@@ -129,7 +144,7 @@ def read_message(text: str, role: Role, boundary: ErrorBoundary) -> tuple[str, M
     request = ''
     try:
         with boundary.reading('page'):
-            fields = _mapping_from(text)
+            fields = json_object(text)
             request = _request_from(fields.pop('id', ''))
             return request, _checked(request, fields.pop('type', None), fields, role)
     except Refusal as refusal:
@@ -151,7 +166,7 @@ def _checked(request: str, type_: object, fields: dict[str, Any], role: Role) ->
             arguments[name] = read(fields.get(name), name)
         elif name in fields:
             arguments[name] = read.read(fields[name], name)
-    return Message(request, type_, arguments)
+    return Message(request, kind, arguments)
 
 
 def _request_from(value: object) -> str:
@@ -160,13 +175,14 @@ def _request_from(value: object) -> str:
     return value
 
 
-def _mapping_from(text: str) -> dict[str, Any]:
+def json_object(text: str | bytes) -> dict[str, Any]:
     """
-    Return the JSON object of a text.
+    Return the JSON object of a text, or of its bytes in UTF-8.
 
     :raises Malformed: it is no JSON object, or has too many levels
     """
     try:
+        text = text if isinstance(text, str) else text.decode()
         value = json.loads(text, parse_constant=_refuse_constant)
         if '\\u' in text:
             # JSON may escape half of a surrogate pair (RFC 8259, section 8.2), which no file name

@@ -26,7 +26,7 @@ from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.inbox import Opened
-from physsim_ros.sketchpad.message import answer_content, Content, KINDS, Message, Origin
+from physsim_ros.sketchpad.message import answer_content, Content, Message, Origin
 from physsim_ros.sketchpad.past import BodyPasts, PastTouches
 from physsim_ros.sketchpad.rights import check_locked, check_right, Role
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -108,7 +108,7 @@ class PageSession:
     def handle(self, message: Message) -> None:
         """Carry out a message."""
         self.drawing.settings = self.world.drawing_settings
-        kind = KINDS[message.kind]
+        kind = message.kind
         origin = Origin(self.number, message.request, kind.topic)
         try:
             with self.world.boundary.message(kind.topic):

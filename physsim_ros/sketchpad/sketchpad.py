@@ -23,13 +23,13 @@ from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
-from physsim_ros.sketchpad.frame_codec import VERSION
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession, Shared
 from physsim_ros.sketchpad.past import BodyPasts, PastTouches, timeline_content, TimelineReport
 from physsim_ros.sketchpad.rights import check_locked, check_right, Right, Role
-from physsim_ros.sketchpad.server import Server
+from physsim_ros.sketchpad.server.frame_codec import VERSION
+from physsim_ros.sketchpad.server.server import Server
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes

@@ -12,28 +12,32 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance import picture_of
 from physsim_ros.files import save_world
+from physsim_ros.model.texts import abbreviated
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sweeps.experiment import Experiment, Run
 
 # Ways of runs that ended well, and of those that failed.
 _WELL, _FAILED = (0.15, 0.45, 0.85, 0.35), (0.85, 0.15, 0.15, 0.8)
-# Seeds of failed runs in a row of the table; more are counted.
+# Seeds of the runs of a row that failed for one reason; more are counted.
 _MOST_SEEDS = 8
+# Length of a reason in the table [characters].
+_LONGEST_REASON = 80
 
 
 def table_of_runs(runs: Iterable[Run]) -> str:
     """
-    Return a table: for each combination of parameters how many runs failed, and which.
+    Return a table: for each combination of parameters how many runs failed, and why.
 
     Its columns are the parameters, runs, failures, mean time [s] and mean way [m] until failure or
-    end, the mean score where there are scores, and the seeds of the runs that failed.
+    end, the mean score where there are scores, and the reasons of failures with the seeds of the
+    runs, the most frequent reason first.
     """
     groups: dict[str, list[Run]] = {}
     for run in runs:
         groups.setdefault(_text_of(run), []).append(run)
     scored = any(not np.isnan(run.score) for group in groups.values() for run in group)
-    head = ['parameters', 'runs', 'failed', 'time [s]', 'way [m]', 'failed seeds']
-    rows = [head if not scored else [*head[:5], 'score', head[5]]]
+    score = ['score'] if scored else []
+    rows = [['parameters', 'runs', 'failed', 'time [s]', 'way [m]', *score, 'failures: seeds']]
     for text, group in groups.items():
         failed = [run for run in group if run.failure]
         row = [text, f'{len(group)}', f'{len(failed)}']
@@ -41,12 +45,12 @@ def table_of_runs(runs: Iterable[Run]) -> str:
         row += [f'{np.mean([run.length for run in group]):.2f}']
         if scored:
             row += [f'{np.mean([run.score for run in group]):.3g}']
-        rows.append([*row, _seeds_of(failed)])
+        rows.append([*row, _failures_of(failed)])
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = []
-    for text, *numbers, seeds in rows:
+    for text, *numbers, failures in rows:
         cells = [each.rjust(width) for each, width in zip(numbers, widths[1:-1], strict=True)]
-        lines.append('  '.join((text.ljust(widths[0]), *cells, seeds)).rstrip())
+        lines.append('  '.join((text.ljust(widths[0]), *cells, failures)).rstrip())
     return '\n'.join(lines)
 
 
@@ -54,10 +58,19 @@ def _text_of(run: Run) -> str:
     return ', '.join(f'{name}={value}' for name, value in run.case.parameters.items()) or '-'
 
 
-def _seeds_of(failed: Sequence[Run]) -> str:
-    seeds = [str(run.case.seed) for run in failed[:_MOST_SEEDS]]
-    more = len(failed) - len(seeds)
-    return ' '.join([*seeds, f'and {more} more'] if more else seeds)
+def _failures_of(failed: Iterable[Run]) -> str:
+    """Return the reasons why runs failed, each with the seeds of its runs."""
+    seeds: dict[str, list[str]] = {}
+    for run in failed:
+        reason = abbreviated(run.failure, _LONGEST_REASON)
+        seeds.setdefault(reason, []).append(str(run.case.seed))
+    by_count = sorted(seeds.items(), key=lambda each: -len(each[1]))
+    return '; '.join(f'{reason}: {_listed(each)}' for reason, each in by_count)
+
+
+def _listed(seeds: Sequence[str]) -> str:
+    more = len(seeds) - _MOST_SEEDS
+    return ' '.join([*seeds[:_MOST_SEEDS], f'and {more} more'] if more > 0 else seeds)
 
 
 def picture_of_runs(

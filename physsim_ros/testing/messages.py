@@ -11,21 +11,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 import json
-import math
 from typing import Any, TypedDict, Unpack
 
 from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import (
     Point,
     PointStamped,
-    Pose,
-    Quaternion,
     Transform,
     Twist,
     Vector3,
     Wrench,
 )
 from physsim_ros.model.colors import color_from
+from physsim_ros.ros.planar import pose_message, rotation_of
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import ColorRGBA, Header
 from visualization_msgs.msg import Marker
@@ -144,7 +142,7 @@ def marker(
         id=int(id_),
         type=kind,
         action=action,
-        pose=Pose(position=Point(x=float(x), y=float(y)), orientation=rotation(yaw)),
+        pose=pose_message((float(x), float(y), yaw)),
         scale=Vector3(**dict(zip('xyz', map(float, scale), strict=False))),
         color=ColorRGBA(**dict(zip('rgba', map(float, channels), strict=True))),
         lifetime=Duration(sec=int(seconds), nanosec=round(fraction * 1e9)),
@@ -200,7 +198,7 @@ def command(
         header=Header(frame_id=frame),
         joint_names=list(names),
         transforms=[
-            Transform(translation=Vector3(x=float(x), y=float(y)), rotation=rotation(yaw))
+            Transform(translation=Vector3(x=float(x), y=float(y)), rotation=rotation_of(yaw))
             for x, y, yaw in poses
         ],
         twist=[
@@ -212,13 +210,3 @@ def command(
             for x, y, torque in wrenches
         ],
     )
-
-
-def rotation(yaw: float) -> Quaternion:
-    """Return a rotation about z [rad]."""
-    return Quaternion(z=math.sin(yaw / 2), w=math.cos(yaw / 2))
-
-
-def yaw_of(rotation: Quaternion) -> float:
-    """Return the angle of a rotation about z [rad]."""
-    return 2 * math.atan2(rotation.z, rotation.w)

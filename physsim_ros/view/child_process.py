@@ -11,7 +11,9 @@ prctl(2)), so the thread lives as long as the child is needed.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+import importlib.util
 import os
+from pathlib import Path
 import shutil
 import subprocess
 import sys
@@ -68,3 +70,13 @@ def end_child(program: subprocess.Popen[bytes], *, timeout: float) -> None:
     except subprocess.TimeoutExpired:
         program.kill()
         program.wait()
+
+
+def rerun_program() -> str:
+    """Return the path of the viewer program of the rerun-sdk wheel, or of that on PATH."""
+    spec = importlib.util.find_spec('rerun_cli')
+    if spec is not None and spec.origin is not None:
+        program = Path(spec.origin).with_name('rerun')
+        if program.exists():
+            return str(program)
+    return shutil.which('rerun') or 'rerun'

@@ -43,20 +43,25 @@ class Output:
     :param endpoint: to log to
     :param boundary: of the thread
     :param report: takes answers about the endpoint, from any thread
+    :param context: returns that of the frames that are logged, from any thread
     """
 
     def __init__(
-        self, endpoint: Endpoint, boundary: ErrorBoundary, report: Callable[[Answer], None]
+        self,
+        endpoint: Endpoint,
+        boundary: ErrorBoundary,
+        report: Callable[[Answer], None],
+        context: Callable[[], FrameContext] = FrameContext,
     ) -> None:
         # The reason why nothing is logged; '' where it is open.
         self._reason = STARTING
         self._endpoint = endpoint
         self._boundary = boundary
         self._report = report
+        self._context = context
         self._lock = threading.Lock()
         self._frames: deque[Frame] = deque()
         self._bytes = 0
-        self._context = FrameContext()
         # Answers of dropped frames: the next frame that is logged has them.
         self._answers: deque[Answer] = deque(maxlen=ANSWERS)
         self._logged = self._dropped = 0
@@ -110,14 +115,9 @@ class Output:
         """Return the address of the endpoint where that is a web page; else ''."""
         return self._endpoint.page_address if self.is_open else ''
 
-    def put(self, frame: Frame, context: FrameContext) -> None:
-        """
-        Queue a frame; a full queue drops its oldest frame, but not the answers of that.
-
-        :param context: of the frame
-        """
+    def put(self, frame: Frame) -> None:
+        """Queue a frame; a full queue drops its oldest frame, but not the answers of that."""
         with self._lock:
-            self._context = context
             self._frames.append(frame)
             self._bytes += frame_size(frame.snapshot, frame.contacts)
             while self._bytes > WAITING_BYTES or (self.has_ended and self._frames):
@@ -187,7 +187,7 @@ class Output:
             while not ending:
                 ending = self._ending.wait(self._endpoint.period)
                 while frames := self._take_batch():
-                    recorder.draw(frames, context=self._context)
+                    recorder.draw(frames, context=self._context())
                     self._logged += len(frames)
                     self._note_progress()
                 stream.flush()

@@ -82,7 +82,7 @@ class FrameRecorder:
         Log frames, except those that are equal to the one before.
 
         :param frames: in order; their arrays are not changed any more
-        :param context: of the last frame
+        :param context: of now
         """
         paced = context.real_time_factor is not None
         if frames and paced is not self._paced:

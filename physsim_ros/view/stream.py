@@ -39,7 +39,7 @@ os.environ.setdefault('RUST_LOG', 'warn,re_log_encoding::rrd::file_sink=error')
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FrameContext:
     """
-    Facts about the program at a frame, which the world does not have.
+    Facts about the program, which the world does not have.
 
     :param real_time_factor: simulation seconds a second; None where nothing paces the world
     :param title: of the world, which names the recording; '' for none

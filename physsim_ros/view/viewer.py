@@ -22,10 +22,10 @@ from physsim_ros.view.endpoints import (
     ClientEndpoint,
     DEFAULT_URL,
     Endpoint,
-    FileEndpoint,
     has_display,
     ServerEndpoint,
 )
+from physsim_ros.view.file_endpoint import FileEndpoint
 from physsim_ros.view.output import ANSWERS, Output
 from physsim_ros.view.stream import FrameContext
 
@@ -45,7 +45,7 @@ class Viewer:
     Shows frames in at most one viewer, and records them in at most one file.
 
     :param boundary: of the threads of viewers and files; None lets unexpected errors pass
-    :param context: returns that of the frame that is shown
+    :param context: returns that of the frames that are logged, from any thread
 
     :ivar name: of the output
     """
@@ -68,7 +68,7 @@ class Viewer:
         self._stuck: list[Output] = []
         # Mode and URL of the viewer to open next; None where it is open.
         self._wanted: tuple[ViewerMode, str] | None = None
-        self._shown: tuple[Frame, FrameContext] | None = None
+        self._shown: Frame | None = None
 
     @property
     def state(self) -> str:
@@ -126,9 +126,9 @@ class Viewer:
 
         :param frame: its arrays are not changed any more
         """
-        self._shown = frame, self._context()
+        self._shown = frame
         for output in self._outputs:
-            output.put(*self._shown)
+            output.put(frame)
 
     def poll(self) -> tuple[Answer, ...]:
         """
@@ -176,9 +176,9 @@ class Viewer:
 
     def _open(self, endpoint: Endpoint) -> Output:
         """Return an output to an endpoint, with the last frame in its queue."""
-        output = Output(endpoint, self._boundary, self._answers.append)
+        output = Output(endpoint, self._boundary, self._answers.append, self._context)
         if self._shown is not None:
-            output.put(*self._shown)
+            output.put(self._shown)
         return output
 
     def _retire(self, output: Output) -> None:

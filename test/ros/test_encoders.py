@@ -19,7 +19,7 @@ from geometry_msgs.msg import (
     Vector3,
     Wrench,
 )
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.model.body_properties import Properties
@@ -331,6 +331,7 @@ bodies = st.builds(
 
 @settings(deadline=None)
 @given(body=bodies, role=st.sampled_from(['', 'anchored', 'kinematic']))
+@example(body=replace(PLAIN, label='say "mass": 1, {"a": b'), role='')
 def test_the_text_of_a_marker_gives_back_the_properties_of_its_body(body, role):
     expected = {'friction': body.friction, 'elasticity': body.elasticity}
     expected |= {'density': body.density} if body.mass is None else {'mass': body.mass}

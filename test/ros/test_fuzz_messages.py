@@ -28,11 +28,11 @@ from physsim_ros.model.requests import Anchor, Axle, Pin, Release
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.encoders.markers import MarkersEncoder
 from physsim_ros.ros.encoders.streams import ContactsEncoder, PosesEncoder, StatesEncoder
+from physsim_ros.ros.planar import rotation_of
 from physsim_ros.ros.publishers.status_publishers import encode_event
 from physsim_ros.ros.requests import conversions
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.testing import box, disc
-from physsim_ros.testing.messages import rotation
 import pytest
 from sensor_msgs.msg import MultiDOFJointState
 from std_msgs.msg import ColorRGBA, Header
@@ -74,7 +74,7 @@ places = st.builds(Point, x=numbers, y=numbers, z=numbers)
 poses = st.builds(Pose, position=places, orientation=quaternions)
 # On a grid, so that outlines close, cross and touch themselves.
 spots = st.builds(Point, x=st.integers(-2, 2).map(float), y=st.integers(-2, 2).map(float))
-turns = st.floats(-4.0, 4.0).map(rotation)
+turns = st.floats(-4.0, 4.0).map(rotation_of)
 
 
 def closed(points: list[Point]) -> list[Point]:

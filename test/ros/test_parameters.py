@@ -16,8 +16,8 @@ from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError
 from physsim_ros.ros import parameters
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.requests.parameter_services import MOST_PARAMETERS
-from physsim_ros.sketchpad import listening
 from physsim_ros.sketchpad.rights import MOST_PATTERNS
+from physsim_ros.sketchpad.server import website
 from physsim_ros.testing import box, disc, own_context, PhysSim
 import pytest
 from rcl_interfaces.msg import Parameter as ParameterMessage
@@ -254,7 +254,7 @@ def test_a_page_that_cannot_be_served_is_refused_and_the_node_goes_on(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
-    monkeypatch.setattr(listening, '_MORE_PORTS', 0)
+    monkeypatch.setattr(website, '_MORE_PORTS', 0)
     with socket.create_server(('127.0.0.1', 0)) as taken:
         values = {'world_dir': str(tmp_path), 'sketchpad_port': taken.getsockname()[1]}
         with own_context(monkeypatch) as context, PhysSim(context, **values) as physsim:

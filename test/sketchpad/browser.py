@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from physsim_ros.sketchpad import Role
-from physsim_ros.sketchpad.frame_codec import Show, VERSION
+from physsim_ros.sketchpad.server.frame_codec import Show, VERSION
 from physsim_ros.testing import PhysSim
 from tornado.httpclient import AsyncHTTPClient, HTTPRequest, HTTPResponse
 from tornado.websocket import websocket_connect, WebSocketClientConnection

@@ -8,7 +8,7 @@ import os
 from pathlib import Path
 import stat
 
-from physsim_ros.sketchpad.access import Access, cookie_key, Role
+from physsim_ros.sketchpad.server.access import Access, cookie_key, Role
 import pytest
 
 

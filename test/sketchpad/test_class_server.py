@@ -18,8 +18,9 @@ from urllib.parse import urlsplit
 
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.ros.programs.physsim_class import shares
-from physsim_ros.sketchpad import ClassServer, listening, Role
-from physsim_ros.sketchpad.class_server import Seats, World
+from physsim_ros.sketchpad import ClassServer, Role
+from physsim_ros.sketchpad.server import website
+from physsim_ros.sketchpad.server.class_server import Seats, World
 import pytest
 
 from .chromium import circle, Sheet
@@ -62,7 +63,7 @@ def test_worlds_are_shared_out_evenly_from_one(pupils: int, processes: int) -> N
 def class_address(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[str]:
     """Give a test the address of pupils of a class, which is served on a thread."""
     monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
-    monkeypatch.setitem(listening.LIMITS, 'body_timeout', 0.2)
+    monkeypatch.setitem(website.LIMITS, 'body_timeout', 0.2)
     is_over = threading.Event()
     server = ClassServer(WORLDS, address='127.0.0.1', port=0)
     thread = threading.Thread(target=server.run, args=(is_over.is_set,))
@@ -94,7 +95,7 @@ def post_without_body(address: str) -> socket.socket:
 def test_requests_without_a_body_do_not_shut_the_class_page(
     class_address: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(listening, 'MOST_CONNECTIONS', 3)
+    monkeypatch.setattr(website, 'MOST_CONNECTIONS', 3)
     with ExitStack() as closing:
         held = [closing.enter_context(post_without_body(class_address)) for _ in range(3)]
         # They are closed after a time, and others have their places.

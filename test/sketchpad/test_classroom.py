@@ -12,8 +12,8 @@ from urllib.parse import quote
 
 from physsim_ros.files import shipped_lessons
 from physsim_ros.sketchpad import Role
-from physsim_ros.sketchpad.access import Access
 from physsim_ros.sketchpad.rights import MOST_PATTERNS
+from physsim_ros.sketchpad.server.access import Access
 import pytest
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter

@@ -14,22 +14,16 @@ from physsim_ros.files import OwnWorlds
 from physsim_ros.ros import world_files
 from physsim_ros.simulation import request_queue
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import (
-    autosave,
-    gallery,
-    message,
-    Role,
-    sketchpad,
-    world_handlers,
-)
+from physsim_ros.sketchpad import autosave, message, Role, sketchpad
 from physsim_ros.sketchpad.autosave import Autosave
-from physsim_ros.sketchpad.frame_feed import FrameFeed
 from physsim_ros.sketchpad.message import KINDS
-from physsim_ros.sketchpad.open_pages import OpenPages
-from physsim_ros.sketchpad.page_handlers import CookieCheck
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.past import BodyPasts, TimelineReport
-from physsim_ros.sketchpad.server import Server
+from physsim_ros.sketchpad.server import gallery, world_handlers
+from physsim_ros.sketchpad.server.frame_feed import FrameFeed
+from physsim_ros.sketchpad.server.open_pages import OpenPages
+from physsim_ros.sketchpad.server.page_handlers import CookieCheck
+from physsim_ros.sketchpad.server.server import Server
 import pytest
 
 from .browser import Browser
@@ -88,7 +82,7 @@ def assert_failed(answer: dict[str, Any]) -> None:
     assert 'failure 1 in the log' in answer['message']
 
 
-@pytest.mark.parametrize('kind', sorted(KINDS.keys() - {'show', 'here'}))
+@pytest.mark.parametrize('kind', sorted(name for name in KINDS if KINDS[name].for_world))
 def test_a_message_on_the_thread_of_the_world(doors: Doors, kind: str) -> None:
     server = doors.browser.physsim.node.outputs.sketchpad
     assert server is not None

@@ -8,11 +8,12 @@ from contextlib import ExitStack, suppress
 import json
 import socket
 
-from physsim_ros.sketchpad import listening, Role
-from physsim_ros.sketchpad.access import Access
+from physsim_ros.sketchpad import Role
 from physsim_ros.sketchpad.inbox import CAPACITY
-from physsim_ros.sketchpad.open_pages import MOST_PAGES
-from physsim_ros.sketchpad.server import MOST_BYTES
+from physsim_ros.sketchpad.server import website
+from physsim_ros.sketchpad.server.access import Access
+from physsim_ros.sketchpad.server.open_pages import MOST_PAGES
+from physsim_ros.sketchpad.server.server import MOST_BYTES
 import pytest
 from tornado.httpclient import HTTPClientError
 from tornado.httputil import HTTPHeaders
@@ -324,7 +325,7 @@ def test_one_page_too_many_is_refused(browser: Browser) -> None:
 def test_one_connection_too_many_is_closed(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(listening, 'MOST_CONNECTIONS', 3)
+    monkeypatch.setattr(website, 'MOST_CONNECTIONS', 3)
     host, port = browser.base.removeprefix('http://').split(':')
     with ExitStack() as closing:
         for _ in range(3):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import errno
 
 from physsim_ros.model.errors import PhysSimError
-from physsim_ros.sketchpad import listening
+from physsim_ros.sketchpad.server import website
 import pytest
 
 
@@ -22,13 +22,13 @@ def test_a_port_that_is_taken_is_followed_by_the_next_20(
         tried.append(number)
         raise OSError(errno.EADDRINUSE, 'taken')
 
-    monkeypatch.setattr(listening, 'bind_sockets', taken)
+    monkeypatch.setattr(website, 'bind_sockets', taken)
     with pytest.raises(PhysSimError, match=f'port {last}'):
-        listening.listening_sockets('127.0.0.1', port)
+        website.listening_sockets('127.0.0.1', port)
     assert tried == list(range(port, last + 1))
 
 
 @pytest.mark.parametrize('address', ['a..b', '192.0.2.1', 'no address'])
 def test_an_address_that_is_none_of_this_machine_is_refused(address: str) -> None:
     with pytest.raises(PhysSimError, match='cannot listen on'):
-        listening.listening_sockets(address, 8765)
+        website.listening_sockets(address, 8765)

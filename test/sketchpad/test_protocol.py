@@ -16,11 +16,12 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import text_of
 from physsim_ros.model.snapshot import Answer, Grip
-from physsim_ros.sketchpad import open_pages, past
-from physsim_ros.sketchpad.frame_codec import Show
+from physsim_ros.sketchpad import past
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
-from physsim_ros.sketchpad.page_handlers import PAGE
+from physsim_ros.sketchpad.server import open_pages
+from physsim_ros.sketchpad.server.frame_codec import Show
+from physsim_ros.sketchpad.server.page_handlers import PAGE
 from physsim_ros.testing import PhysSim
 from physsim_ros.view import Viewer
 import pytest
@@ -41,7 +42,7 @@ def grips(physsim: PhysSim) -> tuple[Grip, ...]:
 
 def test_a_kind_of_message_has_the_fields_of_its_function() -> None:
     for name, kind in KINDS.items():
-        parameters = {*inspect.signature(kind.handle).parameters} - {'page', 'origin'}
+        parameters = {*inspect.signature(kind.handle).parameters} - {'page', 'origin', 'feed'}
         # Those of `draw_with` are properties of bodies.
         assert kind.fields.keys() == parameters or parameters == {'color', 'properties'}, name
 

@@ -5,21 +5,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 import json
 from pathlib import Path
 import re
 from typing import Any
 
 from physsim_ros.files import (
+    check_world_name,
     load_world,
+    OwnWorlds,
     shipped_lessons,
     shipped_worlds,
     title_of,
     worlds_in,
 )
 from physsim_ros.model import errors
-from physsim_ros.sketchpad.page_handlers import PAGE
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Disc
+from physsim_ros.simulation.world.capacity import check_limit
+from physsim_ros.sketchpad.messages.fields import person
+from physsim_ros.sketchpad.server.page_handlers import PAGE
 import pytest
 
 from .chromium import Sheet
@@ -264,6 +270,36 @@ def test_a_page_is_in_the_language_of_the_browser_until_another_is_chosen(
     sheet.page.get_by_label('Sprache').select_option('English')
     sheet.page.get_by_role('button', name='Anchor', exact=True).wait_for()
     assert sheet.page.locator('html').get_attribute('lang') == 'en'
+    sheet.close()
+
+
+# As the page replaces parts of sentences of the server, one after the other.
+SAID = """async (messages) => {
+    const {SENTENCES} = await import('/page/sentences.js');
+    return messages.map((message) => SENTENCES.reduce(
+        (text, [sentence, instead]) => text.replace(sentence, instead), message));
+}"""
+CROWDED = WorldSettings(max_bodies=1, max_shapes=1, max_joints=1)
+
+
+def test_details_of_what_a_person_can_do_wrong_are_in_german(chromium: Any, address: str) -> None:
+    refused: dict[str, Callable[[], object]] = {
+        'höchstens 1 Körper': lambda: check_limit('max_bodies', 2, CROWDED),
+        'höchstens 1 Teile von Körpern': lambda: check_limit('max_shapes', 2, CROWDED),
+        'höchstens 1 Verbindungen': lambda: check_limit('max_joints', 2, CROWDED),
+        'radius ist 1e-06 m; erlaubt ist 0.001 bis 100000 m': lambda: Disc(radius=1e-6),
+        'ein Name hat 1 bis 64 Zeichen': lambda: check_world_name('x' * 65),
+        'ein Name hat 1 bis 24 Zeichen': lambda: person('', 'name'),
+        'ein Name hat weder „/“ noch „.“': lambda: check_world_name('a/b'),
+        'keine eigene Welt heißt mine': lambda: OwnWorlds(Path('/nowhere')).delete('mine'),
+    }
+    messages = []
+    for refuse in refused.values():
+        with pytest.raises(errors.Refusal) as caught:
+            refuse()
+        messages.append(str(caught.value))
+    sheet = Sheet(chromium, address, locale='de-DE')
+    assert sheet.page.evaluate(SAID, messages) == [*refused]
     sheet.close()
 
 

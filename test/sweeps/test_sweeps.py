@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 import multiprocessing
 from pathlib import Path
 from typing import Any
@@ -88,17 +89,28 @@ def test_a_cluster_has_the_same_runs_to_the_bit(
         assert told(sweep(experiment(), CASES, spread)) == told(runs)
 
 
-def test_a_table_tells_who_crashed(runs: list[Run]) -> None:
+def test_a_table_tells_who_crashed_and_why(runs: list[Run]) -> None:
     table = table_of_runs(runs).splitlines()
     assert table[0].split() == [
-        'parameters', 'runs', 'failed', 'time', '[s]', 'way', '[m]', 'score', 'failed', 'seeds'
+        'parameters', 'runs', 'failed', 'time', '[s]', 'way', '[m]', 'score', 'failures:', 'seeds'
     ]  # fmt: skip
     assert table[1].split()[:3] == ['gain=0.0', '4', '4']
-    assert table[1].split()[-4:] == ['0', '1', '2', '3']
+    assert table[1].endswith('  crashed: 0 1 2 3')
     assert table[2].split()[:4] == ['gain=8.0', '4', '0', '20.0']
     assert len(table) == 3
     many = table_of_runs(runs[:4] * 3).splitlines()
-    assert many[1].endswith('0 1 2 3 0 1 2 3 and 4 more')
+    assert many[1].endswith('crashed: 0 1 2 3 0 1 2 3 and 4 more')
+
+
+def test_a_table_names_the_most_frequent_reason_first_and_no_reason_at_length(
+    runs: list[Run],
+) -> None:
+    lost, long = replace(runs[0], failure='lost'), replace(runs[1], failure='x' * 1000)
+    table = table_of_runs([lost, long, *runs[2:4]]).splitlines()
+    crashed, other, last = table[1].rpartition('  ')[2].split('; ')
+    assert (crashed, other) == ('crashed: 2 3', 'lost: 0')
+    assert last.startswith('xxxx')
+    assert len(last) < 100
 
 
 def test_a_picture_has_the_ways_red_where_they_failed(runs: list[Run]) -> None:

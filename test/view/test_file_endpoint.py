@@ -9,7 +9,7 @@ import os
 import sys
 import threading
 
-from physsim_ros.view import endpoints, ViewerMode
+from physsim_ros.view import file_endpoint, ViewerMode
 
 from .viewers import BOX, Events, frame, PATIENCE, rows, rows_when, run_alone, show, until
 from ..rerun_program import rerun
@@ -65,7 +65,7 @@ def test_a_link_to_a_recording_stays_a_link(viewers, tmp_path):
 
 
 def test_a_recording_whose_index_takes_too_long_stays_as_it_is(viewers, tmp_path, monkeypatch):
-    monkeypatch.setattr(endpoints, 'INDEXING', 0.0)
+    monkeypatch.setattr(file_endpoint, 'INDEXING', 0.0)
     path = tmp_path / 'it.rrd'
     viewer = viewers(record_file=path)
     show(viewer, 100)
@@ -119,13 +119,13 @@ def test_a_recording_is_replaced_and_another_file_is_not(viewers, tmp_path):
 def test_a_share_that_does_not_answer_is_told_and_delays_nothing(viewers, tmp_path, monkeypatch):
     monkeypatch.setattr('physsim_ros.view.output.SILENT_AFTER', 0.1)
     go_on = threading.Event()
-    create = endpoints._create_regular_file  # noqa: SLF001  it stands for the share
+    create = file_endpoint._create_regular_file  # noqa: SLF001  it stands for the share
 
     def late(path):
         assert go_on.wait(PATIENCE)
         return create(path)
 
-    monkeypatch.setattr(endpoints, '_create_regular_file', late)
+    monkeypatch.setattr(file_endpoint, '_create_regular_file', late)
     viewer = viewers(record_file=tmp_path / 'it.rrd')
     events = Events(viewer)
 

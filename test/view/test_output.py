@@ -10,9 +10,9 @@ import weakref
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.simulation.past import frame_size
-from physsim_ros.view import FrameContext
 from physsim_ros.view import output as output_module
-from physsim_ros.view.endpoints import Endpoint, FileEndpoint
+from physsim_ros.view.endpoints import Endpoint
+from physsim_ros.view.file_endpoint import FileEndpoint
 from physsim_ros.view.output import Output
 
 from .viewers import BOX, frame, PATIENCE, rows, until
@@ -39,12 +39,12 @@ def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers(tmp_path, mo
     monkeypatch.setattr(output_module, 'WAITING_BYTES', 10.5 * size)
     endpoint = Blocked(path)
     output = Output(endpoint, ErrorBoundary(), told.append)
-    output.put(frame(0, 'answer 0'), FrameContext())
+    output.put(frame(0, 'answer 0'))
     until(lambda: ' 1 frames' in output.state)
     assert endpoint.entered.wait(PATIENCE)
 
     for step in range(1, 101):
-        output.put(frame(step, f'answer {step}'), FrameContext())
+        output.put(frame(step, f'answer {step}'))
     output.poll()
     endpoint.release.set()
 
@@ -100,7 +100,7 @@ def test_what_waited_for_a_receiver_that_failed_is_let_go():
     output = Output(endpoint, ErrorBoundary(), lambda _: None)
     waiting = frame(0, 'answer')
     kept = weakref.ref(waiting.snapshot)
-    output.put(waiting, FrameContext())
+    output.put(waiting)
     del waiting
 
     endpoint.release.set()

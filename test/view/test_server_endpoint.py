@@ -86,7 +86,7 @@ def test_what_is_just_being_started_does_not_outlive_closing(viewers, monkeypatc
         return started[0]
 
     monkeypatch.setattr(endpoints.ServerEndpoint, 'closing', 0.0)
-    monkeypatch.setattr(endpoints, '_program', lambda: shutil.which('yes'))
+    monkeypatch.setattr(endpoints, 'rerun_program', lambda: shutil.which('yes'))
     monkeypatch.setattr(endpoints, 'start_child', slowly)
     viewer = viewers(mode=ViewerMode.WEB)
     assert began.wait(PATIENCE)
@@ -103,7 +103,7 @@ def test_a_page_server_that_ends_is_told_and_opened_again_when_asked(
     viewers, monkeypatch, program
 ):
     with monkeypatch.context() as patch:
-        patch.setattr(endpoints, '_program', lambda: shutil.which(program))
+        patch.setattr(endpoints, 'rerun_program', lambda: shutil.which(program))
         viewer = viewers(mode=ViewerMode.WEB)
         events = Events(viewer)
 

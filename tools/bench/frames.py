@@ -21,7 +21,7 @@ from typing import NamedTuple
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Pose, PoseArray
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.programs.physsim import reduce_latency
+from physsim_ros.ros.programs.process import reduce_latency
 from physsim_ros.simulation.world import World
 from physsim_ros.testing.domain import own_domain
 import rclpy

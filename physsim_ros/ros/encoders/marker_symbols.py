@@ -10,11 +10,12 @@ joint, published to `~/join`, makes an equal joint.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
-import json
 import re
 from typing import Any
 
+from physsim_ros.files import yaml_line
 from physsim_ros.model.colors import Color, is_bright
 from physsim_ros.model.names import (
     CROSS_PREFIX,
@@ -38,8 +39,8 @@ _RAISED = 2 * THIN
 _HAND_WIDTH = 0.02
 _HAND = (0.9, 0.2, 0.5, 1.0)
 _DARK, _LIGHT, _GREY = (0.1, 0.1, 0.1, 1.0), (0.9, 0.9, 0.9, 1.0), (0.5, 0.5, 0.5, 1.0)
-# Opening brackets, and characters that are printable in JSON but not in YAML.
-_ESCAPED = re.compile('[{\\[\ufeff\ufffe\uffff]')
+# A key in JSON; within a text, quotes are escaped.
+_KEY = re.compile(r'"(\w+)": ')
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,7 @@ def body_symbols(body: Body) -> list[Symbol]:
     """Return the markers of a body: the body, and the x of an anchored one."""
     key = split_name(body.name)
     kind, scale, points = geometry_of(body.shape)
-    symbols = [Symbol(key, kind, scale, points, color=body.color, text=_yaml(body.entry()))]
+    symbols = [Symbol(key, kind, scale, points, color=body.color, text=_text(body.entry()))]
     if body.anchored:
         symbols.append(_cross(body, (f'{CROSS_PREFIX}{key[0]}', key[1])))
     return symbols
@@ -107,33 +108,16 @@ def joint_symbols(joint: Joint, size: float, corners: int) -> tuple[Symbol, Symb
 
 
 def _terms(joint: Joint) -> str:
-    """Return the bodies and properties of a joint as a YAML mapping, for `text`."""
-    terms = [f'kind: {joint.kind}', f'a: {_quoted(joint.a)}', f'b: {_quoted(joint.b)}']
+    """Return the bodies and properties of a joint, for `text`."""
+    ends = {'a': joint.a, 'b': joint.b}
     # Without the values as drawn, the new joint would measure them anew.
-    given = joint.properties.explicit() | joint.drawn_values()
-    terms += [f'{key}: {_yaml(value)}' for key, value in given.items()]
-    return f'{{{", ".join(terms)}}}'
+    rest = _text(ends | joint.properties.explicit() | joint.drawn_values())
+    return f'{{kind: {joint.kind}, {rest[1:]}'
 
 
-def _quoted(text: str) -> str:
-    """Return a text as a YAML string without brackets, whose number in a text is limited."""
-    quoted = json.dumps(text, ensure_ascii=False)
-    return _ESCAPED.sub(lambda found: f'\\u{ord(found[0]):04x}', quoted)
-
-
-def _yaml(value: Any) -> str:
-    """Return a value in YAML 1.1, in which 1e-09 is a string and 1.0e-09 is a number."""
-    match value:
-        case dict():
-            return f'{{{", ".join(f"{key}: {_yaml(each)}" for key, each in value.items())}}}'
-        case list():
-            return f'[{", ".join(map(_yaml, value))}]'
-        case str():
-            return _quoted(value)
-        case float():
-            text = repr(float(value))
-            return text if '.' in text else text.replace('e', '.0e')
-    return str(value).lower()
+def _text(properties: Mapping[str, Any]) -> str:
+    """Return properties as a YAML mapping, whose keys, which are plain words, are not quoted."""
+    return _KEY.sub(r'\1: ', yaml_line(properties))
 
 
 def _cross(body: Body, key: Key) -> Symbol:

@@ -15,7 +15,6 @@ from array import array
 from collections.abc import Callable
 from functools import lru_cache
 
-from geometry_msgs.msg import Point, Pose
 from nav_msgs.msg import MapMetaData, OccupancyGrid
 import numpy as np
 from physsim_ros.maps import anchored_grid
@@ -32,7 +31,7 @@ from physsim_ros.ros.encoders.cdr import (
     padded_string,
     START,
 )
-from physsim_ros.ros.robots.frames import rotation_of
+from physsim_ros.ros.planar import pose_message
 from rclpy.time import Time
 from std_msgs.msg import Header
 
@@ -241,7 +240,6 @@ def _grid_of(snapshot: Snapshot, cell: float) -> Grid:
 def _map_message(grid: Grid, frame_id: str, stamp: int) -> OccupancyGrid:
     time = Time(nanoseconds=stamp).to_msg()
     rows, columns = grid.occupied.shape
-    x, y, yaw = grid.origin
     cells = np.where(grid.occupied, _OCCUPIED, 0).astype(np.int8)
     return OccupancyGrid(
         header=Header(frame_id=frame_id, stamp=time),
@@ -250,7 +248,7 @@ def _map_message(grid: Grid, frame_id: str, stamp: int) -> OccupancyGrid:
             resolution=grid.resolution,
             width=columns,
             height=rows,
-            origin=Pose(position=Point(x=x, y=y), orientation=rotation_of(yaw)),
+            origin=pose_message(grid.origin),
         ),
         data=array('b', cells.tobytes()),
     )

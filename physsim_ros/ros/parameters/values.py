@@ -13,7 +13,6 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from itertools import pairwise
-import math
 from pathlib import Path
 from typing import Any
 
@@ -21,10 +20,10 @@ from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import load_mapping
 from physsim_ros.model.checks import shown
 from physsim_ros.model.colors import Color, color_from
-from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError, UnknownProperty
+from physsim_ros.model.errors import BadProperty, PhysSimError, UnknownProperty
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.texts import nearest_name
-from physsim_ros.ros.parameters.table import AUTO, SPECS, Type
+from physsim_ros.ros.parameters.table import AUTO, NodeSettings, SPECS, Type
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -100,7 +99,7 @@ def _flattened(entries: Mapping[str, Any], before: str = '') -> Iterator[str]:
 
 def check(parameter: Parameter) -> None:
     """
-    Check type and range of a parameter.
+    Check type and range of a parameter; the range of a setting is checked with the settings.
 
     :raises BadProperty: the type is wrong, or the value is out of range
     :raises Malformed: a number is not finite
@@ -114,15 +113,7 @@ def check(parameter: Parameter) -> None:
             f'{name} must be of type {spec.kind.name.lower()}, not {parameter.type_.name.lower()}',
             field=name,
         )
-    numbers = value if isinstance(value, list) else [value]
-    if any(isinstance(each, float) and not math.isfinite(each) for each in numbers):
-        raise Malformed(f'{name} is not finite', field=name)
-    span = spec.span
-    if span is not None and not span.low <= value <= span.high:
-        raise BadProperty(
-            f'{name} is {value:g}; it must lie between {span.low:g} and {span.high:g}', field=name
-        )
-    if spec.choices and spec.declaration.check is not None:
+    if name in NodeSettings.FIELDS and spec.declaration.check is not None:
         spec.declaration.check(value, name)
 
 

@@ -10,7 +10,6 @@ It prints a line of JSON for each world: its number and its addresses.
 from __future__ import annotations
 
 from argparse import ArgumentParser
-import gc
 import json
 import os
 import sys
@@ -18,17 +17,10 @@ import sys
 from physsim_ros.files import user_worlds
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.ros.node import PhysSimNode
-from physsim_ros.ros.programs.physsim import (
-    end_process,
-    limit_fragmentation,
-    open_closed_streams,
-    reduce_latency,
-    TerminationWatch,
-)
-from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
+from physsim_ros.ros.programs.process import begin_process, end_process
+from physsim_ros.ros.programs.real_time_loop import run_worlds
 from physsim_ros.sketchpad import Role
 import rclpy
-from rclpy.experimental import EventsExecutor
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
@@ -39,10 +31,7 @@ HISTORY_MEMORY = 48.0
 
 def main() -> None:
     """Run the worlds until the process is interrupted, or its parent has ended."""
-    open_closed_streams()
-    watch, parent = TerminationWatch(), os.getppid()
-    reduce_latency()
-    limit_fragmentation()
+    watch, parent = begin_process(), os.getppid()
     parser = ArgumentParser(prog='class_worlds')
     parser.add_argument('--first', type=int, required=True)
     parser.add_argument('--count', type=int, required=True)
@@ -73,19 +62,13 @@ def main() -> None:
         ]
     except (PhysSimError, RuntimeError) as error:
         sys.exit(f'physsim_class: {error}')
-    executor = EventsExecutor()
     for number, node in zip(numbers, nodes, strict=True):
-        executor.add_node(node)
-        node.start()
         sketchpad = node.outputs.sketchpad
         if sketchpad is not None:
             addresses = {'pupil': sketchpad.url(), 'teacher': sketchpad.url(Role.TEACH)}
             sys.stdout.write(json.dumps({'number': number, **addresses}) + '\n')
     sys.stdout.flush()
-    gc.collect()
-    gc.freeze()
-    is_over = lambda: watch.requested or os.getppid() != parent  # noqa: E731
-    RealTimeLoop(nodes, executor, is_over).run()
+    run_worlds(nodes, lambda: watch.requested or os.getppid() != parent)
     end_process()
 
 

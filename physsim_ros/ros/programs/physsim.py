@@ -1,117 +1,16 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""
-The program `physsim`: the node from its start to its end.
-
-Law: the first SIGINT or SIGTERM ends the program within `ENDING`, whatever it is doing, with exit
-code 0; a second one ends it at once.
-"""
+"""The program `physsim`: the node from its start to its end."""
 
 from __future__ import annotations
 
 from argparse import ArgumentParser
-from contextlib import suppress
-import ctypes
 from functools import partial
-import gc
-import os
-from pathlib import Path
 import signal
-import socket
 import sys
-import threading
-from typing import NoReturn
 
-# Time for an orderly end after the first signal [s]. With that of the interpreter itself it is
-# less than 3 s.
-ENDING = 2.5
-
-# `mallopt(3)` of glibc: the number of its option, and the size from which on a block comes from
-# the system itself and not from the heap [bytes]; that costs a third of a microsecond for each
-# 4 KiB.
-M_MMAP_THRESHOLD = -3
-LARGE_BLOCK = 2**18
-
-
-class TerminationWatch:
-    """
-    A thread that receives SIGINT and SIGTERM, and ends the process where it does not end itself.
-
-    Python runs a signal handler on the main thread, between two of its own instructions: a step of
-    the engine or a file that cannot be opened delays it without limit. The wakeup descriptor is
-    written at once, by the handler in C.
-    """
-
-    def __init__(self) -> None:
-        self._requested = threading.Event()
-        self._signals, self._wakeup = socket.socketpair()
-        self._wakeup.setblocking(False)
-        signal.set_wakeup_fd(self._wakeup.fileno(), warn_on_full_buffer=False)
-        for number in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(number, lambda *_: None)
-        threading.Thread(target=self._wait, name='signals', daemon=True).start()
-
-    @property
-    def requested(self) -> bool:
-        """Whether the end was asked for."""
-        return self._requested.is_set()
-
-    def _wait(self) -> None:
-        self._signals.recv(1)
-        self._requested.set()
-        self._signals.settimeout(ENDING)
-        with suppress(TimeoutError):
-            self._signals.recv(1)
-        # Child processes end with their parent (`view.child_process`).
-        os._exit(0)
-
-
-def reduce_latency() -> None:
-    """Reduce the time that other threads of the process delay a step; before `rclpy.init`."""
-    # With the default switch interval of 5 ms, a busy thread of the viewer delays a step of 0.6 ms
-    # by 6 ms.
-    sys.setswitchinterval(0.0005)
-    # See docs/decisions/publication_mode.md.
-    profiles = Path(__file__).with_name('fastdds_profiles.xml')
-    os.environ.setdefault('FASTRTPS_DEFAULT_PROFILES_FILE', str(profiles))
-
-
-def limit_fragmentation() -> None:
-    """Have large arrays returned to the system when they are freed."""
-    # The threshold of glibc grows with each large block that is freed, up to 32 MiB; blocks below
-    # it lie in the heap, which smaller ones in between keep from shrinking.
-    set_option = getattr(ctypes.CDLL(None), 'mallopt', None)
-    if set_option is not None:
-        set_option(M_MMAP_THRESHOLD, LARGE_BLOCK)
-
-
-def open_closed_streams() -> None:
-    """
-    Open the null device in place of closed standard streams.
-
-    Else the next file or socket would get the descriptor, and what is printed would go to it.
-    """
-    for number in range(3):
-        try:
-            os.fstat(number)
-        except OSError:
-            # The least free descriptor, which is this one.
-            os.open(os.devnull, os.O_RDWR)
-    sys.stdout = sys.stdout or os.fdopen(1, 'w')
-    sys.stderr = sys.stderr or os.fdopen(2, 'w')
-
-
-def end_process() -> NoReturn:
-    """
-    End the process with exit code 0, whoever reads what it prints.
-
-    The interpreter would free each space of the engine piece by piece, as Pymunk 7.3 does it, for
-    seconds in a crowded world, when it has no threads any more that could end it.
-    """
-    with suppress(OSError):
-        sys.stdout.flush()
-    os._exit(0)
+from physsim_ros.ros.programs.process import begin_process, end_process
 
 
 class _Usage(ArgumentParser):
@@ -154,19 +53,13 @@ def _initialise() -> None:
 
 def main() -> None:
     """Run the node until it is interrupted."""
-    open_closed_streams()
-    watch = TerminationWatch()
-    reduce_latency()
-    limit_fragmentation()
-    # Nearly all that is made until the world runs stays until the end: a collection finds nothing.
-    gc.disable()
+    watch = begin_process()
     # A signal is received while ROS and the engine are imported, too, which takes 0.4 s.
     from geometry_msgs.msg import Twist
     from physsim_ros.model.errors import PhysSimError
     from physsim_ros.ros.node import PhysSimNode
-    from physsim_ros.ros.programs.real_time_loop import RealTimeLoop
+    from physsim_ros.ros.programs.real_time_loop import run_worlds
     import rclpy
-    from rclpy.experimental import EventsExecutor
 
     _initialise()
     try:
@@ -174,21 +67,6 @@ def main() -> None:
     except PhysSimError as error:
         rclpy.shutdown()
         sys.exit(f'physsim: {error}')
-    executor = EventsExecutor()
-    try:
-        executor.add_node(node)
-        node.control.on_quit = partial(signal.raise_signal, signal.SIGTERM)
-        node.start()
-        # The collector skips what exists now.
-        gc.freeze()
-        gc.enable()
-        # EventsExecutor.spin (rclpy 7, Jazzy) never returns; spin_once does, and raises the
-        # exceptions of callbacks.
-        RealTimeLoop([node], executor, lambda: watch.requested).run()
-    finally:
-        # Also after an exception, so that no viewer process remains.
-        executor.remove_node(node)
-        executor.shutdown()
-        node.destroy_node()
-        rclpy.shutdown()
+    node.control.on_quit = partial(signal.raise_signal, signal.SIGTERM)
+    run_worlds([node], lambda: watch.requested)
     end_process()

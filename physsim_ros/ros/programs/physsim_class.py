@@ -19,7 +19,7 @@ import subprocess
 import sys
 
 from physsim_ros.model.errors import PhysSimError
-from physsim_ros.ros.programs.physsim import open_closed_streams, TerminationWatch
+from physsim_ros.ros.programs.process import open_closed_streams, TerminationWatch
 from physsim_ros.sketchpad import ClassServer, Role, World
 
 # Most worlds of a class.

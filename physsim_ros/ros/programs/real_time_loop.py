@@ -12,13 +12,44 @@ stop the answers. A timer of rclpy would wait behind all messages that have arri
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+import gc
 import time
 
 from physsim_ros.ros.node import PhysSimNode
+import rclpy
 from rclpy.executors import Executor
+from rclpy.experimental import EventsExecutor
 
 # The longest wait for messages before the loop checks whether it is over [s].
 _LONGEST_SPIN = 0.1
+
+
+def run_worlds(nodes: Sequence[PhysSimNode], is_over: Callable[[], bool]) -> None:
+    """
+    Start worlds, run them in real time until it is over, and end them and ROS.
+
+    :param nodes: of the worlds, on one thread
+    :param is_over: whether they are to end
+    """
+    executor = EventsExecutor()
+    try:
+        for node in nodes:
+            executor.add_node(node)
+            node.start()
+        # The collector skips what exists now.
+        gc.freeze()
+        gc.enable()
+        # EventsExecutor.spin (rclpy 7, Jazzy) never returns; spin_once does, and raises the
+        # exceptions of callbacks.
+        RealTimeLoop(nodes, executor, is_over).run()
+    finally:
+        # Also after an exception, so that no viewer process remains.
+        for node in nodes:
+            executor.remove_node(node)
+        executor.shutdown()
+        for node in nodes:
+            node.destroy_node()
+        rclpy.shutdown()
 
 
 class RealTimeLoop:

@@ -15,14 +15,14 @@ from __future__ import annotations
 
 import math
 
-from geometry_msgs.msg import Point, Pose, Quaternion
+from geometry_msgs.msg import Point, Quaternion
 import numpy as np
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.ros.encoders.cdr import CdrWriter, MessageTemplate, START
 from physsim_ros.ros.encoders.streams import SceneEncoder
 from physsim_ros.ros.marker_shapes import geometry_of, THIN
-from physsim_ros.ros.robots.frames import rotation_of
+from physsim_ros.ros.planar import pose_message
 from rclpy.node import Node
 from rclpy.time import Time
 from std_msgs.msg import ColorRGBA, Header
@@ -133,11 +133,9 @@ class InteractiveMarkers:
         """Return a body as a marker that is dragged in the plane, where it is clicked."""
         body = snapshot.scene.bodies[row]
         stamp = Time(nanoseconds=snapshot.stamp).to_msg()
-        x, y, yaw = snapshot.poses[row].tolist()
-        pose = Pose(position=Point(x=x, y=y), orientation=rotation_of(yaw))
         return InteractiveMarker(
             header=Header(frame_id=self._frame_id, stamp=stamp),
-            pose=pose,
+            pose=pose_message(snapshot.poses[row].tolist()),
             name=body.name,
             scale=1.0,
             controls=[_control(body)],

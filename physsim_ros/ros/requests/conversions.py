@@ -11,10 +11,9 @@ stamps are ignored.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-import math
 from typing import Any, TypeVar
 
-from geometry_msgs.msg import PointStamped, Quaternion
+from geometry_msgs.msg import PointStamped
 from nav_msgs.msg import OccupancyGrid, Path
 import numpy as np
 from physsim_ros.files import load_mapping, PROPERTIES, with_shipped_robot
@@ -28,7 +27,6 @@ from physsim_ros.model.declarations import without_unset
 from physsim_ros.model.errors import (
     BadProperty,
     Malformed,
-    NotPlanar,
     UnknownFrame,
     UnknownProperty,
 )
@@ -50,8 +48,8 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.model.texts import property_meant
-from physsim_ros.model.transform import Pose
 from physsim_ros.ros.marker_shapes import points_from, shape_from
+from physsim_ros.ros.planar import named_frame, planar_pose, point_in_frame, yaw_of
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
@@ -59,8 +57,6 @@ from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 NAMESPACE, JOINT_NAMESPACE = 'body', 'joint'
 # Name of the hand of feedback without `client_id`.
 ANONYMOUS_HAND = 'hand'
-# The greatest roll and pitch of a planar rotation [rad]: rounding errors of float32 tools.
-MOST_TILT = 1e-3
 # Keys of a body in a world file for which a marker has fields.
 _FIELDS = ('at', 'circle', 'box', 'color', 'lifetime')
 # The greatest length of `text` [characters]: ten times all properties with all digits.
@@ -207,7 +203,7 @@ def command_request(message: MultiDOFJointState, *, frame_id: str) -> Command:
     return Command(
         names=tuple(message.joint_names),
         poses=_rows(
-            (each.translation.x, each.translation.y, _yaw_of(each.rotation, 'transforms'))
+            (each.translation.x, each.translation.y, yaw_of(each.rotation, 'transforms'))
             for each in message.transforms
         ),
         twists=_rows((each.linear.x, each.linear.y, each.angular.z) for each in message.twist),
@@ -270,35 +266,13 @@ def walls_requests(message: OccupancyGrid, *, frame_id: str) -> tuple[DeleteAll 
             f'data has {len(cells)} cells, not {info.width} times {info.height}', field='data'
         )
     position = info.origin.position
-    yaw = _yaw_of(info.origin.orientation, 'info.origin.orientation')
+    yaw = yaw_of(info.origin.orientation, 'info.origin.orientation')
     grid = Grid(
         occupied=cells.reshape(info.height, info.width) >= OCCUPIED,
         resolution=float(info.resolution),
         origin=(position.x, position.y, yaw),
     )
     return DeleteAll(namespace=WALLS), *walls_of(grid, WALLS, MOST_WALLS)
-
-
-def point_in_frame(message: PointStamped, *, frame_id: str) -> tuple[tuple[float, float], str]:
-    """Return a point [m] and its frame, '' for the world; neither is validated."""
-    return (message.point.x, message.point.y), named_frame(message.header.frame_id, frame_id)
-
-
-def named_frame(frame: str, world_frame: str) -> str:
-    """Return a frame, '' for the world, which is the empty one, too."""
-    return '' if frame in ('', world_frame) else frame
-
-
-def planar_pose(pose: Any, field: str) -> Pose:
-    """
-    Return x, y [m] and yaw [rad] of a geometry_msgs/Pose; the position is not validated.
-
-    :param field: of the message, for the refusal
-    :raises Malformed: the rotation is not finite
-    :raises NotPlanar: it is not about z
-    """
-    yaw = _yaw_of(pose.orientation, f'{field}.orientation')
-    return pose.position.x, pose.position.y, yaw
 
 
 def mapping_of(text: str, field: str) -> dict[Any, Any]:
@@ -311,34 +285,6 @@ def mapping_of(text: str, field: str) -> dict[Any, Any]:
     if len(text) > LONGEST_TEXT:
         raise Malformed(f'{field} is longer than {LONGEST_TEXT} characters', field=field)
     return load_mapping(text, field=field)
-
-
-def _yaw_of(rotation: Quaternion, field: str) -> float:
-    """
-    Return the yaw of a rotation [rad]; all zero is the identity, as RViz reads it.
-
-    :param field: of the message, for the refusal
-    :raises Malformed: it is not finite
-    :raises NotPlanar: it is not about z
-    """
-    parts = rotation.x, rotation.y, rotation.z, rotation.w
-    if not all(map(math.isfinite, parts)):
-        raise Malformed(f'{field} is not finite', field=field)
-    largest = max(map(abs, parts))
-    if largest == 0.0:
-        return 0.0
-    # Scaled by its largest part first, so that squares neither overflow nor underflow.
-    x, y, z, w = (part / largest for part in parts)
-    norm = math.sqrt(x * x + y * y + z * z + w * w)
-    x, y, z, w = x / norm, y / norm, z / norm, w / norm
-    roll = math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y))
-    pitch = math.asin(max(-1.0, min(1.0, 2 * (w * y - z * x))))
-    if max(abs(roll), abs(pitch)) > MOST_TILT:
-        raise NotPlanar(
-            f'{field} has roll {roll:.3g} and pitch {pitch:.3g} rad; the world is a plane',
-            field=field,
-        )
-    return math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))
 
 
 def _color(marker: Marker) -> Color | None:

@@ -22,11 +22,12 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 from builtin_interfaces.msg import Time
-from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
+from geometry_msgs.msg import Transform, TransformStamped, Vector3
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Piece
 from physsim_ros.model.transform import Pose
+from physsim_ros.ros.planar import rotation_of
 
 ODOM, FOOTPRINT, BASE = 'odom', 'base_footprint', 'base_link'
 # Depth of `/tf`: that of tf2_ros.
@@ -94,11 +95,6 @@ def tf_message_type() -> Any:
     except ModuleNotFoundError:
         return None
     return TFMessage
-
-
-def rotation_of(yaw: float) -> Quaternion:
-    """Return a turn about z [rad]."""
-    return Quaternion(z=math.sin(yaw / 2), w=math.cos(yaw / 2))
 
 
 def urdf_of(body: Body, frames: RobotFrames) -> str:

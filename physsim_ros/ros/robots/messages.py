@@ -16,7 +16,7 @@ import math
 from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time as TimeMessage
-from geometry_msgs.msg import Point, Vector3
+from geometry_msgs.msg import Vector3
 from nav_msgs.msg import Odometry
 from physsim_ros.model.robots.sensors import (
     Bumper,
@@ -30,7 +30,7 @@ from physsim_ros.model.robots.sensors import (
 )
 from physsim_ros.model.states import Covariance
 from physsim_ros.model.transform import Pose
-from physsim_ros.ros.robots.frames import rotation_of
+from physsim_ros.ros.planar import pose_message, rotation_of
 from physsim_ros.sensing import read_sensor, View
 from rclpy.time import Time
 from sensor_msgs.msg import Image, JointState, LaserScan, NavSatFix, NavSatStatus, Range
@@ -75,9 +75,7 @@ def odometry_message(
     """
     message = Odometry(child_frame_id=child)
     message.header.stamp, message.header.frame_id = view.stamp, parent
-    x, y, yaw = pose
-    message.pose.pose.position = Point(x=x, y=y)
-    message.pose.pose.orientation = rotation_of(yaw)
+    message.pose.pose = pose_message(pose)
     message.pose.covariance, message.twist.covariance = map(_covariance, covariances)
     vx, vy, turn = twist
     message.twist.twist.linear = Vector3(x=vx, y=vy)

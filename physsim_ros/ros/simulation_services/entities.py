@@ -23,9 +23,8 @@ from physsim_ros.model.shapes import extent_of
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import local_to_world, Pose, REST
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.requests.conversions import named_frame, planar_pose
-from physsim_ros.ros.robots.frames import rotation_of
-from physsim_ros.ros.simulation_services.results import box_around, failed, failing_with
+from physsim_ros.ros.planar import named_frame, planar_pose, pose_message
+from physsim_ros.ros.simulation_services.results import box_around, coded, coding_refusals
 from simulation_interfaces.msg import (
     Bounds,
     EntityCategory,
@@ -65,7 +64,7 @@ class Entities:
         snapshot = self._control.current_snapshot()
         body = snapshot.scene.bodies[snapshot.row(name)]
         if named_frame(state.header.frame_id, self._frame_id):
-            raise failed(
+            raise coded(
                 f'a state is set in the frame {self._control.values["frame_id"]!r} only',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='state.header.frame_id',
@@ -74,7 +73,7 @@ class Entities:
         twist = linear.x, linear.y, angular.z
         # An anchored body takes a pose, and rest.
         rests = body.anchored and twist == REST
-        with failing_with(SetEntityState.Response.INVALID_POSE):
+        with coding_refusals(SetEntityState.Response.INVALID_POSE):
             pose = check_pose(planar_pose(state.pose, 'state.pose'), 'state.pose')
         command = Command(
             names=(name,),
@@ -116,14 +115,14 @@ class Entities:
         # The first category is also that of a message in which none was set.
         categories = EntityCategory.CATEGORY_OBJECT, category_of(body)
         if info.category.category not in categories:
-            raise failed(
+            raise coded(
                 f'category {category_of(body)} follows from what the body is',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='info.category',
             )
         tags = set(tags_of(body))
         if info.tags and set(info.tags) != tags:
-            raise failed(
+            raise coded(
                 f'the tags {", ".join(sorted(tags))} follow from what the body is',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='info.tags',
@@ -144,9 +143,7 @@ class Entities:
         state = EntityState()
         state.header.frame_id = self._frame_id
         state.header.stamp.sec, state.header.stamp.nanosec = divmod(snapshot.stamp, 10**9)
-        x, y, yaw = snapshot.poses[row].tolist()
-        state.pose.position.x, state.pose.position.y = x, y
-        state.pose.orientation = rotation_of(yaw)
+        state.pose = pose_message(snapshot.poses[row].tolist())
         vx, vy, spin = snapshot.twists[row].tolist()
         state.twist.linear.x, state.twist.linear.y, state.twist.angular.z = vx, vy, spin
         return state
@@ -215,7 +212,7 @@ def _matching(names: tuple[str, ...], pattern: str) -> list[bool]:
     try:
         matches: list[bool] = pc.match_substring_regex(pa.array(names), pattern).to_pylist()
     except (pa.ArrowInvalid, UnicodeError) as error:
-        raise failed(
+        raise coded(
             f'{pattern!r} is no regular expression', Result.RESULT_OPERATION_FAILED, field='filter'
         ) from error
     return matches
@@ -227,13 +224,13 @@ def _overlap(bounds: Bounds) -> Callable[[Body, Pose], bool]:
         return lambda _body, _pose: True
     points = [(each.x, each.y) for each in bounds.points]
     if bounds.type not in (Bounds.TYPE_BOX, Bounds.TYPE_SPHERE):
-        raise failed(
+        raise coded(
             'bounds are empty, a box or a sphere',
             Result.RESULT_FEATURE_UNSUPPORTED,
             field='bounds.type',
         )
     if len(points) != 2 or not np.isfinite(points).all():
-        raise failed(
+        raise coded(
             'bounds need two finite points', Result.RESULT_OPERATION_FAILED, field='bounds.points'
         )
     (first, second) = points

@@ -15,7 +15,7 @@ from physsim_ros.model.shapes import extent_of
 from simulation_interfaces.msg import Bounds, Result
 
 
-class Failed(Exception):
+class CodedRefusal(Exception):
     """
     A refusal with its result code.
 
@@ -28,24 +28,24 @@ class Failed(Exception):
         self.refusal, self.result = refusal, result
 
 
-def failed(message: str, result: int, *, field: str = '') -> Failed:
-    """Return the failure of a call whose values are wrong."""
-    return Failed(BadProperty(message, field=field), result)
+def coded(message: str, result: int, *, field: str = '') -> CodedRefusal:
+    """Return the refusal of a call whose values are wrong."""
+    return CodedRefusal(BadProperty(message, field=field), result)
 
 
 @contextmanager
-def failing_with(result: int) -> Iterator[None]:
+def coding_refusals(result: int) -> Iterator[None]:
     """Give refusals a result code."""
     try:
         yield
     except Refusal as refusal:
-        raise Failed(refusal, result) from refusal
+        raise CodedRefusal(refusal, result) from refusal
 
 
-def result_of(error: Failed | Refusal) -> tuple[Refusal, int]:
+def result_of(error: CodedRefusal | Refusal) -> tuple[Refusal, int]:
     """Return a refusal and its result code."""
     match error:
-        case Failed():
+        case CodedRefusal():
             return error.refusal, error.result
         case UnknownBody():
             return error, int(Result.RESULT_NOT_FOUND)

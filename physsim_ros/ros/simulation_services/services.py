@@ -14,7 +14,7 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.requests.services import ServiceCalls
 from physsim_ros.ros.simulation_services.entities import Entities
-from physsim_ros.ros.simulation_services.results import Failed, result_of
+from physsim_ros.ros.simulation_services.results import CodedRefusal, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import NamedPoses, Worlds
@@ -94,7 +94,7 @@ class SimulationServices:
             if refused is not None:
                 raise refused
             message = perform(request, response)
-        except (Failed, Refusal) as error:
+        except (CodedRefusal, Refusal) as error:
             refusal, result.result = result_of(error)
         else:
             result.result = Result.RESULT_OK

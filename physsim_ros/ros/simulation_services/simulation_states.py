@@ -15,7 +15,7 @@ from typing import Any
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteBodies, Restore
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.simulation_services.results import failed
+from physsim_ros.ros.simulation_services.results import coded
 from physsim_ros.ros.simulation_services.worlds import Worlds
 from simulation_interfaces.msg import Result, SimulationState, SimulatorFeatures
 from simulation_interfaces.srv import ResetSimulation, SetSimulationState
@@ -105,18 +105,18 @@ class SimulationStates:
         target, now = request.state.state, self._state
         codes = SetSimulationState.Response
         if target not in (_STOPPED, _PLAYING, _PAUSED, _QUITTING):
-            raise failed(
+            raise coded(
                 f'state {target} cannot be set; stopped, playing, paused and quitting can',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='state',
             )
         if target == now:
-            raise failed('it is in that state already', codes.ALREADY_IN_TARGET_STATE)
+            raise coded('it is in that state already', codes.ALREADY_IN_TARGET_STATE)
         if target == _QUITTING:
             return self._quit()
         if now in (_NO_WORLD, _QUITTING):
             reason = 'no world is loaded' if now == _NO_WORLD else 'the program ends'
-            raise failed(reason, codes.INCORRECT_TRANSITION)
+            raise coded(reason, codes.INCORRECT_TRANSITION)
         begins_paused = (now, target) == (_STOPPED, _PAUSED)
         self._begins_paused = self._control.simulation.loaded if begins_paused else None
         if target == _PLAYING:
@@ -126,7 +126,7 @@ class SimulationStates:
 
     def _quit(self) -> str:
         if not self._control.end_program():
-            raise failed(
+            raise coded(
                 'this world is not the only one of its program, or is in a test',
                 Result.RESULT_FEATURE_UNSUPPORTED,
                 field='state',
@@ -147,13 +147,13 @@ class SimulationStates:
         """
         Refuse a number of steps.
 
-        :raises Failed: time runs, no world is loaded, or they are none or too many
+        :raises CodedRefusal: time runs, no world is loaded, or they are none or too many
         """
         self._worlds.check_loaded()
         if self._control.simulation.speed != 0:
-            raise failed('time is running; pause first', Result.RESULT_INCORRECT_STATE)
+            raise coded('time is running; pause first', Result.RESULT_INCORRECT_STATE)
         if not 1 <= steps <= MOST_STEPS:
-            raise failed(
+            raise coded(
                 f'steps is {steps}; a call has 1 to {MOST_STEPS}',
                 Result.RESULT_OPERATION_FAILED,
                 field='steps',
@@ -181,7 +181,7 @@ class SimulationStates:
             return (
                 simulation.perform(DeleteBodies(names=spawned)) if spawned else 'none was spawned'
             )
-        raise failed(
+        raise coded(
             'the scope is all, what was spawned, or state and what was spawned',
             Result.RESULT_FEATURE_UNSUPPORTED,
             field='scope',

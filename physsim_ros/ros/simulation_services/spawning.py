@@ -23,12 +23,13 @@ from physsim_ros.model.requests import Spawn
 from physsim_ros.model.robots.robot import check_namespace
 from physsim_ros.model.texts import counted
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.requests.conversions import mapping_of, named_frame, planar_pose
+from physsim_ros.ros.planar import named_frame, planar_pose
+from physsim_ros.ros.requests.conversions import mapping_of
 from physsim_ros.ros.simulation_services.results import (
     box_around,
-    Failed,
-    failed,
-    failing_with,
+    coded,
+    CodedRefusal,
+    coding_refusals,
     result_of,
 )
 from physsim_ros.ros.simulation_services.worlds import unknown_sources, Worlds
@@ -93,7 +94,7 @@ class Spawning:
         self._worlds.check_loaded()
         number = len(request.spawn_requests)
         if number > MOST_ENTITIES:
-            raise failed(
+            raise coded(
                 f'{number} entities are too many; a call has at most {MOST_ENTITIES}',
                 Result.RESULT_OPERATION_FAILED,
                 field='spawn_requests',
@@ -106,7 +107,7 @@ class Spawning:
             try:
                 spawn = self._request_of(each, names)
                 self._perform(spawn, gesture)
-            except (Failed, Refusal) as error:
+            except (CodedRefusal, Refusal) as error:
                 refusal, result.result.result = result_of(error)
                 result.result.error_message = str(refusal)
                 continue
@@ -121,7 +122,7 @@ class Spawning:
             return spawned if number else ''
         # Some may have been spawned.
         self._control.note_change()
-        raise failed(
+        raise coded(
             f'{spawned}, refused {len(refused)}; the first: {refused[0].error_message}',
             SpawnEntities.Response.ENTITIES_SPAWN_FAILED,
             field='spawn_requests',
@@ -130,7 +131,7 @@ class Spawning:
     def _request_of(self, wanted: SpawnEntity, names: Collection[str]) -> Spawn:
         """Return the request for a body, of a name that is not among those that are taken."""
         entry = dict(_entry(wanted))
-        with failing_with(SpawnResult.NAMESPACE_INVALID):
+        with coding_refusals(SpawnResult.NAMESPACE_INVALID):
             namespace = check_namespace(wanted.entity_namespace, 'entity_namespace')
         if namespace and 'robot' in entry:
             robot = entry['robot']
@@ -138,12 +139,12 @@ class Spawning:
             if isinstance(robot, dict):
                 entry['robot'] = {**robot, 'namespace': namespace}
         entry['name'] = _name(wanted, entry, names)
-        with failing_with(SpawnResult.INVALID_POSE):
+        with coding_refusals(SpawnResult.INVALID_POSE):
             pose = planar_pose(wanted.initial_pose.pose, 'initial_pose')
-        with failing_with(SpawnResult.RESOURCE_PARSE_ERROR):
+        with coding_refusals(SpawnResult.RESOURCE_PARSE_ERROR):
             spawn = spawn_from(entry)
         frame = named_frame(wanted.initial_pose.header.frame_id, self._frame_id)
-        with failing_with(SpawnResult.INVALID_POSE):
+        with coding_refusals(SpawnResult.INVALID_POSE):
             return replace(spawn, pose=pose, frame=frame)
 
     def _perform(self, spawn: Spawn, gesture: int) -> str:
@@ -151,9 +152,9 @@ class Spawning:
             return self._control.simulation.perform(spawn, gesture)
         except Exists as refusal:
             # The namespace of another robot.
-            raise Failed(refusal, SpawnResult.NAMESPACE_INVALID) from refusal
+            raise CodedRefusal(refusal, SpawnResult.NAMESPACE_INVALID) from refusal
         except UnknownFrame as refusal:
-            raise Failed(refusal, SpawnResult.INVALID_POSE) from refusal
+            raise CodedRefusal(refusal, SpawnResult.INVALID_POSE) from refusal
 
 
 def _spawnables() -> tuple[str, ...]:
@@ -169,22 +170,22 @@ def _entry(wanted: SpawnEntity) -> Mapping[str, Any]:
     """Return the entry that is named, or is there as a text."""
     uri, text = wanted.entity_resource.uri, wanted.entity_resource.resource_string
     if not (uri or text):
-        raise failed(
+        raise coded(
             'neither uri nor resource_string says what to spawn',
             SpawnResult.NO_RESOURCE,
             field='uri',
         )
     if uri.lower().endswith(_FOREIGN) or (not uri and text.lstrip().startswith('<')):
-        raise failed(
+        raise coded(
             'spawned are shipped robots, shapes, and entries of a world file in YAML',
             SpawnResult.UNSUPPORTED_FORMAT,
             field='uri' if uri else 'resource_string',
         )
     if not uri:
-        with failing_with(SpawnResult.RESOURCE_PARSE_ERROR):
+        with coding_refusals(SpawnResult.RESOURCE_PARSE_ERROR):
             return mapping_of(text, 'resource_string')
     if uri not in _spawnables():
-        raise failed(
+        raise coded(
             f'there is no spawnable {uri!r}; there are {", ".join(_spawnables())}',
             Result.RESULT_NOT_FOUND,
             field='uri',
@@ -201,7 +202,7 @@ def _name(wanted: SpawnEntity, entry: Mapping[str, Any], taken: Collection[str])
         check_body_name(name)
     except Refusal as refusal:
         if not wanted.allow_renaming:
-            raise Failed(refusal, SpawnResult.NAME_INVALID) from refusal
+            raise CodedRefusal(refusal, SpawnResult.NAME_INVALID) from refusal
         stem = (
             re.sub('[^A-Za-z0-9_]+', '_', str(name)).strip('_')
             or wanted.entity_resource.uri
@@ -211,7 +212,7 @@ def _name(wanted: SpawnEntity, entry: Mapping[str, Any], taken: Collection[str])
     if name not in taken:
         return name
     if not wanted.allow_renaming:
-        raise failed(
+        raise coded(
             f'there is an entity {name!r} already',
             SpawnResult.NAME_NOT_UNIQUE,
             field='name',

@@ -23,9 +23,9 @@ from physsim_ros.model.errors import BadWorldFile, UnknownBody
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.ros.node_control import NodeControl
-from physsim_ros.ros.robots.frames import rotation_of
+from physsim_ros.ros.planar import pose_message
 from physsim_ros.ros.simulation_services.entities import passes_tags, tags_of
-from physsim_ros.ros.simulation_services.results import box_around, Failed, failed
+from physsim_ros.ros.simulation_services.results import box_around, coded, CodedRefusal
 from simulation_interfaces.msg import NamedPose, Resource, Result, WorldResource
 from simulation_interfaces.srv import (
     GetAvailableWorlds,
@@ -61,21 +61,19 @@ class Worlds:
         """
         Refuse what needs a world.
 
-        :raises Failed: the world was unloaded
+        :raises CodedRefusal: the world was unloaded
         """
         if self.is_none_loaded:
-            raise failed('no world is loaded; load one first', Result.RESULT_INCORRECT_STATE)
+            raise coded('no world is loaded; load one first', Result.RESULT_INCORRECT_STATE)
 
     def available(self, request: Any, response: Any) -> str:
         """List the worlds that `load` takes by name."""
         unknown, own = unknown_sources(request.additional_sources), self._control.world_dir
         if not request.continue_on_error:
             if unknown:
-                raise failed(
-                    unknown, Result.RESULT_FEATURE_UNSUPPORTED, field='additional_sources'
-                )
+                raise coded(unknown, Result.RESULT_FEATURE_UNSUPPORTED, field='additional_sources')
             if not _is_readable(own):
-                raise failed(
+                raise coded(
                     f'{own.name}, the directory of own worlds, cannot be read',
                     GetAvailableWorlds.Response.DEFAULT_SOURCES_FAILED,
                 )
@@ -90,19 +88,19 @@ class Worlds:
         codes = LoadWorld.Response
         uri = request.uri
         if not (uri or request.resource_string):
-            raise failed('uri names no world', codes.NO_RESOURCE, field='uri')
+            raise coded('uri names no world', codes.NO_RESOURCE, field='uri')
         if not uri:
-            raise failed(
+            raise coded(
                 'a world is loaded by its name', Result.RESULT_FEATURE_UNSUPPORTED, field='uri'
             )
         if Path(uri).suffix not in ('', '.yaml'):
-            raise failed('a world is a YAML file', codes.UNSUPPORTED_FORMAT, field='uri')
+            raise coded('a world is a YAML file', codes.UNSUPPORTED_FORMAT, field='uri')
         try:
             message = self._control.perform_on('load_world', uri)
         except BadWorldFile as refusal:
             # One that is there, but no world, has a cause.
             result = codes.RESOURCE_PARSE_ERROR if refusal.cause else Result.RESULT_NOT_FOUND
-            raise Failed(refusal, result) from refusal
+            raise CodedRefusal(refusal, result) from refusal
         self._stop()
         response.world = self._current()
         return message
@@ -110,7 +108,7 @@ class Worlds:
     def unload(self, _: Any, __: Any) -> str:
         """Delete all bodies and joints, and stop; settings stay."""
         if self.is_none_loaded:
-            raise failed('no world is loaded', UnloadWorld.Response.NO_WORLD_LOADED)
+            raise coded('no world is loaded', UnloadWorld.Response.NO_WORLD_LOADED)
         simulation = self._control.simulation
         self._unloaded = WorldState(settings=simulation.settings)
         simulation.load(self._unloaded)
@@ -121,7 +119,7 @@ class Worlds:
     def current(self, _: Any, response: Any) -> str:
         """Tell the world that was loaded."""
         if self.is_none_loaded or not self._control.values['world_file']:
-            raise failed(
+            raise coded(
                 'no world was loaded from a file', GetCurrentWorld.Response.NO_WORLD_LOADED
             )
         response.world = self._current()
@@ -206,8 +204,9 @@ def _places(snapshot: Snapshot) -> Iterator[tuple[int, Body]]:
 
 
 def _named_pose(snapshot: Snapshot, row: int, body: Body) -> NamedPose:
-    named = NamedPose(name=body.name, description=body.label, tags=list(tags_of(body)))
-    x, y, yaw = snapshot.poses[row].tolist()
-    named.pose.position.x, named.pose.position.y = x, y
-    named.pose.orientation = rotation_of(yaw)
-    return named
+    return NamedPose(
+        name=body.name,
+        description=body.label,
+        tags=list(tags_of(body)),
+        pose=pose_message(snapshot.poses[row].tolist()),
+    )

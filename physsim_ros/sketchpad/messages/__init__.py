@@ -9,8 +9,7 @@ that a page needs and the checks of its fields. A new kind is one such function,
 its subject; `make tables` adds it to docs/page_protocol.md.
 
 Not here: the reading of messages (`message`), the session that the functions work on
-(`page_session`). `show`, the parts of frames that a page receives, concerns the server's thread
-alone: `page_socket` carries it out.
+(`page_session`), the kinds that the server's thread carries out (`server.page_socket`).
 """
 
 from physsim_ros.sketchpad.message import read_message

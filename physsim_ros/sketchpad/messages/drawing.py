@@ -154,9 +154,7 @@ def click(page: PageSession, origin: Origin, tool: Tool, point: Point) -> None:
 @message('drop', 'page', Right.DRAW)
 def drop(page: PageSession, origin: Origin) -> None:
     """Drop the unfinished gesture."""
-    # A change of the tool drops it.
-    tool, page.drawing.tool = page.drawing.tool, Tool.NONE
-    page.drawing.tool = tool
+    page.drawing.drop()
     page.answer_page(origin, 'dropped what was unfinished')
 
 

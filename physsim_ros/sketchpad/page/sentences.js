@@ -21,7 +21,8 @@ export const THINGS = new Map([
 /** What the server calls the numbers of a body, where it refuses one. */
 export const NUMBERS = new Map([
   ['friction', t('friction')], ['density', t('density')], ['elasticity', t('bounciness')], ['mass', t('mass')],
-  ['spin', t('spin')],
+  ['spin', t('spin')], ['radius', t('radius')], ['width', t('width')], ['height', t('height')],
+  ['thickness', t('thickness')],
 ]);
 
 /** Verbs before the name of a body, and what is said of it. */
@@ -86,7 +87,17 @@ export const SENTENCES = [
   [/(?<=; next: )the tip of its arrow, 1 m for 10 N$/, t('the tip, 1 m for 10 N')],
   [/^.*; next: /, `${t('Next:')} `],
   [/^a chain of (\d+) links from .+/, t('Chain of $1 links added')],
-  [/^(\S+) is (\S+); it must lie between (\S+) and /, t('$1 is $2; it must lie between $3 and') + ' '],
+  [/^the world would have \d+ bodies; .* is (\d+)$/, t('at most $1 bodies')],
+  [/^the world would have \d+ convex pieces; .* is (\d+)$/, t('at most $1 parts of bodies')],
+  [/^the world would have \d+ joints; .* is (\d+)$/, t('at most $1 joints')],
+  [/^.+ reaches further than (\S+) m$/, t('further than $1 m')],
+  [/^a part is thinner than (\S+) m$/, t('a part is thinner than $1 m')],
+  [/^the points of a .+ must be (\S+) m apart$/, t('its points are at least $1 m apart')],
+  [/^a name has (?:at most|1 to) (\d+) characters$/, t('a name has 1 to $1 characters')],
+  [/^.+ cannot be a name: it has no .+$/, t('a name has no "/" and no "."')],
+  [/^nothing of (.+) is kept$/, t('nothing of $1 is kept')],
+  [/^there is no world (.+) of your own$/, t('there is no world $1 of your own')],
+  [/^(\S+) is (\S+(?: m)?); it must lie between (\S+) and /, t('$1 is $2; it must lie between $3 and') + ' '],
   [/^pose is further away than /, t('position is further away than') + ' '],
   [/^pose is /, t('position is') + ' '],
   [/^the yaw of pose /, t('the angle') + ' '],

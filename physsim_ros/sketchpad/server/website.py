@@ -1,20 +1,35 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Listening sockets, the address by which other machines reach them, a limit of connections."""
+"""A site: sockets that listen, its address, its tokens, what every site serves."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 import errno
+from functools import partial
 from ipaddress import ip_address
 import resource
 import socket
 from typing import Any
 
+from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import PhysSimError
+from physsim_ros.sketchpad.rights import Role
+from physsim_ros.sketchpad.server.access import Access
+from physsim_ros.sketchpad.server.page_handlers import (
+    CookieCheck,
+    Login,
+    Missing,
+    PAGE,
+    Page,
+    PageFiles,
+    QrCode,
+)
 from tornado.httpserver import HTTPServer
 from tornado.iostream import IOStream
 from tornado.netutil import bind_sockets
+from tornado.web import Application
 
 # Connections at once, pages included, and their greatest share of the files that a process may
 # have open.
@@ -23,6 +38,58 @@ MOST_CONNECTIONS, _SHARE_OF_FILES = 256, 0.25
 LIMITS = {'idle_connection_timeout': 10.0, 'body_timeout': 10.0}
 # Ports that are tried after the given one.
 _MORE_PORTS = 20
+
+
+class Site:
+    """
+    A site of pages: what the server of a world and that of a class have in common.
+
+    :param address: to listen on
+    :param port: to listen on; where it is taken, one of the next; 0 is any
+    :raises PhysSimError: it cannot listen there
+
+    :ivar sockets: that listen
+    """
+
+    def __init__(self, address: str, port: int) -> None:
+        self.sockets = listening_sockets(address, port)
+        self._port: int = self.sockets[0].getsockname()[1]
+        self._address = address
+        self._access = Access(address, self._port)
+
+    def url(self, role: Role) -> str:
+        """Return the address of the site with the token of a role."""
+        host = reachable_host(self._address)
+        return f'http://{host}:{self._port}/login?token={self._access.tokens[role]}'
+
+    def application(
+        self, page: str, handlers: Sequence[Any], boundary: ErrorBoundary, **options: Any
+    ) -> Application:
+        """
+        Return the application of a site.
+
+        :param page: name of the file of its page
+        :param handlers: of other requests
+        :param boundary: where unexpected errors end
+        :param options: of tornado
+        """
+        return Application(
+            [
+                ('/', Page, {'file': page}),
+                ('/login', Login),
+                ('/session', CookieCheck),
+                ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
+                ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
+                *handlers,
+            ],
+            access=self._access,
+            boundary=boundary,
+            compress_response=True,
+            default_handler_class=Missing,
+            # Answers with an error concern those who asked.
+            log_function=lambda _: None,
+            **options,
+        )
 
 
 def most_connections() -> int:

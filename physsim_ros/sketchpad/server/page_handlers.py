@@ -1,29 +1,24 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""A site: its sockets and tokens; the login, the page and its files over HTTP."""
+"""The login, the page and its files over HTTP."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Sequence
-from functools import partial
+from collections.abc import Callable, Generator
 import io
 from pathlib import Path
 import re
-from typing import Any
 
-from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.sketchpad.access import Access
-from physsim_ros.sketchpad.guarded import Guarded, TYPES
-from physsim_ros.sketchpad.listening import listening_sockets, reachable_host
 from physsim_ros.sketchpad.rights import Role
-from tornado.web import Application, HTTPError, StaticFileHandler
+from physsim_ros.sketchpad.server.guarded import Guarded, TYPES
+from tornado.web import HTTPError, StaticFileHandler
 
 # Width of a module of a QR code [pixels], and of the quiet zone around the code, in modules
 # (ISO/IEC 18004: 4).
 _SCALE, _QUIET = 8, 4
 # The files that a browser runs.
-PAGE = Path(__file__).with_name('page')
+PAGE = Path(__file__).parents[1] / 'page'
 # Parts of scripts that browsers do not need: descriptions, types of editors, lines that are
 # comments, but for the licence; and indentation, since no text of a script has several lines.
 _FOR_READERS = re.compile(
@@ -149,55 +144,3 @@ class PageFiles(Files):
     def get_content_size(self) -> int:
         """Return the size of the file [bytes]."""
         return sum(map(len, self.get_content(self.absolute_path or '')))
-
-
-class Site:
-    """
-    A site of pages: what the server of a world and that of a class have in common.
-
-    :param address: to listen on
-    :param port: to listen on; where it is taken, one of the next; 0 is any
-    :raises PhysSimError: it cannot listen there
-
-    :ivar sockets: that listen
-    """
-
-    def __init__(self, address: str, port: int) -> None:
-        self.sockets = listening_sockets(address, port)
-        self._port: int = self.sockets[0].getsockname()[1]
-        self._address = address
-        self._access = Access(address, self._port)
-
-    def url(self, role: Role) -> str:
-        """Return the address of the site with the token of a role."""
-        host = reachable_host(self._address)
-        return f'http://{host}:{self._port}/login?token={self._access.tokens[role]}'
-
-    def application(
-        self, page: str, handlers: Sequence[Any], boundary: ErrorBoundary, **options: Any
-    ) -> Application:
-        """
-        Return the application of a site.
-
-        :param page: name of the file of its page
-        :param handlers: of other requests
-        :param boundary: where unexpected errors end
-        :param options: of tornado
-        """
-        return Application(
-            [
-                ('/', Page, {'file': page}),
-                ('/login', Login),
-                ('/session', CookieCheck),
-                ('/qr.svg', QrCode, {'address': partial(self.url, Role.DRAW)}),
-                ('/page/(.*)', PageFiles, {'path': str(PAGE)}),
-                *handlers,
-            ],
-            access=self._access,
-            boundary=boundary,
-            compress_response=True,
-            default_handler_class=Missing,
-            # Answers with an error concern those who asked.
-            log_function=lambda _: None,
-            **options,
-        )

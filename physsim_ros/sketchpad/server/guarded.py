@@ -16,8 +16,8 @@ import time
 from typing import Any, NoReturn
 
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.sketchpad.access import Access, headers_for
 from physsim_ros.sketchpad.rights import Role
+from physsim_ros.sketchpad.server.access import Access, headers_for
 from tornado.iostream import StreamClosedError
 from tornado.web import HTTPError, RequestHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler

@@ -14,15 +14,15 @@ from physsim_ros.model.checks import flag
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
-from physsim_ros.sketchpad.frame_codec import Show
-from physsim_ros.sketchpad.frame_feed import FrameFeed
-from physsim_ros.sketchpad.guarded import GuardedSocket
 from physsim_ros.sketchpad.inbox import Closed, Inbox, Opened
-from physsim_ros.sketchpad.message import answer_content, message, Optional
+from physsim_ros.sketchpad.message import answer_content, Optional, server_message
 from physsim_ros.sketchpad.messages import fields, read_message
-from physsim_ros.sketchpad.open_pages import MOST_PAGES, OpenPage
 from physsim_ros.sketchpad.rights import Right, Role
-from physsim_ros.sketchpad.scene_codec import compact
+from physsim_ros.sketchpad.server.frame_codec import Show
+from physsim_ros.sketchpad.server.frame_feed import FrameFeed
+from physsim_ros.sketchpad.server.guarded import GuardedSocket
+from physsim_ros.sketchpad.server.open_pages import MOST_PAGES, OpenPage
+from physsim_ros.sketchpad.server.scene_codec import compact
 
 # Time from one frame to the next of a teacher's page that watches a class [s].
 WATCH_PERIOD = 0.25
@@ -72,15 +72,13 @@ class PageSocket(GuardedSocket):
         """Check a message and hand it to the world's thread."""
         if self._page is None or self.role is None or not self.take_token():
             return
-        # Binary messages are no JSON either.
+        # A binary message is no JSON.
         text = message if isinstance(message, str) else ''
         request, checked = read_message(text, self.role, self.boundary)
         if isinstance(checked, Refusal):
             self._refuse(request, checked)
-        elif checked.kind == 'show':
-            self._feed.show_parts(self._page, *_show(**checked.arguments))
-        elif checked.kind == 'here':
-            self._feed.pages.move_cursor(self._page.number, _here(**checked.arguments))
+        elif not checked.kind.for_world:
+            checked.kind.handle(self._feed, self._page, **checked.arguments)
         elif not self._inbox.put(self._page.number, checked):
             self._refuse(request, Busy('the world is too busy; nothing was done'))
 
@@ -99,10 +97,8 @@ class PageSocket(GuardedSocket):
             self._page.send(compact(answer_content(answer, request)))
 
 
-# The world's thread never receives these kinds.
-@message(
+@server_message(
     'show',
-    '',
     Right.LOOK,
     velocities=Optional(flag),
     contacts=Optional(flag),
@@ -110,22 +106,24 @@ class PageSocket(GuardedSocket):
     laser=Optional(fields.text),
 )
 def _show(
-    *, velocities: bool = False, contacts: bool = False, forces: bool = False, laser: str = ''
-) -> tuple[Show, str]:
-    """
-    Choose what the frames of this page have: by default poses, and no robot's laser.
-
-    :returns: the parts of a frame, and the name of the robot
-    """
+    feed: FrameFeed,
+    page: OpenPage,
+    *,
+    velocities: bool = False,
+    contacts: bool = False,
+    forces: bool = False,
+    laser: str = '',
+) -> None:
+    """Choose what the frames of this page have: by default poses, and no robot's laser."""
     parts = (
         (Show.VELOCITIES if velocities else Show.POSES)
         | (Show.CONTACTS if contacts else Show.POSES)
         | (Show.FORCES if forces else Show.POSES)
     )
-    return parts, laser
+    feed.show_parts(page, parts, laser)
 
 
-@message('here', '', Right.DRAW, point=fields.point)
-def _here(*, point: Point) -> Point:
+@server_message('here', Right.DRAW, point=fields.point)
+def _here(feed: FrameFeed, page: OpenPage, *, point: Point) -> None:
     """Show all pages where the cursor of this one is [m]."""
-    return point
+    feed.pages.move_cursor(page.number, point)

@@ -16,10 +16,10 @@ from collections.abc import Callable, Iterator, Sequence
 
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
-from physsim_ros.sketchpad.frame_codec import Show
-from physsim_ros.sketchpad.guarded import REPLACED, TOO_BIG
 from physsim_ros.sketchpad.message import answer_content, asker_of
-from physsim_ros.sketchpad.scene_codec import compact
+from physsim_ros.sketchpad.server.frame_codec import Show
+from physsim_ros.sketchpad.server.guarded import REPLACED, TOO_BIG
+from physsim_ros.sketchpad.server.scene_codec import compact
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 # Pages at once.

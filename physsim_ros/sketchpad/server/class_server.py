@@ -16,19 +16,18 @@ import asyncio
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
-import json
 import secrets
 import sys
 from typing import NamedTuple
 from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import Malformed, Refusal, WorldFull
-from physsim_ros.sketchpad.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
-from physsim_ros.sketchpad.listening import BoundedServer
+from physsim_ros.model.errors import Refusal, WorldFull
+from physsim_ros.sketchpad.message import json_object
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_handlers import Site
 from physsim_ros.sketchpad.rights import Role
+from physsim_ros.sketchpad.server.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
+from physsim_ros.sketchpad.server.website import BoundedServer, Site
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
 
@@ -231,9 +230,5 @@ def _name_and_key(body: bytes) -> tuple[str, str]:
 
     :raises Refusal: the request is not well-formed
     """
-    try:
-        content = json.loads(body)
-    except (ValueError, RecursionError) as error:
-        raise Malformed('the request is not JSON', field='message') from error
-    given = fields.mapping(content, 'message')
+    given = json_object(body)
     return fields.person(given.get('name'), 'name'), fields.text(given.get('key', ''), 'key')

@@ -19,17 +19,17 @@ from physsim_ros.files import OwnWorlds, shipped_pictures
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.autosave import Autosave
-from physsim_ros.sketchpad.frame_feed import FrameFeed
-from physsim_ros.sketchpad.gallery import gallery_content
-from physsim_ros.sketchpad.guarded import LEFT
 from physsim_ros.sketchpad.inbox import Inbox
-from physsim_ros.sketchpad.listening import BoundedServer
 from physsim_ros.sketchpad.message import Content
-from physsim_ros.sketchpad.page_handlers import Files, Site
-from physsim_ros.sketchpad.page_socket import PageSocket
 from physsim_ros.sketchpad.rights import Role
-from physsim_ros.sketchpad.scene_codec import compact
-from physsim_ros.sketchpad.world_handlers import Download, Picture, Unsaved, UploadWorld
+from physsim_ros.sketchpad.server.frame_feed import FrameFeed
+from physsim_ros.sketchpad.server.gallery import gallery_content
+from physsim_ros.sketchpad.server.guarded import LEFT
+from physsim_ros.sketchpad.server.page_handlers import Files
+from physsim_ros.sketchpad.server.page_socket import PageSocket
+from physsim_ros.sketchpad.server.scene_codec import compact
+from physsim_ros.sketchpad.server.website import BoundedServer, Site
+from physsim_ros.sketchpad.server.world_handlers import Download, Picture, Unsaved, UploadWorld
 
 # Size of a message of a page, and of an uploaded world [bytes].
 MOST_BYTES = 2**20

@@ -16,9 +16,9 @@ import time
 
 from physsim_ros.appearance import LaserScans
 from physsim_ros.model.snapshot import Frame, Snapshot
-from physsim_ros.sketchpad.frame_codec import encode_frame, Show
-from physsim_ros.sketchpad.open_pages import OpenPage, OpenPages
-from physsim_ros.sketchpad.scene_codec import compact, SceneCodec
+from physsim_ros.sketchpad.server.frame_codec import encode_frame, Show
+from physsim_ros.sketchpad.server.open_pages import OpenPage, OpenPages
+from physsim_ros.sketchpad.server.scene_codec import compact, SceneCodec
 from tornado.websocket import WebSocketHandler
 
 # Rate of new scenes for all pages together [bytes/s]. Where bodies come and go in each frame, a

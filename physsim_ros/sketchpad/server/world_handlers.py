@@ -28,9 +28,9 @@ from physsim_ros.files import (
 from physsim_ros.model.errors import Malformed, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.autosave import Autosave
-from physsim_ros.sketchpad.guarded import Guarded, TYPES
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
 from physsim_ros.sketchpad.rights import Role
+from physsim_ros.sketchpad.server.guarded import Guarded, TYPES
 
 # Uploads at once.
 MOST_UPLOADS = 4
