@@ -180,10 +180,10 @@ def test_all_tools_are_in_sight(chromium: Any, program: Any, size: tuple[int, in
 
 
 def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
-    note = sheet.page.locator('.docked')
+    note = sheet.page.locator('#dock .note')
     sheet.page.evaluate("""() => {
         const note = document.createElement('div');
-        note.className = 'note docked';
+        note.className = 'note';
         note.textContent = 'The world of yesterday was not saved.';
         document.getElementById('dock').append(note);
     }""")
@@ -259,4 +259,21 @@ def test_a_telephone_shows_the_lesson_or_the_panel(
     question.wait_for()
     sheet.page.get_by_role('heading', name='ice/0').wait_for(state='hidden')
     check(sheet)
+    sheet.close()
+
+
+def test_the_world_is_framed_anew_where_the_card_of_strokes_goes(
+    chromium: Any, outside: Outside
+) -> None:
+    _, address = started_world(outside, world='format: 1\nbounds: [-8, 0, 8, 5]\nbodies: []')
+    sheet = Sheet(chromium, address)
+    card = sheet.page.locator('#card')
+    card.wait_for()
+    right = sheet.place(8.0, 0.0)[0]
+    assert right <= card.bounding_box()['x']
+    sheet.press('Circle')
+    sheet.drag((0.0, 2.0), (0.5, 2.0))
+    sheet.wait('Object.keys(physsim.bodies).length === 1')
+    sheet.wait('before => physsim.toPage(8, 0)[0] > before', right)
+    assert not card.is_visible()
     sheet.close()

@@ -96,6 +96,10 @@ export class App {
   }
 
   #listen() {
+    // What somebody does may change the picture. The view itself follows what the server tells.
+    for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerout', 'wheel', 'keydown', 'keyup', 'click', 'input', 'change']) {
+      document.addEventListener(type, () => { this.view.dirty = true; }, true);
+    }
     const {connection} = this, gone = elementOf('gone', HTMLElement);
     connection.on('welcome', ({version, settings = {}, view_only: viewOnly}) => {
       // These scripts come from another version of the server.
@@ -125,7 +129,6 @@ export class App {
   /** Ask for the parts of frames that are shown. */
   askForParts() {
     const {arrows, records, panel: {name}} = this, told = this.settings?.speaks || this.selection.names.size > 0;
-    this.view.dirty = true;
     this.connection.send('show', {
       // The drag of the air follows from velocities.
       velocities: arrows.velocities || arrows.forces || told || records.records || this.tool.measures === true,

@@ -246,6 +246,18 @@ export interface Touch {
   grid: number;
 }
 
+/** How a tool of clicks is used. */
+export interface ClickUse {
+  clicks: number;
+  /** Colour of the body that its first click is for. */
+  aims?: 'accent' | 'warn';
+  /** Whether its clicks are for bodies, or the background. */
+  joins?: boolean;
+  /** Whether its second point lies at a multiple of an angle from the first, while the key of the grid is held. */
+  angled?: boolean;
+  arrow?: boolean;
+}
+
 /** What works a pointer: a tool of the toolbar, or the arrow of a velocity. */
 export interface Tool {
   down?(touch: Touch): void;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The keys of the page, which `?` shows, and the cursor on the canvas that they move. */
 
-import {ARROWS, TOOLS} from '../ui/toolbar.js';
+import {TOOLS} from '../tools/tools.js';
+import {ARROWS} from '../ui/toolbar.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -37,7 +38,7 @@ export class Keyboard {
       L: callService('fast_forward'),
       '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(),
     };
-    for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
+    for (const {id, key} of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }
 
   /** Focus the canvas after a click on a control; text fields and dialogs keep the focus. */
@@ -92,9 +93,8 @@ export class Keyboard {
 
   /** @param {number} factor */
   #zoom(factor) {
-    const {camera, view} = this.app;
+    const {camera} = this.app;
     camera.zoom(camera.width / 2, camera.height / 2, factor);
-    view.dirty = true;
   }
 
   /** @param {number} by */
@@ -155,14 +155,13 @@ export class Cursor {
    * @param {boolean} fine
    */
   move(dx, dy, fine) {
-    const {camera, view} = this.app, step = fine ? FINE : STEP;
+    const {camera} = this.app, step = fine ? FINE : STEP;
     if (!this.shown && this.x < 0) [this.x, this.y] = [camera.width / 2, camera.height / 2];
     this.shown = true;
     this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
     this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
     this.app.tool.move?.(this.touch);
     this.app.selection.hover(this.touch);
-    view.dirty = true;
   }
 
   /** Press the tool, or lift it; a tool of clicks clicks. */
@@ -179,7 +178,6 @@ export class Cursor {
       app.hints.noteUse();
     }
     this.pressed = !this.pressed && !app.tool.clicks;
-    app.view.dirty = true;
   }
 
   /** @param {SceneView} view */

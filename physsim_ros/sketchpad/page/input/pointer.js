@@ -70,7 +70,6 @@ export class Pointers {
       this.worked.cancel?.();
       this.working = -1;
     }
-    app.view.dirty = true;
   }
 
   /** Forget what fingers do. */
@@ -94,7 +93,6 @@ export class Pointers {
       app.handles.point(this.#touch(event));
     }
     if (before) this.down.set(event.pointerId, event);
-    app.view.dirty = true;
   }
 
   /**
@@ -129,7 +127,6 @@ export class Pointers {
     this.worked.up(this.#touch(event));
     if (this.worked === this.app.tool) this.app.hints.noteUse();
     this.app.handles.point(this.#touch(event), event.pointerType === 'touch');
-    this.app.view.dirty = true;
   }
 
   /** @param {PointerEvent} event */
@@ -146,6 +143,5 @@ export class Pointers {
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1);
     if (app.tool.turns) app.tool.turn?.(-pixels * WHEEL_TURN);
     else app.camera.zoom(event.clientX, event.clientY, Math.exp(-pixels * (event.ctrlKey ? PINCH : WHEEL)));
-    app.view.dirty = true;
   }
 }

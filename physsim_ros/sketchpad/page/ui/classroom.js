@@ -43,11 +43,10 @@ export class Classroom {
     });
     connection.on('class', (state) => this.#follow(state));
     connection.on('said', ({name: who, text}) => {
-      const take = app.notes.pin(() => null, [`${personWord(who)}: ${text}`, textButton('OK', () => take())], {kind: 'docked', shown: 0});
+      const take = app.notes.dock([`${personWord(who)}: ${text}`, textButton('OK', () => take())], 0);
     });
     connection.on('cursors', ({cursors}) => {
       for (const [page, x, y] of cursors) this.cursors.set(page, {at: [x, y], until: performance.now() + SHOWN});
-      view.dirty = true;
     });
     view.canvas.addEventListener('pointermove', (event) => this.#sendCursor(event));
     view.overlays.push((each) => this.#draw(each));
@@ -71,6 +70,17 @@ export class Classroom {
     return this.state.people.find((each) => each.page === page && page !== this.page)?.name ?? '';
   }
 
+  /**
+   * @param {string} stem of a body that a tool of this page adds
+   * @returns {string} its name: of the numbers that are free, pages take turns, so that no two choose the same one at once
+   */
+  freeName(stem) {
+    const {people} = this.state, taken = new Set(this.app.world.scene.bodies.map(({name}) => name));
+    let number = 1 + Math.max(people.findIndex(({page}) => page === this.page), 0);
+    while (taken.has(`${stem}/${number}`)) number += people.length || 1;
+    return `${stem}/${number}`;
+  }
+
   /** @param {typeof this.state} state */
   #follow(state) {
     const {app} = this, pages = new Set(state.people.map(({page}) => page));
@@ -81,11 +91,10 @@ export class Classroom {
     app.time.showTimeline();
     const frozen = state.frozen && !this.teacher && !app.viewOnly;
     document.body.classList.toggle('frozen', frozen);
-    if (frozen && !this.frozen) this.thaw = app.notes.pin(() => null, [t('Your teacher has frozen this world.')], {kind: 'docked', shown: 0});
+    if (frozen && !this.frozen) this.thaw = app.notes.dock([t('Your teacher has frozen this world.')], 0);
     else if (!frozen) this.thaw();
     this.frozen = frozen;
     app.gallery.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
-    app.view.dirty = true;
   }
 
   /** @param {boolean} raised */

@@ -179,9 +179,9 @@ export class Gallery {
     if (!saved || this.app.viewOnly || this.offered === saved) return;
     this.offered = saved;
     this.unsaved = new Date(saved * 1000).toLocaleString(language, {dateStyle: 'medium', timeStyle: 'short'});
-    this.dismiss = this.app.notes.pin(() => null, [t('The world of {date} was not saved.', {date: this.unsaved}),
+    this.dismiss = this.app.notes.dock([t('The world of {date} was not saved.', {date: this.unsaved}),
       textButton(t('Open it'), () => this.#openUnsaved()), textButton(t('Discard it'), () => this.#forgetUnsaved())],
-    {kind: 'docked', shown: UNSAVED});
+    UNSAVED);
   }
 
   async #openUnsaved() {

@@ -5,7 +5,7 @@ import {createElement, icon, inRow} from '../dom.js';
 import {t} from '../strings.js';
 import {noteSeen, strokeCard} from './strokes.js';
 import {EDIT, TIME} from './time_bar.js';
-import {TOOLS} from './toolbar.js';
+import {TOOLS} from '../tools/tools.js';
 
 /** @import {App} from '../types.js' */
 
@@ -40,9 +40,9 @@ const MOVING = [
 /** @param {App} app */
 export function showHelp(app) {
   const key = (/** @type {string} */ name) => createElement('kbd', {textContent: name});
-  const keys = [...TOOLS.flat().map(([, name, letter]) => [key(letter.toUpperCase()), name]),
+  const keys = [...TOOLS.flat().map(({name, key: letter}) => [key(letter.toUpperCase()), name]),
     ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
-  const tools = TOOLS.flat().map(([id, name, , hint]) => [icon(id), `${name}: ${hint}`]);
+  const tools = TOOLS.flat().map(({id, name, hint}) => [icon(id), `${name}: ${hint}`]);
   const strokes = [createElement('h3', {textContent: t('What the pen understands')}), strokeCard()];
   noteSeen();
   const parts = [strokes, section(t('Keys'), keys)];

@@ -157,7 +157,7 @@ export class TimeBar {
     this.slowSince = reason ? this.slowSince || now : 0;
     if (!reason || this.explained || now - this.slowSince < EXPLAINED) return;
     this.explained = true;
-    this.app.notes.pin(() => null, [reason], {kind: 'docked'});
+    this.app.notes.dock([reason]);
   }
 
   #showTime() {

@@ -94,7 +94,6 @@ export class Arrows {
     const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) => {
       return toggling(textButton(name, () => {}, kind), isOn, () => {
         change();
-        this.app.view.dirty = true;
       });
     };
     const {legend, off} = this;

@@ -32,8 +32,7 @@ export function pathOf(shape) {
  */
 export function boundsOf(shape, place) {
   if (shape.kind === 'pieces') return unionOf(shape.pieces.map((piece) => boundsOf(piece, place)));
-  const points = shape.kind === 'disc' ? [shape.center ?? [0, 0]] : shape.outline ?? shape.points;
-  const radius = shape.radius ?? 0;
+  const {points, radius} = skeletonOf(shape);
   return unionOf(points.map(place).map(([x, y]) => [x - radius, y - radius, x + radius, y + radius]));
 }
 
@@ -44,8 +43,17 @@ export function boundsOf(shape, place) {
  */
 export function reachOf(shape, [x, y]) {
   if (shape.kind === 'pieces') return Math.max(...shape.pieces.map((piece) => reachOf(piece, [x, y])));
-  const points = shape.kind === 'disc' ? [shape.center ?? [0, 0]] : shape.outline ?? shape.points;
-  return Math.max(...points.map(([px, py]) => Math.hypot(px - x, py - y))) + (shape.radius ?? 0);
+  const {points, radius} = skeletonOf(shape);
+  return Math.max(...points.map(([px, py]) => Math.hypot(px - x, py - y))) + radius;
+}
+
+/**
+ * @param {Shape} shape of one piece
+ * @returns {{points: Point[], radius: number}} points within the shape, and how far it reaches beyond them [m]
+ */
+function skeletonOf({kind, center = [0, 0], radius, outline, points, thickness}) {
+  if (kind === 'disc') return {points: [center], radius};
+  return kind === 'chain' ? {points, radius: thickness / 2} : {points: outline, radius: 0};
 }
 
 /**

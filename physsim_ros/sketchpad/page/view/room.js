@@ -38,7 +38,7 @@ export class Room {
       document.documentElement.style.setProperty('--top', `${top.offsetHeight}px`);
       this.fit();
     });
-    for (const each of [bar, top, elementOf('lesson', HTMLElement), app.view.canvas]) sizes.observe(each, {box: 'border-box'});
+    for (const each of [bar, top, elementOf('lesson', HTMLElement), elementOf('card', HTMLElement), app.view.canvas]) sizes.observe(each, {box: 'border-box'});
     app.connection.on('frame', () => {
       const {frame, scene} = app.world, others = String(scene.bounds) !== this.bounds;
       if (frame.epoch === scene.epoch && (!this.framed || others && app.camera.fitted)) this.frame();
