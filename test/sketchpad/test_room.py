@@ -70,7 +70,7 @@ def select(sheet: Sheet) -> None:
     """Select the block of ice."""
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(*sheet.pose('ice/0')[:2]))
-    sheet.page.get_by_role('heading', name='ice/0').wait_for()
+    sheet.page.get_by_role('heading', name='Ice').wait_for()
 
 
 def test_no_panel_lies_on_the_world(sheet: Sheet) -> None:
@@ -257,7 +257,7 @@ def test_a_telephone_shows_the_lesson_or_the_panel(
     question.wait_for(state='hidden')
     sheet.page.locator('#lesson summary').first.click()
     question.wait_for()
-    sheet.page.get_by_role('heading', name='ice/0').wait_for(state='hidden')
+    sheet.page.get_by_role('heading', name='Ice').wait_for(state='hidden')
     check(sheet)
     sheet.close()
 
