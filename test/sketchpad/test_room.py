@@ -239,7 +239,8 @@ def test_what_is_drawn_beyond_the_first_view_stays_in_sight(
     sheet.page.mouse.click(300, top - 20)
     sheet.page.get_by_role('heading', name='Inclined plane').wait_for()
     before = sheet.place(*foot)
-    sheet.press('Close')
+    for panel in ('#panel', '#card'):
+        sheet.page.locator(panel).get_by_role('button', name='Close').click()
     sheet.until(lambda: sheet.place(*foot) != before, 'a world in the larger room')
     assert sheet.place(*foot)[1] < bar.bounding_box()['y']
     sheet.close()

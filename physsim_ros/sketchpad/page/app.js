@@ -10,6 +10,7 @@ import {Arrows} from './view/arrows.js';
 import {Camera} from './view/camera.js';
 import {Classroom} from './ui/classroom.js';
 import {Connection} from './connection.js';
+import {Dialog} from './ui/dialog.js';
 import {elementOf} from './dom.js';
 import {Driving} from './panels/driving.js';
 import {Gallery} from './ui/gallery.js';
@@ -22,7 +23,8 @@ import {Narrator, Sound} from './ui/narrator.js';
 import {Notes, Refusals} from './ui/notes.js';
 import {Numbers} from './measures/numbers.js';
 import {Panel} from './panels/panel.js';
-import {LargePlot, Plots} from './measures/plots.js';
+import {PlotWindow} from './measures/plot_window.js';
+import {Plots} from './measures/plots.js';
 import {Pointers} from './input/pointer.js';
 import {Records, Trail} from './measures/records.js';
 import {Room} from './view/room.js';
@@ -66,7 +68,7 @@ export class App {
     this.sound = new Sound(this);
     this.records = new Records(this);
     this.trail = new Trail(this);
-    this.plotWindow = new LargePlot(this);
+    this.plotWindow = new PlotWindow(this);
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);
     this.panel = new Panel(this);
@@ -74,6 +76,7 @@ export class App {
     this.handles = new Handles(this);
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);
+    this.dialog = new Dialog();
     this.gallery = new Gallery(this);
     this.links = new Links(this);
     /** @type {Tool} */
@@ -136,12 +139,6 @@ export class App {
       forces: true,
       laser: this.world.body(name)?.robot ? name : '',
     });
-  }
-
-  /** Show the help, whose script is loaded when somebody asks for it first. */
-  async showHelp() {
-    const {showHelp} = await import('./ui/help.js');
-    showHelp(this);
   }
 }
 

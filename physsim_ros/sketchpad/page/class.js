@@ -9,7 +9,7 @@ import {sayForm} from './ui/classroom.js';
 import {Connection} from './connection.js';
 import {choice, createElement, elementOf, inRow, languageField, textButton} from './dom.js';
 import {SceneView} from './view/scene_view.js';
-import {watchTheme} from './ui/settings.js';
+import {watchTheme} from './view/theme.js';
 import {t} from './strings.js';
 import {WorldState} from './world_state.js';
 

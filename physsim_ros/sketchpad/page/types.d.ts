@@ -8,7 +8,7 @@
 export type {App} from './app.js';
 export type {Camera} from './view/camera.js';
 export type {Connection} from './connection.js';
-export type {Palette} from './ui/settings.js';
+export type {Palette} from './view/theme.js';
 export type {SceneView} from './view/scene_view.js';
 export type {WorldState} from './world_state.js';
 
@@ -16,6 +16,9 @@ import type {SceneView} from './view/scene_view.js';
 
 /** x, y [m]; on the page [px]. */
 export type Point = [number, number];
+
+/** xmin, ymin, xmax, ymax [m]. */
+export type Bounds = [number, number, number, number];
 
 /** Of a body, in its frame [m]; the fields are those of its kind. */
 export interface Shape {
@@ -105,7 +108,7 @@ export interface Scene {
   bodies: Body[];
   joints: Joint[];
   gravity: Point;
-  bounds: number[];
+  bounds: Bounds | [];
   damping: number;
   density: number;
   friction: number;

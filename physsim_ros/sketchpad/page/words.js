@@ -26,8 +26,8 @@ export class Words {
     this.bodies = [];
     connection.on('scene', ({bodies, lesson}) => {
       this.bodies = bodies;
-      const drawn = this.bodies.filter(({name}) => isDrawn(name)).map((body) => /** @type {[string, string]} */ ([body.name, shapeWord(body)]));
-      this.known = [new Map([...drawn, ...lesson ? lessonWords(this.bodies) : []]), this.known[0]];
+      this.known = [new Map(lesson ? lessonWords(this.bodies) : []), this.known[0]];
+      for (const body of this.bodies) if (isDrawn(body.name)) this.known[0].set(body.name, shapeWord(body));
     });
   }
 
@@ -98,11 +98,14 @@ export class Words {
    * @returns {string} with words for those that nobody chose
    */
   phrase(text) {
-    return text.replace(JOINED, (_, before, kind) => `${before}join ${t('the {thing}', {thing: thingWord(kind)})}`)
-      .replace(/\S+/g, (name) => !isDrawn(name) && this.known[0].has(name) ? t('the {thing}', {thing: this.of(name)}) : shorten(name)).replace(DRAWN, (_, kind, name) => t('the {thing}', {thing: kind ? thingWord(kind) : this.of(name)}))
-      .replace(GESTURE, (_, before, verb, thing, more = '') =>
-        before + filled(GESTURES.get(verb), (THINGS.get(thing) ?? thing) + (more ? ` ${t('and {count} more', {count: more.replace(/\D/g, '')})}` : '')))
-      .replace(/(^|: )reset$/, `$1${t('Reset')}`);
+    const the = (/** @type {string} */ thing) => t('the {thing}', {thing});
+    const named = text.replace(JOINED, (_, before, kind) => `${before}join ${the(thingWord(kind))}`)
+      .replace(/\S+/g, (name) => !isDrawn(name) && this.known[0].has(name) ? the(this.of(name)) : shorten(name))
+      .replace(DRAWN, (_, kind, name) => the(kind ? thingWord(kind) : this.of(name)));
+    return named.replace(GESTURE, (_, before, verb, thing, more = '') => {
+      const others = more && ` ${t('and {count} more', {count: more.replace(/\D/g, '')})}`;
+      return before + filled(GESTURES.get(verb), (THINGS.get(thing) ?? thing) + others);
+    }).replace(/(^|: )reset$/, `$1${t('Reset')}`);
   }
 }
 
@@ -127,7 +130,7 @@ function said(verb, thing) {
  * @returns {[name: string, word: string][]} what they are, as their names say: `ice/0` is *ice*
  */
 function lessonWords(bodies) {
-  const named = bodies.map(({name}) => /^([a-z_]+)\/(\d+)$/.exec(name)).filter((each) => each !== null).filter(([name]) => !isDrawn(name));
+  const named = bodies.map(({name}) => /^([a-z_]+)\/(\d+)$/.exec(name)).filter((each) => each !== null);
   return named.map(([name, stem, number]) => {
     const isOnly = named.filter((each) => each[1] === stem).length === 1;
     return [name, t(stem.replaceAll('_', ' ')) + (isOnly ? '' : ` ${number}`)];

@@ -4,7 +4,7 @@
 import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './view/body_path.js';
 import {distance, rotated} from './vectors.js';
 
-/** @import {Body, Connection, Frame, Point, Scene, Timeline} from './types.js' */
+/** @import {Body, Bounds, Connection, Frame, Point, Scene, Timeline} from './types.js' */
 
 export class WorldState {
   /** @param {Connection} connection */
@@ -104,7 +104,7 @@ export class WorldState {
 
   /**
    * @param {Iterable<string>} names of bodies
-   * @returns {number[]} xmin, ymin, xmax, ymax of those that are there [m]
+   * @returns {Bounds} of those that are there
    */
   boundsOfAll(names) {
     return unionOf([...names].map((name) => this.row(name)).filter((row) => row >= 0).map((row) => this.#boundsOf(row)));
@@ -124,8 +124,8 @@ export class WorldState {
   }
 
   /**
-   * @param {number[]} box xmin, ymin, xmax, ymax [m]
-   * @returns {number[]} of the bodies that lie in it whole [m]; infinite where there are none
+   * @param {Bounds} box
+   * @returns {Bounds} of the bodies that lie in it whole; infinite where there are none
    */
   boundsWithin([xmin, ymin, xmax, ymax]) {
     const boxes = this.scene.bodies.slice(0, this.count).map((_, row) => this.#boundsOf(row));
@@ -134,7 +134,7 @@ export class WorldState {
 
   /**
    * @param {number} row
-   * @returns {number[]} xmin, ymin, xmax, ymax of a body [m]
+   * @returns {Bounds} of a body
    */
   #boundsOf(row) {
     return boundsOf(this.scene.bodies[row].shape, (point) => this.place(row, point));
@@ -190,7 +190,7 @@ export class WorldState {
     return rotated([x - frame.x[row], y - frame.y[row]], -frame.yaw[row]);
   }
 
-  /** @returns {number[]} xmin, ymin, xmax, ymax of bounds or bodies [m] */
+  /** @returns {Bounds} of the world, or of its bodies */
   extent() {
     const {bounds, bodies} = this.scene;
     if (bounds.length) return bounds;

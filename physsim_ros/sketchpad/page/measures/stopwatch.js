@@ -53,15 +53,15 @@ export class Stopwatch {
   /** @returns {Content} of the panel */
   content() {
     return {title: t('Measure'), live: () => this.#show(), rest: [
-      createElement('p', {textContent: t('Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.')}),
-      createElement('h3', {textContent: t('Stopwatch')}),
+      createElement('p', {}, t('Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.')),
+      createElement('h3', {}, t('Stopwatch')),
       this.#chooser('start', t('Starts when touched'), t('at 0 s')),
       this.#chooser('stop', t('Stops when touched'), t('never')),
       this.time, this.details,
-      createElement('h3', {textContent: t('By hand')}),
+      createElement('h3', {}, t('By hand')),
       this.byHand, this.lapList,
       inRow(textButton(t('Start or stop (7)'), () => this.press()), textButton(t('Lap (6)'), () => this.lap())),
-      createElement('h3', {textContent: t('Collisions')}),
+      createElement('h3', {}, t('Collisions')),
       this.#chooser('counted', t('Collisions of'), t('no body')),
       this.count, inRow(textButton(t('Count from here'), () => {
         this.since = this.shown;

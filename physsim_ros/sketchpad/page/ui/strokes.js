@@ -47,7 +47,7 @@ export class EmptyCard {
     if (hidden === element.hidden) return;
     element.hidden = hidden;
     if (hidden) return;
-    element.replaceChildren(createElement('header', {}, createElement('h2', {textContent: t('Draw with the pen')}),
+    element.replaceChildren(createElement('header', {}, createElement('h2', {}, t('Draw with the pen')),
       iconButton(t('Close'), 'close', () => {
         this.closed = true;
         this.update();

@@ -42,7 +42,6 @@ export class TimeBar {
         elementOf(id, HTMLElement).append(button);
       }
     }
-    this.on = ''; // the button that is pressed
     this.shown = ''; // speed
     /** @type {[number, number, number][]} wall time [ms], simulation time [s] and speed of the last frames */
     this.paces = [];
@@ -172,8 +171,6 @@ export class TimeBar {
     const on = speed === 0 ? 'pause' : speed > 1 ? 'fast_forward' : speed > 0 ? 'play' :
       speed < -1 ? 'fast_rewind' : 'rewind';
     this.#showSpeed(speed || this.rate);
-    if (on === this.on) return;
-    this.on = on;
     for (const [, service] of TIME.slice(0, 5)) {
       this.buttons.get(service)?.setAttribute('aria-pressed', String(service === on));
     }

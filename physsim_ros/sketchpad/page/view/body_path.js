@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The geometry of bodies in their own frames: paths to draw, points to hit, extents. */
 
-/** @import {Point, Shape} from '../types.js' */
+/** @import {Bounds, Point, Shape} from '../types.js' */
 
 const INNER = 0.98; // share of a radius: a point that counts as one within
 
@@ -28,7 +28,7 @@ export function pathOf(shape) {
 /**
  * @param {Shape} shape
  * @param {(point: Point) => Point} place from its frame to the world
- * @returns {number[]} xmin, ymin, xmax, ymax in the world [m]
+ * @returns {Bounds} in the world
  */
 export function boundsOf(shape, place) {
   if (shape.kind === 'pieces') return unionOf(shape.pieces.map((piece) => boundsOf(piece, place)));
@@ -69,12 +69,15 @@ export function scaledShape({kind, radius, width, height, outline, points, thick
 }
 
 /**
- * @param {number[][]} boxes xmin, ymin, xmax, ymax
- * @returns {number[]} the least box around them; infinite where there are none
+ * @param {Bounds[]} boxes
+ * @returns {Bounds} the least box around them; infinite where there are none
  */
 export function unionOf(boxes) {
-  return boxes.reduce(([left, low, right, high], box) => [Math.min(left, box[0]), Math.min(low, box[1]),
-    Math.max(right, box[2]), Math.max(high, box[3])], [Infinity, Infinity, -Infinity, -Infinity]);
+  let [left, low, right, high] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const box of boxes) {
+    [left, low, right, high] = [Math.min(left, box[0]), Math.min(low, box[1]), Math.max(right, box[2]), Math.max(high, box[3])];
+  }
+  return [left, low, right, high];
 }
 
 /**

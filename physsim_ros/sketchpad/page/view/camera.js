@@ -3,7 +3,7 @@
 
 import {roundUp} from '../rounding.js';
 
-/** @import {Point} from '../types.js' */
+/** @import {Bounds, Point} from '../types.js' */
 
 const LEAST_SCALE = 0.5, GREATEST_SCALE = 5000; // px/m
 const NARROW = matchMedia('(max-width: 700px) and (min-height: 501px), (max-width: 559px)'); // as in style.css: tools below
@@ -77,7 +77,7 @@ export class Camera {
   }
 
   /**
-   * @param {number[]} box xmin, ymin, xmax, ymax [m]
+   * @param {Bounds} box
    * @param {{left: number, top: number, right: number, bottom: number}} insets covered [px]
    */
   fit([xmin, ymin, xmax, ymax], insets) {

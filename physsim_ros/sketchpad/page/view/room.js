@@ -10,7 +10,7 @@
 import {elementOf} from '../dom.js';
 import {unionOf} from './body_path.js';
 
-/** @import {App} from '../types.js' */
+/** @import {App, Bounds} from '../types.js' */
 
 /** @typedef {{left: number, top: number, right: number, bottom: number}} Box [px] */
 
@@ -27,7 +27,8 @@ export class Room {
     this.app = app;
     this.framed = false;
     this.bounds = ''; // of the world that was framed; a world with other bounds is framed again
-    this.extent = [0, 0, 0, 0]; // that was framed [m]
+    /** @type {Bounds} that was framed */
+    this.extent = [0, 0, 0, 0];
     this.late = false; // whether the world is framed when the gesture ends
     app.view.overlays.push(() => {
       if (this.late && !this.#isInGesture) this.fit();

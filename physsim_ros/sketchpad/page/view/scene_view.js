@@ -4,7 +4,7 @@
 import {BodyView} from './body_view.js';
 import {JointView} from './joint_view.js';
 import {drawGrid, drawLabels, drawNumbers, drawScan} from './label_view.js';
-import {readPalette, watchTheme} from '../ui/settings.js';
+import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
 /** @import {Numbered} from './label_view.js' */
@@ -24,13 +24,14 @@ export class SceneView {
     this.camera = camera;
     this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', {alpha: false}));
     this.palette = readPalette();
-    this.bodies = new BodyView(this.ctx, camera);
+    this.bodies = new BodyView(this);
+    this.joints = new JointView(this);
     /** @type {((view: SceneView) => void)[]} */
     this.overlays = [];
     /** @type {Numbered[]} of the arrows that were drawn */
     this.numbers = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
-    this.ratio = 1;
+    this.ratio = 1; // pixels of the screen to one of the page
     this.dirty = true;
     this.drawn = -1; // version of the world
     new ResizeObserver(() => this.#resize()).observe(canvas);
@@ -45,12 +46,12 @@ export class SceneView {
 
   #repaint() {
     this.palette = readPalette();
-    this.bodies.repaint(this.palette);
+    this.bodies.repaint();
     this.dirty = true;
   }
 
   #resize() {
-    this.ratio = this.bodies.ratio = devicePixelRatio;
+    this.ratio = devicePixelRatio;
     this.camera.width = this.canvas.clientWidth;
     this.camera.height = this.canvas.clientHeight;
     this.canvas.width = Math.round(this.camera.width * this.ratio);
@@ -65,13 +66,13 @@ export class SceneView {
     this.#toPixels();
     ctx.fillStyle = palette.paper;
     ctx.fillRect(0, 0, camera.width, camera.height);
-    drawGrid(ctx, camera, palette, this.insets);
+    drawGrid(this);
     this.#drawBounds();
-    if (world.frame.scan) drawScan(ctx, camera, palette, world.frame.scan);
+    if (world.frame.scan) drawScan(this, world.frame.scan);
     for (let row = 0; row < world.count; row++) this.bodies.draw(world.frame, row, world.scene.bodies[row]);
     if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     this.#toPixels();
-    if (world.count) new JointView(ctx, world, camera, palette, this.bodies).draw();
+    if (world.count) this.joints.draw();
     drawLabels(this);
     this.#drawHands();
     this.numbers = [];
