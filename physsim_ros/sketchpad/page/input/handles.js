@@ -6,10 +6,10 @@
 
 import {scaledShape} from '../view/body_path.js';
 import {originOf} from '../measures/quantities.js';
-import {threeDigits} from '../rounding.js';
+import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {Gesture} from '../tools/gesture.js';
-import {DEGREE, distance, onGrid, polar} from '../vectors.js';
+import {distance, onGrid, polar} from '../vectors.js';
 
 /** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
 
@@ -165,10 +165,9 @@ export class Handles extends Gesture {
       ctx.fill();
     });
     if (!this.last || this.dragged !== 'turn' && this.dragged !== 'scale') return;
-    const {turn, scale} = this.#change(), [x, y] = this.last.page, {world, panel} = this.app, row = world.row(panel.name);
+    const {turn, scale} = this.#change(), {world, panel} = this.app, row = world.row(panel.name);
     view.outline(row, palette.accent, [0, 0], {turn, scale});
-    const text = this.dragged === 'turn' ? `${Math.round((world.frame.yaw[row] + turn) / DEGREE)}°` : sizeOf(world.scene.bodies[row], scale);
-    view.write(text, [x + 14, y - 14], palette.accent);
+    view.tell(this.dragged === 'turn' ? degrees(world.frame.yaw[row] + turn, 0) : sizeOf(world.scene.bodies[row], scale), this.last);
   }
 
   /**

@@ -3,8 +3,8 @@
 
 import {createElement, numberField, showText} from '../dom.js';
 import {neighboursOf} from '../view/forces.js';
-import {energiesOf, momentumText, motionOf, number, originOf, placed} from './quantities.js';
-import {digits, threeDigits} from '../rounding.js';
+import {energiesOf, momentumText, motionOf, originOf, placed} from './quantities.js';
+import {digits, threeDigits, twoPlaces} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE} from '../vectors.js';
 
@@ -129,7 +129,7 @@ export class Numbers {
     energies.forEach((energy, i) => {
       this.bars[i].max = this.most || 1;
       this.bars[i].value = Math.max(energy, 0);
-      this.values[i].textContent = `${number(energy)} J`;
+      this.values[i].textContent = `${twoPlaces(energy)} J`;
     });
   }
 }

@@ -5,9 +5,9 @@
  * follows the pointer.
  */
 
-import {threeDigits} from '../rounding.js';
+import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
-import {DEGREE, distance, isTap, onGrid, polar} from '../vectors.js';
+import {distance, isTap, onGrid, polar} from '../vectors.js';
 
 /** @import {App, ClickUse, Point, SceneView, Touch} from '../types.js' */
 
@@ -158,8 +158,7 @@ export class ClickTool {
     // A finger that is lifted leaves nothing else.
     for (const {at} of this.points) view.ring(at, MARK, color);
     if (this.id === 'polygon') view.ring(p, CLOSE, color);
-    const [x, y] = this.last.page, size = this.#sizeOf(points);
-    if (size) view.write(size, [x + 14, y - 14], color);
+    view.tell(this.#sizeOf(points), this.last);
   }
 
   /**
@@ -170,19 +169,19 @@ export class ClickTool {
     const [p, q, r] = points, [a, b] = points.slice(-2);
     const side = distance(p, q), length = distance(a, b);
     if (!length) return '';
-    const degrees = Math.round(Math.atan2(b[1] - a[1], b[0] - a[0]) / DEGREE);
+    const angle = degrees(Math.atan2(b[1] - a[1], b[0] - a[0]), 0);
     switch (this.id) {
       case 'circle': return t('radius {length} m', {length: threeDigits(length)});
       case 'circle_diameter': return t('diameter {length} m', {length: threeDigits(length)});
-      case 'velocity': return `${threeDigits(length)} m/s, ${degrees}°`;
-      case 'force': return `${threeDigits(NEWTONS * length)} N, ${degrees}°`;
-      case 'gravity': return `${degrees}°`;
+      case 'velocity': return `${threeDigits(length)} m/s, ${angle}`;
+      case 'force': return `${threeDigits(NEWTONS * length)} N, ${angle}`;
+      case 'gravity': return angle;
       case 'rectangle': if (r && side) {
         const across = Math.abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / side;
         return `${threeDigits(side)} × ${threeDigits(across)} m`;
       }
       // falls through: one side of a rectangle is a line
-      default: return `${threeDigits(length)} m, ${degrees}°`;
+      default: return `${threeDigits(length)} m, ${angle}`;
     }
   }
 }

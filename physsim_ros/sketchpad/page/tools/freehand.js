@@ -30,11 +30,10 @@ export class Pen extends Gesture {
 
   /** @param {SceneView} view */
   draw(view) {
-    const {last} = this;
-    if (!last) return;
+    if (!this.last) return;
     view.line(this.path.map(({at}) => at), view.palette.accent);
     const [left, low, right, high] = unionOf(this.path.map(({at: [x, y]}) => [x, y, x, y]));
-    view.write(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, [last.page[0] + 14, last.page[1] - 14], view.palette.accent);
+    view.tell(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, this.last);
   }
 }
 

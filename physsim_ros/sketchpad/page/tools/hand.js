@@ -153,7 +153,6 @@ export class Hand extends Gesture {
       by = this.#carried(this.start, this.last);
       view.outline(row, view.palette.accent, by);
     }
-    const [x, y] = this.last.page;
-    view.write(placed(world, row, by), [x + 18, y - 18], view.palette.accent);
+    view.tell(placed(world, row, by), this.last);
   }
 }

@@ -2,8 +2,8 @@
 /** Tools that measure on the page: a ruler and a protractor, which stay until they are tapped away. */
 
 import {Gesture} from './gesture.js';
-import {digits, threeDigits} from '../rounding.js';
-import {DEGREE, onGrid} from '../vectors.js';
+import {degrees, threeDigits} from '../rounding.js';
+import {onGrid} from '../vectors.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -123,9 +123,4 @@ export class Protractor extends Gesture {
     ctx.stroke();
     view.write(degrees(Math.abs(turn)), [x + 2 * ARC * Math.cos(middle), y - 2 * ARC * Math.sin(middle) + 5], palette.accent, 'center');
   }
-}
-
-/** @param {number} angle [rad] */
-function degrees(angle) {
-  return `${digits(Math.round(10 * angle / DEGREE) / 10, 6)}°`;
 }

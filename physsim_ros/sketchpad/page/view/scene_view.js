@@ -10,6 +10,7 @@ import {readPalette, watchTheme} from './theme.js';
 /** @import {Numbered} from './label_view.js' */
 
 const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
+const ASIDE = 14; // px from a pointer to what is written beside it
 const DASHED = 9; // px: half of the size from which on the outline of a ghost is dashed
 
 export class SceneView {
@@ -231,6 +232,14 @@ export class SceneView {
     ctx.strokeText(text, x, y);
     ctx.fillStyle = color;
     ctx.fillText(text, x, y);
+  }
+
+  /**
+   * @param {string} text what a gesture measures
+   * @param {{page: Point}} pointer beside which it is written
+   */
+  tell(text, {page: [x, y]}) {
+    this.write(text, [x + ASIDE, y - ASIDE], this.palette.accent);
   }
 
   /**
