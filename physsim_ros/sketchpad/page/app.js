@@ -87,13 +87,13 @@ export class App {
     this.keyboard = new Keyboard(this);
     this.topBar = new TopBar(this);
     this.classroom = new Classroom(this);
-    this.tips = new Tips(this.camera);
+    this.tips = new Tips();
     this.card = new EmptyCard(this);
     this.room = new Room(this);
     this.settings = new Settings(this);
     this.narrator = new Narrator(this);
-    for (const id of ['tools', 'files', 'looks', 'edit', 'marks', 'legend']) makeToolbar(elementOf(id, HTMLElement));
-    makeToolbar(elementOf('time', HTMLElement), '[data-icon=play]');
+    for (const id of ['tools', 'files', 'looks', 'edit', 'marks', 'legend']) makeToolbar(elementOf(id));
+    makeToolbar(elementOf('time'), '[data-icon=play]');
     this.#listen();
     this.connection.connect();
   }
@@ -103,7 +103,7 @@ export class App {
     for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerout', 'wheel', 'keydown', 'keyup', 'click', 'input', 'change']) {
       document.addEventListener(type, () => { this.view.dirty = true; }, true);
     }
-    const {connection} = this, gone = elementOf('gone', HTMLElement);
+    const {connection} = this, gone = elementOf('gone');
     connection.on('welcome', ({version, settings = {}, view_only: viewOnly}) => {
       // These scripts come from another version of the server.
       if (version !== (this.version ??= version)) location.reload();

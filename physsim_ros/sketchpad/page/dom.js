@@ -212,12 +212,12 @@ export function inRow(...children) {
 }
 
 /**
- * @template {HTMLElement} T
+ * @template {HTMLElement} [T=HTMLElement]
  * @param {string} id
  * @param {new () => T} kind
  * @returns {T}
  */
-export function elementOf(id, kind) {
+export function elementOf(id, kind = /** @type {any} */ (HTMLElement)) {
   const element = document.getElementById(id);
   if (!(element instanceof kind)) throw new TypeError(`no ${kind.name} #${id} on this page`);
   return element;

@@ -20,7 +20,7 @@ export class PlotWindow {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.element = elementOf('plot', HTMLElement);
+    this.element = elementOf('plot');
     /** @type {string[]} of bodies */
     this.names = [];
     this.axes = {x: 'time', y: 'y'};

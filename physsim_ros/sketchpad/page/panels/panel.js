@@ -29,7 +29,7 @@ export class Panel {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.element = elementOf('panel', HTMLElement);
+    this.element = elementOf('panel');
     /** @type {Kind} */
     this.kind = '';
     /** @type {string[]} of the subject */

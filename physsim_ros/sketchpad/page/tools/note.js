@@ -26,7 +26,7 @@ export class Note {
     }});
     field.style.left = `${Math.min(Math.max(x, HALF), app.camera.width - HALF)}px`;
     field.style.top = `${y}px`;
-    elementOf('places', HTMLElement).append(field);
+    elementOf('places').append(field);
     field.focus();
   }
 }

@@ -59,7 +59,7 @@ export class Classroom {
     this.button.hidden = true;
     this.hand = iconButton(t('Raise your hand'), 'raise', () => this.#raise(!this.raised), t('Raise your hand, or lower it: your teacher sees it'));
     this.hand.hidden = true;
-    elementOf('looks', HTMLElement).append(this.button, this.hand);
+    elementOf('looks').append(this.button, this.hand);
   }
 
   /** @returns {boolean} whether several people draw in this world */

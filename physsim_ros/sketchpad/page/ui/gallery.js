@@ -53,7 +53,8 @@ export class Gallery {
   /** @param {typeof this.worlds[0]} world */
   #card({name, title, picture, shipped}) {
     const heading = shipped ? t(capital(name.replaceAll('_', ' '))) : name;
-    const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.follow(this.app.connection.openWorld(name), heading, shipped ? '' : name)},
+    const open = () => this.follow(this.app.connection.openWorld(name), heading, shipped ? '' : name);
+    const card = createElement('button', {type: 'button', className: 'card', onclick: open},
       picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
       createElement('strong', {}, heading),
       // A title that only repeats the name tells nothing.

@@ -17,8 +17,8 @@ export class Notes {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.status = elementOf('status', HTMLElement);
-    this.places = elementOf('places', HTMLElement);
+    this.status = elementOf('status');
+    this.places = elementOf('places');
     this.dismissOffer = () => {};
     /** @type {Map<HTMLElement, () => ?Point>} */
     this.pinned = new Map();
@@ -96,7 +96,7 @@ export class Notes {
    * @returns {() => void} takes it away
    */
   dock(content, shown = READ) {
-    return this.#add(elementOf('dock', HTMLElement), createElement('div', {className: 'note'}, ...content), shown);
+    return this.#add(elementOf('dock'), createElement('div', {className: 'note'}, ...content), shown);
   }
 
   /**

@@ -35,7 +35,7 @@ export class EmptyCard {
   constructor(app) {
     this.app = app;
     this.closed = false;
-    this.element = elementOf('card', HTMLElement);
+    this.element = elementOf('card');
     app.connection.on('scene', () => this.update());
   }
 

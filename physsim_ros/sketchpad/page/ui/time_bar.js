@@ -7,15 +7,13 @@ import {localized, t} from '../strings.js';
 
 /** @import {App} from '../types.js' */
 
-/** Name, service, key. @type {[string, string, string][]} */
+/** Name, service, key, and what else it says. @type {[string, string, string, string?][]} */
 export const TIME = [
   [t('Fast rewind'), 'fast_rewind', 'Shift+J'], [t('Rewind'), 'rewind', 'J'], [t('Pause'), 'pause', 'K'],
-  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'], [t('Step'), 'step', '.'],
+  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'], [t('Step'), 'step', '.', t('one frame forward')],
 ];
-/** @type {[string, string, string][]} */
-export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0']];
-/** Additions to names of buttons. */
-const MORE = new Map([['step', `: ${t('one frame forward')}`], ['reset', `: ${t('back to the beginning')}`]]);
+/** @type {typeof TIME} */
+export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0', t('back to the beginning')]];
 /** States of the timeline, as the server has them. */
 const STATES = new Map([['rewinding', t('rewinding')], ['in the past', t('in the past')], ['playing', t('playing')], ['paused', t('paused')]]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
@@ -28,18 +26,18 @@ export class TimeBar {
   constructor(app) {
     this.app = app;
     this.slider = elementOf('slider', HTMLInputElement);
-    this.clock = elementOf('clock', HTMLElement);
-    this.marks = elementOf('marks', HTMLElement);
+    this.clock = elementOf('clock');
+    this.marks = elementOf('marks');
     /** @type {Map<string, HTMLElement>} of courses that were left, by id and name */
     this.rings = new Map();
     this.speed = elementOf('speed', HTMLButtonElement);
     /** @type {Map<string, HTMLButtonElement>} */
     this.buttons = new Map();
     for (const [id, group] of /** @type {const} */ ([['time', TIME], ['edit', EDIT]])) {
-      for (const [name, service, key] of group) {
-        const button = iconButton(name, service, () => this.callService(service), `${name}${MORE.get(service) ?? ''} (${key})`);
+      for (const [name, service, key, more = ''] of group) {
+        const button = iconButton(name, service, () => this.callService(service), `${name}${more && ': '}${more} (${key})`);
         this.buttons.set(service, button);
-        elementOf(id, HTMLElement).append(button);
+        elementOf(id).append(button);
       }
     }
     this.shown = ''; // speed

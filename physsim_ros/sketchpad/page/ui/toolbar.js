@@ -18,7 +18,7 @@ export class Toolbar {
     this.app = app;
     /** @type {Map<string, {tool: Tool, button: HTMLButtonElement, hint: string}>} by id */
     this.tools = new Map();
-    const bar = elementOf('tools', HTMLElement);
+    const bar = elementOf('tools');
     for (const group of TOOLS) {
       const box = createElement('div', {role: 'group'});
       for (const {id, name, key, hint, make} of group) {
@@ -63,10 +63,10 @@ export class TopBar {
     app.view.overlays.push(() => showText(zoom, `${Math.round(100 * app.camera.scale / app.camera.whole)} %`));
     this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
       textContent: 'Rerun', title: t('The recording')});
-    elementOf('files', HTMLElement).append(
+    elementOf('files').append(
       iconButton(t('Worlds'), 'worlds', () => app.gallery.openWorlds(), t('Worlds to open')),
       iconButton(t('Save'), 'save', () => app.gallery.showSave(), t('Save, link, picture')));
-    elementOf('looks', HTMLElement).append(
+    elementOf('looks').append(
       this.#toggle('velocities', t('Show velocities'), 'velocities', t('Velocities as arrows, in m/s')),
       this.#toggle('forces', t('Show forces'), 'forces', t('Forces as arrows, in newtons; on a body that you tap, all')),
       iconButton(t('Material'), 'material', () => {
@@ -76,7 +76,7 @@ export class TopBar {
       iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)')), zoom,
       iconButton(t('Light or dark'), 'theme', switchTheme),
       iconButton(t('Help'), 'help', () => showHelp(app), t('Help: keys and gestures (?)')));
-    elementOf('looks', HTMLElement).after(this.recording);
+    elementOf('looks').after(this.recording);
     app.connection.on('recording', ({rerun}) => this.#link(rerun));
     app.connection.on('welcome', ({rerun}) => this.#link(rerun));
   }
