@@ -21,7 +21,7 @@ GRID_LINES = """async at => {
         {x: at, y: 5, scale: 60, width: 1200, height: 800});
     const ctx = {beginPath() {}, moveTo() {}, stroke() {}, fillText() {},
         lineTo: (...end) => lines.push(end)};
-    drawGrid(ctx, camera, {}, {left: 0, bottom: 0});
+    drawGrid({ctx, camera, palette: {}, insets: {left: 0, bottom: 0}});
     return lines;
 }"""
 

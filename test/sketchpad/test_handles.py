@@ -217,3 +217,24 @@ def test_the_hand_tells_where_a_body_is_and_how_fast(sheet: Sheet) -> None:
     sheet.press('Pen')
     with sheet.dragging((1.0, 5.0), (3.0, 5.0), (3.0, 6.5)):
         written(sheet, '2 × 1.5 m')
+
+
+def test_a_handle_is_dragged_by_keys(sheet: Sheet) -> None:
+    keyboard = sheet.page.keyboard
+    keyboard.press('Escape')
+    sheet.page.get_by_role('img', name='World').focus()
+    # The second body is the box. The cursor is at its centre, near its handles.
+    keyboard.press('n')
+    keyboard.press('n')
+    (x, y), (turn_x, turn_y) = (
+        sheet.place(*sheet.pose('box/0')[:2]),
+        sheet.page.evaluate('physsim.handles.turn'),
+    )
+    assert abs(turn_x - x) < 1.0
+    for _ in range(round((y - turn_y) / 16.0)):
+        keyboard.press('ArrowUp')
+    keyboard.press('Enter')
+    for _ in range(round((y - turn_y) / 16.0)):
+        keyboard.press('ArrowRight')
+    keyboard.press('Enter')
+    sheet.wait('Math.abs(physsim.bodies["box/0"][2] + Math.PI / 4) < 0.1')

@@ -105,3 +105,30 @@ def test_a_box_has_no_slope(sheet: Sheet) -> None:
     sheet.page.mouse.click(*sheet.place(*sheet.pose('box/0')[:2]))
     sheet.page.get_by_role('heading', name='box/0').wait_for()
     assert not sheet.page.get_by_label(ANGLE).is_visible()
+
+
+def test_a_plane_that_is_drawn_near_a_floor_stands_on_it(sheet: Sheet) -> None:
+    near = 8.0 / sheet.page.evaluate('physsim.toPage(1, 0)[0] - physsim.toPage(0, 0)[0]')
+    _, y, _ = sheet.pose(drawn(sheet, (-7.0, near), (-5.0, near + 1.2)))
+    assert y == 0.0
+    # On a shelf whose upper edge is 3.2 m high; and where there is no floor.
+    _, y, _ = sheet.pose(drawn(sheet, (-4.0, 3.2 - near), (-3.0, 4.0)))
+    assert y == pytest.approx(3.2, abs=NEAR)
+    _, y, _ = sheet.pose(drawn(sheet, (2.0, 5.0), (3.0, 6.0)))
+    assert y == pytest.approx(5.0, abs=near)
+
+
+def test_two_pages_draw_planes_at_once(sheet: Sheet, chromium: Any, address: str) -> None:
+    other = Sheet(chromium, address)
+    for each in (sheet, other):
+        each.wait('heard.people?.length === 2')
+        each.press('Inclined plane')
+    for each, x in ((sheet, -3.0), (other, 1.0)):
+        each.page.mouse.move(*each.place(x, 5.0))
+        each.page.mouse.down()
+    # Neither waits for the other's plane.
+    for each in (sheet, other):
+        each.page.mouse.up()
+    for each in (sheet, other):
+        each.wait('Object.keys(physsim.bodies).length === 5')
+    other.close()

@@ -34,6 +34,24 @@ def test_a_drawn_circle_becomes_a_body_with_its_reading_beside_it(sheet: Sheet) 
     assert re.search(r'\d+ %', sheet.page.evaluate('heard.notes')[0])
 
 
+def test_a_stroke_ends_where_the_pen_is_lifted(sheet: Sheet) -> None:
+    # The browser of a busy machine has no move to the last place.
+    sheet.page.evaluate(
+        """([from, to, end]) => {
+            const canvas = document.querySelector('canvas');
+            canvas.setPointerCapture = () => {};
+            for (const [type, [x, y]] of [['down', from], ['move', to], ['up', end]]) {
+                canvas.dispatchEvent(new PointerEvent(`pointer${type}`, {clientX: x, clientY: y,
+                    pointerId: 1, pointerType: 'mouse', bubbles: true}));
+            }
+        }""",
+        [sheet.place(*point) for point in ((-2.0, 5.0), (-1.0, 5.0), (2.0, 5.0))],
+    )
+    sheet.wait('Object.keys(physsim.bodies).length === 4')
+    grey, wall = sheet.color_at(1.5, 5.5), sheet.color_at(1.5, 5.0)
+    assert grey != wall
+
+
 def test_a_circle_is_dragged_from_its_centre_to_its_rim(sheet: Sheet) -> None:
     before = sheet.names()
     sheet.press('Circle')

@@ -70,7 +70,7 @@ def select(sheet: Sheet) -> None:
     """Select the block of ice."""
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(*sheet.pose('ice/0')[:2]))
-    sheet.page.get_by_role('heading', name='ice/0').wait_for()
+    sheet.page.get_by_role('heading', name='Ice').wait_for()
 
 
 def test_no_panel_lies_on_the_world(sheet: Sheet) -> None:
@@ -180,10 +180,10 @@ def test_all_tools_are_in_sight(chromium: Any, program: Any, size: tuple[int, in
 
 
 def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
-    note = sheet.page.locator('.docked')
+    note = sheet.page.locator('#dock .note')
     sheet.page.evaluate("""() => {
         const note = document.createElement('div');
-        note.className = 'note docked';
+        note.className = 'note';
         note.textContent = 'The world of yesterday was not saved.';
         document.getElementById('dock').append(note);
     }""")
@@ -239,7 +239,8 @@ def test_what_is_drawn_beyond_the_first_view_stays_in_sight(
     sheet.page.mouse.click(300, top - 20)
     sheet.page.get_by_role('heading', name='Inclined plane').wait_for()
     before = sheet.place(*foot)
-    sheet.press('Close')
+    for panel in ('#panel', '#card'):
+        sheet.page.locator(panel).get_by_role('button', name='Close').click()
     sheet.until(lambda: sheet.place(*foot) != before, 'a world in the larger room')
     assert sheet.place(*foot)[1] < bar.bounding_box()['y']
     sheet.close()
@@ -257,6 +258,23 @@ def test_a_telephone_shows_the_lesson_or_the_panel(
     question.wait_for(state='hidden')
     sheet.page.locator('#lesson summary').first.click()
     question.wait_for()
-    sheet.page.get_by_role('heading', name='ice/0').wait_for(state='hidden')
+    sheet.page.get_by_role('heading', name='Ice').wait_for(state='hidden')
     check(sheet)
+    sheet.close()
+
+
+def test_the_world_is_framed_anew_where_the_card_of_strokes_goes(
+    chromium: Any, outside: Outside
+) -> None:
+    _, address = started_world(outside, world='format: 1\nbounds: [-8, 0, 8, 5]\nbodies: []')
+    sheet = Sheet(chromium, address)
+    card = sheet.page.locator('#card')
+    card.wait_for()
+    right = sheet.place(8.0, 0.0)[0]
+    assert right <= card.bounding_box()['x']
+    sheet.press('Circle')
+    sheet.drag((0.0, 2.0), (0.5, 2.0))
+    sheet.wait('Object.keys(physsim.bodies).length === 1')
+    sheet.wait('before => physsim.toPage(8, 0)[0] > before', right)
+    assert not card.is_visible()
     sheet.close()

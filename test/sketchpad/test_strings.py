@@ -78,6 +78,8 @@ def shipped_texts() -> set[str]:
         lesson = load_world(path).lesson
         assert lesson is not None
         texts |= {lesson.title, lesson.question, lesson.hint, lesson.measure, lesson.answer}
+        # Bodies are called by the stems of their names.
+        texts |= {each.body.name.partition('/')[0] for each in load_world(path).bodies}
     for name, path in worlds_in(shipped_worlds()).items():
         heading = name.replace('_', ' ')
         texts |= {heading[0].upper() + heading[1:], title_of(path)}
@@ -322,6 +324,8 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
     sheet.wait('"block/0" in physsim.bodies')
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(*sheet.pose('block/0')[:2]))
+    panel = sheet.page.get_by_role('complementary')
+    panel.get_by_role('heading', name='Block', exact=True).wait_for()
     sheet.page.get_by_text('Zahlen eingeben').click()
     for typed, shown in (('0,75', 'bei (0 | 0,75) m'), ('1.5', 'bei (0 | 1,50) m')):
         sheet.page.get_by_label('y [m]', exact=True).fill(typed)

@@ -55,7 +55,7 @@ def said(sheet: Sheet, text: str) -> None:
 
 def undone(sheet: Sheet, text: str) -> None:
     """Undo what a note says; one before it may still be there."""
-    note = sheet.page.locator('.docked', has_text=text)
+    note = sheet.page.locator('#dock .note', has_text=text)
     note.get_by_role('button', name='Undo').click()
 
 
@@ -111,7 +111,7 @@ def test_own_worlds_have_pictures_new_names_and_come_back_when_they_are_deleted(
     own.get_by_role('button', name='Rename').click()
     sheet.page.get_by_role('textbox', name='New name').fill('yours')
     sheet.press('Rename')
-    sheet.page.locator('.docked').get_by_text('Renamed to yours').wait_for()
+    sheet.page.locator('#dock .note').get_by_text('Renamed to yours').wait_for()
     open_own(sheet, 'yours')
     sheet.press('Worlds')
     sheet.page.locator('.own', has_text='yours').get_by_role('button', name='Delete').click()

@@ -10,6 +10,7 @@ import {Arrows} from './view/arrows.js';
 import {Camera} from './view/camera.js';
 import {Classroom} from './ui/classroom.js';
 import {Connection} from './connection.js';
+import {Dialog} from './ui/dialog.js';
 import {elementOf} from './dom.js';
 import {Driving} from './panels/driving.js';
 import {Gallery} from './ui/gallery.js';
@@ -22,7 +23,8 @@ import {Narrator, Sound} from './ui/narrator.js';
 import {Notes, Refusals} from './ui/notes.js';
 import {Numbers} from './measures/numbers.js';
 import {Panel} from './panels/panel.js';
-import {LargePlot, Plots} from './measures/plots.js';
+import {PlotWindow} from './measures/plot_window.js';
+import {Plots} from './measures/plots.js';
 import {Pointers} from './input/pointer.js';
 import {Records, Trail} from './measures/records.js';
 import {Room} from './view/room.js';
@@ -66,7 +68,7 @@ export class App {
     this.sound = new Sound(this);
     this.records = new Records(this);
     this.trail = new Trail(this);
-    this.plotWindow = new LargePlot(this);
+    this.plotWindow = new PlotWindow(this);
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);
     this.panel = new Panel(this);
@@ -74,6 +76,7 @@ export class App {
     this.handles = new Handles(this);
     this.time = new TimeBar(this);
     this.lessons = new Lessons(this);
+    this.dialog = new Dialog();
     this.gallery = new Gallery(this);
     this.links = new Links(this);
     /** @type {Tool} */
@@ -84,19 +87,23 @@ export class App {
     this.keyboard = new Keyboard(this);
     this.topBar = new TopBar(this);
     this.classroom = new Classroom(this);
-    this.tips = new Tips(this.camera);
+    this.tips = new Tips();
     this.card = new EmptyCard(this);
     this.room = new Room(this);
     this.settings = new Settings(this);
     this.narrator = new Narrator(this);
-    for (const id of ['tools', 'files', 'looks', 'edit', 'marks', 'legend']) makeToolbar(elementOf(id, HTMLElement));
-    makeToolbar(elementOf('time', HTMLElement), '[data-icon=play]');
+    for (const id of ['tools', 'files', 'looks', 'edit', 'marks', 'legend']) makeToolbar(elementOf(id));
+    makeToolbar(elementOf('time'), '[data-icon=play]');
     this.#listen();
     this.connection.connect();
   }
 
   #listen() {
-    const {connection} = this, gone = elementOf('gone', HTMLElement);
+    // What somebody does may change the picture. The view itself follows what the server tells.
+    for (const type of ['pointerdown', 'pointermove', 'pointerup', 'pointerout', 'wheel', 'keydown', 'keyup', 'click', 'input', 'change']) {
+      document.addEventListener(type, () => { this.view.dirty = true; }, true);
+    }
+    const {connection} = this, gone = elementOf('gone');
     connection.on('welcome', ({version, settings = {}, view_only: viewOnly}) => {
       // These scripts come from another version of the server.
       if (version !== (this.version ??= version)) location.reload();
@@ -125,7 +132,6 @@ export class App {
   /** Ask for the parts of frames that are shown. */
   askForParts() {
     const {arrows, records, panel: {name}} = this, told = this.settings?.speaks || this.selection.names.size > 0;
-    this.view.dirty = true;
     this.connection.send('show', {
       // The drag of the air follows from velocities.
       velocities: arrows.velocities || arrows.forces || told || records.records || this.tool.measures === true,
@@ -133,12 +139,6 @@ export class App {
       forces: true,
       laser: this.world.body(name)?.robot ? name : '',
     });
-  }
-
-  /** Show the help, whose script is loaded when somebody asks for it first. */
-  async showHelp() {
-    const {showHelp} = await import('./ui/help.js');
-    showHelp(this);
   }
 }
 

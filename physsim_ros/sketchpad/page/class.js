@@ -9,7 +9,7 @@ import {sayForm} from './ui/classroom.js';
 import {Connection} from './connection.js';
 import {choice, createElement, elementOf, inRow, languageField, textButton} from './dom.js';
 import {SceneView} from './view/scene_view.js';
-import {watchTheme} from './ui/settings.js';
+import {watchTheme} from './view/theme.js';
 import {t} from './strings.js';
 import {WorldState} from './world_state.js';
 
@@ -73,7 +73,7 @@ class Card {
 }
 
 const form = elementOf('join', HTMLFormElement), name = elementOf('name', HTMLInputElement);
-const teacher = elementOf('teacher', HTMLElement);
+const teacher = elementOf('teacher');
 /** @type {Card[]} */
 const cards = [];
 
@@ -81,7 +81,7 @@ form.addEventListener('submit', async (event) => {
   event.preventDefault();
   const response = await fetch('/join', {method: 'POST', body: JSON.stringify({name: name.value, key: localStorage.getItem(KEY) ?? ''})});
   if (!response.ok) {
-    elementOf('refused', HTMLElement).textContent = await response.text();
+    elementOf('refused').textContent = await response.text();
     return;
   }
   const {address, key} = await response.json();
@@ -96,7 +96,7 @@ async function showSeats() {
   if (teacher.hidden) begin(seats.length);
   teacher.hidden = false;
   // No link: it would make a pupil of the teacher's browser.
-  elementOf('pupils', HTMLElement).textContent = pupils;
+  elementOf('pupils').textContent = pupils;
   seats.forEach((/** @type {{name: string, address: string}} */ seat, /** @type {number} */ i) => cards[i].sit(seat));
   setTimeout(showSeats, PERIOD);
 }
@@ -109,7 +109,7 @@ function begin(count) {
   document.querySelector('main')?.classList.add('wide');
   teacher.querySelector('img')?.setAttribute('src', '/qr.svg');
   for (let number = 0; number < count; number++) cards.push(new Card(number));
-  elementOf('seats', HTMLElement).append(...cards.map(({element}) => element));
+  elementOf('seats').append(...cards.map(({element}) => element));
   const toAll = (/** @type {string} */ type, /** @type {Record<string, unknown>} */ fields) => {
     for (const {connection} of cards) connection.send(type, fields);
   };
@@ -119,7 +119,7 @@ function begin(count) {
       createElement('option', {value: each.name, textContent: `${each.number}. ${t(each.title)}`}))));
   // A lesson may have been written meanwhile.
   lessons.onpointerdown = () => cards[0].connection.send('list');
-  elementOf('all', HTMLElement).append(inRow(lessons,
+  elementOf('all').append(inRow(lessons,
     textButton(t('Open the lesson for all'), () => cards.forEach(({connection}) => connection.openLesson(lessons.value))),
     textButton(t('Pause all'), () => toAll('service', {name: 'pause'})),
     textButton(t('Freeze all'), () => toAll('freeze', {frozen: true})),

@@ -30,7 +30,7 @@ export class Connection {
   }
 
   /**
-   * @param {string} type of messages: one of the protocol, or frame, ghost_frame, open, closed, sent, unsent, world
+   * @param {string} type of messages: one of the protocol, or frame, ghost_frame, open, closed, sent, unsent, world; any: each of these
    * @param {(message: any) => void} listener
    */
   on(type, listener) {
@@ -129,7 +129,7 @@ export class Connection {
    * @param {any} message
    */
   #emit(type, message) {
-    for (const listener of this.listeners.get(type) ?? []) listener(message);
+    for (const each of [type, 'any']) for (const listener of this.listeners.get(each) ?? []) listener(message);
   }
 
   /** Connect again after a pause. A refused socket has no reason, so that the cookie is checked by a request. */

@@ -120,7 +120,7 @@ export function range(label, min, max, step, value, change) {
   const input = createElement('input', {type: 'range', min, max: Math.max(max, value), step, value, 'aria-label': label,
     oninput: () => { typed.value = localized(input.value); },
     onchange: () => change(Number(input.value))});
-  return createElement('div', {className: 'field'}, createElement('span', {textContent: label}), typed, input);
+  return createElement('div', {className: 'field'}, createElement('span', {}, label), typed, input);
 }
 
 /**
@@ -162,7 +162,7 @@ export function fieldForm(input, label, done, unit = '') {
   return createElement('form', {className: 'row', onsubmit: (/** @type {Event} */ event) => {
     event.preventDefault();
     done(input.value.trim());
-  }}, input, unit, createElement('button', {textContent: label}));
+  }}, input, unit, createElement('button', {}, label));
 }
 
 /**
@@ -212,12 +212,12 @@ export function inRow(...children) {
 }
 
 /**
- * @template {HTMLElement} T
+ * @template {HTMLElement} [T=HTMLElement]
  * @param {string} id
  * @param {new () => T} kind
  * @returns {T}
  */
-export function elementOf(id, kind) {
+export function elementOf(id, kind = /** @type {any} */ (HTMLElement)) {
   const element = document.getElementById(id);
   if (!(element instanceof kind)) throw new TypeError(`no ${kind.name} #${id} on this page`);
   return element;

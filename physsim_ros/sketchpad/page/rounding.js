@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Numbers as people read and write them in their language: three digits, and round steps of scales. */
+/** Numbers as people read and write them in their language: what is drawn and set has three digits, what changes all the time two places; round steps of scales. */
 
 import {localized} from './strings.js';
+import {DEGREE} from './vectors.js';
 
 /** @param {number} value */
 export function threeDigits(value) {
@@ -23,6 +24,22 @@ export function digits(value, most) {
  */
 export function fixed(value, places) {
   return localized(value.toFixed(places));
+}
+
+/**
+ * @param {number} value that changes from frame to frame
+ * @returns {string} of nearly the same width while it does
+ */
+export function twoPlaces(value) {
+  return Math.abs(value) < 0.005 ? '0' : fixed(value, Math.abs(value) < 100 ? 2 : 0);
+}
+
+/**
+ * @param {number} angle [rad]
+ * @param {number} places after the decimal sign, without zeros at its end
+ */
+export function degrees(angle, places = 1) {
+  return `${digits(Number((angle / DEGREE).toFixed(places)), 6)}°`;
 }
 
 /**

@@ -8,7 +8,7 @@
 export type {App} from './app.js';
 export type {Camera} from './view/camera.js';
 export type {Connection} from './connection.js';
-export type {Palette} from './ui/settings.js';
+export type {Palette} from './view/theme.js';
 export type {SceneView} from './view/scene_view.js';
 export type {WorldState} from './world_state.js';
 
@@ -16,6 +16,9 @@ import type {SceneView} from './view/scene_view.js';
 
 /** x, y [m]; on the page [px]. */
 export type Point = [number, number];
+
+/** xmin, ymin, xmax, ymax [m]. */
+export type Bounds = [number, number, number, number];
 
 /** Of a body, in its frame [m]; the fields are those of its kind. */
 export interface Shape {
@@ -105,7 +108,7 @@ export interface Scene {
   bodies: Body[];
   joints: Joint[];
   gravity: Point;
-  bounds: number[];
+  bounds: Bounds | [];
   damping: number;
   density: number;
   friction: number;
@@ -244,6 +247,18 @@ export interface Touch {
   copies: boolean;
   /** Distance of the lines that it snaps to [m]; 0 where the key is not held. */
   grid: number;
+}
+
+/** How a tool of clicks is used. */
+export interface ClickUse {
+  clicks: number;
+  /** Colour of the body that its first click is for. */
+  aims?: 'accent' | 'warn';
+  /** Whether its clicks are for bodies, or the background. */
+  joins?: boolean;
+  /** Whether its second point lies at a multiple of an angle from the first, while the key of the grid is held. */
+  angled?: boolean;
+  arrow?: boolean;
 }
 
 /** What works a pointer: a tool of the toolbar, or the arrow of a velocity. */

@@ -20,13 +20,14 @@ const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((
 export class Words {
   /** @param {Connection} connection */
   constructor(connection) {
-    /** Words for the bodies of the last scene, and of the one before: answers come before and after theirs. */
+    /** Words for bodies of the last scene, and of the one before: answers come before and after theirs. */
     this.known = /** @type {Map<string, string>[]} */ ([new Map(), new Map()]);
     /** @type {Body[]} of the last scene */
     this.bodies = [];
-    connection.on('scene', ({bodies}) => {
+    connection.on('scene', ({bodies, lesson}) => {
       this.bodies = bodies;
-      this.known = [new Map(bodies.map((/** @type {Body} */ body) => [body.name, shapeWord(body)])), this.known[0]];
+      this.known = [new Map(lesson ? lessonWords(this.bodies) : []), this.known[0]];
+      for (const body of this.bodies) if (isDrawn(body.name)) this.known[0].set(body.name, shapeWord(body));
     });
   }
 
@@ -37,10 +38,18 @@ export class Words {
 
   /**
    * @param {string} name of a body
+   * @returns {string | undefined} what it is; undefined for a name that somebody has chosen
+   */
+  #word(name) {
+    return this.known[0].get(name) ?? this.known[1].get(name) ?? (isDrawn(name) ? thingWord('body') : undefined);
+  }
+
+  /**
+   * @param {string} name of a body
    * @returns {string} the name that somebody has chosen, short, else what it is
    */
   of(name) {
-    return isDrawn(name) ? this.known[0].get(name) ?? this.known[1].get(name) ?? thingWord('body') : shorten(name);
+    return this.#word(name) ?? shorten(name);
   }
 
   /**
@@ -48,7 +57,7 @@ export class Words {
    * @returns {string} as it stands in a list: what it is, and the number of its name
    */
   item(name) {
-    return isDrawn(name) ? `${this.title(name)} ${name.split('/')[1]}` : shorten(name);
+    return isDrawn(name) ? `${this.title(name)} ${name.split('/')[1]}` : this.title(name);
   }
 
   /**
@@ -62,7 +71,8 @@ export class Words {
 
   /** @param {string} name of a body */
   title(name) {
-    return isDrawn(name) ? capital(this.of(name)) : this.of(name);
+    const word = this.#word(name);
+    return word ? capital(word) : shorten(name);
   }
 
   /**
@@ -88,11 +98,14 @@ export class Words {
    * @returns {string} with words for those that nobody chose
    */
   phrase(text) {
-    return text.replace(JOINED, (_, before, kind) => `${before}join ${t('the {thing}', {thing: thingWord(kind)})}`)
-      .replace(/\S+/g, (word) => shorten(word)).replace(DRAWN, (_, kind, name) => t('the {thing}', {thing: kind ? thingWord(kind) : this.of(name)}))
-      .replace(GESTURE, (_, before, verb, thing, more = '') =>
-        before + filled(GESTURES.get(verb), (THINGS.get(thing) ?? thing) + (more ? ` ${t('and {count} more', {count: more.replace(/\D/g, '')})}` : '')))
-      .replace(/(^|: )reset$/, `$1${t('Reset')}`);
+    const the = (/** @type {string} */ thing) => t('the {thing}', {thing});
+    const named = text.replace(JOINED, (_, before, kind) => `${before}join ${the(thingWord(kind))}`)
+      .replace(/\S+/g, (name) => !isDrawn(name) && this.known[0].has(name) ? the(this.of(name)) : shorten(name))
+      .replace(DRAWN, (_, kind, name) => the(kind ? thingWord(kind) : this.of(name)));
+    return named.replace(GESTURE, (_, before, verb, thing, more = '') => {
+      const others = more && ` ${t('and {count} more', {count: more.replace(/\D/g, '')})}`;
+      return before + filled(GESTURES.get(verb), (THINGS.get(thing) ?? thing) + others);
+    }).replace(/(^|: )reset$/, `$1${t('Reset')}`);
   }
 }
 
@@ -110,6 +123,18 @@ function filled(sentence, thing) {
  */
 function said(verb, thing) {
   return filled(VERBS.get(verb), thing);
+}
+
+/**
+ * @param {Body[]} bodies of a lesson
+ * @returns {[name: string, word: string][]} what they are, as their names say: `ice/0` is *ice*
+ */
+function lessonWords(bodies) {
+  const named = bodies.map(({name}) => /^([a-z_]+)\/(\d+)$/.exec(name)).filter((each) => each !== null);
+  return named.map(([name, stem, number]) => {
+    const isOnly = named.filter((each) => each[1] === stem).length === 1;
+    return [name, t(stem.replaceAll('_', ' ')) + (isOnly ? '' : ` ${number}`)];
+  });
 }
 
 /** @param {string} name of a body */

@@ -4,7 +4,7 @@
 import {boundsOf, containsPoint, distanceTo, nearestWithin, unionOf} from './view/body_path.js';
 import {distance, rotated} from './vectors.js';
 
-/** @import {Body, Connection, Frame, Point, Scene, Timeline} from './types.js' */
+/** @import {Body, Bounds, Connection, Frame, Point, Scene, Timeline} from './types.js' */
 
 export class WorldState {
   /** @param {Connection} connection */
@@ -24,7 +24,7 @@ export class WorldState {
     this.ghostScene = {epoch: 0, bodies: []};
     this.rate = 60; // frames a second of simulation
     this.physicsRate = 240; // steps a second of simulation
-    this.version = 0; // of all that is drawn
+    this.version = 0; // of what the server has told
     connection.on('welcome', (welcome) => {
       this.rate = welcome.rate;
       this.physicsRate = welcome.physics_rate;
@@ -34,20 +34,16 @@ export class WorldState {
       this.ghostScene = {epoch: 0, bodies: []};
       this.ghost = null;
     });
-    connection.on('scene', (scene) => { this.scene = scene; this.version++; });
-    connection.on('timeline', (timeline) => { this.timeline = timeline; this.version++; });
+    connection.on('any', () => { this.version++; });
+    connection.on('scene', (scene) => { this.scene = scene; });
+    connection.on('timeline', (timeline) => { this.timeline = timeline; });
     connection.on('ghost', (ghost) => {
       this.ghostScene = ghost;
       this.ghost = null;
-      this.version++;
     });
-    connection.on('ghost_frame', (frame) => {
-      this.ghost = frame.epoch === this.ghostScene.epoch ? frame : null;
-      this.version++;
-    });
+    connection.on('ghost_frame', (frame) => { this.ghost = frame.epoch === this.ghostScene.epoch ? frame : null; });
     connection.on('frame', (frame) => {
       if (frame.epoch === this.scene.epoch) this.frame = frame;
-      this.version++;
     });
   }
 
@@ -108,15 +104,28 @@ export class WorldState {
 
   /**
    * @param {Iterable<string>} names of bodies
-   * @returns {number[]} xmin, ymin, xmax, ymax of those that are there [m]
+   * @returns {Bounds} of those that are there
    */
   boundsOfAll(names) {
     return unionOf([...names].map((name) => this.row(name)).filter((row) => row >= 0).map((row) => this.#boundsOf(row)));
   }
 
   /**
-   * @param {number[]} box xmin, ymin, xmax, ymax [m]
-   * @returns {number[]} of the bodies that lie in it whole [m]; infinite where there are none
+   * @param {Point} point [m]
+   * @param {number} reach how near it counts [m]
+   * @returns {number} height of the floor that is next to the point: the lower bound, or the upper edge of what is
+   *   anchored; the height of the point where there is none [m]
+   */
+  floorBy([x, y], reach) {
+    const {bounds, bodies} = this.scene, anchored = bodies.slice(0, this.count).flatMap((body, row) => body.anchored && !body.sensor ? [this.#boundsOf(row)] : []);
+    const heights = [...bounds.slice(1, 2), ...anchored.filter(([left, , right]) => left <= x && x <= right).map((box) => box[3])];
+    const far = (/** @type {number} */ height) => Math.abs(height - y);
+    return heights.filter((height) => far(height) <= reach).sort((one, other) => far(one) - far(other))[0] ?? y;
+  }
+
+  /**
+   * @param {Bounds} box
+   * @returns {Bounds} of the bodies that lie in it whole; infinite where there are none
    */
   boundsWithin([xmin, ymin, xmax, ymax]) {
     const boxes = this.scene.bodies.slice(0, this.count).map((_, row) => this.#boundsOf(row));
@@ -125,7 +134,7 @@ export class WorldState {
 
   /**
    * @param {number} row
-   * @returns {number[]} xmin, ymin, xmax, ymax of a body [m]
+   * @returns {Bounds} of a body
    */
   #boundsOf(row) {
     return boundsOf(this.scene.bodies[row].shape, (point) => this.place(row, point));
@@ -181,7 +190,7 @@ export class WorldState {
     return rotated([x - frame.x[row], y - frame.y[row]], -frame.yaw[row]);
   }
 
-  /** @returns {number[]} xmin, ymin, xmax, ymax of bounds or bodies [m] */
+  /** @returns {Bounds} of the world, or of its bodies */
   extent() {
     const {bounds, bodies} = this.scene;
     if (bounds.length) return bounds;

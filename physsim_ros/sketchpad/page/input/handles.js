@@ -6,9 +6,10 @@
 
 import {scaledShape} from '../view/body_path.js';
 import {originOf} from '../measures/quantities.js';
-import {threeDigits} from '../rounding.js';
+import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
-import {DEGREE, distance, onGrid, polar} from '../vectors.js';
+import {Gesture} from '../tools/gesture.js';
+import {distance, onGrid, polar} from '../vectors.js';
 
 /** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
 
@@ -24,16 +25,12 @@ const SLOWEST = 5e-4; // m/s: a lower speed is that of a body at rest
 const NEAR = 20; // px beyond the handles within which a pointer shows them
 const TOUCHED = 4000, READ = 2500; // ms for which they are shown after a finger, and beside arrows that are read
 
-export class Handles {
+export class Handles extends Gesture {
   /** @param {App} app */
   constructor(app) {
-    this.app = app;
+    super(app);
     /** @type {Handle} that is dragged */
     this.dragged = '';
-    /** @type {Point} [px] */
-    this.from = [0, 0];
-    /** @type {?Touch} */
-    this.last = null;
     this.until = 0; // [ms] until then the handles are shown
     app.view.overlays.push((view) => this.#draw(view));
   }
@@ -49,13 +46,12 @@ export class Handles {
    * @param {boolean} isFinger
    */
   point(touch, isFinger = false) {
-    const {app} = this, places = this.places(), before = this.shown;
+    const {app} = this, places = this.places();
     const near = (/** @type {?Point} */ place, /** @type {number} */ reach) => place && touch && distance(touch.page, place) <= reach;
     const isNear = places && (near(places.center, places.reach + TURN_GAP + NEAR) || near(places.velocity, 2 * NEAR));
     const lasting = app.arrows.forces || app.arrows.velocities ? READ : isFinger ? TOUCHED : Infinity;
     this.until = isNear ? performance.now() + lasting : 0;
     if (isNear && lasting < Infinity) setTimeout(() => { app.view.dirty = true; }, lasting);
-    if (this.shown !== before) app.view.dirty = true;
   }
 
   /**
@@ -68,20 +64,13 @@ export class Handles {
 
   /** @param {Touch} touch */
   down(touch) {
+    super.down(touch);
     this.dragged = this.#handleAt(touch);
-    this.from = touch.page;
-    this.last = touch;
     this.app.arrows.frozen = this.dragged === 'velocity';
   }
 
   /** @param {Touch} touch */
-  move(touch) {
-    this.last = touch;
-  }
-
-  /** @param {Touch} touch */
-  up(touch) {
-    this.last = touch;
+  end(touch) {
     const {app, dragged} = this, {connection, world} = app, {name} = app.panel, row = world.row(name);
     const {turn, scale} = this.#change(), velocity = this.#velocityAt(touch.page);
     this.cancel();
@@ -95,6 +84,7 @@ export class Handles {
   }
 
   cancel() {
+    super.cancel();
     this.dragged = '';
     this.app.arrows.frozen = false;
   }
@@ -150,8 +140,8 @@ export class Handles {
   /** @returns {{turn: number, scale: number}} as it is dragged now: angle [rad] and share */
   #change() {
     const places = this.places(), change = {turn: 0, scale: 1};
-    if (!places || !this.last) return change;
-    const {center: [x, y]} = places, {page: [px, py], grid} = this.last, [fx, fy] = this.from;
+    if (!places || !this.start || !this.last) return change;
+    const {center: [x, y]} = places, {page: [px, py], grid} = this.last, [fx, fy] = this.start.page;
     if (this.dragged === 'turn') {
       const turn = Math.atan2(fy - y, fx - x) - Math.atan2(py - y, px - x);
       [change.turn] = onGrid([Math.atan2(Math.sin(turn), Math.cos(turn)), 0], grid && STEP);
@@ -175,10 +165,9 @@ export class Handles {
       ctx.fill();
     });
     if (!this.last || this.dragged !== 'turn' && this.dragged !== 'scale') return;
-    const {turn, scale} = this.#change(), [x, y] = this.last.page, {world, panel} = this.app, row = world.row(panel.name);
+    const {turn, scale} = this.#change(), {world, panel} = this.app, row = world.row(panel.name);
     view.outline(row, palette.accent, [0, 0], {turn, scale});
-    const text = this.dragged === 'turn' ? `${Math.round((world.frame.yaw[row] + turn) / DEGREE)}°` : sizeOf(world.scene.bodies[row], scale);
-    view.write(text, [x + 14, y - 14], palette.accent);
+    view.tell(this.dragged === 'turn' ? degrees(world.frame.yaw[row] + turn, 0) : sizeOf(world.scene.bodies[row], scale), this.last);
   }
 
   /**

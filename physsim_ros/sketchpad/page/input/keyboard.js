@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The keys of the page, which `?` shows, and the cursor on the canvas that they move. */
 
-import {ARROWS, TOOLS} from '../ui/toolbar.js';
+import {TOOLS} from '../tools/tools.js';
+import {showHelp} from '../ui/help.js';
+import {ARROWS} from '../ui/toolbar.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -29,7 +31,7 @@ export class Keyboard {
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
     this.keys = {
-      '?': () => app.showHelp(), f: () => app.room.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      '?': () => showHelp(app), f: () => app.room.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
@@ -37,13 +39,13 @@ export class Keyboard {
       L: callService('fast_forward'),
       '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(),
     };
-    for (const [id, , key] of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
+    for (const {id, key} of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }
 
   /** Focus the canvas after a click on a control; text fields and dialogs keep the focus. */
   #takeBack() {
-    const {pressed, app: {view: {canvas}, gallery: {dialog}}} = this;
-    if (!(pressed instanceof Element) || dialog.open || pressed === canvas) return;
+    const {pressed, app: {view: {canvas}, dialog}} = this;
+    if (!(pressed instanceof Element) || dialog.isOpen || pressed === canvas) return;
     if (pressed.closest('button, a, label, input') && !pressed.closest(TEXTS)) canvas.focus({preventScroll: true});
   }
 
@@ -53,10 +55,10 @@ export class Keyboard {
     // The canvas has a frame only when Tab has reached it.
     app.view.canvas.classList.toggle('reached', key === 'Tab');
     if (target instanceof Element && target.matches(TEXTS)) {
-      if (key === 'Escape' && !app.gallery.dialog.open) app.view.canvas.focus({preventScroll: true});
+      if (key === 'Escape' && !app.dialog.isOpen) app.view.canvas.focus({preventScroll: true});
       return;
     }
-    if (app.gallery.dialog.open || app.viewOnly || event.altKey) return;
+    if (app.dialog.isOpen || app.viewOnly || event.altKey) return;
     if (target instanceof HTMLInputElement && target.type === 'range' && MOVES_RANGE.test(key)) return;
     if (event.ctrlKey || event.metaKey) {
       const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
@@ -92,9 +94,8 @@ export class Keyboard {
 
   /** @param {number} factor */
   #zoom(factor) {
-    const {camera, view} = this.app;
+    const {camera} = this.app;
     camera.zoom(camera.width / 2, camera.height / 2, factor);
-    view.dirty = true;
   }
 
   /** @param {number} by */
@@ -144,9 +145,8 @@ export class Cursor {
   }
 
   hide() {
-    this.shown = false;
-    if (this.pressed) this.app.tool.cancel?.();
-    this.pressed = false;
+    if (this.pressed) this.app.pointers.worked.cancel?.();
+    this.shown = this.pressed = false;
   }
 
   /**
@@ -155,31 +155,27 @@ export class Cursor {
    * @param {boolean} fine
    */
   move(dx, dy, fine) {
-    const {camera, view} = this.app, step = fine ? FINE : STEP;
+    const {camera} = this.app, step = fine ? FINE : STEP;
     if (!this.shown && this.x < 0) [this.x, this.y] = [camera.width / 2, camera.height / 2];
     this.shown = true;
     this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
     this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
-    this.app.tool.move?.(this.touch);
-    this.app.selection.hover(this.touch);
-    view.dirty = true;
+    const {app: {pointers, tool}, touch} = this;
+    (this.pressed ? pointers.worked : tool).move?.(touch);
+    if (!this.pressed) pointers.point(touch);
   }
 
-  /** Press the tool, or lift it; a tool of clicks clicks. */
+  /** Press the tool, or a handle, or lift it; a tool of clicks clicks. */
   press() {
-    const {app} = this;
+    const {pointers} = this.app;
     if (!this.shown) {
       this.move(0, 0, false);
       return;
     }
-    app.time.endRewind();
-    if (!this.pressed) app.tool.down?.(this.touch);
-    if (this.pressed || app.tool.clicks) {
-      app.tool.up(this.touch);
-      app.hints.noteUse();
-    }
-    this.pressed = !this.pressed && !app.tool.clicks;
-    app.view.dirty = true;
+    const lifts = this.pressed;
+    if (!lifts) pointers.press(this.touch);
+    this.pressed = !lifts && !pointers.worked.clicks;
+    if (!this.pressed) pointers.lift(this.touch);
   }
 
   /** @param {SceneView} view */

@@ -17,7 +17,7 @@ export class Pointers {
     /** @type {Map<number, PointerEvent>} */
     this.down = new Map();
     this.working = -1; // id of the pointer that works the tool
-    /** @type {Pick<Tool, 'down' | 'move' | 'up' | 'cancel'>} that it works */
+    /** @type {Pick<Tool, 'down' | 'move' | 'up' | 'cancel' | 'clicks'>} that it works */
     this.worked = app.tool;
     this.stylus = false;
     this.space = false; // held: dragging moves the view
@@ -62,15 +62,31 @@ export class Pointers {
       (this.stylus && event.pointerType === 'touch');
     if (this.down.size === 1 && !moves) {
       this.working = event.pointerId;
-      app.time.endRewind();
-      const touch = this.#touch(event);
-      this.worked = app.handles.isAt(touch) ? app.handles : app.tool;
-      this.worked.down?.(touch);
+      this.press(this.#touch(event));
     } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
       this.worked.cancel?.();
       this.working = -1;
     }
-    app.view.dirty = true;
+  }
+
+  /** @param {Touch} touch where the tool in hand, or a handle that is there, is pressed */
+  press(touch) {
+    const {app} = this;
+    app.time.endRewind();
+    this.worked = app.handles.isAt(touch) ? app.handles : app.tool;
+    this.worked.down?.(touch);
+  }
+
+  /** @param {Touch} touch where it is lifted */
+  lift(touch) {
+    this.worked.up(touch);
+    if (this.worked === this.app.tool) this.app.hints.noteUse();
+  }
+
+  /** @param {Touch} touch where nothing is pressed */
+  point(touch) {
+    this.app.selection.hover(touch);
+    this.app.handles.point(touch);
   }
 
   /** Forget what fingers do. */
@@ -90,11 +106,9 @@ export class Pointers {
     } else if (before) this.#moveView(event, before);
     else {
       app.tool.move?.(this.#touch(event));
-      app.selection.hover(this.#touch(event));
-      app.handles.point(this.#touch(event));
+      this.point(this.#touch(event));
     }
     if (before) this.down.set(event.pointerId, event);
-    app.view.dirty = true;
   }
 
   /**
@@ -126,10 +140,8 @@ export class Pointers {
     this.down.delete(event.pointerId);
     if (event.pointerId !== this.working) return;
     this.working = -1;
-    this.worked.up(this.#touch(event));
-    if (this.worked === this.app.tool) this.app.hints.noteUse();
+    this.lift(this.#touch(event));
     this.app.handles.point(this.#touch(event), event.pointerType === 'touch');
-    this.app.view.dirty = true;
   }
 
   /** @param {PointerEvent} event */
@@ -146,6 +158,5 @@ export class Pointers {
     const pixels = event.deltaY * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? 16 : 1);
     if (app.tool.turns) app.tool.turn?.(-pixels * WHEEL_TURN);
     else app.camera.zoom(event.clientX, event.clientY, Math.exp(-pixels * (event.ctrlKey ? PINCH : WHEEL)));
-    app.view.dirty = true;
   }
 }

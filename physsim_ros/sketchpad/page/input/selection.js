@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selection: bodies that are selected, and the one that is pointed at, with its name beside it. */
 
-import {shorten} from '../words.js';
-
 /** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
 
 const NEAR = 8; // px: a tap that far from a joint means it
@@ -29,7 +27,6 @@ export class Selection {
     this.names = new Set(names);
     app.panel.show(names.length > 1 ? 'several' : names.length ? 'body' : '', names);
     app.askForParts();
-    app.view.dirty = true;
   }
 
   /** @param {Touch} touch */
@@ -55,7 +52,6 @@ export class Selection {
     const {world, view} = this.app, row = touch ? world.bodyAt(touch.at, touch.slop) : -1;
     const name = row < 0 ? '' : world.scene.bodies[row].name;
     view.canvas.classList.toggle('over', row >= 0);
-    if (name !== this.hovered) view.dirty = true;
     this.hovered = name;
     this.hoveredAt = touch?.page;
   }
@@ -71,6 +67,6 @@ export class Selection {
     if (row < 0 || !this.hoveredAt) return;
     if (tool.aims) view.outline(row, palette[tool.aims]);
     const [x, y] = this.hoveredAt;
-    view.write(shorten(this.hovered), [x + 16, y - 10], palette.ink);
+    view.write(this.app.words.item(this.hovered), [x + 16, y - 10], palette.ink);
   }
 }

@@ -3,8 +3,8 @@
 
 import {createElement, numberField, showText} from '../dom.js';
 import {neighboursOf} from '../view/forces.js';
-import {energiesOf, momentumText, motionOf, number, originOf, placed} from './quantities.js';
-import {digits, threeDigits} from '../rounding.js';
+import {energiesOf, momentumText, motionOf, originOf, placed} from './quantities.js';
+import {digits, threeDigits, twoPlaces} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE} from '../vectors.js';
 
@@ -32,10 +32,10 @@ export class Numbers {
     this.momentum = createElement('p');
     this.pairs = createElement('p', {className: 'pairs'}); // friction with what the body touches
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': word}));
-    this.labels = ENERGIES.map((word) => createElement('span', {textContent: word}));
+    this.labels = ENERGIES.map((word) => createElement('span', {}, word));
     this.values = ENERGIES.map(() => createElement('span'));
     this.inputs = new Map(TYPED.map(([key]) => [key, numberField(null, (value) => this.#type(key, value), {inputMode: key === 'mass' ? 'decimal' : 'text'})]));
-    this.typed = createElement('details', {className: 'typed'}, createElement('summary', {textContent: t('Enter numbers')}),
+    this.typed = createElement('details', {className: 'typed'}, createElement('summary', {}, t('Enter numbers')),
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
     this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
@@ -129,7 +129,7 @@ export class Numbers {
     energies.forEach((energy, i) => {
       this.bars[i].max = this.most || 1;
       this.bars[i].value = Math.max(energy, 0);
-      this.values[i].textContent = `${number(energy)} J`;
+      this.values[i].textContent = `${twoPlaces(energy)} J`;
     });
   }
 }

@@ -20,13 +20,13 @@ export class PlotWindow {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.element = elementOf('plot', HTMLElement);
+    this.element = elementOf('plot');
     /** @type {string[]} of bodies */
     this.names = [];
     this.axes = {x: 'time', y: 'y'};
     this.sums = false; // the sum over the bodies is shown, too
     this.canvas = createElement('canvas', {role: 'img', 'aria-label': t('Large plot')});
-    this.reading = createElement('output', {textContent: ''});
+    this.reading = createElement('output', {}, '');
     this.legend = createElement('div', {className: 'row legend'});
     /** @type {?Scales} */
     this.scales = null;
@@ -56,7 +56,7 @@ export class PlotWindow {
       this.#draw();
     });
     this.element.replaceChildren(createElement('header', {},
-      inRow(select('y', t('Upwards')), createElement('span', {textContent: t('over')}), select('x', t('To the right')),
+      inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')),
         this.#adder(), this.#summer(), this.legend, textButton(t('Copy table'), () => this.#copyTable())),
       iconButton(t('Close the plot'), 'close', () => this.close())), this.canvas, this.reading);
     this.element.hidden = false;

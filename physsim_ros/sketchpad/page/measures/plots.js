@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The plots of the selected body, beside the exact curves of free flight; the large plot is loaded when it is opened. */
+/** The plots of the selected body, beside the exact curves of free flight. */
 
-import {createElement, elementOf, inRow, soon, textButton} from '../dom.js';
+import {createElement, inRow, soon, textButton} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
 import {QUANTITIES} from './quantities.js';
 import {t} from '../strings.js';
@@ -21,7 +21,7 @@ export class Plots {
     this.app = app;
     this.canvases = SHOWN.map((key) => createElement('canvas', {role: 'img', 'aria-label': QUANTITIES[key].label}));
     this.element = createElement('section', {className: 'plots', 'aria-label': t('Plots')}, ...this.canvases,
-      createElement('p', {textContent: t('Broad: free flight by its formula. Dashed: the earlier course.')}),
+      createElement('p', {}, t('Broad: free flight by its formula. Dashed: the earlier course.')),
       inRow(textButton(t('Large plot'), () => app.plotWindow.open([this.name])),
         textButton(t('Table (CSV)'), () => app.plotWindow.saveTable([this.name]))));
     const drawSoon = soon(() => this.#draw(), EVERY);
@@ -81,29 +81,4 @@ function flightsOf(samples, [gx, gy], end) {
     first = i;
   }
   return flights;
-}
-
-/** The large plot, whose script is loaded when it is opened first. */
-export class LargePlot {
-  /** @param {App} app */
-  constructor(app) {
-    this.element = elementOf('plot', HTMLElement);
-    /** @type {?import('./plot_window.js').PlotWindow} */
-    this.window = null;
-    this.load = async () => this.window ??= new (await import('./plot_window.js')).PlotWindow(app);
-  }
-
-  /** @param {string[]} names of bodies */
-  async open(names) {
-    (await this.load()).open(names);
-  }
-
-  /** @param {string[]} names of bodies */
-  async saveTable(names) {
-    (await this.load()).saveTable(names);
-  }
-
-  close() {
-    this.window?.close();
-  }
 }

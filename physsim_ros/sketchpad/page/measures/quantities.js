@@ -4,7 +4,7 @@
  * of plots and the columns of tables.
  */
 
-import {digits, fixed, threeDigits} from '../rounding.js';
+import {degrees, threeDigits, twoPlaces} from '../rounding.js';
 import {localized, t} from '../strings.js';
 import {DEGREE, rotated} from '../vectors.js';
 
@@ -42,7 +42,7 @@ export function totalsOf(world, names) {
     energy = [energy[0] + each[0], energy[1] + each[1]];
   }
   return t('Together {mass} kg · momentum {momentum} · energy of motion {motion} J, of height {height} J',
-    {mass: threeDigits(mass), momentum: momentumText([px, py]), motion: number(energy[0]), height: number(energy[1])});
+    {mass: threeDigits(mass), momentum: momentumText([px, py]), motion: twoPlaces(energy[0]), height: twoPlaces(energy[1])});
 }
 
 /**
@@ -74,22 +74,17 @@ export function originOf(centroid, [x, y], yaw) {
  */
 export function placed(world, row, by = [0, 0]) {
   const {frame: {yaw, velocities}, scene} = world, {centroid, anchored} = scene.bodies[row];
-  const [x, y] = world.place(row, centroid), degrees = Math.round(yaw[row] / DEGREE * 10) / 10;
-  const texts = [t('at {x}, {y} m', {x: number(x + by[0]), y: number(y + by[1])}), `${digits(degrees, 6)}°`];
+  const [x, y] = world.place(row, centroid);
+  const texts = [t('at {x}, {y} m', {x: twoPlaces(x + by[0]), y: twoPlaces(y + by[1])}), degrees(yaw[row])];
   if (velocities && !anchored) {
-    texts.push(`${number(Math.hypot(velocities.x[row], velocities.y[row]))} m/s`, `${number(velocities.spin[row])} rad/s`);
+    texts.push(`${twoPlaces(Math.hypot(velocities.x[row], velocities.y[row]))} m/s`, `${twoPlaces(velocities.spin[row])} rad/s`);
   }
   return texts.join(' · ');
 }
 
-/** @param {number} value */
-export function number(value) {
-  return Math.abs(value) < 0.005 ? '0' : fixed(value, Math.abs(value) < 100 ? 2 : 0);
-}
-
 /** @param {Point} momentum [N s] */
 export function momentumText([px, py]) {
-  return `${number(Math.hypot(px, py))} N s ${t('({x}, {y})', {x: number(px), y: number(py)})}`;
+  return `${twoPlaces(Math.hypot(px, py))} N s ${t('({x}, {y})', {x: twoPlaces(px), y: twoPlaces(py)})}`;
 }
 
 /**

@@ -47,26 +47,24 @@ export class Stopwatch {
       this.#follow();
       this.touches = [];
       this.since = -1;
-      this.app.view.dirty = true;
     });
   }
 
   /** @returns {Content} of the panel */
   content() {
     return {title: t('Measure'), live: () => this.#show(), rest: [
-      createElement('p', {textContent: t('Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.')}),
-      createElement('h3', {textContent: t('Stopwatch')}),
+      createElement('p', {}, t('Ruler and protractor are among the tools. A gate lets other bodies through: tap a body and tick Gate.')),
+      createElement('h3', {}, t('Stopwatch')),
       this.#chooser('start', t('Starts when touched'), t('at 0 s')),
       this.#chooser('stop', t('Stops when touched'), t('never')),
       this.time, this.details,
-      createElement('h3', {textContent: t('By hand')}),
+      createElement('h3', {}, t('By hand')),
       this.byHand, this.lapList,
       inRow(textButton(t('Start or stop (7)'), () => this.press()), textButton(t('Lap (6)'), () => this.lap())),
-      createElement('h3', {textContent: t('Collisions')}),
+      createElement('h3', {}, t('Collisions')),
       this.#chooser('counted', t('Collisions of'), t('no body')),
       this.count, inRow(textButton(t('Count from here'), () => {
         this.since = this.shown;
-        this.app.view.dirty = true;
       }))]};
   }
 
@@ -86,7 +84,6 @@ export class Stopwatch {
     const names = [...new Set([this.start, this.stop, this.counted])].filter((name) => name);
     if (names.length || this.following) this.app.connection.send('follow', {names});
     this.following = names.length > 0;
-    this.app.view.dirty = true;
   }
 
   /** @param {[string, string, number][]} touches */
@@ -98,7 +95,6 @@ export class Stopwatch {
     }
     this.touches.sort((one, other) => one.time - other.time);
     this.touches.splice(0, this.touches.length - MOST);
-    this.app.view.dirty = true;
   }
 
   /** @param {number} time [s] that is shown */
@@ -115,7 +111,6 @@ export class Stopwatch {
   press() {
     if (this.began !== null && this.ended === null) this.ended = this.shown;
     else [this.began, this.ended, this.laps] = [this.shown, null, []];
-    this.app.view.dirty = true;
     this.app.notes.showMessage(t('Stopwatch {time}', {time: this.#handText()}));
   }
 
@@ -123,7 +118,6 @@ export class Stopwatch {
   lap() {
     if (this.began === null || this.ended !== null) return;
     this.laps.push(this.shown);
-    this.app.view.dirty = true;
     this.app.notes.showMessage(t('Lap {time}', {time: this.#lapTexts().at(-1) ?? ''}));
   }
 

@@ -47,9 +47,9 @@ export class Driving {
    */
   show({kind, namespace, max_speed: speed, max_turn: turn}) {
     return [createElement('h3', {textContent: `${t('Robot, {drive}', {drive: kind})} · /${namespace}`}),
-      createElement('p', {textContent: t('Up to {speed} m/s and {turn} rad/s', {speed, turn})}),
+      createElement('p', {}, t('Up to {speed} m/s and {turn} rad/s', {speed, turn})),
       createElement('div', {className: 'drive'}, this.element,
-        createElement('p', {textContent: t('Drag the knob; or {keys}, after a click on the world.', {keys: kind === 'omni' ? 'W A S D Q E' : 'W A S D'})}))];
+        createElement('p', {}, t('Drag the knob; or {keys}, after a click on the world.', {keys: kind === 'omni' ? 'W A S D Q E' : 'W A S D'})))];
   }
 
   /**

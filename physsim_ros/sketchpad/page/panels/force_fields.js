@@ -32,7 +32,7 @@ export function forceFields({world}, {name, forces = []}, change) {
       // Its direction of now stays.
       replaced({axes: isOn ? 'body' : 'world', force: rotated(force, isOn ? -yaw : yaw)});
     });
-    return createElement('fieldset', {className: 'force'}, createElement('legend', {textContent: t('Constant force {number}', {number: i + 1})}),
+    return createElement('fieldset', {className: 'force'}, createElement('legend', {}, t('Constant force {number}', {number: i + 1})),
       createElement('label', {}, t('Force [N]'), size), createElement('label', {}, t('Direction [°]'), angle),
       turns,
       inRow(textButton(t('Remove'), () => send(now().filter((_, j) => j !== i)), 'danger')));

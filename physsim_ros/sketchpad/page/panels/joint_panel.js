@@ -37,7 +37,7 @@ export function jointContent({world, connection, selection}, [name]) {
   /** @type {['lower' | 'upper' | 'break_force', string][]} */
   const limits = [['break_force', t('Breaks at [N]')]];
   if (LIMITED.includes(joint.kind)) limits.unshift(['lower', t('Least [{unit}]', {unit})], ['upper', t('Greatest [{unit}]', {unit})]);
-  return {title: capital(thingWord(joint.kind)), name: isDrawn(name) ? '' : name, first: [force], rest: [
+  return {title: capital(thingWord(joint.kind)), name: isDrawn(name) || world.scene.lesson ? '' : name, first: [force], rest: [
     ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
       const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
       return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));

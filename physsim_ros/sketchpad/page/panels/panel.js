@@ -29,7 +29,7 @@ export class Panel {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.element = elementOf('panel', HTMLElement);
+    this.element = elementOf('panel');
     /** @type {Kind} */
     this.kind = '';
     /** @type {string[]} of the subject */
@@ -102,7 +102,7 @@ export class Panel {
     this.more.hidden = !first.length;
     this.rest.replaceChildren(...rest);
     element.replaceChildren(createElement('header', {},
-      createElement('h2', {}, `${title} `, createElement('small', {textContent: name})), this.more,
+      createElement('h2', {}, `${title} `, createElement('small', {}, name)), this.more,
       iconButton(t('Close'), 'close', () => app.selection.select([]))), ...first, this.rest);
     live(app.view);
     this.#fold();

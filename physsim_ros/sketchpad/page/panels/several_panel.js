@@ -5,7 +5,7 @@ import {createElement, inRow, showText, textButton} from '../dom.js';
 import {totalsOf} from '../measures/quantities.js';
 import {t} from '../strings.js';
 
-/** @import {App} from '../types.js' */
+/** @import {App, Bounds} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 const BESIDE = 0.5; // m between bodies and their copies
@@ -22,7 +22,7 @@ const DISTRIBUTIONS = [[t('Across'), 0], [t('Up'), 1]];
 export function severalContent(app, names) {
   const totals = createElement('p', {className: 'numbers'});
   return {title: t('{count} bodies', {count: names.length}), first: [totals], live: () => showText(totals, totalsOf(app.world, names)), rest: [
-    createElement('p', {textContent: t('Drag them with the lasso.')}),
+    createElement('p', {}, t('Drag them with the lasso.')),
     inRow(textButton(t('Copy beside'), () => {
       const [left, , right] = app.world.boundsOfAll(names);
       app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
@@ -42,16 +42,14 @@ function arrangeButtons(app, names) {
   })));
   const distribute = DISTRIBUTIONS.map(([label, axis]) => textButton(label, () => place(app, names, (boxes) => distances(boxes, axis))));
   // Two bodies have one gap.
-  const gaps = names.length > 2 ? [createElement('h3', {textContent: t('Equal gaps')}), inRow(...distribute)] : [];
-  return [createElement('h3', {textContent: t('Align')}), inRow(...align), ...gaps];
+  const gaps = names.length > 2 ? [createElement('h3', {}, t('Equal gaps')), inRow(...distribute)] : [];
+  return [createElement('h3', {}, t('Align')), inRow(...align), ...gaps];
 }
-
-/** @typedef {number[]} Box xmin, ymin, xmax, ymax [m] */
 
 /**
  * @param {App} app
  * @param {string[]} names
- * @param {(boxes: Box[]) => number[][]} wayOf how far each body is moved [m], by their boxes
+ * @param {(boxes: Bounds[]) => number[][]} wayOf how far each body is moved [m], by their boxes
  */
 function place({world, connection}, names, wayOf) {
   const known = names.filter((name) => world.row(name) >= 0);
@@ -64,7 +62,7 @@ function place({world, connection}, names, wayOf) {
 }
 
 /**
- * @param {Box[]} boxes
+ * @param {Bounds[]} boxes
  * @param {number} axis
  * @returns {number[][]} how far each body is moved so that the gaps are equal; the outermost stay [m]
  */
@@ -83,7 +81,7 @@ function distances(boxes, axis) {
 }
 
 /**
- * @param {Box} box
+ * @param {Bounds} box
  * @param {number} axis
  * @param {number} share 0 is the lower edge, 1 the upper one
  */
@@ -92,7 +90,7 @@ function edge(box, axis, share) {
 }
 
 /**
- * @param {Box[]} boxes
+ * @param {Bounds[]} boxes
  * @param {number} axis
  */
 function spanOf(boxes, axis) {

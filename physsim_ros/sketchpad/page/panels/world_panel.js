@@ -58,7 +58,7 @@ export function worldContent(app) {
       if (properties.density && properties.friction) app.panel.render();
     }),
     any,
-    createElement('h3', {textContent: t('Gravity')}),
+    createElement('h3', {}, t('Gravity')),
     range(t('Gravity [m/s²]'), 0, 25, 0.01, strength, setSize),
     presetButtons(PLACES, setSize),
     range(t('Direction of gravity [° from down]'), -180, 180, STEP, turn, (degrees) => {

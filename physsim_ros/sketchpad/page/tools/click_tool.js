@@ -5,33 +5,30 @@
  * follows the pointer.
  */
 
-import {threeDigits} from '../rounding.js';
+import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
-import {DEGREE, distance, isTap, onGrid, polar} from '../vectors.js';
+import {distance, isTap, onGrid, polar} from '../vectors.js';
 
-/** @import {App, Point, SceneView, Touch} from '../types.js' */
+/** @import {App, ClickUse, Point, SceneView, Touch} from '../types.js' */
 
 const DRAG = 6; // px: a rectangle that is less high or wide is a side
 const MARK = 4; // px: radius of a point that was clicked
 const CLOSE = 12; // px around the first corner of a polygon
 const NEWTONS = 10; // N: of an arrow of 1 m, as in `drawing/tools.py`
-/** @type {Record<string, number>} */
-const CLICKS = {rectangle: 3, polygon: Infinity, anchor: 1, release: 1, pin: 1, axle: 1, delete: 1};
-/** Tools whose second point is at a multiple of an angle from the first, while the key of the grid is held. */
-const ANGLED = ['rectangle', 'wall', 'velocity', 'gravity', 'force', 'knife'], STEP = Math.PI / 12; // rad
-const ARROWS = ['velocity', 'gravity', 'force'], JOINTS = ['spring', 'rod', 'rope', 'chain'];
+const STEP = Math.PI / 12; // rad between the directions of angled lines
 
 export class ClickTool {
   /**
    * @param {App} app
    * @param {string} id of the tool
+   * @param {ClickUse} use
    */
-  constructor(app, id) {
+  constructor(app, id, use) {
     this.app = app;
     this.id = id;
-    this.clicks = CLICKS[id] ?? 2;
-    /** @type {'accent' | 'warn' | undefined} */
-    this.aims = id === 'delete' ? 'warn' : this.clicks === 1 || id === 'velocity' || id === 'force' ? 'accent' : undefined;
+    this.use = use;
+    this.clicks = use.clicks;
+    this.aims = use.aims;
     /** @type {Touch[]} */
     this.points = [];
     /** @type {?Touch} */
@@ -59,7 +56,6 @@ export class ClickTool {
   /** @param {Touch} touch */
   move(touch) {
     this.last = this.#onGrid(touch);
-    this.app.view.dirty = true;
   }
 
   /** @param {Touch} raw */
@@ -96,7 +92,7 @@ export class ClickTool {
     if (!touch.grid || this.aims) return touch;
     const {grid} = touch, [first] = this.points;
     let at = onGrid(touch.at, grid);
-    if (first && this.points.length === 1 && ANGLED.includes(this.id)) {
+    if (first && this.points.length === 1 && this.use.angled) {
       const dx = touch.at[0] - first.at[0], dy = touch.at[1] - first.at[1];
       if (this.#isUpright(touch)) {
         // A square.
@@ -131,7 +127,6 @@ export class ClickTool {
     if (closing || touch === points[0] && points.length > 1 || points.length >= this.clicks) {
       this.points = [];
     }
-    app.view.dirty = true;
   }
 
   /**
@@ -139,7 +134,7 @@ export class ClickTool {
    * @returns {Point} of a tool for bodies, in the body that a finger beside it means [m]
    */
   #meant({at, slop}) {
-    const {world} = this.app, ofBody = this.aims && !this.points.length || JOINTS.includes(this.id);
+    const {world} = this.app, ofBody = this.aims && !this.points.length || this.use.joins;
     const row = ofBody ? world.bodyAt(at, slop) : -1;
     return row < 0 ? at : world.place(row, world.gripOn(row, at));
   }
@@ -158,13 +153,12 @@ export class ClickTool {
       const ux = (q[0] - p[0]) / length, uy = (q[1] - p[1]) / length;
       const height = ux * (r[1] - p[1]) - uy * (r[0] - p[0]), dx = -uy * height, dy = ux * height;
       view.line([p, q, [q[0] + dx, q[1] + dy], [p[0] + dx, p[1] + dy], p], color);
-    } else if (ARROWS.includes(this.id)) view.arrow(view.camera.toPage(...p), view.camera.toPage(...q), color);
+    } else if (this.use.arrow) view.arrow(view.camera.toPage(...p), view.camera.toPage(...q), color);
     else view.line(points, color);
     // A finger that is lifted leaves nothing else.
     for (const {at} of this.points) view.ring(at, MARK, color);
     if (this.id === 'polygon') view.ring(p, CLOSE, color);
-    const [x, y] = this.last.page, size = this.#sizeOf(points);
-    if (size) view.write(size, [x + 14, y - 14], color);
+    view.tell(this.#sizeOf(points), this.last);
   }
 
   /**
@@ -175,19 +169,19 @@ export class ClickTool {
     const [p, q, r] = points, [a, b] = points.slice(-2);
     const side = distance(p, q), length = distance(a, b);
     if (!length) return '';
-    const degrees = Math.round(Math.atan2(b[1] - a[1], b[0] - a[0]) / DEGREE);
+    const angle = degrees(Math.atan2(b[1] - a[1], b[0] - a[0]), 0);
     switch (this.id) {
       case 'circle': return t('radius {length} m', {length: threeDigits(length)});
       case 'circle_diameter': return t('diameter {length} m', {length: threeDigits(length)});
-      case 'velocity': return `${threeDigits(length)} m/s, ${degrees}°`;
-      case 'force': return `${threeDigits(NEWTONS * length)} N, ${degrees}°`;
-      case 'gravity': return `${degrees}°`;
+      case 'velocity': return `${threeDigits(length)} m/s, ${angle}`;
+      case 'force': return `${threeDigits(NEWTONS * length)} N, ${angle}`;
+      case 'gravity': return angle;
       case 'rectangle': if (r && side) {
         const across = Math.abs((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])) / side;
         return `${threeDigits(side)} × ${threeDigits(across)} m`;
       }
       // falls through: one side of a rectangle is a line
-      default: return `${threeDigits(length)} m, ${degrees}°`;
+      default: return `${threeDigits(length)} m, ${angle}`;
     }
   }
 }

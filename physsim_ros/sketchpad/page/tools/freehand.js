@@ -1,97 +1,63 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that are drawn with: the pen, whose strokes become bodies, and the lasso, whose loops select them. */
 
+import {Gesture} from './gesture.js';
 import {inside, unionOf} from '../view/body_path.js';
 import {threeDigits} from '../rounding.js';
-import {isTap} from '../vectors.js';
 
-/** @import {App, Point, SceneView, Touch} from '../types.js' */
+/** @import {Point, SceneView, Touch} from '../types.js' */
 
 const TAP_TIME = 0.4; // s: a longer press of the pen is no tap
 const MOST_SAMPLES = 4000;
 
 /** A freehand stroke, sent when the pen is lifted; a tap selects the body under it. */
-export class Pen {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    /** @type {Touch[]} */
-    this.samples = [];
-  }
-
-  /** @param {Touch} touch */
-  down(touch) {
-    this.samples = [touch];
-  }
-
+export class Pen extends Gesture {
   /** @param {Touch} touch */
   move(touch) {
-    if (this.samples.length && this.samples.length < MOST_SAMPLES) this.samples.push(touch);
+    if (this.path.length < MOST_SAMPLES) super.move(touch);
   }
 
   /** @param {Touch} touch */
-  up(touch) {
-    const samples = this.samples, {app} = this;
-    this.samples = [];
-    if (samples.every((each) => isTap(samples[0], each)) && touch.time - (samples[0]?.time ?? 0) < TAP_TIME) {
+  end(touch) {
+    const {app, path} = this;
+    if (this.isTap && touch.time - path[0].time < TAP_TIME) {
       app.selection.selectAt(touch);
       return;
     }
-    const id = app.connection.send('stroke', {points: samples.map(({at, time}) => [...at, time])});
-    app.readings.addStroke(id, samples.map(({at}) => at));
-  }
-
-  cancel() {
-    this.samples = [];
+    const id = app.connection.send('stroke', {points: path.map(({at, time}) => [...at, time])});
+    app.readings.addStroke(id, path.map(({at}) => at));
   }
 
   /** @param {SceneView} view */
   draw(view) {
-    const last = this.samples.at(-1);
-    if (!last) return;
-    view.line(this.samples.map(({at}) => at), view.palette.accent);
-    const [left, low, right, high] = unionOf(this.samples.map(({at: [x, y]}) => [x, y, x, y]));
-    view.write(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, [last.page[0] + 14, last.page[1] - 14], view.palette.accent);
+    if (!this.last) return;
+    view.line(this.path.map(({at}) => at), view.palette.accent);
+    const [left, low, right, high] = unionOf(this.path.map(({at: [x, y]}) => [x, y, x, y]));
+    view.tell(`${threeDigits(right - left)} × ${threeDigits(high - low)} m`, this.last);
   }
 }
 
 /** A loop selects the bodies in it; the selected bodies are moved by dragging one. */
-export class Lasso {
-  /** @param {App} app */
-  constructor(app) {
-    this.app = app;
-    /** @type {Touch[]} */
-    this.path = [];
-    this.carrying = false;
-  }
+export class Lasso extends Gesture {
+  carrying = false;
 
   /** @param {Touch} touch */
   down(touch) {
     const {world, selection} = this.app, row = world.bodyAt(touch.at, touch.slop);
     this.carrying = row >= 0 && selection.names.has(world.scene.bodies[row].name);
-    this.path = [touch];
+    super.down(touch);
   }
 
   /** @param {Touch} touch */
-  move(touch) {
-    if (this.path.length) this.path.push(touch);
-  }
-
-  /** @param {Touch} touch */
-  up(touch) {
+  end(touch) {
     const {app, path} = this;
-    this.path = [];
-    if (path.every((each) => isTap(path[0], each))) app.selection.selectAt(touch);
+    if (this.isTap) app.selection.selectAt(touch);
     else if (this.carrying) app.connection.send(path[0].copies ? 'copy_machine' : 'move_bodies', {names: [...app.selection.names], by: offset(path)});
     else {
       const {world} = app, loop = path.map(({at}) => at);
       app.selection.select(world.scene.bodies.filter((body, row) => row < world.count &&
         inside(loop, ...world.place(row, body.centroid))).map(({name}) => name));
     }
-  }
-
-  cancel() {
-    this.path = [];
   }
 
   /** @param {SceneView} view */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The hand pulls a body and throws it, places and turns it in a paused world, drags a copy, and moves the view. */
 
+import {Gesture} from './gesture.js';
 import {placed} from '../measures/quantities.js';
 import {isTap, onGrid} from '../vectors.js';
 
@@ -8,16 +9,12 @@ import {isTap, onGrid} from '../vectors.js';
 
 const CATCH = 120; // ms after which a body that is pressed is caught
 
-export class Hand {
+export class Hand extends Gesture {
   /** @param {App} app */
   constructor(app) {
-    this.app = app;
+    super(app);
     /** @type {'' | 'pressed' | 'holding' | 'carrying' | 'copying' | 'panning'} */
     this.state = '';
-    /** @type {?Touch} */
-    this.start = null;
-    /** @type {?Touch} */
-    this.last = null;
     this.name = '';
     /** @type {Point} in the frame of the body [m] */
     this.grip = [0, 0];
@@ -42,8 +39,8 @@ export class Hand {
 
   /** @param {Touch} touch */
   down(touch) {
-    const {world, view} = this.app, row = world.bodyAt(touch.at, touch.slop);
-    this.start = this.last = touch;
+    const {world} = this.app, row = world.bodyAt(touch.at, touch.slop);
+    super.down(touch);
     this.moved = false;
     if (row < 0) this.state = 'panning';
     else {
@@ -55,7 +52,6 @@ export class Hand {
       this.state = touch.copies ? 'copying' : world.scene.bodies[row].anchored ? 'carrying' : 'pressed';
       if (this.state === 'pressed') this.timer = setTimeout(() => this.#grab(), CATCH);
     }
-    view.dirty = true;
   }
 
   /** @param {Touch} touch */
@@ -68,15 +64,13 @@ export class Hand {
     if (this.state === 'panning' && this.moved) {
       app.camera.pan(touch.page[0] - last.page[0], touch.page[1] - last.page[1]);
     }
-    this.last = touch;
+    super.move(touch);
     if (this.state === 'holding') this.#sendSoon();
-    app.view.dirty = true;
   }
 
   /** @param {Touch} touch */
-  up(touch) {
+  end(touch) {
     const {state, start, app} = this;
-    this.last = touch;
     clearTimeout(this.timer);
     this.state = '';
     if (state === 'holding') {
@@ -86,20 +80,18 @@ export class Hand {
       if (this.moved) app.hints.completeStep('throw');
     }
     if (!this.moved) app.selection.selectAt(touch);
-    else if (state === 'carrying' && start) {
-      app.connection.send('move_bodies', {names: [this.name],
-        by: this.#carried(start, touch)});
-    } else if (state === 'copying' && start) {
+    else if (state === 'carrying' && start) app.connection.send('move_bodies', {names: [this.name], by: this.#carried(start, touch)});
+    else if (state === 'copying' && start) {
       const row = app.world.row(this.name), [dx, dy] = this.#carried(start, touch), {x, y} = app.world.frame;
       if (row >= 0) app.connection.send('copy', {name: this.name, to: [x[row] + dx, y[row] + dy]});
     }
-    app.view.dirty = true;
   }
 
   cancel() {
     clearTimeout(this.timer);
     if (this.state === 'holding') this.app.connection.send('let_go');
     this.state = '';
+    super.cancel();
   }
 
   /** @param {number} angle [rad] */
@@ -161,7 +153,6 @@ export class Hand {
       by = this.#carried(this.start, this.last);
       view.outline(row, view.palette.accent, by);
     }
-    const [x, y] = this.last.page;
-    view.write(placed(world, row, by), [x + 18, y - 18], view.palette.accent);
+    view.tell(placed(world, row, by), this.last);
   }
 }

@@ -5,6 +5,7 @@
  */
 
 import {createElement, numberField} from '../dom.js';
+import {Gesture} from './gesture.js';
 import {digits} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE, isTap, onGrid, polar} from '../vectors.js';
@@ -18,16 +19,13 @@ import {DEGREE, isTap, onGrid, polar} from '../vectors.js';
 
 const USUAL = {side: 1, angle: 30, length: 4}; // of a tap
 const STEEPEST = 89, ROUGH = 15; // °: the greatest angle that is drawn, and steps while the key of the grid is held
+const NEAR = 12; // px: a foot that near to a floor stands on it
 const STRAIGHT = 1e-3; // share of a side by which it may be out of the level or the vertical
 
-export class InclineTool {
+export class InclineTool extends Gesture {
   /** @param {App} app */
   constructor(app) {
-    this.app = app;
-    /** @type {?Touch} */
-    this.start = null;
-    /** @type {?Touch} */
-    this.last = null;
+    super(app);
     this.fresh = ''; // name of the plane that is selected as soon as it is there
     app.connection.on('scene', ({bodies}) => {
       if (!bodies.some((/** @type {Body} */ {name}) => name === this.fresh)) return;
@@ -38,39 +36,29 @@ export class InclineTool {
   }
 
   /** @param {Touch} touch */
-  down(touch) {
-    this.start = this.last = touch;
-  }
-
-  /** @param {Touch} touch */
-  move(touch) {
-    this.last = touch;
-  }
-
-  /** @param {Touch} touch */
-  async up(touch) {
-    const {app, start} = this;
-    this.last = touch;
-    const incline = start && this.#drawn(start, touch), names = new Set(app.world.scene.bodies.map(({name}) => name));
-    this.start = null;
-    if (!incline) return;
-    let number = 1;
-    while (names.has(`incline/${number}`)) number++;
-    this.fresh = `incline/${number}`;
-    const {ok} = await app.connection.ask('spawn', {body: {name: this.fresh, anchored: true, ...shapeOf(incline)}});
+  async end(touch) {
+    const {app} = this;
+    this.fresh = app.classroom.freeName('incline');
+    const {ok} = await app.connection.ask('spawn', {body: {name: this.fresh, anchored: true, ...shapeOf(this.#drawn(this.path[0], touch))}});
     if (!ok) this.fresh = '';
-  }
-
-  cancel() {
-    this.start = null;
   }
 
   /**
    * @param {Touch} start
    * @param {Touch} end
-   * @returns {Incline} between them, in whole degrees
+   * @returns {Incline} between them, in whole degrees; it stands on a floor that is near
    */
   #drawn(start, end) {
+    const {world, camera} = this.app, incline = this.#between(start, end), {foot} = incline;
+    return end.grid ? incline : {...incline, foot: [foot[0], world.floorBy(foot, NEAR / camera.scale)]};
+  }
+
+  /**
+   * @param {Touch} start
+   * @param {Touch} end
+   * @returns {Incline}
+   */
+  #between(start, end) {
     const [x, y] = onGrid(start.at, start.grid);
     if (isTap(start, end)) return {foot: [x, y], ...USUAL};
     const dx = end.at[0] - x, dy = end.at[1] - y, turn = end.grid ? ROUGH : 1, step = end.grid || this.app.camera.fineStep / 4;
@@ -87,7 +75,7 @@ export class InclineTool {
     const incline = this.#drawn(this.start, this.last), {polygon: [p, q, r]} = shapeOf(incline), [x, y] = incline.foot;
     const corners = [p, q, r, p].map(([px, py]) => /** @type {Point} */ ([x + px, y + py]));
     view.line(corners, view.palette.accent);
-    view.write(`${digits(incline.angle, 5)}°, ${digits(incline.length, 5)} m`, [this.last.page[0] + 14, this.last.page[1] - 14], view.palette.accent);
+    view.tell(`${digits(incline.angle, 5)}°, ${digits(incline.length, 5)} m`, this.last);
   }
 }
 

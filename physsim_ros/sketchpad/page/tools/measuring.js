@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Tools that measure on the page: a ruler and a protractor, which stay until they are tapped away. */
 
-import {digits, threeDigits} from '../rounding.js';
-import {DEGREE, isTap, onGrid} from '../vectors.js';
+import {Gesture} from './gesture.js';
+import {degrees, threeDigits} from '../rounding.js';
+import {onGrid} from '../vectors.js';
 
 /** @import {App, Point, SceneView, Touch} from '../types.js' */
 
@@ -11,38 +12,35 @@ const LEAST_TICK = 6; // px from mark to mark
 const ARC = 34; // px: radius of the arc of an angle
 
 /** A line from point to point, with marks, its length, slope and differences. */
-export class Ruler {
+export class Ruler extends Gesture {
   /** @param {App} app */
   constructor(app) {
-    this.app = app;
+    super(app);
     /** @type {Point[]} [m] */
     this.ends = [];
-    /** @type {?Touch} */
-    this.start = null;
     app.connection.on('world', () => { this.ends = []; });
     app.view.overlays.push((view) => this.#draw(view));
   }
 
   /** @param {Touch} touch */
   down(touch) {
-    this.start = touch;
+    super.down(touch);
     this.ends = [];
   }
 
   /** @param {Touch} touch */
   move(touch) {
+    super.move(touch);
     if (this.start) this.ends = [onGrid(this.start.at, touch.grid), onGrid(touch.at, touch.grid)];
   }
 
-  /** @param {Touch} touch */
-  up(touch) {
-    if (isTap(this.start ?? touch, touch)) this.ends = [];
-    this.start = null;
+  end() {
+    if (this.isTap) this.ends = [];
   }
 
   cancel() {
     if (this.start) this.ends = [];
-    this.start = null;
+    super.cancel();
   }
 
   /** @param {SceneView} view */
@@ -69,16 +67,14 @@ export class Ruler {
 }
 
 /** The angle between two arms: the first one is dragged from the corner, the second one clicked. */
-export class Protractor {
+export class Protractor extends Gesture {
   /** @param {App} app */
   constructor(app) {
-    this.app = app;
+    super(app);
     this.clicks = 2;
     /** @type {Point[]} corner, ends of the arms [m] */
     this.points = [];
     this.open = false; // the second arm follows the pointer
-    /** @type {?Touch} */
-    this.start = null;
     app.connection.on('world', () => {
       this.points = [];
       this.open = false;
@@ -88,30 +84,29 @@ export class Protractor {
 
   /** @param {Touch} touch */
   down(touch) {
-    this.start = touch;
+    super.down(touch);
     if (!this.open) this.points = [onGrid(touch.at, touch.grid)];
   }
 
   /** @param {Touch} touch */
   move(touch) {
+    super.move(touch);
     const at = onGrid(touch.at, touch.grid);
     if (this.open) this.points[2] = at;
     else if (this.start) this.points[1] = at;
   }
 
   /** @param {Touch} touch */
-  up(touch) {
+  end(touch) {
     this.move(touch);
-    if (this.open) this.open = false;
-    else if (isTap(this.start ?? touch, touch)) this.points = [];
-    else this.open = true;
-    this.start = null;
+    if (!this.open && this.isTap) this.points = [];
+    else this.open = !this.open;
   }
 
   cancel() {
     if (this.open || this.start) this.points = [];
     this.open = false;
-    this.start = null;
+    super.cancel();
   }
 
   /** @param {SceneView} view */
@@ -128,9 +123,4 @@ export class Protractor {
     ctx.stroke();
     view.write(degrees(Math.abs(turn)), [x + 2 * ARC * Math.cos(middle), y - 2 * ARC * Math.sin(middle) + 5], palette.accent, 'center');
   }
-}
-
-/** @param {number} angle [rad] */
-function degrees(angle) {
-  return `${digits(Math.round(10 * angle / DEGREE) / 10, 6)}°`;
 }

@@ -9,7 +9,6 @@ import {t} from '../strings.js';
 
 const LETTERS = 16, HALF = 140; // px: size of letters where a note is written, half the width of its field
 const LOOK = {anchored: true, sensor: true, color: '#ffe680'};
-const FREE = 1e9; // numbers of notes; pages choose them at random, so that no two choose the same
 
 export class Note {
   /** @param {App} app */
@@ -23,11 +22,11 @@ export class Note {
     const {app} = this, em = LETTERS / app.camera.scale;
     const field = textField({'aria-label': t('Note'), onblur: () => field.remove(), onchange: () => {
       const label = textOf(field).trim();
-      if (label) sendNote(app, `note/${Math.floor(Math.random() * FREE)}`, label, at, em, LOOK);
+      if (label) sendNote(app, app.classroom.freeName('note'), label, at, em, LOOK);
     }});
     field.style.left = `${Math.min(Math.max(x, HALF), app.camera.width - HALF)}px`;
     field.style.top = `${y}px`;
-    elementOf('places', HTMLElement).append(field);
+    elementOf('places').append(field);
     field.focus();
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
 
-import {createElement, elementOf, fieldForm, iconButton, inRow, textButton} from '../dom.js';
+import {createElement, elementOf, fieldForm, iconButton, inRow, soon, textButton} from '../dom.js';
 import {t} from '../strings.js';
 
 /** @import {App, Classmate, Point, SceneView} from '../types.js' */
@@ -24,7 +24,6 @@ export class Classroom {
     this.raised = false; // the hand of this page
     /** @type {Map<number, {at: Point, until: number}>} */
     this.cursors = new Map();
-    this.sent = 0; // [ms] when the cursor was sent last
     this.thaw = () => {}; // takes the note away that says that the world is frozen
     this.frozen = false; // whether it is there
     const {connection, view} = app;
@@ -43,19 +42,24 @@ export class Classroom {
     });
     connection.on('class', (state) => this.#follow(state));
     connection.on('said', ({name: who, text}) => {
-      const take = app.notes.pin(() => null, [`${personWord(who)}: ${text}`, textButton('OK', () => take())], {kind: 'docked', shown: 0});
+      const take = app.notes.dock([`${personWord(who)}: ${text}`, textButton('OK', () => take())], 0);
     });
     connection.on('cursors', ({cursors}) => {
       for (const [page, x, y] of cursors) this.cursors.set(page, {at: [x, y], until: performance.now() + SHOWN});
-      view.dirty = true;
     });
-    view.canvas.addEventListener('pointermove', (event) => this.#sendCursor(event));
+    /** @type {Point} of the cursor [px] */
+    let cursor = [0, 0];
+    const sendSoon = soon(() => connection.send('here', {point: app.camera.toWorld(...cursor)}), PERIOD);
+    view.canvas.addEventListener('pointermove', ({clientX, clientY}) => {
+      cursor = [clientX, clientY];
+      if (this.isShared && !app.viewOnly) sendSoon();
+    });
     view.overlays.push((each) => this.#draw(each));
     this.button = iconButton(TITLE, 'people', () => this.#showPeople(), t('People in this world'));
     this.button.hidden = true;
     this.hand = iconButton(t('Raise your hand'), 'raise', () => this.#raise(!this.raised), t('Raise your hand, or lower it: your teacher sees it'));
     this.hand.hidden = true;
-    elementOf('looks', HTMLElement).append(this.button, this.hand);
+    elementOf('looks').append(this.button, this.hand);
   }
 
   /** @returns {boolean} whether several people draw in this world */
@@ -71,6 +75,17 @@ export class Classroom {
     return this.state.people.find((each) => each.page === page && page !== this.page)?.name ?? '';
   }
 
+  /**
+   * @param {string} stem of a body that a tool of this page adds
+   * @returns {string} its name: of the numbers that are free, pages take turns, so that no two choose the same one at once
+   */
+  freeName(stem) {
+    const {people} = this.state, taken = new Set(this.app.world.scene.bodies.map(({name}) => name));
+    let number = 1 + Math.max(people.findIndex(({page}) => page === this.page), 0);
+    while (taken.has(`${stem}/${number}`)) number += people.length || 1;
+    return `${stem}/${number}`;
+  }
+
   /** @param {typeof this.state} state */
   #follow(state) {
     const {app} = this, pages = new Set(state.people.map(({page}) => page));
@@ -81,11 +96,10 @@ export class Classroom {
     app.time.showTimeline();
     const frozen = state.frozen && !this.teacher && !app.viewOnly;
     document.body.classList.toggle('frozen', frozen);
-    if (frozen && !this.frozen) this.thaw = app.notes.pin(() => null, [t('Your teacher has frozen this world.')], {kind: 'docked', shown: 0});
+    if (frozen && !this.frozen) this.thaw = app.notes.dock([t('Your teacher has frozen this world.')], 0);
     else if (!frozen) this.thaw();
     this.frozen = frozen;
-    app.gallery.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
-    app.view.dirty = true;
+    app.dialog.renew(TITLE, () => document.activeElement instanceof HTMLInputElement || this.#showPeople());
   }
 
   /** @param {boolean} raised */
@@ -103,17 +117,17 @@ export class Classroom {
     const form = fieldForm(input, t('Use this name'), (name) => {
       localStorage.setItem(NAME, name);
       connection.send('person', {name});
-      app.gallery.dialog.close();
+      app.dialog.close();
     });
     const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role, answered, raised}) => {
       const shown = personWord(name), you = page === this.page ? ` (${t('you')})` : '';
       const teaches = role === 'teach' && name !== TEACHER ? `, ${t('teacher')}` : '';
       return createElement('li', {}, dot(name), `${shown}${you}${teaches}`,
-        ...raised ? [createElement('strong', {textContent: t('hand raised')})] : [],
+        ...raised ? [createElement('strong', {}, t('hand raised'))] : [],
         ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
         ...teacher ? [textButton(t('Delete what {name} drew', {name: shown}), () => connection.send('clear_of', {person: name}), 'danger')] : []);
     }));
-    app.gallery.show(TITLE, ...app.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
+    app.dialog.show(TITLE, ...app.viewOnly ? [] : [form], people, ...teacher ? this.#powers() : []);
   }
 
   /** @returns {Node[]} what a teacher may do */
@@ -124,19 +138,11 @@ export class Classroom {
     const lock = chosen.length ?
       textButton(t('Lock what is selected ({count})', {count: chosen.length}), lockThem([...new Set([...locked, ...chosen])])) :
       textButton(t('Lock all bodies'), lockThem(['*']));
-    return [createElement('h3', {textContent: t('Teacher')}), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
+    return [createElement('h3', {}, t('Teacher')), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
       ...locked.length ? [textButton(t('Unlock all'), lockThem([]))] : []),
-    ...locked.length ? [createElement('p', {textContent: t('Locked: {names}', {names: locked.join(', ')})})] : [],
-    createElement('h3', {textContent: t('Pupils come here')}),
+    ...locked.length ? [createElement('p', {}, t('Locked: {names}', {names: locked.join(', ')}))] : [],
+    createElement('h3', {}, t('Pupils come here')),
     createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})];
-  }
-
-  /** @param {PointerEvent} event */
-  #sendCursor({clientX, clientY}) {
-    const now = performance.now();
-    if (!this.isShared || this.app.viewOnly || now < this.sent + PERIOD) return;
-    this.sent = now;
-    this.app.connection.send('here', {point: this.app.camera.toWorld(clientX, clientY)});
   }
 
   /** @param {SceneView} view */

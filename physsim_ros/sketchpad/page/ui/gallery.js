@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a picture. */
 
-import {createElement, download, elementOf, fieldForm, icon, iconButton, inRow, textButton} from '../dom.js';
+import {createElement, download, fieldForm, icon, inRow, textButton} from '../dom.js';
 import {language, t} from '../strings.js';
 import {capital} from '../words.js';
 
@@ -11,54 +11,24 @@ const NAME = '[^\\/\\\\.]*[^\\/\\\\.\\s][^\\/\\\\.]*'; // of a world
 const EMPTY = 'format: 1\ngravity: [0, -9.81]\ndamping: 0\nbounds: [-10, 0, 10, 9]\ndensity: 1\nfriction: 0.5\nelasticity: 0.5\nbodies: []\n';
 const WORLDS = t('Worlds'); // title
 const UNSAVED = 30000; // ms for which the unsaved world is offered beside the world; then it is in the list
-const PRESSED = 200; // ms until it is looked again whether a dialog is still pressed
 export const LARGEST = 1 << 20; // bytes of a world
 
 export class Gallery {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.dialog = elementOf('dialog', HTMLDialogElement);
     /** @type {{name: string, title: string, picture: string, shipped: boolean}[]} */
     this.worlds = [];
-    this.dialog.addEventListener('click', (event) => {
-      if (event.target === this.dialog) this.dialog.close();
-    });
     app.connection.on('worlds', ({worlds}) => {
       this.worlds = worlds;
       // The picture of a world comes after the world.
-      this.renew(WORLDS, () => this.showWorlds());
+      app.dialog.renew(WORLDS, () => this.showWorlds());
     });
     this.offered = 0; // [s since 1970] the unsaved world that was offered
     this.unsaved = ''; // date of the unsaved world, until it is opened or discarded
     this.dismiss = () => {};
     this.name = ''; // of the own world that is open
     app.connection.on('welcome', ({unsaved}) => this.#offerUnsaved(unsaved));
-  }
-
-  /**
-   * @param {string} title
-   * @param {Node[]} content
-   */
-  show(title, ...content) {
-    const top = this.dialog.open && this.dialog.ariaLabel === title ? this.dialog.scrollTop : 0;
-    this.dialog.ariaLabel = title;
-    this.dialog.replaceChildren(createElement('header', {}, createElement('h2', {textContent: title}),
-      iconButton(t('Close'), 'close', () => this.dialog.close(), '')),
-    ...content);
-    if (!this.dialog.open) this.dialog.showModal();
-    this.dialog.scrollTop = top;
-  }
-
-  /**
-   * Show a dialog anew that is open, but not while it is pressed: its button would be gone when it is let go.
-   * @param {string} title
-   * @param {() => void} show
-   */
-  renew(title, show) {
-    if (!this.dialog.open || this.dialog.ariaLabel !== title) return;
-    if (this.dialog.matches(':active')) setTimeout(() => this.renew(title, show), PRESSED);
-    else show();
   }
 
   /** Show the list, and again as the files are now: a lesson may have been written since. */
@@ -73,24 +43,25 @@ export class Gallery {
       createElement('div', {className: 'cards'}, ...worlds.map((world) => this.#card(world)));
     const file = createElement('input', {type: 'file', accept: '.yaml,.yml',
       onchange: async () => file.files?.[0] && this.upload(await file.files[0].text())});
-    this.show(WORLDS, inRow(textButton(t('Empty room'), () => this.upload(EMPTY)),
+    this.app.dialog.show(WORLDS, inRow(textButton(t('Empty room'), () => this.upload(EMPTY)),
       createElement('label', {className: 'file'}, t('Open a file'), file),
       ...this.unsaved ? [textButton(t('Unsaved world of {date}', {date: this.unsaved}), () => this.#openUnsaved())] : []),
-    ...own.length ? [createElement('h3', {textContent: t('Yours')}), cards(own)] : [],
-    ...this.app.lessons.section(), createElement('h3', {textContent: t('To explore, simplest first')}), cards(shipped));
+    ...own.length ? [createElement('h3', {}, t('Yours')), cards(own)] : [],
+    ...this.app.lessons.section(), createElement('h3', {}, t('To explore, simplest first')), cards(shipped));
   }
 
   /** @param {typeof this.worlds[0]} world */
   #card({name, title, picture, shipped}) {
     const heading = shipped ? t(capital(name.replaceAll('_', ' '))) : name;
-    const card = createElement('button', {type: 'button', className: 'card', onclick: () => this.follow(this.app.connection.openWorld(name), heading, shipped ? '' : name)},
+    const open = () => this.follow(this.app.connection.openWorld(name), heading, shipped ? '' : name);
+    const card = createElement('button', {type: 'button', className: 'card', onclick: open},
       picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
-      createElement('strong', {textContent: heading}),
+      createElement('strong', {}, heading),
       // A title that only repeats the name tells nothing.
-      ...shipped && t(title) !== heading ? [createElement('small', {textContent: t(title)})] : []);
+      ...shipped && t(title) !== heading ? [createElement('small', {}, t(title))] : []);
     if (shipped) return card;
     return createElement('div', {className: 'own'}, card, inRow(
-      textButton(t('Rename'), () => this.show(t('Rename {name}', {name}), this.#nameForm(t('New name'), name, t('Rename'), (to) => this.#rename(name, to)))),
+      textButton(t('Rename'), () => this.app.dialog.show(t('Rename {name}', {name}), this.#nameForm(t('New name'), name, t('Rename'), (to) => this.#rename(name, to)))),
       textButton(t('Delete'), () => this.#delete(name), 'danger')));
   }
 
@@ -105,7 +76,7 @@ export class Gallery {
 
   /** @param {string} name */
   async #delete(name) {
-    this.dialog.close();
+    this.app.dialog.close();
     if (!(await this.app.connection.ask('remove', {name})).ok) return;
     this.app.notes.offer(t('{name} is deleted', {name}), t('Undo'), () => this.app.connection.send('put_back', {name}));
   }
@@ -122,7 +93,7 @@ export class Gallery {
       pattern: NAME, title: t('Letters, digits, spaces, - and _; without / and .')});
     queueMicrotask(() => name.select());
     return fieldForm(name, label, (text) => {
-      this.dialog.close();
+      this.app.dialog.close();
       done(text);
     });
   }
@@ -145,7 +116,7 @@ export class Gallery {
    * @param {boolean} replace
    */
   async #save(name, replace = false) {
-    this.dialog.close();
+    this.app.dialog.close();
     const {ok, code} = await this.app.connection.ask('save', {name, replace});
     if (ok) {
       this.name = name;
@@ -157,7 +128,7 @@ export class Gallery {
     const free = this.#freeName(name), own = this.worlds.some((each) => each.name === name && !each.shipped);
     const choices = [textButton(t('Save as {name}', {name: free}), () => this.#save(free))];
     if (own) choices.push(textButton(t('Replace {name}', {name}), () => this.#save(name, true), 'danger'));
-    this.show(own ? t('There is a world {name} already', {name}) : t('{name} is a world that ships with physsim', {name}), inRow(...choices));
+    this.app.dialog.show(own ? t('There is a world {name} already', {name}) : t('{name} is a world that ships with physsim', {name}), inRow(...choices));
   }
 
   /** @param {string} name of the world that is shown */
@@ -179,9 +150,9 @@ export class Gallery {
     if (!saved || this.app.viewOnly || this.offered === saved) return;
     this.offered = saved;
     this.unsaved = new Date(saved * 1000).toLocaleString(language, {dateStyle: 'medium', timeStyle: 'short'});
-    this.dismiss = this.app.notes.pin(() => null, [t('The world of {date} was not saved.', {date: this.unsaved}),
+    this.dismiss = this.app.notes.dock([t('The world of {date} was not saved.', {date: this.unsaved}),
       textButton(t('Open it'), () => this.#openUnsaved()), textButton(t('Discard it'), () => this.#forgetUnsaved())],
-    {kind: 'docked', shown: UNSAVED});
+    UNSAVED);
   }
 
   async #openUnsaved() {
@@ -200,7 +171,7 @@ export class Gallery {
 
   showSave() {
     const name = this.name || this.#freeName(t('my world'));
-    this.show(t('Save'), this.#nameForm(t('Name of the world'), name, t('Save world'), (given) => this.#save(given)), inRow(
+    this.app.dialog.show(t('Save'), this.#nameForm(t('Name of the world'), name, t('Save world'), (given) => this.#save(given)), inRow(
       textButton(t('Download file'), () => this.#download()),
       textButton(t('Copy link'), () => this.app.links.copy()),
       textButton(t('Picture (PNG)'), () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
@@ -213,7 +184,7 @@ export class Gallery {
    * @param {string} name of an own world, under which it is saved again
    */
   async follow(opening, heading, name = '') {
-    this.dialog.close();
+    this.app.dialog.close();
     if (!(await opening)) return;
     this.dismiss();
     this.app.room.frameNext();
@@ -226,7 +197,7 @@ export class Gallery {
    * @returns {Promise<boolean>} whether it is open
    */
   async upload(text) {
-    this.dialog.close();
+    this.app.dialog.close();
     if (new Blob([text]).size > LARGEST) {
       this.app.notes.showMessage(t('This file is too large: a world has at most 1 MiB here.'), {ok: false});
       return false;

@@ -5,7 +5,7 @@ import {createElement, icon, inRow} from '../dom.js';
 import {t} from '../strings.js';
 import {noteSeen, strokeCard} from './strokes.js';
 import {EDIT, TIME} from './time_bar.js';
-import {TOOLS} from './toolbar.js';
+import {TOOLS} from '../tools/tools.js';
 
 /** @import {App} from '../types.js' */
 
@@ -23,7 +23,7 @@ const GESTURES = [
 ];
 const MOVING = [
   [t('Space'), t('Play or pause; held, dragging moves the view')],
-  [t('Arrow keys'), t('Move the cursor, with Shift in small steps; Enter presses and lifts the tool')],
+  [t('Arrow keys'), t('Move the cursor, with Shift in small steps; Enter presses and lifts the tool, or a handle')],
   ['R, Shift+R', t('Turn the body in the hand, while paused')],
   ['N, Shift+N', t('Select the next or the previous body')],
   ['W A S D', t('Drive the selected robot; Q and E move it sideways, if its drive can')],
@@ -39,15 +39,15 @@ const MOVING = [
 
 /** @param {App} app */
 export function showHelp(app) {
-  const key = (/** @type {string} */ name) => createElement('kbd', {textContent: name});
-  const keys = [...TOOLS.flat().map(([, name, letter]) => [key(letter.toUpperCase()), name]),
+  const key = (/** @type {string} */ name) => createElement('kbd', {}, name);
+  const keys = [...TOOLS.flat().map(({name, key: letter}) => [key(letter.toUpperCase()), name]),
     ...[...TIME, ...EDIT].map(([name, , letter]) => [key(letter), name]), ...MOVING.map(([name, does]) => [key(name), does])];
-  const tools = TOOLS.flat().map(([id, name, , hint]) => [icon(id), `${name}: ${hint}`]);
-  const strokes = [createElement('h3', {textContent: t('What the pen understands')}), strokeCard()];
+  const tools = TOOLS.flat().map(({id, name, hint}) => [icon(id), `${name}: ${hint}`]);
+  const strokes = [createElement('h3', {}, t('What the pen understands')), strokeCard()];
   noteSeen();
   const parts = [strokes, section(t('Keys'), keys)];
   if (TOUCHED.matches) parts.splice(1, 0, section(t('Gestures'), GESTURES), section(t('Tools'), tools));
-  app.gallery.show(t('Help'), inRow(...app.settings.fields()), ...parts.flat());
+  app.dialog.show(t('Help'), inRow(...app.settings.fields()), ...parts.flat());
 }
 
 /**
@@ -56,6 +56,6 @@ export function showHelp(app) {
  * @returns {Node[]}
  */
 function section(title, rows) {
-  return [createElement('h3', {textContent: title}), createElement('dl', {}, ...rows.map(([done, does]) =>
+  return [createElement('h3', {}, title), createElement('dl', {}, ...rows.map(([done, does]) =>
     createElement('div', {}, createElement('dt', {}, done), createElement('dd', {}, does))))];
 }

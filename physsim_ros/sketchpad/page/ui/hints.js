@@ -8,7 +8,7 @@
 import {createElement, elementOf} from '../dom.js';
 import {t} from '../strings.js';
 
-/** @import {App, Camera, WorldState} from '../types.js' */
+/** @import {App, WorldState} from '../types.js' */
 
 /** Id, text, icon of the button that is pointed at, and when it is true. @type {[string, string, string, ((world: WorldState) => boolean)?][]} */
 const STEPS = [
@@ -27,7 +27,7 @@ export class Hints {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.line = elementOf('hint', HTMLElement);
+    this.line = elementOf('hint');
     this.step = Number(localStorage.getItem(KEY) ?? 0);
     /** @type {Record<string, number>} how often tools were used after their hints */
     this.used = JSON.parse(localStorage.getItem(TOOLS) ?? '{}');
@@ -122,9 +122,7 @@ const HELD = 500; // ms that a finger stays on a button to ask what it does
 const GAP = 8; // px between a button and its tip, and to the edges of the page
 
 export class Tips {
-  /** @param {Camera} camera */
-  constructor(camera) {
-    this.camera = camera;
+  constructor() {
     this.tip = document.body.appendChild(createElement('div', {id: 'tip', role: 'tooltip', hidden: true}));
     /** @type {?HTMLElement} whose title is shown; it has none meanwhile, or the browser would show it too */
     this.owner = null;
@@ -164,7 +162,7 @@ export class Tips {
     this.tip.hidden = false;
     const {left, right, top, bottom, width, height} = owner.getBoundingClientRect();
     const tip = this.tip.getBoundingClientRect();
-    const column = owner.closest('#tools') && !this.camera.narrow;
+    const tools = owner.closest('#tools'), column = tools && tools.clientHeight > tools.clientWidth;
     const x = column ? right + GAP : left + (width - tip.width) / 2;
     const y = column ? top + (height - tip.height) / 2 :
       top > innerHeight / 2 ? top - tip.height - GAP : bottom + GAP;

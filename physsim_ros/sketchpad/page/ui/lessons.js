@@ -47,11 +47,11 @@ export class Lessons {
   /** @returns {Node[]} the list, with a heading; nothing where there are no lessons */
   section() {
     if (!this.list.length) return [];
-    return [createElement('h3', {textContent: t('Lessons')}),
+    return [createElement('h3', {}, t('Lessons')),
       createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
         createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.open({name, title})},
           createElement('strong', {}, number ? `${number}. ${t(title)} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
-          createElement('small', {textContent: t(question)})))))];
+          createElement('small', {}, t(question))))))];
   }
 
   /** @param {{name: string, title: string}} lesson */
@@ -68,7 +68,7 @@ export class Lessons {
     card.open = true;
     if (lesson) {
       card.replaceChildren(createElement('summary', {}, createElement('h2', {}, `${lesson.number}. ${t(lesson.title)}`)),
-        createElement('p', {textContent: t(lesson.question)}), ...app.viewOnly ? [] : this.#work(lesson));
+        createElement('p', {}, t(lesson.question)), ...app.viewOnly ? [] : this.#work(lesson));
     }
     app.room.fit();
   }
@@ -99,7 +99,7 @@ export class Lessons {
     const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
     if (next) buttons.push(textButton(t('Next lesson'), () => this.open(next)));
     return [
-      createElement('p', {}, createElement('strong', {textContent: t('To measure:')}), ` ${t(measure)}`),
+      createElement('p', {}, createElement('strong', {}, t('To measure:')), ` ${t(measure)}`),
       createElement('div', {className: 'answer'}, form, result),
       folded(t('Hint'), t(hint)), solution, inRow(...buttons)];
   }
@@ -110,7 +110,7 @@ export class Lessons {
  * @param {string} text that is shown when the title is pressed
  */
 function folded(title, text) {
-  return createElement('details', {}, createElement('summary', {textContent: title}), createElement('p', {textContent: text}));
+  return createElement('details', {}, createElement('summary', {}, title), createElement('p', {}, text));
 }
 
 function solvedMark() {

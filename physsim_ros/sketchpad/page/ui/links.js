@@ -26,7 +26,7 @@ export class Links {
 
   /** Show a link that holds the world as it is now, and copy it. */
   async copy() {
-    const {gallery, notes} = this.app, world = await gallery.text();
+    const {dialog, gallery, notes} = this.app, world = await gallery.text();
     if (world === null) return;
     const link = `${location.origin}/#world=${await packText(world)}`;
     if (link.length > LONGEST) {
@@ -34,7 +34,7 @@ export class Links {
       return;
     }
     const text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
-    gallery.show(t('A link that holds this world'), text);
+    dialog.show(t('A link that holds this world'), text);
     text.select();
     notes.showMessage(t('A link that holds this world'));
     await navigator.clipboard?.writeText(link).catch(() => {});
@@ -44,22 +44,22 @@ export class Links {
     const packed = WORLD.exec(location.hash)?.[1];
     if (!packed || this.app.viewOnly) return;
     history.replaceState(null, '', location.pathname + location.search);
-    this.app.gallery.show(t('This link contains a world'), inRow(textButton(t('Open it'), () => this.#open(packed))));
+    this.app.dialog.show(t('This link contains a world'), inRow(textButton(t('Open it'), () => this.#open(packed))));
   }
 
   /** @param {string} packed */
   async #open(packed) {
-    const {gallery, notes} = this.app, text = await unpackText(packed).catch(() => null);
+    const {dialog, gallery, notes} = this.app, text = await unpackText(packed).catch(() => null);
     if (text !== null) {
       await gallery.upload(text);
       return;
     }
-    gallery.dialog.close();
+    dialog.close();
     notes.showMessage(t('This link is broken, or its world is too large.'), {ok: false});
   }
 
   #offerLesson() {
-    const {lessons, gallery, notes, viewOnly, world} = this.app;
+    const {lessons, dialog, notes, viewOnly, world} = this.app;
     const name = decodeURIComponent(LESSON.exec(location.hash || location.search)?.[1] ?? '');
     const lesson = lessons.list.find((each) => each.name === name);
     if (!name || viewOnly) return;
@@ -67,7 +67,7 @@ export class Links {
     if (lesson && lesson.title === world.scene.lesson?.title) return;
     if (!lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
     else {
-      gallery.show(t(lesson.title), createElement('p', {textContent: t(lesson.question)}),
+      dialog.show(t(lesson.title), createElement('p', {}, t(lesson.question)),
         inRow(textButton(t('Open the lesson'), () => lessons.open(lesson))));
     }
   }

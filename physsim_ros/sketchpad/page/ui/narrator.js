@@ -24,7 +24,7 @@ export class Narrator {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.line = elementOf('moves', HTMLElement);
+    this.line = elementOf('moves');
     this.time = 0; // of the last frame [s]
     /** @type {Map<string, number>} when pairs of bodies touched last [s] */
     this.touched = new Map();
@@ -102,7 +102,7 @@ export class Narrator {
         t('at {x}, {y} m', {x: fixed(x, 1), y: fixed(y, 1)})].join(', ');
     });
     if (bodies.length > LISTED) texts.push(t('and {count} more', {count: bodies.length - LISTED}));
-    const list = elementOf('list', HTMLElement);
+    const list = elementOf('list');
     while (list.children.length > texts.length) list.lastChild?.remove();
     texts.forEach((text, i) => {
       showText(/** @type {HTMLElement} */ (list.children[i] ?? list.appendChild(createElement('li'))), text);

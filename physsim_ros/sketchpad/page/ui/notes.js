@@ -17,9 +17,8 @@ export class Notes {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    this.status = elementOf('status', HTMLElement);
-    this.places = elementOf('places', HTMLElement);
-    this.dock = elementOf('dock', HTMLElement); // of notes without a place
+    this.status = elementOf('status');
+    this.places = elementOf('places');
     this.dismissOffer = () => {};
     /** @type {Map<HTMLElement, () => ?Point>} */
     this.pinned = new Map();
@@ -38,6 +37,8 @@ export class Notes {
   /** @param {Answer} answer */
   #tell(answer) {
     const {request, ok, code, message, topic} = answer, own = request !== '';
+    // The button that opens the recording tells the same.
+    if (ok && topic === 'viewer') return;
     // A dialog asks about a name that is taken where a world is saved.
     if (SILENT.test(message) || own && code === 'exists' && topic === '~/save_world' || !own && performance.now() < this.until) return;
     const of = `${answer.page ?? ''} ${request}`, several = Number(answer.values?.requests ?? 0), rest = REST.test(message);
@@ -78,10 +79,10 @@ export class Notes {
   offer(message, label, done) {
     this.hide();
     this.dismissOffer();
-    this.dismissOffer = this.pin(() => null, [message, textButton(label, () => {
+    this.dismissOffer = this.dock([message, textButton(label, () => {
       this.dismissOffer();
       done();
-    })], {kind: 'docked', shown: OFFERED});
+    })], OFFERED);
   }
 
   /** Hide the last answer. */
@@ -90,23 +91,40 @@ export class Notes {
   }
 
   /**
-   * @param {() => ?Point} at [m], or null where that is gone
-   * @param {(Node | string)[]} content
-   * @param {{kind?: string, shown?: number}} how  shown: for how long [ms]; 0 is until it is taken away
+   * @param {(Node | string)[]} content of a note that has no place in the world
+   * @param {number} shown for how long [ms]; 0 is until it is taken away
    * @returns {() => void} takes it away
    */
-  pin(at, content, {kind = '', shown = READ} = {}) {
+  dock(content, shown = READ) {
+    return this.#add(elementOf('dock'), createElement('div', {className: 'note'}, ...content), shown);
+  }
+
+  /**
+   * @param {() => ?Point} at place of a note [m]; null where that is gone
+   * @param {(Node | string)[]} content
+   * @param {number} shown for how long [ms]; 0 is until it is taken away
+   * @param {string} kind
+   * @returns {() => void} takes it away
+   */
+  pin(at, content, shown = READ, kind = '') {
     const note = createElement('div', {className: `note ${kind}`}, ...content);
+    this.pinned.set(note, at);
+    const remove = this.#add(this.places, note, shown);
+    this.#place();
+    return remove;
+  }
+
+  /**
+   * @param {HTMLElement} parent
+   * @param {HTMLElement} note
+   * @param {number} shown [ms]
+   */
+  #add(parent, note, shown) {
     const remove = () => {
       note.remove();
       this.pinned.delete(note);
     };
-    if (kind === 'docked') this.dock.append(note);
-    else {
-      this.places.append(note);
-      this.pinned.set(note, at);
-      this.#place();
-    }
+    parent.append(note);
     if (shown) setTimeout(remove, shown);
     return remove;
   }
@@ -173,9 +191,7 @@ export class Refusals {
     app.notes.showMessage(reason, {ok: false, unseen: known.length > 0 || point !== null});
     this.dismiss();
     for (const name of known) this.bodies.set(name, performance.now());
-    app.view.dirty = true;
-    if (known.length) this.dismiss = app.notes.pin(() => world.topOf(known[0]), [reason], {kind: 'refusal'});
-    else if (point) this.dismiss = app.notes.pin(() => point, [reason], {kind: 'refusal'});
+    if (known.length || point) this.dismiss = app.notes.pin(() => known.length ? world.topOf(known[0]) : point, [reason], READ, 'refusal');
   }
 
   /** @param {SceneView} view */
@@ -185,6 +201,7 @@ export class Refusals {
       const row = this.app.world.row(name);
       if (now - since > OUTLINED || row < 0) this.bodies.delete(name);
       else view.outline(row, view.palette.warn);
+      // Until it has none.
       view.dirty = true;
     }
   }

@@ -35,7 +35,7 @@ export class EmptyCard {
   constructor(app) {
     this.app = app;
     this.closed = false;
-    this.element = elementOf('card', HTMLElement);
+    this.element = elementOf('card');
     app.connection.on('scene', () => this.update());
   }
 
@@ -47,7 +47,7 @@ export class EmptyCard {
     if (hidden === element.hidden) return;
     element.hidden = hidden;
     if (hidden) return;
-    element.replaceChildren(createElement('header', {}, createElement('h2', {textContent: t('Draw with the pen')}),
+    element.replaceChildren(createElement('header', {}, createElement('h2', {}, t('Draw with the pen')),
       iconButton(t('Close'), 'close', () => {
         this.closed = true;
         this.update();
@@ -128,19 +128,18 @@ export class Readings {
       // A rope may be meant as a chain: no stroke tells them apart.
       const other = guesses.slice(1).filter(([guess, sure], i) => i ? guess === 'chain' : sure > LIKELY)
         .map(([guess]) => this.#guessButton(t('or {meaning}', {meaning: thingWord(guess)}), request, guess));
-      // A note at the place would cover a running machine.
-      const kind = this.app.world.paused ? '' : 'docked';
       // Where somebody has chosen another guess, it is sure.
       const label = guesses.some(([, sure]) => sure > confidence) ? thingWord(meaning) : labelOf(meaning, confidence);
-      this.dismiss = this.app.notes.pin(() => at, [label, ...other],
-        other.length ? {kind} : {kind, shown: GLANCED});
+      const content = [label, ...other], shown = other.length ? undefined : GLANCED, {notes, world} = this.app;
+      // A note at the place would cover a running machine.
+      this.dismiss = world.paused ? notes.pin(() => at, content, shown) : notes.dock(content, shown);
       return;
     }
     const choices = guesses.map(([guess, sure]) => this.#guessButton(labelOf(guess, sure), request, guess));
     const close = textButton('×', () => this.dismiss());
     close.ariaLabel = t('Forget the stroke');
     const words = choices.length ? t('Not sure. Is it') : t('Not recognised');
-    const remove = this.app.notes.pin(() => at, [words, ...choices, close], {shown: 0});
+    const remove = this.app.notes.pin(() => at, [words, ...choices, close], 0);
     this.dismiss = () => {
       remove();
       this.#forget(request);
@@ -163,7 +162,6 @@ export class Readings {
   /** @param {string} request */
   #forget(request) {
     this.strokes.delete(request);
-    this.app.view.dirty = true;
   }
 }
 

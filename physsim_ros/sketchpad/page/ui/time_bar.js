@@ -7,15 +7,13 @@ import {localized, t} from '../strings.js';
 
 /** @import {App} from '../types.js' */
 
-/** Name, service, key. @type {[string, string, string][]} */
+/** Name, service, key, and what else it says. @type {[string, string, string, string?][]} */
 export const TIME = [
   [t('Fast rewind'), 'fast_rewind', 'Shift+J'], [t('Rewind'), 'rewind', 'J'], [t('Pause'), 'pause', 'K'],
-  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'], [t('Step'), 'step', '.'],
+  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'], [t('Step'), 'step', '.', t('one frame forward')],
 ];
-/** @type {[string, string, string][]} */
-export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0']];
-/** Additions to names of buttons. */
-const MORE = new Map([['step', `: ${t('one frame forward')}`], ['reset', `: ${t('back to the beginning')}`]]);
+/** @type {typeof TIME} */
+export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0', t('back to the beginning')]];
 /** States of the timeline, as the server has them. */
 const STATES = new Map([['rewinding', t('rewinding')], ['in the past', t('in the past')], ['playing', t('playing')], ['paused', t('paused')]]);
 const SPEEDS = [1, 0.5, 0.25, 0.1];
@@ -28,21 +26,20 @@ export class TimeBar {
   constructor(app) {
     this.app = app;
     this.slider = elementOf('slider', HTMLInputElement);
-    this.clock = elementOf('clock', HTMLElement);
-    this.marks = elementOf('marks', HTMLElement);
+    this.clock = elementOf('clock');
+    this.marks = elementOf('marks');
     /** @type {Map<string, HTMLElement>} of courses that were left, by id and name */
     this.rings = new Map();
     this.speed = elementOf('speed', HTMLButtonElement);
     /** @type {Map<string, HTMLButtonElement>} */
     this.buttons = new Map();
     for (const [id, group] of /** @type {const} */ ([['time', TIME], ['edit', EDIT]])) {
-      for (const [name, service, key] of group) {
-        const button = iconButton(name, service, () => this.callService(service), `${name}${MORE.get(service) ?? ''} (${key})`);
+      for (const [name, service, key, more = ''] of group) {
+        const button = iconButton(name, service, () => this.callService(service), `${name}${more && ': '}${more} (${key})`);
         this.buttons.set(service, button);
-        elementOf(id, HTMLElement).append(button);
+        elementOf(id).append(button);
       }
     }
-    this.on = ''; // the button that is pressed
     this.shown = ''; // speed
     /** @type {[number, number, number][]} wall time [ms], simulation time [s] and speed of the last frames */
     this.paces = [];
@@ -157,7 +154,7 @@ export class TimeBar {
     this.slowSince = reason ? this.slowSince || now : 0;
     if (!reason || this.explained || now - this.slowSince < EXPLAINED) return;
     this.explained = true;
-    this.app.notes.pin(() => null, [reason], {kind: 'docked'});
+    this.app.notes.dock([reason]);
   }
 
   #showTime() {
@@ -172,8 +169,6 @@ export class TimeBar {
     const on = speed === 0 ? 'pause' : speed > 1 ? 'fast_forward' : speed > 0 ? 'play' :
       speed < -1 ? 'fast_rewind' : 'rewind';
     this.#showSpeed(speed || this.rate);
-    if (on === this.on) return;
-    this.on = on;
     for (const [, service] of TIME.slice(0, 5)) {
       this.buttons.get(service)?.setAttribute('aria-pressed', String(service === on));
     }

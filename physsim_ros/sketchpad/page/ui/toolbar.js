@@ -5,65 +5,25 @@
  */
 
 import {createElement, elementOf, iconButton, showText, toggling} from '../dom.js';
-import {switchTheme} from './settings.js';
+import {showHelp} from './help.js';
+import {switchTheme} from '../view/theme.js';
 import {t} from '../strings.js';
-import {ClickTool} from '../tools/click_tool.js';
-import {Lasso, Pen} from '../tools/freehand.js';
-import {Hand} from '../tools/hand.js';
-import {InclineTool} from '../tools/incline.js';
-import {Protractor, Ruler} from '../tools/measuring.js';
-import {Note} from '../tools/note.js';
+import {TOOLS} from '../tools/tools.js';
 
 /** @import {App, Tool} from '../types.js' */
-
-/** Groups of tools: id, name, key, hint. @type {[string, string, string, string][][]} */
-export const TOOLS = [[
-  ['pen', t('Pen'), 'p', t('draw freely: circles, boxes, lines; a zigzag is a spring, a small circle an axle, an x an anchor')],
-  ['hand', t('Hand'), 'h', t('drag and throw bodies; tap one to change it')],
-  ['lasso', t('Lasso'), 's', t('select several bodies, to drag or delete them')],
-], [
-  ['circle', t('Circle'), 'c', t('from the centre to the rim')],
-  ['circle_diameter', t('Circle by diameter'), 'd', t('from edge to edge')],
-  ['rectangle', t('Rectangle'), 'b', t('drag from corner to corner, or click three')],
-  ['polygon', t('Polygon'), 'g', t('click each corner; click the first one again to close it')],
-  ['wall', t('Wall'), 'w', t('a fixed line')],
-  ['incline', t('Inclined plane'), '3', t('drag along the slope, or tap; its panel has its angle and length')],
-], [
-  ['anchor', t('Anchor'), 'a', t('fix a body to the background')],
-  ['release', t('Release'), 'e', t('remove anchor, pins and axles of a body')],
-  ['pin', t('Pin'), 'i', t('weld two bodies')],
-  ['axle', t('Axle'), 'x', t('let two bodies turn about a point')],
-  ['spring', t('Spring'), 'z', t('from body to body, or to the background')],
-  ['rod', t('Rod'), 'o', t('keeps two points at a distance')],
-  ['rope', t('Rope'), 'y', t('pulls, but does not push')],
-  ['chain', t('Chain'), '8', t('links from end to end; for a slack one, draw it with the pen as a rope')],
-], [
-  ['velocity', t('Velocity'), 'v', t('drag an arrow from a body: 1 m is 1 m/s')],
-  ['gravity', t('Gravity'), 'u', t('drag an arrow: that way is down')],
-  ['force', t('Force'), '1', t('drag an arrow from a point of a body: 1 m is a constant force of 10 N')],
-  ['knife', t('Knife'), '2', t('drag right through bodies: they are cut')],
-  ['delete', t('Delete'), 't', t('remove a body')],
-], [
-  ['ruler', t('Ruler'), 'm', t('drag from point to point; tap it to remove it')],
-  ['protractor', t('Protractor'), 'q', t('drag from the corner along one side, then click the other one; tap it to remove it')],
-  ['note', t('Note'), '9', t('press where it is to be, type, Enter')],
-]];
-
-/** @type {Record<string, new (app: App) => Tool>} */
-const OWN = {pen: Pen, hand: Hand, lasso: Lasso, incline: InclineTool, note: Note, ruler: Ruler, protractor: Protractor};
 
 export class Toolbar {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
-    /** @type {Map<string, {tool: Tool, button: HTMLButtonElement}>} */
+    /** @type {Map<string, {tool: Tool, button: HTMLButtonElement, hint: string}>} by id */
     this.tools = new Map();
-    const bar = elementOf('tools', HTMLElement);
+    const bar = elementOf('tools');
     for (const group of TOOLS) {
       const box = createElement('div', {role: 'group'});
-      for (const [id, name, key, hint] of group) {
+      for (const {id, name, key, hint, make} of group) {
         const button = iconButton(name, id, () => this.selectTool(id), `${name} (${key.toUpperCase()}): ${hint}`);
-        this.tools.set(id, {tool: OWN[id] ? new OWN[id](app) : new ClickTool(app, id), button});
+        this.tools.set(id, {tool: make(app), button, hint: `${name}: ${hint}.`});
         box.append(button);
       }
       bar.append(box);
@@ -81,8 +41,7 @@ export class Toolbar {
    */
   selectTool(id) {
     this.#select(id);
-    const [, name, , hint] = TOOLS.flat().find(([each]) => each === id) ?? ['', '', '', ''];
-    this.app.hints.showTool(id, `${name}: ${hint}.`);
+    this.app.hints.showTool(id, this.tools.get(id)?.hint ?? '');
   }
 
   /** @param {string} id */
@@ -93,7 +52,6 @@ export class Toolbar {
     this.app.tool = selected.tool;
     this.app.view.canvas.dataset.tool = id;
     for (const [each, {button}] of this.tools) button.setAttribute('aria-pressed', String(each === id));
-    this.app.view.dirty = true;
   }
 }
 
@@ -105,10 +63,10 @@ export class TopBar {
     app.view.overlays.push(() => showText(zoom, `${Math.round(100 * app.camera.scale / app.camera.whole)} %`));
     this.recording = createElement('a', {target: '_blank', rel: 'noopener', hidden: true, className: 'button',
       textContent: 'Rerun', title: t('The recording')});
-    elementOf('files', HTMLElement).append(
+    elementOf('files').append(
       iconButton(t('Worlds'), 'worlds', () => app.gallery.openWorlds(), t('Worlds to open')),
       iconButton(t('Save'), 'save', () => app.gallery.showSave(), t('Save, link, picture')));
-    elementOf('looks', HTMLElement).append(
+    elementOf('looks').append(
       this.#toggle('velocities', t('Show velocities'), 'velocities', t('Velocities as arrows, in m/s')),
       this.#toggle('forces', t('Show forces'), 'forces', t('Forces as arrows, in newtons; on a body that you tap, all')),
       iconButton(t('Material'), 'material', () => {
@@ -117,8 +75,8 @@ export class TopBar {
       }, t('Material of new bodies; gravity')),
       iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)')), zoom,
       iconButton(t('Light or dark'), 'theme', switchTheme),
-      iconButton(t('Help'), 'help', () => app.showHelp(), t('Help: keys and gestures (?)')));
-    elementOf('looks', HTMLElement).after(this.recording);
+      iconButton(t('Help'), 'help', () => showHelp(app), t('Help: keys and gestures (?)')));
+    elementOf('looks').after(this.recording);
     app.connection.on('recording', ({rerun}) => this.#link(rerun));
     app.connection.on('welcome', ({rerun}) => this.#link(rerun));
   }

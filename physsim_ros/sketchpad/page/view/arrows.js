@@ -78,7 +78,7 @@ export class Arrows {
     this.frozen = false; // the scale of velocities, while one is dragged
     /** @type {{name: string, kind: string, force: Point, size: string, from: Point, to: Point}[]} */
     this.drawn = []; // forces, as they are drawn
-    this.legend = elementOf('legend', HTMLElement);
+    this.legend = elementOf('legend');
     /** The scales in the legend, by their unit. @type {Record<string, HTMLElement>} */
     this.bars = {};
     this.hint = createElement('span');
@@ -94,7 +94,6 @@ export class Arrows {
     const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) => {
       return toggling(textButton(name, () => {}, kind), isOn, () => {
         change();
-        this.app.view.dirty = true;
       });
     };
     const {legend, off} = this;
@@ -176,7 +175,10 @@ export class Arrows {
     if (!some && !few) this.hint.textContent = t('Tap a body: its forces, and those of what touches it.');
     const forces = [...all, ...sums].filter((force) => !this.off.has(force.kind) && (some ? isSelected(force) || beside.has(force.row) : few));
     const shown = some ? forces : bearing(forces, world.scene.gravity);
-    this.newtons.fit(Math.max(...shown.map(({x, y}) => Math.hypot(x, y)), 0), room, world.paused);
+    const below = camera.height - view.insets.bottom;
+    // The tip of a weight on the floor lies above the bar of time.
+    this.newtons.fit(Math.max(...shown.map(({at, x, y}) =>
+      Math.max(Math.hypot(x, y), -y * room / Math.max(below - camera.toPage(...at)[1], BAR / 2))), 0), room, world.paused);
     for (const force of shown) {
       const {kind, row, at, x, y} = force, named = some && isSelected(force), color = colorOf(kind, view.palette);
       const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${NAMES[kind]} ${size}` : size;

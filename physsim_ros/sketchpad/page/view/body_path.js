@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The geometry of bodies in their own frames: paths to draw, points to hit, extents. */
 
-/** @import {Point, Shape} from '../types.js' */
+/** @import {Bounds, Point, Shape} from '../types.js' */
 
 const INNER = 0.98; // share of a radius: a point that counts as one within
 
@@ -28,12 +28,11 @@ export function pathOf(shape) {
 /**
  * @param {Shape} shape
  * @param {(point: Point) => Point} place from its frame to the world
- * @returns {number[]} xmin, ymin, xmax, ymax in the world [m]
+ * @returns {Bounds} in the world
  */
 export function boundsOf(shape, place) {
   if (shape.kind === 'pieces') return unionOf(shape.pieces.map((piece) => boundsOf(piece, place)));
-  const points = shape.kind === 'disc' ? [shape.center ?? [0, 0]] : shape.outline ?? shape.points;
-  const radius = shape.radius ?? 0;
+  const {points, radius} = skeletonOf(shape);
   return unionOf(points.map(place).map(([x, y]) => [x - radius, y - radius, x + radius, y + radius]));
 }
 
@@ -44,8 +43,17 @@ export function boundsOf(shape, place) {
  */
 export function reachOf(shape, [x, y]) {
   if (shape.kind === 'pieces') return Math.max(...shape.pieces.map((piece) => reachOf(piece, [x, y])));
-  const points = shape.kind === 'disc' ? [shape.center ?? [0, 0]] : shape.outline ?? shape.points;
-  return Math.max(...points.map(([px, py]) => Math.hypot(px - x, py - y))) + (shape.radius ?? 0);
+  const {points, radius} = skeletonOf(shape);
+  return Math.max(...points.map(([px, py]) => Math.hypot(px - x, py - y))) + radius;
+}
+
+/**
+ * @param {Shape} shape of one piece
+ * @returns {{points: Point[], radius: number}} points within the shape, and how far it reaches beyond them [m]
+ */
+function skeletonOf({kind, center = [0, 0], radius, outline, points, thickness}) {
+  if (kind === 'disc') return {points: [center], radius};
+  return kind === 'chain' ? {points, radius: thickness / 2} : {points: outline, radius: 0};
 }
 
 /**
@@ -61,12 +69,15 @@ export function scaledShape({kind, radius, width, height, outline, points, thick
 }
 
 /**
- * @param {number[][]} boxes xmin, ymin, xmax, ymax
- * @returns {number[]} the least box around them; infinite where there are none
+ * @param {Bounds[]} boxes
+ * @returns {Bounds} the least box around them; infinite where there are none
  */
 export function unionOf(boxes) {
-  return boxes.reduce(([left, low, right, high], box) => [Math.min(left, box[0]), Math.min(low, box[1]),
-    Math.max(right, box[2]), Math.max(high, box[3])], [Infinity, Infinity, -Infinity, -Infinity]);
+  let [left, low, right, high] = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const box of boxes) {
+    [left, low, right, high] = [Math.min(left, box[0]), Math.min(low, box[1]), Math.max(right, box[2]), Math.max(high, box[3])];
+  }
+  return [left, low, right, high];
 }
 
 /**

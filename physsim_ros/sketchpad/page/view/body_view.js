@@ -3,7 +3,7 @@
 
 import {pathOf, reachOf} from './body_path.js';
 
-/** @import {Body, Camera, Frame, Palette, Point} from '../types.js' */
+/** @import {Body, Frame, Point, SceneView} from '../types.js' */
 
 /** @typedef {{path: Path2D, reach: number, radius: number, inner: number, plain: boolean, dark: boolean,
  *   fill: string, line: string, tiny: string}} Appearance
@@ -17,24 +17,19 @@ const RIM = 1.2, MARK = 1.8; // px
 const SHEER = 0.35; // opacity of a sensor
 
 export class BodyView {
-  /**
-   * @param {CanvasRenderingContext2D} ctx
-   * @param {Camera} camera
-   */
-  constructor(ctx, camera) {
-    this.ctx = ctx;
-    this.camera = camera;
-    this.ratio = 1; // pixels of the screen to one of the page
-    this.ink = '';
+  /** @param {SceneView} view */
+  constructor(view) {
+    this.view = view;
+    this.ctx = view.ctx;
+    this.camera = view.camera;
     /** @type {CanvasPattern[]} */
     this.hatches = [];
     /** @type {WeakMap<Body, Appearance>} */
     this.appearances = new WeakMap();
   }
 
-  /** @param {Palette} palette */
-  repaint({ink}) {
-    this.ink = ink;
+  /** Follow the colours of the page. */
+  repaint() {
     this.hatches = [this.#hatch('#111'), this.#hatch('#eee')]; // on light bodies, and on dark ones
     this.appearances = new WeakMap();
   }
@@ -64,7 +59,7 @@ export class BodyView {
    * @param {Point} by displacement [m]
    */
   setTransform(frame, row, by = [0, 0]) {
-    const {camera, ratio} = this, scale = camera.scale * ratio;
+    const {camera, view: {ratio}} = this, scale = camera.scale * ratio;
     const cos = scale * Math.cos(frame.yaw[row]), sin = scale * Math.sin(frame.yaw[row]);
     const [px, py] = camera.toPage(frame.x[row] + by[0], frame.y[row] + by[1]);
     this.ctx.setTransform(cos, -sin, -sin, -cos, px * ratio, py * ratio);
@@ -185,7 +180,7 @@ export class BodyView {
    */
   #drawRim({sensor}, {path, dark}, pixel) {
     const {ctx} = this, hatch = this.hatches[Number(dark)];
-    hatch.setTransform(ctx.getTransform().inverse().scaleSelf(this.ratio, this.ratio));
+    hatch.setTransform(ctx.getTransform().inverse().scaleSelf(this.view.ratio, this.view.ratio));
     ctx.save();
     ctx.clip(path);
     ctx.globalAlpha = sensor ? SHEER : 1;
@@ -210,7 +205,7 @@ export class BodyView {
     ctx.lineWidth = width;
     ctx.stroke(path);
     if (!anchored) return;
-    ctx.strokeStyle = this.ink;
+    ctx.strokeStyle = this.view.palette.ink;
     ctx.lineWidth = 1.2 * pixel;
     ctx.globalAlpha = 0.55;
     ctx.beginPath();

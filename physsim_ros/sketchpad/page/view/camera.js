@@ -3,10 +3,9 @@
 
 import {roundUp} from '../rounding.js';
 
-/** @import {Point} from '../types.js' */
+/** @import {Bounds, Point} from '../types.js' */
 
 const LEAST_SCALE = 0.5, GREATEST_SCALE = 5000; // px/m
-const NARROW = matchMedia('(max-width: 700px) and (min-height: 501px), (max-width: 559px)'); // as in style.css: tools below
 const LEAST_STEP = 70; // px between labelled lines of the grid
 const LEAST_SPAN = 4; // m; nothing smaller fills the page at first
 
@@ -17,11 +16,6 @@ export class Camera {
     this.width = this.height = 1; // of the page [px]
     this.fitted = false; // nobody has moved the view since
     this.whole = 60; // scale that was fitted last [px/m]
-  }
-
-  /** @returns {boolean} whether tools and panel lie below */
-  get narrow() {
-    return NARROW.matches;
   }
 
   /** @returns {number} from one labelled line of the grid to the next [m] */
@@ -77,7 +71,7 @@ export class Camera {
   }
 
   /**
-   * @param {number[]} box xmin, ymin, xmax, ymax [m]
+   * @param {Bounds} box
    * @param {{left: number, top: number, right: number, bottom: number}} insets covered [px]
    */
   fit([xmin, ymin, xmax, ymax], insets) {

@@ -3,8 +3,7 @@
 
 import {distance, rotated} from '../vectors.js';
 
-/** @import {BodyView} from './body_view.js' */
-/** @import {Camera, Joint, Palette, Point, WorldState} from '../types.js' */
+/** @import {Joint, Point, SceneView} from '../types.js' */
 
 const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
@@ -13,24 +12,18 @@ const RAIL = 1; // m of rail shown to each side where there is no limit
 const TENSE = 10; // weights at which a joint is drawn in the colour of warning
 
 export class JointView {
-  /**
-   * @param {CanvasRenderingContext2D} ctx in pixels of the page
-   * @param {WorldState} world
-   * @param {Camera} camera
-   * @param {Palette} palette
-   * @param {BodyView} bodies
-   */
-  constructor(ctx, world, camera, palette, bodies) {
-    this.ctx = ctx;
-    this.bodies = bodies;
-    this.world = world;
-    this.camera = camera;
-    this.palette = palette;
-    this.size = Math.min(Math.max(SIZE * camera.scale, LEAST), GREATEST);
+  /** @param {SceneView} view whose canvas is in pixels of the page */
+  constructor(view) {
+    this.view = view;
+    this.ctx = view.ctx;
+    this.world = view.world;
+    this.camera = view.camera;
+    this.size = 0; // of symbols now [px]
   }
 
   draw() {
-    const {ctx, world, palette} = this;
+    const {ctx, world, camera, view: {palette}} = this;
+    this.size = Math.min(Math.max(SIZE * camera.scale, LEAST), GREATEST);
     ctx.lineJoin = ctx.lineCap = 'round';
     const gravity = Math.hypot(...world.scene.gravity) || 9.81;
     world.scene.joints.forEach((joint, number) => {
@@ -93,7 +86,7 @@ export class JointView {
 
   /** @param {number} row of a body, whether it has room for a symbol */
   #hasRoom(row) {
-    return this.bodies.appearance(this.world.scene.bodies[row]).inner * this.camera.scale > this.size;
+    return this.view.bodies.appearance(this.world.scene.bodies[row]).inner * this.camera.scale > this.size;
   }
 
   /** @param {Point} point [m] */

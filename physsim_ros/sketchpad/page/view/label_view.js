@@ -7,7 +7,7 @@
 import {fixed, multiplesOf} from '../rounding.js';
 import {rotated} from '../vectors.js';
 
-/** @import {Camera, Frame, Palette, Point, SceneView} from '../types.js' */
+/** @import {Frame, Point, SceneView} from '../types.js' */
 
 /**
  * @typedef {{text: string, color: string, tip: Point, along: Point, from?: Point, named?: boolean}} Numbered a number at
@@ -130,13 +130,8 @@ function crosses([left, top, right, bottom], [px, py], [qx, qy]) {
 
 const DOT = 4; // px: of a hit
 
-/**
- * @param {CanvasRenderingContext2D} ctx in pixels of the page
- * @param {Camera} camera
- * @param {Palette} palette
- * @param {{left: number, bottom: number}} insets where the rulers lie [px]
- */
-export function drawGrid(ctx, camera, palette, insets) {
+/** @param {SceneView} view whose rulers lie at its insets */
+export function drawGrid({ctx, camera, palette, insets}) {
   const step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
   const [left, top] = camera.toWorld(0, 0), [right, bottom] = camera.toWorld(camera.width, camera.height);
   const pixelX = (/** @type {number} */ x) => Math.round(camera.toPage(x, 0)[0]) + 0.5;
@@ -171,12 +166,10 @@ export function drawGrid(ctx, camera, palette, insets) {
 }
 
 /**
- * @param {CanvasRenderingContext2D} ctx
- * @param {Camera} camera
- * @param {Palette} palette
+ * @param {SceneView} view
  * @param {NonNullable<Frame['scan']>} scan
  */
-export function drawScan(ctx, camera, {accent, force}, {x, y, hit}) {
+export function drawScan({ctx, camera, palette: {accent, force}}, {x, y, hit}) {
   ctx.fillStyle = accent;
   ctx.globalAlpha = 0.16;
   ctx.beginPath();

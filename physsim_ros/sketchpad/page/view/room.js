@@ -10,7 +10,7 @@
 import {elementOf} from '../dom.js';
 import {unionOf} from './body_path.js';
 
-/** @import {App} from '../types.js' */
+/** @import {App, Bounds} from '../types.js' */
 
 /** @typedef {{left: number, top: number, right: number, bottom: number}} Box [px] */
 
@@ -27,18 +27,19 @@ export class Room {
     this.app = app;
     this.framed = false;
     this.bounds = ''; // of the world that was framed; a world with other bounds is framed again
-    this.extent = [0, 0, 0, 0]; // that was framed [m]
+    /** @type {Bounds} that was framed */
+    this.extent = [0, 0, 0, 0];
     this.late = false; // whether the world is framed when the gesture ends
     app.view.overlays.push(() => {
       if (this.late && !this.#isInGesture) this.fit();
     });
-    const bar = elementOf('bar', HTMLElement), top = elementOf('top', HTMLElement);
+    const bar = elementOf('bar'), top = elementOf('top');
     const sizes = new ResizeObserver(() => {
       document.documentElement.style.setProperty('--bar', `${bar.offsetHeight}px`);
       document.documentElement.style.setProperty('--top', `${top.offsetHeight}px`);
       this.fit();
     });
-    for (const each of [bar, top, elementOf('lesson', HTMLElement), app.view.canvas]) sizes.observe(each, {box: 'border-box'});
+    for (const each of [bar, top, elementOf('lesson'), elementOf('card'), app.view.canvas]) sizes.observe(each, {box: 'border-box'});
     app.connection.on('frame', () => {
       const {frame, scene} = app.world, others = String(scene.bounds) !== this.bounds;
       if (frame.epoch === scene.epoch && (!this.framed || others && app.camera.fitted)) this.frame();
@@ -88,7 +89,7 @@ export class Room {
     /** How large the world is in a room [px/m]. */
     const scaleIn = (/** @type {Box} */ {left, top, right, bottom}) => Math.min(
       (right - left - 2 * gap - LABELS) / (xmax - xmin || 1), (bottom - top - 2 * gap) / (ymax - ymin || 1));
-    const plot = elementOf('plot', HTMLElement), page = {left: 0, top: 0, right: camera.width, bottom: camera.height};
+    const plot = elementOf('plot'), page = {left: 0, top: 0, right: camera.width, bottom: camera.height};
     const room = largestRoom(page, this.#covered(), plot.hidden ? scaleIn : (each) => Math.max(...besidePlot(each).map(scaleIn)));
     if (!plot.hidden) dockPlot(plot, room, scaleIn);
     dockLegend(room);
@@ -107,12 +108,12 @@ export class Room {
   /** @returns {Box[]} what panels and bars cover */
   #covered() {
     const {camera, viewOnly} = this.app, shown = viewOnly ? ['bar', 'lesson'] : ['top', 'tools', 'bar', 'lesson', 'panel', 'card'];
-    return shown.map((id) => elementOf(id, HTMLElement)).filter(({hidden}) => !hidden).map((element) => {
+    return shown.map((id) => elementOf(id)).filter(({hidden}) => !hidden).map((element) => {
       const {left, top, right, bottom} = element.getBoundingClientRect();
       // Bars reach to their edges of the page. So does a panel that folds while time runs: the view stays.
       if (element.id === 'top') return {left, top: 0, right: camera.width, bottom};
       if (element.id === 'bar' && !viewOnly) return {left: 0, top, right: camera.width, bottom: camera.height};
-      if (element.id === 'tools' && !camera.narrow) return {left: 0, top: 0, right, bottom: camera.height};
+      if (element.id === 'tools' && bottom - top > right - left) return {left: 0, top: 0, right, bottom: camera.height};
       if (element.id === 'panel' && this.isRoomy) return {left, top, right: camera.width, bottom: camera.height};
       return {left, top, right, bottom};
     });
@@ -168,7 +169,7 @@ function dockPlot(plot, room, scaleIn) {
 
 /** @param {Box} room at whose upper edge the legend is docked */
 function dockLegend(room) {
-  const legend = elementOf('legend', HTMLElement);
+  const legend = elementOf('legend');
   if (legend.hidden) return;
   Object.assign(legend.style, {left: `${room.left + DOCKED}px`, top: `${room.top + DOCKED}px`, maxWidth: `${room.right - room.left - 2 * DOCKED}px`});
   room.top += legend.offsetHeight + DOCKED;

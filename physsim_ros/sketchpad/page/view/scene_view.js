@@ -4,12 +4,13 @@
 import {BodyView} from './body_view.js';
 import {JointView} from './joint_view.js';
 import {drawGrid, drawLabels, drawNumbers, drawScan} from './label_view.js';
-import {readPalette, watchTheme} from '../ui/settings.js';
+import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
 /** @import {Numbered} from './label_view.js' */
 
 const HEAD = 9, RIM = 1.5; // px: head of an arrow, and the rim of paper around it
+const ASIDE = 14; // px from a pointer to what is written beside it
 const DASHED = 9; // px: half of the size from which on the outline of a ghost is dashed
 
 export class SceneView {
@@ -24,13 +25,14 @@ export class SceneView {
     this.camera = camera;
     this.ctx = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', {alpha: false}));
     this.palette = readPalette();
-    this.bodies = new BodyView(this.ctx, camera);
+    this.bodies = new BodyView(this);
+    this.joints = new JointView(this);
     /** @type {((view: SceneView) => void)[]} */
     this.overlays = [];
     /** @type {Numbered[]} of the arrows that were drawn */
     this.numbers = [];
     this.insets = {left: 0, top: 0, right: 0, bottom: 0}; // covered by bars [px]
-    this.ratio = 1;
+    this.ratio = 1; // pixels of the screen to one of the page
     this.dirty = true;
     this.drawn = -1; // version of the world
     new ResizeObserver(() => this.#resize()).observe(canvas);
@@ -45,12 +47,12 @@ export class SceneView {
 
   #repaint() {
     this.palette = readPalette();
-    this.bodies.repaint(this.palette);
+    this.bodies.repaint();
     this.dirty = true;
   }
 
   #resize() {
-    this.ratio = this.bodies.ratio = devicePixelRatio;
+    this.ratio = devicePixelRatio;
     this.camera.width = this.canvas.clientWidth;
     this.camera.height = this.canvas.clientHeight;
     this.canvas.width = Math.round(this.camera.width * this.ratio);
@@ -65,13 +67,13 @@ export class SceneView {
     this.#toPixels();
     ctx.fillStyle = palette.paper;
     ctx.fillRect(0, 0, camera.width, camera.height);
-    drawGrid(ctx, camera, palette, this.insets);
+    drawGrid(this);
     this.#drawBounds();
-    if (world.frame.scan) drawScan(ctx, camera, palette, world.frame.scan);
+    if (world.frame.scan) drawScan(this, world.frame.scan);
     for (let row = 0; row < world.count; row++) this.bodies.draw(world.frame, row, world.scene.bodies[row]);
     if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     this.#toPixels();
-    if (world.count) new JointView(ctx, world, camera, palette, this.bodies).draw();
+    if (world.count) this.joints.draw();
     drawLabels(this);
     this.#drawHands();
     this.numbers = [];
@@ -230,6 +232,14 @@ export class SceneView {
     ctx.strokeText(text, x, y);
     ctx.fillStyle = color;
     ctx.fillText(text, x, y);
+  }
+
+  /**
+   * @param {string} text what a gesture measures
+   * @param {{page: Point}} pointer beside which it is written
+   */
+  tell(text, {page: [x, y]}) {
+    this.write(text, [x + ASIDE, y - ASIDE], this.palette.accent);
   }
 
   /**

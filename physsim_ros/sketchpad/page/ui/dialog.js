@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The dialog over the page: worlds, help, people, a link. It shows one thing at a time, by its title. */
+
+import {createElement, elementOf, iconButton} from '../dom.js';
+import {t} from '../strings.js';
+
+const PRESSED = 200; // ms until it is looked again whether the dialog is still pressed
+
+export class Dialog {
+  constructor() {
+    this.element = elementOf('dialog', HTMLDialogElement);
+    this.element.addEventListener('click', ({target}) => target === this.element && this.close());
+  }
+
+  get isOpen() {
+    return this.element.open;
+  }
+
+  /**
+   * @param {string} title
+   * @param {Node[]} content
+   */
+  show(title, ...content) {
+    const {element} = this, top = this.#shows(title) ? element.scrollTop : 0;
+    element.ariaLabel = title;
+    element.replaceChildren(createElement('header', {}, createElement('h2', {}, title),
+      iconButton(t('Close'), 'close', () => this.close(), '')),
+    ...content);
+    if (!element.open) element.showModal();
+    element.scrollTop = top;
+  }
+
+  /**
+   * Show what has changed, where the dialog shows that; but not while it is pressed: its button would be gone when it is let go.
+   * @param {string} title
+   * @param {() => void} show
+   */
+  renew(title, show) {
+    if (!this.#shows(title)) return;
+    if (this.element.matches(':active')) setTimeout(() => this.renew(title, show), PRESSED);
+    else show();
+  }
+
+  close() {
+    this.element.close();
+  }
+
+  /** @param {string} title */
+  #shows(title) {
+    return this.element.open && this.element.ariaLabel === title;
+  }
+}
