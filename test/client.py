@@ -83,10 +83,9 @@ class Client:
         before = len(self.events)
         self.publish(topic, message)
         # Requests that have arrived are carried out twice, so that a second answer would be heard.
-        for _ in range(2):
-            self.physsim.settle()
-            self.physsim.node.apply_requests()
         self.physsim.settle()
+        for _ in range(2):
+            self.catch_up()
         return self.events[before:]
 
     def listen(self, kind: type, topic: str, qos: Any = None) -> list[Any]:
@@ -97,6 +96,16 @@ class Client:
         )
         self.spin_until(subscription.get_publisher_count)
         return received
+
+    @property
+    def refusals(self) -> list[Event]:
+        """Return the events that tell of no success."""
+        return [event for event in self.events if event.code != 'ok']
+
+    def catch_up(self) -> None:
+        """Have the world carry out what it was asked, and hear what it tells of that."""
+        self.physsim.node.apply_requests()
+        self.physsim.settle()
 
     def call(self, service: str) -> Any:
         """Call one of the world's services of type Trigger, and return its response."""

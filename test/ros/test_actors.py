@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from physsim_ros.testing import disc, PhysSim, Refused
+from physsim_ros.testing import disc, PhysSim
 import pytest
 
 PATH = {'kind': 'path', 'points': [[0, 0], [4, 0]], 'speed': 1.0}
@@ -20,21 +20,6 @@ def test_a_marker_makes_an_actor_and_another_one_changes_it(physsim: PhysSim) ->
     physsim.run(1.0)
     cart = physsim.pose('cart/0')
     assert (cart.x, cart.y) == pytest.approx((1.0, 1.0), abs=1e-6)
-
-
-def test_an_actor_that_cannot_be_is_refused_with_its_field(physsim: PhysSim) -> None:
-    waits = {**PATH, 'start': {'gate': 'door/0'}}
-    for actor, code, field in (
-        (waits, 'unknown_body', 'gate'),
-        ({**PATH, 'speed': 0}, 'bad_property', 'speed'),
-        ({'kind': 'walk', 'points': [[0, 0]]}, 'bad_property', 'kind'),
-        ({**PATH, 'sped': 1}, 'unknown_property', 'sped'),
-        ({**PATH, 'points': [[0, 0], [1]]}, 'malformed', 'points'),
-    ):
-        with pytest.raises(Refused) as caught:
-            physsim.spawn(disc('cart/0', actor=actor))
-        assert (caught.value.code, caught.value.field) == (code, field)
-    assert not physsim.names
 
 
 def test_an_actor_goes_back_with_time_and_comes_again_to_the_bit(physsim: PhysSim) -> None:
