@@ -113,6 +113,11 @@ class Page:
         self.browser.until(lambda: self.answers(id_))
         return self.answers(id_)[-1]
 
+    def spawn(self, name: str, x: float = 0.0, y: float = 5.0, **fields: Any) -> dict[str, Any]:
+        """Add a body, a disc where its fields have no shape, and return the answer."""
+        shape = {} if {'box', 'polygon', 'robot'} & fields.keys() else {'circle': {'radius': 0.5}}
+        return self.ask('spawn', body={'name': name, 'at': [x, y], **shape, **fields})
+
     def until(self, predicate: Callable[[], object]) -> None:
         self.browser.until(predicate)
 
@@ -173,6 +178,16 @@ class Browser:
             raise_error=False,
             **options,
         )
+
+    def upload(self, text: str, path: str = '/world', **options: Any) -> HTTPResponse:
+        """Return the response to a file that is sent, whatever its status."""
+        headers = {'Origin': self.base} | options.pop('headers', {})
+        return self.fetch(path, method='POST', body=text, headers=headers, **options)
+
+    def open_world(self, text: str) -> dict[str, Any]:
+        """Replace the world by that of a text, and return the answer."""
+        answer: dict[str, Any] = json.loads(self.upload(text).body)
+        return answer
 
     def login_cookie(self, url: str) -> str:
         """Log in, and return the cookie; '' where none is given."""
