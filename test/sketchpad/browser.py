@@ -137,8 +137,8 @@ class Browser:
         self.physsim = physsim
         sketchpad = physsim.node.outputs.sketchpad
         assert sketchpad is not None
+        self.url = sketchpad.url
         self.login = sketchpad.url()
-        self.view_login = sketchpad.url(Role.VIEW)
         self.base = self.login.partition('/login')[0]
         self.loop = asyncio.new_event_loop()
         self.cookie = self.login_cookie(self.login)
@@ -193,6 +193,10 @@ class Browser:
         """Log in, and return the cookie; '' where none is given."""
         response = self.fetch(url.removeprefix(self.base), cookie='')
         return response.headers.get('Set-Cookie', '').partition(';')[0]
+
+    def cookie_of(self, role: Role) -> str:
+        """Log in by the address of a role, and return the cookie."""
+        return self.login_cookie(self.url(role))
 
     def open_page(
         self, path: str = '/ws', *, cookie: str | None = None, origin: str | None = None

@@ -69,10 +69,8 @@ def assert_failed(answer: dict[str, Any]) -> None:
 
 
 def test_messages_on_the_thread_of_the_world(doors: PageDoors) -> None:
-    server = doors.node.outputs.sketchpad
-    assert server is not None
     # A teacher's page may send all kinds.
-    page = doors.browser.open_page(cookie=doors.browser.login_cookie(server.url(Role.TEACH)))
+    page = doors.browser.open_page(cookie=doors.browser.cookie_of(Role.TEACH))
     kinds = sorted(KINDS.keys() - {'show', 'here'})
     for kind in kinds:
         doors.monkeypatch.setitem(KINDS, kind, KINDS[kind]._replace(handle=fail, fields={}))

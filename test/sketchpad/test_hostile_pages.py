@@ -121,7 +121,7 @@ def test_a_page_behind_a_proxy_with_tls_opens_a_socket(browser: Browser) -> None
 
 
 def test_a_page_that_only_shows_changes_nothing(browser: Browser) -> None:
-    cookie = browser.login_cookie(browser.view_login)
+    cookie = browser.cookie_of(Role.VIEW)
     pages = [browser.open_page('/ws?view'), browser.open_page('/ws', cookie=cookie)]
     before = browser.physsim.digest()
     for page in pages:

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import text_of
 from physsim_ros.model.snapshot import Answer, Grip
-from physsim_ros.sketchpad import open_pages, past
+from physsim_ros.sketchpad import open_pages, past, Role
 from physsim_ros.sketchpad.frame_codec import Show
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
@@ -67,7 +67,7 @@ def test_a_page_that_only_shows_gets_the_contacts_of_a_paused_world(browser: Bro
         assert drawing.ask('spawn', body=body | {'anchored': anchored})['ok']
     physsim.run(0.1)
     physsim.node.simulation.speed = 0.0
-    page = browser.open_page(cookie=browser.login_cookie(browser.view_login))
+    page = browser.open_page(cookie=browser.cookie_of(Role.VIEW))
     page.until(lambda: page.frames)
     page.send('show', contacts=True)
     page.until(lambda: physsim.node.outputs.wants_contacts)
