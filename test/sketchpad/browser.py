@@ -104,6 +104,11 @@ class Page:
     def of_type(self, kind: str) -> list[dict[str, Any]]:
         return [each for each in self.messages if each['type'] == kind]
 
+    def last(self, kind: str) -> dict[str, Any]:
+        """Wait for a message of a type, and return the last one."""
+        self.until(lambda: self.of_type(kind))
+        return self.of_type(kind)[-1]
+
     def answers(self, id_: str) -> list[dict[str, Any]]:
         return [each for each in self.of_type('answer') if each['request'] == id_]
 
@@ -179,7 +184,7 @@ class Browser:
             **options,
         )
 
-    def upload(self, text: str, path: str = '/world', **options: Any) -> HTTPResponse:
+    def upload(self, text: str | bytes, path: str = '/world', **options: Any) -> HTTPResponse:
         """Return the response to a file that is sent, whatever its status."""
         headers = {'Origin': self.base} | options.pop('headers', {})
         return self.fetch(path, method='POST', body=text, headers=headers, **options)
