@@ -21,6 +21,7 @@ from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
+from .journey import clock_of, SECOND
 from .messages import circle, DOWN, feedback, grid, MOVE, stroke
 from ..client import Client, Event
 
@@ -139,6 +140,11 @@ PLACES: list[tuple[str, Any, str, str]] = [
         spoiled(plan(), 'info.origin.orientation.x', 1.0),
         'not_planar',
         'info.origin.orientation',
+    ),
+    # Just before the oldest step, after the newest one, and as far off as a clock tells.
+    *(
+        ('~/seek', clock_of(stamp), 'out_of_history', 'clock')
+        for stamp in (-3_000_000, 1000 * SECOND, 2_000_000_000 * SECOND)
     ),
     ('~/speed', Float64(data=NAN), 'malformed', 'speed'),
     ('~/speed', Float64(data=INF), 'malformed', 'speed'),

@@ -8,7 +8,7 @@ from __future__ import annotations
 from itertools import pairwise
 from pathlib import Path
 
-from physsim_ros.testing import box, disc, PhysSim
+from physsim_ros.testing import disc, PhysSim
 import pytest
 from rcl_interfaces.srv import SetParameters
 from rclpy.parameter import Parameter
@@ -57,28 +57,6 @@ def test_a_step_is_one_publish_period(physsim: PhysSim, client: Client) -> None:
         assert physsim.pose('body/0').y == pytest.approx(5.0 - fallen, abs=1e-9)
 
 
-def test_a_step_is_refused_while_time_runs(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(box())
-    before = physsim.digest()
-    assert 'pause' in failed(client.call('~/step'))
-    assert physsim.digest() == before
-    assert physsim.time == 0.0
-
-
-def test_a_paused_world_takes_and_answers_requests(journey: Journey, client: Client) -> None:
-    succeeded(client.call('~/pause'))
-    client.publish('~/spawn', box('a/0', at=(1.0, 2.0)))
-    journey.physsim.settle()
-    steps_after(journey, 2)
-    assert [(event.name, event.code) for event in client.events] == [
-        ('~/pause', 'ok'),
-        ('~/spawn', 'ok'),
-    ]
-    assert journey.physsim.pose('a/0') == (1.0, 2.0, 0.0)
-    steps_after(journey, 5)
-    assert journey.physsim.pose('a/0') == (1.0, 2.0, 0.0)
-
-
 # Speed
 
 
@@ -97,32 +75,7 @@ def test_time_runs_at_the_speed_that_is_set(
         assert all(step % 4 == 0 for step in steps)
 
 
-# Clear, reset
-
-
-def test_clear_deletes_all_bodies_and_time_goes_on(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(disc('a/0', at=(0.0, 5.0)))
-    time = physsim.time
-    bodies = len(physsim.names)
-    assert str(bodies) in succeeded(client.call('~/clear'))
-    assert physsim.names == ()
-    assert physsim.time == time
-    physsim.spawn(disc())
-    physsim.step()
-    assert physsim.time > time
-
-
 # Save, load
-
-
-def test_time_goes_on_over_a_load(physsim: PhysSim, client: Client) -> None:
-    physsim.run(0.5)
-    set_parameter(physsim, 'world_file', 'demo')
-    message = succeeded(client.call('~/load_world'))
-    assert 'demo' in message
-    assert physsim.time == pytest.approx(0.5)
-    assert 'ramp/0' in physsim.names
-    assert list(parameter(physsim, 'bounds')) == [-10.0, 0.0, 10.0, 12.0]
 
 
 def test_a_world_is_loaded_by_the_path_of_its_file(

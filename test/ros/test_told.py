@@ -37,17 +37,17 @@ def test_what_a_service_did_is_told_in_the_same_sentence(client: Client, service
 
 
 @pytest.mark.parametrize(
-    ('service', 'code'),
+    ('service', 'code', 'word'),
     [
-        ('step', 'running'),
-        ('undo', 'out_of_history'),
-        ('redo', 'out_of_history'),
-        ('load_world', 'bad_world_file'),
-        ('save_world', 'bad_world_file'),
+        ('step', 'running', 'pause'),
+        ('undo', 'out_of_history', 'undo'),
+        ('redo', 'out_of_history', 'redo'),
+        ('load_world', 'bad_world_file', 'world_file'),
+        ('save_world', 'bad_world_file', 'world_file'),
     ],
 )
 def test_why_a_service_did_nothing_is_told_in_the_same_sentence(
-    physsim: PhysSim, client: Client, service: str, code: str
+    physsim: PhysSim, client: Client, service: str, code: str, word: str
 ) -> None:
     before = physsim.digest()
     response = client.call(f'~/{service}')
@@ -55,6 +55,7 @@ def test_why_a_service_did_nothing_is_told_in_the_same_sentence(
     (event,) = told(client)
     assert (event.level, event.name, event.code) == (2, f'~/{service}', code)
     assert response.message == f'{code}: {event.message}'
+    assert word in event.message
     assert physsim.digest() == before
 
 
