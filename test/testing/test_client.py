@@ -55,9 +55,10 @@ def test_the_first_refusal_of_an_array_is_raised_and_the_rest_is_done(physsim: P
 
 
 def test_a_large_array_is_answered_whole(physsim: PhysSim) -> None:
-    markers = [disc(f'a/{number}', at=(2.0 * number, 0.0)) for number in range(2000)]
-    assert physsim.spawn(MarkerArray(markers=markers)) == 'a/1999'
-    assert len(physsim.names) == 2000
+    # More answers than the topic of events keeps.
+    markers = [disc(f'a/{number}', at=(2.0 * number, 0.0)) for number in range(1100)]
+    assert physsim.spawn(MarkerArray(markers=markers)) == 'a/1099'
+    assert len(physsim.names) == 1100
 
 
 def test_an_array_that_is_refused_whole_is_refused_at_once(physsim: PhysSim) -> None:
