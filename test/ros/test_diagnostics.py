@@ -95,7 +95,8 @@ def test_a_second_is_told_with_its_frames_and_the_energy_of_the_world(
     stamp = array.header.stamp
     assert stamp.sec * 10**9 + stamp.nanosec == node.frame.snapshot.stamp > 0
     values = values_of(array)
-    assert (values['bodies'], values['frames']) == ('2', '60')
+    assert (values['bodies'], values['frames'], values['speed']) == ('2', '60', '1')
+    assert 'viewer' in values
     # ms
     assert float(values['step cost [ms]']) == 2.0
     assert float(values['frame cost [ms]']) == 3.0
