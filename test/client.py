@@ -122,10 +122,15 @@ class Client:
         service = '~/set_parameters_atomically'
         return self.request(SetParametersAtomically, service, request).result
 
+    def service(self, kind: Any, name: str) -> Any:
+        """Return the client of a service of the world's node, which is ready."""
+        client = self.node.create_client(kind, name.replace('~', '/physsim'))
+        self.spin_until(client.service_is_ready)
+        return client
+
     def request(self, kind: Any, service: str, request: Any) -> Any:
         """Call a service of the world's node, and return its response."""
-        client = self.node.create_client(kind, service.replace('~', '/physsim'))
-        self.spin_until(client.service_is_ready)
+        client = self.service(kind, service)
         future = client.call_async(request)
         self.spin_until(future.done)
         self.node.destroy_client(client)
