@@ -19,7 +19,6 @@ from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownBod
 import pytest
 
 from .tasks import reward, task
-from ..outside import run_python
 
 
 def played(env: RobotEnv, steps: int, actions: int = 0) -> list[object]:
@@ -181,14 +180,6 @@ def test_what_does_not_fit_is_refused() -> None:
     blind.perform(robot_spawn('mouse'))
     with pytest.raises(BadProperty, match='no laser'):
         RobotEnv(Task(world=blind.save(), reward=reward))
-
-
-def test_gymnasium_is_imported_by_who_asks_for_it_alone() -> None:
-    code = (
-        'import physsim_ros, sys; [getattr(physsim_ros, name) for name in physsim_ros.__all__];'
-        "print([name for name in sys.modules if 'gymnasium' in name])"
-    )
-    assert run_python('-c', code) == '[]\n'
 
 
 def test_what_is_no_saved_episode_is_refused() -> None:

@@ -72,7 +72,7 @@ class Chatterbox(Node):
     """Asks for something with every frame that it sees."""
 
     def __init__(self, context: Any, name: str) -> None:
-        super().__init__('chatterbox', context=context)
+        super().__init__(f'chatterbox_{name[0]}', context=context)
         self._name = name
         self._publisher = self.create_publisher(MultiDOFJointState, '/physsim/command', 10)
         self.create_subscription(MultiDOFJointState, '/physsim/states', self._see, 10)
@@ -81,21 +81,16 @@ class Chatterbox(Node):
         self._publisher.publish(command(self._name, twists=[(0.0, 0.0, 0.0)]))
 
 
-def test_the_answer_is_the_tests_own_whatever_other_nodes_ask(physsim: PhysSim) -> None:
+def test_answers_and_refusals_are_the_tests_own_whatever_other_nodes_ask(physsim: PhysSim) -> None:
     physsim.spawn(box('a/0'))
     physsim.spawn(box('a/1', at=(5.0, 0.0)))
-    physsim.add(Chatterbox(physsim.context, 'nobody/0'))
+    for other in ('nobody/0', 'a/0'):
+        physsim.add(Chatterbox(physsim.context, other))
     for number in range(10):
         physsim.step()
-        # Theirs is refused each time, and waits to be when this is asked.
+        # Of theirs one is refused each time, and both wait to be answered when this is asked.
         assert physsim.command(command('a/1', poses=[(5.0, float(number), 0.0)])) == 'a/1'
         assert physsim.pose('a/1').y == number
-
-
-def test_the_refusal_is_the_tests_own_whatever_other_nodes_ask(physsim: PhysSim) -> None:
-    physsim.spawn(box('a/0'))
-    physsim.add(Chatterbox(physsim.context, 'a/0'))
-    for _ in range(10):
         physsim.step()
-        with pytest.raises(Refused):
-            physsim.command(command('nobody/0', twists=[(0.0, 0.0, 0.0)]))
+        with pytest.raises(Refused, match='nobody/1'):
+            physsim.command(command('nobody/1', twists=[(0.0, 0.0, 0.0)]))
