@@ -98,6 +98,15 @@ def client(physsim: PhysSim) -> Client:
 
 
 @pytest.fixture
+def flat(physsim: PhysSim) -> PhysSim:
+    """Give a world that is seen from above."""
+    from .client import set_parameter  # noqa: PLC0415 - see above
+
+    set_parameter(physsim, 'gravity', [0.0, 0.0])
+    return physsim
+
+
+@pytest.fixture
 def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., PhysSim]]:
     """Give a test a function that starts a world with parameters, which ends with the test."""
     from physsim_ros.testing import own_context, PhysSim  # noqa: PLC0415 - see above

@@ -57,6 +57,10 @@ def other_task() -> Task:
     )
 
 
+def at_the_end_of_the_corridor(**options: Any) -> RobotEnv:
+    return RobotEnv(task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)), **options)
+
+
 @pytest.mark.parametrize('make', [task, other_task])
 @pytest.mark.parametrize('mode', ['rgb_array', None])
 def test_an_environment_passes_the_check_of_gymnasium(make: Any, mode: str | None) -> None:
@@ -80,7 +84,7 @@ def test_an_episode_is_repeated_by_its_seed_to_the_bit() -> None:
 
 
 def test_an_episode_is_over_at_a_crash_and_cut_off_after_its_time() -> None:
-    env = RobotEnv(task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)))
+    env = at_the_end_of_the_corridor()
     env.reset(seed=0)
     ends = [env.step(np.zeros(2))[2:4] for _ in range(60)]
     assert ends == [(False, False)] * 59 + [(False, True)]
@@ -98,7 +102,7 @@ def test_an_episode_is_over_at_a_crash_and_cut_off_after_its_time() -> None:
 
 
 def test_actions_beyond_the_space_are_cut_off_and_shares_are_those_of_the_drive() -> None:
-    env = RobotEnv(task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)))
+    env = at_the_end_of_the_corridor()
     env.reset(seed=0)
     for _ in range(10):
         env.step(np.array((2.0, 0.0)))
@@ -137,7 +141,7 @@ def test_a_task_pickles_and_environments_of_it_have_generators_of_their_own() ->
 
 
 def test_an_observed_scan_is_shares_of_the_range() -> None:
-    env = RobotEnv(task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)))
+    env = at_the_end_of_the_corridor()
     observation, _ = env.reset(seed=2)
     assert observation.dtype == np.float32
     # 3.5 m ahead is nothing; 0.475 m to the left is the wall, with noise of 1 cm.
@@ -146,9 +150,7 @@ def test_an_observed_scan_is_shares_of_the_range() -> None:
 
 
 def test_a_picture_shows_the_robot_where_it_is() -> None:
-    env = RobotEnv(
-        task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)), render_mode='rgb_array'
-    )
+    env = at_the_end_of_the_corridor(render_mode='rgb_array')
     env.reset(seed=0)
     first = env.render()
     assert first is not None

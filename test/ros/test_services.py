@@ -35,7 +35,7 @@ def steps_after(journey: Journey, frames: int) -> list[int]:
     return steps
 
 
-# Play, pause, step
+# Play, pause; steps are in `test_timeline.py`
 
 
 def test_pause_stops_time_and_play_lets_it_run_at_speed_1(
@@ -51,17 +51,6 @@ def test_pause_stops_time_and_play_lets_it_run_at_speed_1(
     steps_after(journey, 1)
     steps = steps_after(journey, 10)
     assert [after - before for before, after in pairwise(steps)] == [4] * 9
-
-
-def test_a_step_is_one_publish_period(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(disc(at=(0.0, 5.0)))
-    succeeded(client.call('~/pause'))
-    for number in range(1, 4):
-        succeeded(client.call('~/step'))
-        assert physsim.time == pytest.approx(number / 60.0, abs=1e-9)
-        # m
-        fallen = 9.81 * (number / 60.0) ** 2 / 2
-        assert physsim.pose('body/0').y == pytest.approx(5.0 - fallen, abs=1e-9)
 
 
 # Speed
