@@ -128,22 +128,6 @@ def distribution(installed):
     return Distribution.at(info)
 
 
-def test_pip_installs_the_executable_and_the_pytest_plugin(installed, distribution):
-    points = {(point.group, point.name, point.value) for point in distribution.entry_points}
-
-    assert points == {
-        ('console_scripts', 'physsim', 'physsim_ros.ros.programs.physsim:main'),
-        (
-            'console_scripts',
-            'physsim_class',
-            'physsim_ros.ros.programs.physsim_class:main',
-        ),
-        ('pytest11', 'physsim', 'physsim_ros.testing.plugin'),
-    }
-    for program in ('physsim', 'physsim_class'):
-        assert (installed / 'bin' / program).is_file()
-
-
 def test_pip_is_told_what_rosdep_cannot_bring(distribution):
     requirements = [Requirement(text) for text in distribution.requires]
     always = {each.name.lower(): each.specifier for each in requirements if each.marker is None}
@@ -163,16 +147,6 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
     assert '1.26.4' not in always['numpy']
     assert '8.0.0' not in always['pymunk']
     assert extras == {f'extra == "{name}"' for name in ('class', 'docs', 'gym', 'jazzy', 'test')}
-
-
-def test_the_wheels_of_ros_come_with_their_middleware(distribution):
-    jazzy = {
-        requirement.name: requirement.extras
-        for requirement in map(Requirement, distribution.requires)
-        if str(requirement.marker) == 'extra == "jazzy"'
-    }
-
-    assert jazzy == {'ros-jazzy-common-interfaces': set(), 'ros-jazzy-rclpy': {'fastrtps'}}
 
 
 def test_pip_and_ros_are_told_the_same_version_and_licence(distribution):

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from array import array
 from collections.abc import Sequence
+from functools import reduce
 import math
+from typing import Any
 
 from geometry_msgs.msg import Point, PoseStamped
 from nav_msgs.msg import OccupancyGrid, Path
@@ -19,6 +21,13 @@ DOWN, MOVE, UP = (
     InteractiveMarkerFeedback.POSE_UPDATE,
     InteractiveMarkerFeedback.MOUSE_UP,
 )
+
+
+def spoiled(message: Any, path: str, value: Any) -> Any:
+    """Return a message, or another object, with another value at a path of fields."""
+    *parents, field = path.split('.')
+    setattr(reduce(getattr, parents, message), field, value)
+    return message
 
 
 def feedback(

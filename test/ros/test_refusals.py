@@ -10,7 +10,6 @@ Messages that are refused before the world sees them are in `test_conversions.py
 
 from __future__ import annotations
 
-from functools import reduce
 import math
 from typing import Any
 
@@ -22,19 +21,12 @@ from std_msgs.msg import Float64
 from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
 from .journey import clock_of, SECOND
-from .messages import circle, DOWN, feedback, grid, MOVE, stroke
+from .messages import circle, DOWN, feedback, grid, MOVE, spoiled, stroke
 from ..client import Client, Event
 
 NAN, INF = math.nan, math.inf
 FLAT = [(0, 0), (1, 0), (2, 0), (0, 0)]
 PATH: dict[str, Any] = {'kind': 'path', 'points': [[0, 0], [4, 0]], 'speed': 1.0}
-
-
-def spoiled(message: Any, path: str, value: Any) -> Any:
-    """Return a message with another value at a path of fields."""
-    *parents, field = path.split('.')
-    setattr(reduce(getattr, parents, message), field, value)
-    return message
 
 
 def tipped() -> Any:

@@ -15,7 +15,7 @@ import pytest
 from std_msgs.msg import String
 
 from ...building import ELL, spawn
-from ...client import Client, KEPT, set_parameter
+from ...client import Client, KEPT
 from ...sensing.worlds import plane
 
 ROBOT = {
@@ -73,18 +73,16 @@ def test_links_are_one_tree_with_the_frames_of_the_robot() -> None:
 
 
 def test_a_late_listener_has_the_description_and_a_change_of_shape_is_told(
-    physsim: PhysSim,
+    flat: PhysSim, client: Client
 ) -> None:
-    set_parameter(physsim, 'gravity', [0.0, 0.0])
-    physsim.robot('turtlebot3_burger')
-    client = Client(physsim)
+    flat.robot('turtlebot3_burger')
     texts = client.listen(String, '/robot_0/robot_description', KEPT)
     client.spin_until(lambda: texts)
     assert 'radius="0.105"' in texts[-1].data
-    physsim.run(0.5)
+    flat.run(0.5)
     assert len(texts) == 1
-    physsim.robot(
+    flat.robot(
         {'from': 'turtlebot3_burger', 'drive': {'max_speed': 0.1}}, name='other/0', at=(1, 0)
     )
-    physsim.run(0.5)
+    flat.run(0.5)
     assert len(texts) == 1
