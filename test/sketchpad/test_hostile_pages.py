@@ -182,6 +182,7 @@ WRONG: dict[str, list[str | bytes]] = {
         '{"type": "stroke", "points": [[0, 0, 0], ["1", 1, 1]]}',
         '{"type": "delete", "names": []}',
         '{"type": "delete", "names": "a/1"}',
+        '{"type": "spawn", "body": {"circle": {"radius": 1}}}',
         '{"type": "change", "name": "a/1", "properties": []}',
         '{"type": "gravity", "gravity": [0, 1e9]}',
         '{"type": "service", "name": "quit"}',
