@@ -87,4 +87,5 @@ def main(published: list[str], heard: list[str]) -> None:
 
 if __name__ == '__main__':
     end = sys.argv.index('--')
-    main(sys.argv[1:end], sys.argv[end + 1 :])
+    begin = end + 1
+    main(sys.argv[1:end], sys.argv[begin:])

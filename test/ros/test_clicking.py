@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 
-from physsim_ros.testing import disc, PhysSim, point
+from physsim_ros.testing import box, disc, PhysSim, point
 import pytest
 from rclpy.parameter import Parameter
 from visualization_msgs.msg import Marker, MarkerArray
@@ -84,6 +84,23 @@ def test_what_is_drawn_is_as_the_parameters_say(hand: Hand) -> None:
     marker = markers_of(hand.physsim, hand.client)['drawn/0']
     assert marker.text == '{density: 3.0, friction: 0.25, elasticity: 0.75}'
     assert marker.color.g == pytest.approx(128 / 255)
+
+
+def test_the_knife_cuts_and_one_undo_makes_whole(client: Client) -> None:
+    hand, physsim = Hand(client, 0), client.physsim
+    text = '{velocity: [1, 0], spin: 3, forces: [{force: [0, 2], at: [0.9, 0]}]}'
+    physsim.spawn(box('a/0', at=(0, 0), size=(2, 1), text=text))
+    hand.take('knife')
+    hand.click(0.5, -2)
+
+    event = hand.click(0.5, 2)
+
+    accepted(event, 'a/0')
+    assert event.message == 'cut into 2 pieces'
+    assert physsim.names == ('a/0', 'drawn/0')
+    assert physsim.twist('drawn/0') == pytest.approx((1.0, 3 * 0.75, 3.0))
+    assert client.call('~/undo').success
+    assert physsim.names == ('a/0',)
 
 
 def test_an_unknown_frame_is_refused_and_the_gesture_goes_on(hand: Hand) -> None:

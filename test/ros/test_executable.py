@@ -191,7 +191,7 @@ def test_its_first_pose_is_seen_by_another_process(outside: Outside) -> None:
             seen = json.loads(line.partition(' ')[2])
             assert watcher.finish() == 0
             took = seen['first'] - world.started
-            print(f'{took:.2f} s to the first pose elsewhere')  # noqa: T201 - for who reads the log
+            print(f'{took:.2f} s to the first pose')  # noqa: T201 - for who reads the log
             assert seen['bodies'] > 0
             assert world.interrupt() == 0
 
