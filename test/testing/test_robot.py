@@ -5,10 +5,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from physsim_ros.model.requests import DriveRobot
-from physsim_ros.simulation.request_queue import RequestQueue
+from physsim_ros.model.requests import DriveRobot, Request
+from physsim_ros.simulation.past import Past
 from physsim_ros.testing import box, PhysSim, Refused, UnknownName
 import pytest
 
@@ -51,16 +49,16 @@ def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: Phys
 
 @pytest.fixture
 def submitted(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """Give a test the times at which drives are submitted [s]."""
+    """Give a test the times at which robots are driven on [s]."""
     times: list[float] = []
-    apply = RequestQueue.apply_now
+    apply = Past.apply_unasked
 
-    def note(queue: RequestQueue, request: Any, *others: Any) -> Any:
+    def note(past: Past, request: Request) -> None:
         if isinstance(request, DriveRobot):
             times.append(flat.time)
-        return apply(queue, request, *others)
+        apply(past, request)
 
-    monkeypatch.setattr(RequestQueue, 'apply_now', note)
+    monkeypatch.setattr(Past, 'apply_unasked', note)
     return times
 
 
@@ -91,9 +89,9 @@ def test_a_drive_counts_again_after_the_command_of_another_node(flat: PhysSim) -
     flat.run(0.5)
     other.send(-0.2)
     flat.step()
-    assert flat.node.simulation.world.snapshot().robots.aim[0, 0] == -0.2
+    assert flat.node.simulation.world.snapshot().robots['aim'][0, 0] == -0.2
     flat.step()
-    assert flat.node.simulation.world.snapshot().robots.aim[0, 0] == 0.2
+    assert flat.node.simulation.world.snapshot().robots['aim'][0, 0] == 0.2
 
 
 def test_of_two_handles_of_a_robot_the_later_one_drives(
