@@ -83,10 +83,9 @@ class Client:
         before = len(self.events)
         self.publish(topic, message)
         # Requests that have arrived are carried out twice, so that a second answer would be heard.
-        for _ in range(2):
-            self.physsim.settle()
-            self.physsim.node.apply_requests()
         self.physsim.settle()
+        for _ in range(2):
+            self.catch_up()
         return self.events[before:]
 
     def listen(self, kind: type, topic: str, qos: Any = None) -> list[Any]:
@@ -97,6 +96,16 @@ class Client:
         )
         self.spin_until(subscription.get_publisher_count)
         return received
+
+    @property
+    def refusals(self) -> list[Event]:
+        """Return the events that tell of no success."""
+        return [event for event in self.events if event.code != 'ok']
+
+    def catch_up(self) -> None:
+        """Have the world carry out what it was asked, and hear what it tells of that."""
+        self.physsim.node.apply_requests()
+        self.physsim.settle()
 
     def call(self, service: str) -> Any:
         """Call one of the world's services of type Trigger, and return its response."""
@@ -113,10 +122,15 @@ class Client:
         service = '~/set_parameters_atomically'
         return self.request(SetParametersAtomically, service, request).result
 
+    def service(self, kind: Any, name: str) -> Any:
+        """Return the client of a service of the world's node, which is ready."""
+        client = self.node.create_client(kind, name.replace('~', '/physsim'))
+        self.spin_until(client.service_is_ready)
+        return client
+
     def request(self, kind: Any, service: str, request: Any) -> Any:
         """Call a service of the world's node, and return its response."""
-        client = self.node.create_client(kind, service.replace('~', '/physsim'))
-        self.spin_until(client.service_is_ready)
+        client = self.service(kind, service)
         future = client.call_async(request)
         self.spin_until(future.done)
         self.node.destroy_client(client)

@@ -9,12 +9,13 @@ What needs ROS is imported late: the core's tests run where there is no ROS.
 
 from __future__ import annotations
 
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager, ExitStack
 import faulthandler
 import os
+from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
+from typing import Any, TYPE_CHECKING
 
 import pytest
 
@@ -94,6 +95,31 @@ def client(physsim: PhysSim) -> Client:
     from .client import Client  # noqa: PLC0415 - see above
 
     return Client(physsim)
+
+
+@pytest.fixture
+def flat(physsim: PhysSim) -> PhysSim:
+    """Give a world that is seen from above."""
+    from .client import set_parameter  # noqa: PLC0415 - see above
+
+    set_parameter(physsim, 'gravity', [0.0, 0.0])
+    return physsim
+
+
+@pytest.fixture
+def start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., PhysSim]]:
+    """Give a test a function that starts a world with parameters, which ends with the test."""
+    from physsim_ros.testing import own_context, PhysSim  # noqa: PLC0415 - see above
+
+    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
+    with ExitStack() as closing:
+
+        def started(**parameters: Any) -> PhysSim:
+            context = closing.enter_context(own_context(monkeypatch))
+            world = PhysSim(context, **{'world_dir': str(tmp_path), **parameters})
+            return closing.enter_context(world)
+
+        yield started
 
 
 @pytest.fixture(scope='module')

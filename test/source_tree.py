@@ -1,12 +1,13 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Copies of the source tree, in which the core is compiled otherwise than here."""
+"""The source tree: its pages, and copies in which the core is compiled otherwise than here."""
 
 from __future__ import annotations
 
 import os
 from pathlib import Path
+import re
 import runpy
 import shutil
 import subprocess
@@ -22,6 +23,12 @@ _ANYWHERE = shutil.ignore_patterns('.*', *_BUILT)
 _AT_THE_TOP = {'build', 'install', 'log', 'dist'}
 # Many times what a compiler takes, on a machine that is busy with other tests [s].
 _COMPILING = 300
+
+
+def blocks_of(page: str, language: str) -> list[str]:
+    """Return the blocks of a language in a page below the root."""
+    text = (ROOT / page).read_text(encoding='utf-8')
+    return re.findall(rf'^```{language}\n(.*?)^```', text, re.MULTILINE | re.DOTALL)
 
 
 def _not_source(folder: str, names: list[str]) -> set[str]:

@@ -29,32 +29,23 @@ PICTURES = {'/physsim/markers', '/physsim/preview'}
 # The topics of a body robot/0, and the map.
 OF_ROBOTS = {'/physsim/map', '/robot_0/ground_truth', '/robot_0/odom', '/robot_0/scan'}
 # Topics that displays of RViz show.
-KINDS = {'LaserScan': LaserScan, 'Map': OccupancyGrid, 'Odometry': Odometry}
+KINDS = {
+    'MarkerArray': MarkerArray,
+    'LaserScan': LaserScan,
+    'Map': OccupancyGrid,
+    'Odometry': Odometry,
+}
 
 
-def test_rviz_shows_what_is_published_and_clicks_where_it_is_heard(physsim: PhysSim) -> None:
-    manager = yaml.safe_load((CONFIG / 'physsim.rviz').read_text())['Visualization Manager']
-    assert manager['Global Options']['Fixed Frame'] == SPECS['frame_id'].default
-    topics = [
-        each['Topic'] for each in manager['Displays'] if each['Class'].endswith('MarkerArray')
-    ]
-    assert {topic['Value'] for topic in topics} == PICTURES
-    published = {each.topic_name: each for each in physsim.node.publishers}
-    for topic in topics:
-        publisher = published[topic['Value']]
-        assert publisher.msg_type is MarkerArray
-        kept = publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
-        assert kept is (topic['Durability Policy'] == 'Transient Local')
-    (tool,) = [each for each in manager['Tools'] if each['Class'].endswith('PublishPoint')]
-    heard = {each.topic_name: each.msg_type for each in physsim.node.subscriptions}
-    assert heard[tool['Topic']['Value']] is PointStamped
-
-
-def test_rviz_shows_a_robot_and_drags_by_the_topics_that_there_are(physsim: PhysSim) -> None:
+def test_rviz_shows_what_is_published_and_clicks_and_drags_where_it_is_heard(
+    physsim: PhysSim,
+) -> None:
     physsim.robot('turtlebot3_burger')
     physsim.step()
     manager = yaml.safe_load((CONFIG / 'physsim.rviz').read_text())['Visualization Manager']
+    assert manager['Global Options']['Fixed Frame'] == SPECS['frame_id'].default
     published = {each.topic_name: each for each in physsim.node.publishers}
+    heard = {each.topic_name: each.msg_type for each in physsim.node.subscriptions}
     shown = {}
     for display in manager['Displays']:
         kind = display['Class'].rpartition('/')[2]
@@ -64,13 +55,15 @@ def test_rviz_shows_a_robot_and_drags_by_the_topics_that_there_are(physsim: Phys
             kept = publisher.qos_profile.durability is DurabilityPolicy.TRANSIENT_LOCAL
             assert kept is (display['Topic']['Durability Policy'] == 'Transient Local')
             shown[publisher.topic_name] = kind
-    assert set(shown) == OF_ROBOTS
+    assert set(shown) == PICTURES | OF_ROBOTS
+    (point,) = [each for each in manager['Tools'] if each['Class'].endswith('PublishPoint')]
+    assert heard[point['Topic']['Value']] is PointStamped
     (drag,) = [
         each for each in manager['Displays'] if each['Class'].endswith('InteractiveMarkers')
     ]
     namespace = drag['Interactive Markers Namespace']
     assert f'{namespace}/update' in published
-    assert f'{namespace}/feedback' in {each.topic_name for each in physsim.node.subscriptions}
+    assert f'{namespace}/feedback' in heard
     assert any(each['Class'].endswith('Interact') for each in manager['Tools'])
 
 

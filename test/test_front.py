@@ -13,22 +13,26 @@ import physsim_ros
 import pytest
 
 from .outside import ROOT, run_python
+from .source_tree import blocks_of
 
 PAGE = (ROOT / 'docs' / 'python.md').read_text(encoding='utf-8')
 # Says which libraries a program has imported.
 IMPORTED = """
 import sys
 heads = {name.partition('.')[0] for name in sys.modules}
-print('IMPORTED', sorted(heads & {'numpy', 'pymunk', 'rclpy', 'rerun', 'tornado', 'yaml'}))
+watched = {'gymnasium', 'numpy', 'pymunk', 'rclpy', 'rerun', 'tornado', 'yaml'}
+print('IMPORTED', sorted(heads & watched))
 """
+USE_ALL = 'import physsim_ros\n[getattr(physsim_ros, name) for name in physsim_ros.__all__]\n'
 
 
 def test_the_page_prints_what_it_says_and_imports_no_ros() -> None:
-    programs = re.findall(r'^```python\n(.*?)^```', PAGE, re.MULTILINE | re.DOTALL)
-    printed = re.findall(r'^```text\n(.*?)^```', PAGE, re.MULTILINE | re.DOTALL)
+    programs, printed = (blocks_of('docs/python.md', each) for each in ('python', 'text'))
     assert len(programs) == len(printed)
 
-    told, imported = run_python('-c', '\n'.join(programs) + IMPORTED).split('IMPORTED ')
+    told, imported = run_python('-c', '\n'.join((*programs, USE_ALL)) + IMPORTED).split(
+        'IMPORTED '
+    )
     assert told == ''.join(printed)
     assert ast.literal_eval(imported) == ['numpy', 'pymunk', 'yaml']
 

@@ -15,12 +15,11 @@ from PIL import Image
 import pytest
 
 from .outside import ROOT, run_python
+from .source_tree import blocks_of
 
 PAGE = (ROOT / 'docs' / 'learning.md').read_text(encoding='utf-8')
-TUTORIAL = ROOT / 'docs' / 'tutorials' / 'learn_to_follow_a_wall.md'
 EXAMPLE = ROOT / 'examples' / 'learn_wall_following.py'
-BLOCKS = re.findall(r'^```python\n(.*?)^```', PAGE, re.MULTILINE | re.DOTALL)
-PRINTED = re.findall(r'^```text\n(.*?)^```', PAGE, re.MULTILINE | re.DOTALL)
+BLOCKS, PRINTED = (blocks_of('docs/learning.md', each) for each in ('python', 'text'))
 needs_gymnasium = pytest.mark.skipif(not find_spec('gymnasium'), reason='needs gymnasium')
 
 
@@ -65,7 +64,7 @@ def test_the_example_of_the_tutorial_is_an_environment_in_which_a_plain_rule_ear
 
 
 def test_the_tutorial_shows_the_reward_of_the_example() -> None:
-    (shown,) = re.findall(r'^```python\n(def reward.*?)^```', TUTORIAL.read_text(encoding='utf-8'),
-                          re.MULTILINE | re.DOTALL)  # fmt: skip
+    blocks = blocks_of('docs/tutorials/learn_to_follow_a_wall.md', 'python')
+    (shown,) = (block for block in blocks if block.startswith('def reward'))
     code = re.sub(r'    """.*?"""\n', '', EXAMPLE.read_text(encoding='utf-8'))
     assert shown in code

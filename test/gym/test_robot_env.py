@@ -19,7 +19,6 @@ from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownBod
 import pytest
 
 from .tasks import reward, task
-from ..outside import run_python
 
 
 def played(env: RobotEnv, steps: int, actions: int = 0) -> list[object]:
@@ -58,6 +57,10 @@ def other_task() -> Task:
     )
 
 
+def at_the_end_of_the_corridor(**options: Any) -> RobotEnv:
+    return RobotEnv(task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)), **options)
+
+
 @pytest.mark.parametrize('make', [task, other_task])
 @pytest.mark.parametrize('mode', ['rgb_array', None])
 def test_an_environment_passes_the_check_of_gymnasium(make: Any, mode: str | None) -> None:
@@ -81,7 +84,7 @@ def test_an_episode_is_repeated_by_its_seed_to_the_bit() -> None:
 
 
 def test_an_episode_is_over_at_a_crash_and_cut_off_after_its_time() -> None:
-    env = RobotEnv(task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)))
+    env = at_the_end_of_the_corridor()
     env.reset(seed=0)
     ends = [env.step(np.zeros(2))[2:4] for _ in range(60)]
     assert ends == [(False, False)] * 59 + [(False, True)]
@@ -99,7 +102,7 @@ def test_an_episode_is_over_at_a_crash_and_cut_off_after_its_time() -> None:
 
 
 def test_actions_beyond_the_space_are_cut_off_and_shares_are_those_of_the_drive() -> None:
-    env = RobotEnv(task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)))
+    env = at_the_end_of_the_corridor()
     env.reset(seed=0)
     for _ in range(10):
         env.step(np.array((2.0, 0.0)))
@@ -138,7 +141,7 @@ def test_a_task_pickles_and_environments_of_it_have_generators_of_their_own() ->
 
 
 def test_an_observed_scan_is_shares_of_the_range() -> None:
-    env = RobotEnv(task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)))
+    env = at_the_end_of_the_corridor()
     observation, _ = env.reset(seed=2)
     assert observation.dtype == np.float32
     # 3.5 m ahead is nothing; 0.475 m to the left is the wall, with noise of 1 cm.
@@ -147,9 +150,7 @@ def test_an_observed_scan_is_shares_of_the_range() -> None:
 
 
 def test_a_picture_shows_the_robot_where_it_is() -> None:
-    env = RobotEnv(
-        task(begin=lambda robot, _: robot.place(0.0, 0.0, 0.0)), render_mode='rgb_array'
-    )
+    env = at_the_end_of_the_corridor(render_mode='rgb_array')
     env.reset(seed=0)
     first = env.render()
     assert first is not None
@@ -183,14 +184,6 @@ def test_what_does_not_fit_is_refused() -> None:
     blind.perform(robot_spawn('mouse'))
     with pytest.raises(BadProperty, match='no laser'):
         RobotEnv(Task(world=blind.save(), reward=reward))
-
-
-def test_gymnasium_is_imported_by_who_asks_for_it_alone() -> None:
-    code = (
-        'import physsim_ros, sys; [getattr(physsim_ros, name) for name in physsim_ros.__all__];'
-        "print([name for name in sys.modules if 'gymnasium' in name])"
-    )
-    assert run_python('-c', code) == '[]\n'
 
 
 def test_what_is_no_saved_episode_is_refused() -> None:

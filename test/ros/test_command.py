@@ -31,14 +31,3 @@ def test_a_command_without_arrays_changes_nothing(physsim: PhysSim) -> None:
     before = physsim.digest()
     assert physsim.command(command('a/0')) == 'a/0'
     assert physsim.digest() == before
-
-
-def test_commands_are_carried_out_in_the_order_in_which_they_come(
-    physsim: PhysSim, client: Client
-) -> None:
-    physsim.spawn(box('a/0'))
-    for number in range(50):
-        client.publish('~/command', command('a/0', poses=[(float(number), 0.0, 0.0)]))
-    physsim.step()
-    assert physsim.pose('a/0').x == 49.0
-    assert [event.code for event in client.events if event.name == '~/command'] == ['ok'] * 50

@@ -29,7 +29,7 @@ from physsim_ros.model.requests import (
     Release,
     Spawn,
 )
-from physsim_ros.model.shapes import Box, MOST_POINTS
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, MOST_POINTS, Triangles
 from physsim_ros.ros.requests.conversions import (
     body_request,
     command_request,
@@ -40,6 +40,8 @@ from physsim_ros.testing import box, command, delete, delete_all, marker, point
 import pytest
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import Marker
+
+from ..building import ELL
 
 NAN, INF = math.nan, math.inf
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
@@ -168,6 +170,52 @@ def test_a_lifetime_is_in_seconds() -> None:
 
 
 # Shapes
+
+
+CENTERS = ((0.0, 0.0), (1.0, 0.0))
+TRIANGLE = ((0.0, 0.0), (1.0, 0.0), (0.0, 1.0))
+TERRAIN = ((-1.0, 0.0), (0.0, 0.0), (1.0, 0.5))
+
+# kind, scale, points -> shape
+BODIES: dict[str, tuple[int, tuple[float, ...], Any, Any]] = {
+    'cube': (Marker.CUBE, (2.0, 1.0), (), Box(width=2.0, height=1.0)),
+    'sphere': (Marker.SPHERE, (0.6, 0.6), (), Disc(radius=0.3)),
+    'cylinder': (Marker.CYLINDER, (0.6, 0.6), (), Disc(radius=0.3)),
+    'closed strip': (Marker.LINE_STRIP, (0.0,), (*ELL.outline, ELL.outline[0]), ELL),
+    'open strip': (Marker.LINE_STRIP, (0.2,), TERRAIN, Chain(points=TERRAIN, thickness=0.2)),
+    'triangles': (
+        Marker.TRIANGLE_LIST,
+        (2.0, 1.0),
+        TRIANGLE,
+        Triangles(vertices=((0.0, 0.0), (2.0, 0.0), (0.0, 1.0))),
+    ),
+    'triangles without a scale': (
+        Marker.TRIANGLE_LIST,
+        (0.0, 0.0),
+        TRIANGLE,
+        Triangles(vertices=TRIANGLE),
+    ),
+    'cubes': (
+        Marker.CUBE_LIST,
+        (1.0, 0.5),
+        CENTERS,
+        Compound(element=Box(width=1.0, height=0.5), centers=CENTERS),
+    ),
+    'spheres': (
+        Marker.SPHERE_LIST,
+        (1.0, 1.0),
+        CENTERS,
+        Compound(element=Disc(radius=0.5), centers=CENTERS),
+    ),
+}
+
+
+@pytest.mark.parametrize('kind', BODIES)
+def test_every_kind_of_marker_is_a_shape_of_its_own(kind: str) -> None:
+    type_, scale, points, shape = BODIES[kind]
+    spawn = spawn_of(marker(type_, 'a/3', scale=scale, points=points, at=(1.0, 2.0, 0.5)))
+    assert (spawn.name, spawn.shape) == ('a/3', shape)
+    assert spawn.pose == pytest.approx((1.0, 2.0, 0.5))
 
 
 def test_a_text_is_a_note_whose_box_has_room_for_it() -> None:

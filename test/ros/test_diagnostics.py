@@ -12,10 +12,10 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
-from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.outputs import FrameStatistics
 import pytest
 
+from .messages import spoiled
 from ..client import Client
 
 PERIOD = 1e9 / 60.0
@@ -95,7 +95,8 @@ def test_a_second_is_told_with_its_frames_and_the_energy_of_the_world(
     stamp = array.header.stamp
     assert stamp.sec * 10**9 + stamp.nanosec == node.frame.snapshot.stamp > 0
     values = values_of(array)
-    assert (values['bodies'], values['frames']) == ('2', '60')
+    assert (values['bodies'], values['frames'], values['speed']) == ('2', '60', '1')
+    assert 'viewer' in values
     # ms
     assert float(values['step cost [ms]']) == 2.0
     assert float(values['frame cost [ms]']) == 3.0
@@ -135,35 +136,19 @@ def test_a_paused_world_says_so(client: Client, tell: Tell) -> None:
     assert (status.message, status.level) == ('paused', DiagnosticStatus.OK)
 
 
-def wait(node: PhysSimNode) -> None:
-    node.diagnostics.message_delay = 3.2
-
-
-def lose_messages(node: PhysSimNode) -> None:
-    node.requests.undecodable = 7
-
-
-def fail_twice(node: PhysSimNode) -> None:
-    node.boundary.failures = 2
-
-
-def stop_a_reader(node: PhysSimNode) -> None:
-    node.outputs.topics.events.stopped = True
-
-
 @pytest.mark.parametrize(
-    ('harm', 'word'),
+    ('path', 'value', 'word'),
     [
-        (wait, 'requests wait 3.2 s'),
-        (lose_messages, '7 messages cannot be decoded'),
-        (fail_twice, '2 unexpected errors'),
-        (stop_a_reader, 'a subscriber of ~/events has stopped'),
+        ('diagnostics.message_delay', 3.2, 'requests wait 3.2 s'),
+        ('requests.undecodable', 7, '7 messages cannot be decoded'),
+        ('boundary.failures', 2, '2 unexpected errors'),
+        ('outputs.topics.events.stopped', True, 'a subscriber of ~/events has stopped'),
     ],
 )
 def test_what_is_amiss_is_a_warning_that_says_what_to_do(
-    client: Client, tell: Tell, harm: Callable[[PhysSimNode], None], word: str
+    client: Client, tell: Tell, path: str, value: object, word: str
 ) -> None:
-    harm(client.physsim.node)
+    spoiled(client.physsim.node, path, value)
     (status,) = tell().status
     assert status.level == DiagnosticStatus.WARN
     assert status.message.startswith(word)

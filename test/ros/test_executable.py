@@ -12,12 +12,11 @@ from pathlib import Path
 import re
 import signal
 import sys
-from typing import Any
 
 from physsim_ros.ros.parameters import SPECS
 import pytest
 
-from ..outside import installed_program, Outside, PATIENCE, ROOT
+from ..outside import installed_program, Outside, PATIENCE, Program, ROOT
 
 SHAPES = ('circle: {radius: 0.3}', 'box: {width: 0.5, height: 0.5}')
 # A grid of discs and boxes, which fall apart over each other.
@@ -82,10 +81,16 @@ main()
 """
 
 
-def start_with_world(outside: Outside, content: str) -> Any:
+def start_python(outside: Outside, program: str, viewer: str = 'none') -> Program:
+    """Start a program in Python with the arguments of the world."""
+    words = ('--ros-args', '-p', f'viewer:={viewer}')
+    return outside.start(sys.executable, '-c', program, *words)
+
+
+def world_file(outside: Outside, content: str) -> Path:
     path = outside.directory / 'given.yaml'
     path.write_text(content)
-    return outside.start_world(world_file=path)
+    return path
 
 
 @pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
@@ -112,18 +117,13 @@ def test_it_ends_with_0_when_told_to_again_and_again(outside: Outside) -> None:
 
 @pytest.mark.parametrize('method', ['tick', '_set_up', 'destroy_node'])
 def test_it_ends_with_0_when_told_to_whatever_it_does(outside: Outside, method: str) -> None:
-    program = STUCK.format(method=method)
-    words = ('--ros-args', '-p', 'viewer:=none')
-    with outside.start(sys.executable, '-c', program, *words) as world:
-        if method == 'destroy_node':
-            world.wait_for('ready')
-        else:
-            world.wait_for('STUCK')
+    with start_python(outside, STUCK.format(method=method)) as world:
+        world.wait_for('ready' if method == 'destroy_node' else 'STUCK')
         assert world.interrupt() == 0
 
 
 def test_it_does_not_wait_for_what_is_freed_in_the_end(outside: Outside) -> None:
-    with outside.start(sys.executable, '-c', FREEING, '--ros-args', '-p', 'viewer:=none') as world:
+    with start_python(outside, FREEING) as world:
         world.wait_for('ready')
         assert world.interrupt() == 0
 
@@ -161,8 +161,7 @@ def test_a_record_file_that_blocks_does_not_keep_it_from_starting(outside: Outsi
 
 def test_a_bug_in_a_step_ends_it_loudly_and_leaves_no_viewer_running(outside: Outside) -> None:
     psutil = pytest.importorskip('psutil')
-    words = ('--ros-args', '-p', 'viewer:=web')
-    with outside.start(sys.executable, '-c', BUG, *words) as world:
+    with start_python(outside, BUG, viewer='web') as world:
         _, page = world.wait_for('CHILDREN').split()
         assert world.finish() == 1
     left = []
@@ -185,23 +184,20 @@ def test_nobody_has_to_read_what_it_prints(outside: Outside, output: str) -> Non
 
 
 def test_its_first_pose_is_seen_by_another_process(outside: Outside) -> None:
-    path = ROOT / 'test' / 'elsewhere' / 'look.py'
-    with outside.start(sys.executable, path) as watcher:
+    with outside.start_elsewhere('look') as watcher:
         watcher.wait_for('LOOKING')
         with outside.start_world(world_file='demo') as world:
             line = watcher.wait_for('RESULT')
             seen = json.loads(line.partition(' ')[2])
             assert watcher.finish() == 0
-            text = (
-                f'{seen["first"] - world.started:.2f} s from the start to the first pose elsewhere'
-            )
-            print(text)  # noqa: T201 - for who reads the log
+            took = seen['first'] - world.started
+            print(f'{took:.2f} s to the first pose')  # noqa: T201 - for who reads the log
             assert seen['bodies'] > 0
             assert world.interrupt() == 0
 
 
 def test_a_thousand_bodies_without_a_viewer_fit_into_memory(outside: Outside) -> None:
-    with start_with_world(outside, THOUSAND) as world:
+    with outside.start_world(world_file=world_file(outside, THOUSAND)) as world:
         assert '1000 bodies' in world.wait_for('ready')
         # Somebody looks, so that everything has been made that is ever sent.
         seen = outside.run_program('look')
@@ -216,64 +212,48 @@ def test_a_thousand_bodies_without_a_viewer_fit_into_memory(outside: Outside) ->
 
 
 @pytest.mark.parametrize(
-    ('parameters', 'words'),
+    ('name', 'value', 'words'),
     [
-        ({'speed': '99'}, ['speed', '64']),
-        ({'viewer': 'spwan'}, ['viewer', 'connect', "nearest is 'spawn'"]),
-        ({'publish_rate': '7'}, ['publish_rate', 'divide']),
-        ({'gravity': '[0, -9.81]'}, ['gravity', 'same type']),
-        ({'world_file': 'dominos'}, ['nearest is', 'dominoes', 'config/worlds']),
-    ],
-    ids=lambda value: '-'.join(value) if isinstance(value, dict) else '',
-)
-def test_a_bad_parameter_ends_it_with_a_sentence(
-    outside: Outside, parameters: dict[str, str], words: list[str]
-) -> None:
-    with outside.start_world(**parameters) as world:
-        assert world.finish() == 1
-        said = ''.join(world.lines)
-        assert 'Traceback' not in said
-        *_, last = world.lines
-        assert last.startswith('physsim: ')
-        assert all(word in last for word in words), last
-
-
-@pytest.mark.parametrize(
-    ('content', 'words'),
-    [
-        ('bodies: [', ['given.yaml', 'YAML']),
-        ('format: 2', ['given.yaml', 'format']),
+        ('speed', '99', ['speed', '64']),
+        ('viewer', 'spwan', ['viewer', 'connect', "nearest is 'spawn'"]),
+        ('publish_rate', '7', ['publish_rate', 'divide']),
+        ('gravity', '[0, -9.81]', ['gravity', 'same type']),
+        ('world_fil', 'demo', ["no parameter 'world_fil'; nearest is 'world_file'"]),
+        ('world_file', 'dominos', ['nearest is', 'dominoes', 'config/worlds']),
+        # Files, by what they hold.
+        ('world_file', 'bodies: [', ['given.yaml', 'YAML']),
+        ('world_file', 'format: 2', ['given.yaml', 'format']),
         (
+            'world_file',
             'format: 1\nbodies: [{name: a/0, circle: {radius: -1}}]',
             ['given.yaml', 'a/0', 'radius'],
         ),
     ],
 )
-def test_a_bad_world_file_ends_it_with_a_sentence(
-    outside: Outside, content: str, words: list[str]
+def test_a_bad_parameter_ends_it_with_a_sentence(
+    outside: Outside, name: str, value: str, words: list[str]
 ) -> None:
-    with start_with_world(outside, content) as world:
+    given: object = world_file(outside, value) if 'given.yaml' in words else value
+    with outside.start_world(**{name: given}) as world:
         assert world.finish() == 1
-        said = ''.join(world.lines)
-        assert 'Traceback' not in said
-        *_, last = world.lines
-        assert last.startswith('physsim: ')
-        assert all(word in last for word in words), last
+    *_, last = world.lines
+    assert 'Traceback' not in ''.join(world.lines)
+    assert last.startswith('physsim: ')
+    assert all(word in last for word in words), last
 
 
-def test_it_takes_whole_numbers_and_empty_lists_from_the_command_line(outside: Outside) -> None:
-    with outside.start_world(
-        speed='2', gravity='[0, -9]', bounds='[]', physics_rate='480', density='3'
-    ) as world:
-        world.wait_for('ready')
-        assert world.interrupt() == 0
-
-
-def test_it_starts_with_the_parameter_file_that_comes_with_it(outside: Outside) -> None:
-    path = ROOT / 'config' / 'physsim.yaml'
-    # The later one counts.
-    given = ['--params-file', str(path), '-p', 'viewer:=none']
-    with outside.start_world(*given) as world:
+@pytest.mark.parametrize(
+    'words',
+    [
+        '-p speed:=2 -p gravity:=[0,-9] -p bounds:=[] -p physics_rate:=480 -p density:=3',
+        # The later viewer counts.
+        f'--params-file {ROOT}/config/physsim.yaml -p viewer:=none',
+    ],
+)
+def test_it_starts_with_whole_numbers_empty_lists_and_the_file_that_comes_with_it(
+    outside: Outside, words: str
+) -> None:
+    with outside.start_world(*words.split()) as world:
         world.wait_for('ready')
         assert world.interrupt() == 0
 

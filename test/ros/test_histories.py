@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import math
 from typing import Any
 
@@ -31,7 +32,6 @@ from physsim_ros.testing import (
     delete_all,
     disc,
     joint,
-    own_context,
     PhysSim,
     point,
     polygon,
@@ -125,14 +125,11 @@ class TopicsPlayer(NodePlayer):
 @pytest.mark.slow
 @pytest.mark.parametrize('seed', SEEDS)
 def test_a_history_over_topics_shows_what_its_requests_show_when_they_are_played_from_nothing(
-    seed: int, monkeypatch: pytest.MonkeyPatch
+    seed: int, start: Callable[..., PhysSim], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert SETTINGS.bounds is not None
-    with (
-        own_context(monkeypatch) as context,
-        PhysSim(context, bounds=[*SETTINGS.bounds]) as physsim,
-    ):
-        monkeypatch.setattr('physsim_ros.ros.frame_loop.MOST_TICK_NS', math.inf)
-        player = TopicsPlayer(physsim, Client(physsim))
-        play(history_of_node(seed), player)
+    physsim = start(bounds=[*SETTINGS.bounds])
+    monkeypatch.setattr('physsim_ros.ros.frame_loop.MOST_TICK_NS', math.inf)
+    player = TopicsPlayer(physsim, Client(physsim))
+    play(history_of_node(seed), player)
     assert player.sent

@@ -7,12 +7,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from geometry_msgs.msg import Point
 from physsim_ros.ros.publishers.interactive_markers import FRAMES
 from physsim_ros.testing import box, delete, disc, PhysSim
 import pytest
-from std_msgs.msg import Header
-from visualization_msgs.msg import InteractiveMarkerFeedback as Feedback
 from visualization_msgs.msg import InteractiveMarkerUpdate, Marker
 from visualization_msgs.srv import GetInteractiveMarkers
 
@@ -77,36 +74,6 @@ def test_a_viewer_has_the_bodies_where_they_are(physsim: PhysSim, client: Client
     physsim.spawn(delete('ball/0'))
     physsim.step()
     assert set(viewer.catch_up()) == {'wall/0'}
-
-
-def test_a_viewer_drags_a_body_by_its_marker(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(disc('ball/0', at=(0.0, 5.0)))
-    physsim.step()
-    viewer = Viewer(client)
-
-    def drag(kind: int, x: float, y: float) -> None:
-        marker = viewer.markers['ball/0']
-        feedback = Feedback(
-            header=Header(frame_id=marker.header.frame_id),
-            client_id='rviz',
-            marker_name='ball/0',
-            control_name=marker.controls[0].name,
-            event_type=kind,
-            mouse_point=Point(x=x, y=y),
-            mouse_point_valid=True,
-        )
-        client.publish('~/drag/feedback', feedback)
-
-    drag(Feedback.MOUSE_DOWN, 0.0, 5.0)
-    for number in range(120):
-        drag(Feedback.POSE_UPDATE, number / 60, 5.0)
-        physsim.step()
-    position = viewer.catch_up()['ball/0'].pose.position
-    assert (position.x, position.y) == pytest.approx((2.0, 5.0), abs=0.3)
-    drag(Feedback.MOUSE_UP, 2.0, 5.0)
-    physsim.step(2)
-    assert physsim.node.frame is not None
-    assert not physsim.node.frame.snapshot.grips
 
 
 def test_each_step_of_a_paused_world_is_told(physsim: PhysSim, client: Client) -> None:

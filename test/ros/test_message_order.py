@@ -7,11 +7,10 @@ from __future__ import annotations
 
 from physsim_ros.testing import messages, PhysSim
 from rcl_interfaces.srv import SetParameters, SetParametersAtomically
-from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
-from ..client import Client
+from ..client import Client, message_of
 
 
 def array(number: int, count: int = 100) -> MarkerArray:
@@ -43,8 +42,7 @@ def test_a_service_comes_behind_the_messages_that_were_sent_before(
     physsim: PhysSim, client: Client
 ) -> None:
     client.ask('~/spawn_array', array(0, 1))
-    clear = client.node.create_client(Trigger, '/physsim/clear')
-    client.spin_until(clear.service_is_ready)
+    clear = client.service(Trigger, '~/clear')
     client.publish('~/spawn_array', array(1))
     cleared = clear.call_async(Trigger.Request())
     client.spin_until(cleared.done)
@@ -56,18 +54,16 @@ def test_a_parameter_is_set_behind_the_messages_that_were_sent_before(
 ) -> None:
     client.ask('~/spawn_array', array(9, 1))
     clients = [
-        client.node.create_client(SetParameters, '/physsim/set_parameters'),
-        client.node.create_client(SetParametersAtomically, '/physsim/set_parameters_atomically'),
+        client.service(SetParameters, '~/set_parameters'),
+        client.service(SetParametersAtomically, '~/set_parameters_atomically'),
     ]
-    client.spin_until(lambda: all(each.service_is_ready() for each in clients))
     client.events.clear()
     for number in range(5):
         client.publish('~/spawn_array', array(number))
-    parameter = Parameter('density', value=5.0).to_parameter_msg()
-    replies = [each.call_async(each.srv_type.Request(parameters=[parameter])) for each in clients]
+    density = [message_of('density', 5.0)]
+    replies = [each.call_async(each.srv_type.Request(parameters=density)) for each in clients]
     client.spin_until(lambda: all(each.done() for each in replies))
-    physsim.node.apply_requests()
-    physsim.settle()
+    client.catch_up()
     topics = [event.name for event in client.events]
     assert topics == ['~/spawn_array'] * 500 + ['~/set_parameters'] * 2
     assert {each.body.density for each in physsim.node.simulation.world.save().bodies} == {1.0}

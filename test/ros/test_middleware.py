@@ -5,16 +5,11 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-import sys
-
 import psutil
 import pytest
 
 from ..outside import Outside
 
-ELSEWHERE = Path(__file__).resolve().parents[1] / 'elsewhere'
 # In two bursts: more than the 5,000 messages that Fast DDS keeps for a listener that takes none.
 COUNT = 4000
 
@@ -24,7 +19,7 @@ def test_a_listener_that_takes_nothing_costs_the_others_no_answer(outside: Outsi
     with outside.start_world(gravity='[0.0, 0.0]', speed=0.0) as world:
         world.wait_for('ready')
         process = psutil.Process(world.process.pid)
-        with outside.start(sys.executable, ELSEWHERE / 'deaf.py') as deaf:
+        with outside.start_elsewhere('deaf') as deaf:
             deaf.wait_for('DEAF')
             before = process.memory_info().rss
             seen = outside.run_program('flood', COUNT, 'paused')
@@ -43,11 +38,7 @@ def test_every_answer_reaches_a_reader_of_cyclone_dds_that_reads_all_streams(
     pytest.importorskip('cyclonedds', reason='cyclonedds is not installed: make test')
     with outside.start_world(gravity='[0.0, 0.0]') as world:
         world.wait_for('ready')
-        program = outside.start(
-            sys.executable, ELSEWHERE / 'cyclone.py', outside.partition, 2, 150
-        )
-        seen = json.loads(program.wait_for('RESULT').partition(' ')[2])
-        assert program.finish() == 0
+        seen = outside.run_program('cyclone', outside.partition, 2, 150)
         assert world.interrupt() == 0
     assert seen['missing'] == []
     assert seen['in_order']

@@ -59,11 +59,3 @@ def test_both_worlds_tell_it(outside: Outside) -> None:
             world.wait_for('2 nodes are named /physsim')
         assert second.interrupt() == 0
         assert first.interrupt() == 0
-
-
-def test_a_parameter_that_there_is_not_ends_the_program_and_the_nearest_is_told(
-    outside: Outside,
-) -> None:
-    with outside.start_world(world_fil='demo') as world:
-        assert world.finish() == 1
-    assert "there is no parameter 'world_fil'; nearest is 'world_file'" in world.lines[-1]

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 import math
 from pathlib import Path
 import re
@@ -13,8 +13,8 @@ import socket
 from typing import Any
 
 from physsim_ros.model.errors import BadProperty, Malformed, PhysSimError
-from physsim_ros.ros import parameters
 from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.ros.parameters import SPECS
 from physsim_ros.ros.requests.parameter_services import MOST_PARAMETERS
 from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server import website
@@ -35,19 +35,12 @@ from sensor_msgs.msg import MultiDOFJointState
 
 from ..client import Client, Event, message_of, parameter, set_parameter
 
-# Default, and whether it is fixed once running; the ends of ranges.
-CONTRACT: dict[str, tuple[Any, str]] = {
-    name: (spec.default, 'read-only' if spec.read_only else 'live')
-    for name, spec in parameters.SPECS.items()
+RANGES = {
+    name: spec.span for name, spec in SPECS.items() if spec.span is not None and not spec.read_only
 }
-RANGES: dict[str, tuple[Any, Any]] = {
-    name: (spec.span.low, spec.span.high)
-    for name, spec in parameters.SPECS.items()
-    if spec.span is not None and not spec.read_only
-}
-LIVE = [name for name, (_, kind) in CONTRACT.items() if kind == 'live']
-FIXED = [name for name, (_, kind) in CONTRACT.items() if kind == 'read-only']
-DOUBLES = [name for name, (value, _) in CONTRACT.items() if isinstance(value, float)]
+LIVE = [name for name, spec in SPECS.items() if not spec.read_only]
+FIXED = [name for name, spec in SPECS.items() if spec.read_only]
+DOUBLES = [name for name, spec in SPECS.items() if isinstance(spec.default, float)]
 
 
 def made(name: str, value: object) -> Parameter:
@@ -56,14 +49,19 @@ def made(name: str, value: object) -> Parameter:
     return Parameter(name, value=value)
 
 
+def values_of(physsim: PhysSim) -> dict[str, Any]:
+    """Return the values of all parameters."""
+    return {name: parameter(physsim, name) for name in SPECS}
+
+
 def refuse(physsim: PhysSim, name: str, value: object) -> str:
     """Check that a value is refused with a reason and changes nothing."""
-    before = [parameter(physsim, each) for each in CONTRACT], physsim.digest()
+    before = values_of(physsim), physsim.digest()
     described = repr(physsim.node.describe_parameter(name))
     (result,) = physsim.node.set_parameters([made(name, value)])
     assert not result.successful
     assert result.reason
-    assert ([parameter(physsim, each) for each in CONTRACT], physsim.digest()) == before
+    assert (values_of(physsim), physsim.digest()) == before
     assert repr(physsim.node.describe_parameter(name)) == described
     return str(result.reason)
 
@@ -80,7 +78,7 @@ def started(context: Context, **values: object) -> dict[str, Any]:
     overrides = [made(name, value) for name, value in values.items()]
     node = PhysSimNode(context=context, parameter_overrides=overrides)
     try:
-        return {name: node.get_parameter(name).value for name in CONTRACT}
+        return {name: node.get_parameter(name).value for name in SPECS}
     finally:
         node.destroy_node()
 
@@ -89,42 +87,34 @@ def started(context: Context, **values: object) -> dict[str, Any]:
 
 
 def test_every_default_is_the_contracts(context: Context) -> None:
-    values = started(context)
-    assert {name: values[name] for name in CONTRACT if type(CONTRACT[name][0]) is not list} == {
-        name: value for name, (value, _) in CONTRACT.items() if type(value) is not list
-    }
-    assert list(values['gravity']) == [0.0, -9.81]
-    assert list(values['bounds']) == []
-    assert list(values['draw_velocity']) == [0.0, 0.0]
-    for name, (value, _) in CONTRACT.items():
-        assert isinstance(values[name], type(value)) or isinstance(value, list), name
+    for name, value in started(context).items():
+        default = SPECS[name].default
+        if isinstance(default, list | tuple):
+            assert list(value) == list(default), name
+        else:
+            assert (value, type(value)) == (default, type(default)), name
 
 
-def test_every_parameter_is_described_with_its_unit_and_range(physsim: PhysSim) -> None:
-    for name, (value, kind) in CONTRACT.items():
-        descriptor = physsim.node.describe_parameter(name)
+def test_every_parameter_is_described_over_ros_with_its_unit_and_range(client: Client) -> None:
+    request = DescribeParameters.Request(names=[*SPECS])
+    response = client.request(DescribeParameters, '~/describe_parameters', request)
+    described = {each.name: each for each in response.descriptors}
+    assert [*described] == [*SPECS]
+    for name, spec in SPECS.items():
+        descriptor = described[name]
         assert descriptor.description, name
-        assert descriptor.read_only is (kind == 'read-only'), name
-        assert descriptor.type == Parameter(name, parameters.SPECS[name].kind, value).type_.value
-        if isinstance(value, bool | str):
+        assert descriptor.read_only is spec.read_only, name
+        assert descriptor.type == Parameter(name, spec.kind, spec.default).type_.value
+        if isinstance(spec.default, bool | str):
             continue
         limited = descriptor.floating_point_range or descriptor.integer_range
         assert limited or name in ('gravity', 'bounds', 'datum', 'draw_velocity'), name
         if name in RANGES:
-            low, high = RANGES[name]
-            assert limited[0].from_value == low, name
-            assert high is None or limited[0].to_value == high, name
+            span = RANGES[name]
+            assert (limited[0].from_value, limited[0].to_value) == (span.low, span.high), name
     for name, unit in {'physics_rate': 'Hz', 'publish_rate': 'Hz', 'gravity': 'm/s²'}.items():
-        assert unit in physsim.node.describe_parameter(name).description
-    assert 'connect' in physsim.node.describe_parameter('viewer').additional_constraints
-
-
-def test_the_description_is_there_over_ros_too(client: Client) -> None:
-    names = list(CONTRACT)
-    request = DescribeParameters.Request(names=names)
-    response = client.request(DescribeParameters, '~/describe_parameters', request)
-    assert [descriptor.name for descriptor in response.descriptors] == names
-    assert all(descriptor.description for descriptor in response.descriptors)
+        assert unit in described[name].description
+    assert 'connect' in described['viewer'].additional_constraints
 
 
 # Refusals
@@ -132,16 +122,14 @@ def test_the_description_is_there_over_ros_too(client: Client) -> None:
 
 def test_a_read_only_parameter_is_fixed(physsim: PhysSim) -> None:
     for name in FIXED:
-        other = 120.0 if isinstance(CONTRACT[name][0], float) else 'other'
+        other = 120.0 if name in DOUBLES else 'other'
         assert 'read-only' in refuse(physsim, name, other), name
 
 
 def test_the_ends_of_a_range_are_taken_and_what_lies_beyond_is_refused(physsim: PhysSim) -> None:
-    for name in RANGES:
-        spec, default = parameters.SPECS[name], CONTRACT[name][0]
+    for name, span in RANGES.items():
+        default = SPECS[name].default
         kind = type(default)
-        span = spec.span
-        assert span is not None
         for end in (kind(span.low), kind(span.high)):
             set_parameter(physsim, name, end)
             assert parameter(physsim, name) == end, name
@@ -164,7 +152,7 @@ def test_a_number_that_is_not_finite_is_refused(physsim: PhysSim) -> None:
 
 def test_a_value_of_another_type_is_refused(physsim: PhysSim) -> None:
     for name in LIVE:
-        default = CONTRACT[name][0]
+        default = SPECS[name].default
         for value in (True, 3, 3.5, 'three', ['three'], [True], [b'3']):
             if type(value) is type(default) and not isinstance(value, list):
                 continue
@@ -174,7 +162,7 @@ def test_a_value_of_another_type_is_refused(physsim: PhysSim) -> None:
 
 
 def test_a_parameter_cannot_be_deleted(physsim: PhysSim) -> None:
-    for name in CONTRACT:
+    for name in SPECS:
         before = parameter(physsim, name)
         (result,) = physsim.node.set_parameters([Parameter(name, Parameter.Type.NOT_SET, None)])
         assert not result.successful, name
@@ -230,8 +218,7 @@ def test_a_call_about_more_parameters_than_there_may_be_does_nothing(
     client.ask('~/command', MultiDOFJointState())
     client.events.clear()
     results = client.set_parameters(*[message_of('density', 2.0)] * (most + 1))
-    physsim.node.apply_requests()
-    physsim.settle()
+    client.catch_up()
     (event,) = client.events
     assert event.code == 'malformed'
     assert {each.reason for each in results} == {f'malformed: {event.message}'}
@@ -245,48 +232,42 @@ def test_a_call_about_more_parameters_than_there_may_be_does_nothing(
 def serve(client: Client) -> tuple[SetParametersResult, Event]:
     """Set parameter `sketchpad` to `serve` over ROS; return the result, and its event."""
     (result,) = client.set_parameters(message_of('sketchpad', 'serve'))
-    client.physsim.node.apply_requests()
-    client.physsim.settle()
+    client.catch_up()
     return result, client.events[-1]
 
 
 def test_a_page_that_cannot_be_served_is_refused_and_the_node_goes_on(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    start: Callable[..., PhysSim], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
     monkeypatch.setattr(website, '_MORE_PORTS', 0)
     with socket.create_server(('127.0.0.1', 0)) as taken:
-        values = {'world_dir': str(tmp_path), 'sketchpad_port': taken.getsockname()[1]}
-        with own_context(monkeypatch) as context, PhysSim(context, **values) as physsim:
-            client = Client(physsim)
-            result, event = serve(client)
+        physsim = start(sketchpad_port=taken.getsockname()[1])
+        client = Client(physsim)
+        result, event = serve(client)
 
-            assert not result.successful
-            assert (event.level, event.code, event.field) == (2, 'bad_property', 'sketchpad')
-            assert result.reason == f'bad_property: {event.message}'
-            assert parameter(physsim, 'sketchpad') == 'none'
-            assert physsim.spawn(disc('a/0')) == 'a/0'
+        assert not result.successful
+        assert (event.level, event.code, event.field) == (2, 'bad_property', 'sketchpad')
+        assert result.reason == f'bad_property: {event.message}'
+        assert parameter(physsim, 'sketchpad') == 'none'
+        assert physsim.spawn(disc('a/0')) == 'a/0'
 
-            taken.close()
-            result, event = serve(client)
-            assert result.successful
-            assert event.code == 'ok'
-            assert parameter(physsim, 'sketchpad') == 'serve'
+    result, event = serve(client)
+    assert result.successful
+    assert event.code == 'ok'
+    assert parameter(physsim, 'sketchpad') == 'serve'
 
 
 def test_no_page_is_served_where_another_parameter_beside_it_is_refused(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    start: Callable[..., PhysSim],
 ) -> None:
-    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
     too_many = ','.join(f'b{number}/*' for number in range(MOST_PATTERNS + 1))
-    values = {'world_dir': str(tmp_path), 'sketchpad_port': 0}
-    with own_context(monkeypatch) as context, PhysSim(context, **values) as physsim:
-        wanted = [made('sketchpad', 'serve'), made('sketchpad_locked', too_many)]
-        result = physsim.node.set_parameters_atomically(wanted)
-        assert not result.successful
-        assert 'wildcards' in result.reason
-        assert parameter(physsim, 'sketchpad') == 'none'
-        assert physsim.node.outputs.sketchpad is None
+    physsim = start(sketchpad_port=0)
+    wanted = [made('sketchpad', 'serve'), made('sketchpad_locked', too_many)]
+    result = physsim.node.set_parameters_atomically(wanted)
+    assert not result.successful
+    assert 'wildcards' in result.reason
+    assert parameter(physsim, 'sketchpad') == 'none'
+    assert physsim.node.outputs.sketchpad is None
 
 
 # Conversions
@@ -323,7 +304,7 @@ def test_lists_of_doubles_are_taken_and_checked_over_ros(
 
 
 def test_a_value_of_no_type_is_refused(physsim: PhysSim, client: Client) -> None:
-    values = {each: parameter(physsim, each) for each in CONTRACT}
+    values = values_of(physsim)
     messages = [
         ParameterMessage(name=name, value=ParameterValue(type=kind))
         for name in ('speed', 'gravity', 'use_sim_time', 'nobody')
@@ -332,7 +313,7 @@ def test_a_value_of_no_type_is_refused(physsim: PhysSim, client: Client) -> None
     results = client.set_parameters(*messages)
     assert [result.successful for result in results] == [False] * len(messages)
     assert not any(client.set_together(message).successful for message in messages)
-    assert {each: parameter(physsim, each) for each in CONTRACT} == values
+    assert values_of(physsim) == values
 
 
 def test_lists_of_whole_numbers_and_empty_ones_are_taken(physsim: PhysSim, client: Client) -> None:
@@ -430,11 +411,11 @@ def test_the_clock_can_be_switched_off_and_on_again(physsim: PhysSim, client: Cl
     assert len(clocks) == 6
 
 
-def test_the_clock_may_be_off_from_the_start(monkeypatch: pytest.MonkeyPatch) -> None:
-    with own_context(monkeypatch) as context, PhysSim(context, publish_clock=False) as physsim:
-        clocks = Client(physsim).listen(Clock, '/clock')
-        physsim.step(3)
-        assert clocks == []
+def test_the_clock_may_be_off_from_the_start(start: Callable[..., PhysSim]) -> None:
+    physsim = start(publish_clock=False)
+    clocks = Client(physsim).listen(Clock, '/clock')
+    physsim.step(3)
+    assert clocks == []
 
 
 def test_parameters_tell_what_a_loaded_world_has_set(physsim: PhysSim, tmp_path: Any) -> None:
@@ -451,19 +432,19 @@ def test_parameters_tell_what_a_loaded_world_has_set(physsim: PhysSim, tmp_path:
     assert parameter(physsim, 'density') == 7.0
 
 
-def test_the_world_frame_is_named_by_a_parameter(context: Context) -> None:
-    with PhysSim(context, frame_id='map') as world:
-        world.spawn(box('a/0', at=(1.0, 2.0), frame='map'))
-        assert world.pose('a/0') == (1.0, 2.0, 0.0)
+def test_the_world_frame_is_named_by_a_parameter(start: Callable[..., PhysSim]) -> None:
+    world = start(frame_id='map')
+    world.spawn(box('a/0', at=(1.0, 2.0), frame='map'))
+    assert world.pose('a/0') == (1.0, 2.0, 0.0)
 
 
-def test_a_world_may_be_loaded_at_the_start(context: Context, tmp_path: Any) -> None:
+def test_a_world_may_be_loaded_at_the_start(start: Callable[..., PhysSim], tmp_path: Path) -> None:
     path = tmp_path / 'one.yaml'
     path.write_text('format: 1\ngravity: [0, -1]\nbodies: [{name: a/0, circle: {radius: 1}}]\n')
-    with PhysSim(context, world_file=str(path)) as world:
-        assert world.names == ('a/0',)
-        assert parameter(world, 'gravity') == [0.0, -1.0]
-        world.spawn(box('a/1', at=(5.0, 0.0)))
-        world.step()
-        world.node.simulation.reset()
-        assert world.names == ('a/0',)
+    world = start(world_file=str(path))
+    assert world.names == ('a/0',)
+    assert parameter(world, 'gravity') == [0.0, -1.0]
+    world.spawn(box('a/1', at=(5.0, 0.0)))
+    world.step()
+    world.node.simulation.reset()
+    assert world.names == ('a/0',)

@@ -1,7 +1,12 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""A request that cannot be applied is refused once, by its code, and changes nothing."""
+"""
+A request that cannot be applied is refused once, by its code, and changes nothing.
+
+Messages that are refused before the world sees them are in `test_conversions.py` and
+`test_marker_text.py`; of these there are some for each topic here.
+"""
 
 from __future__ import annotations
 
@@ -13,19 +18,15 @@ from physsim_ros.testing import box, command, delete, disc, marker, PhysSim, poi
 import pytest
 from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
-from visualization_msgs.msg import Marker
+from visualization_msgs.msg import InteractiveMarkerFeedback, Marker
 
+from .journey import clock_of, SECOND
+from .messages import circle, DOWN, feedback, grid, MOVE, spoiled, stroke
 from ..client import Client, Event
 
-NAN = math.nan
-BOWTIE = [(0, 0), (1, 1), (1, 0), (0, 1), (0, 0)]
+NAN, INF = math.nan, math.inf
 FLAT = [(0, 0), (1, 0), (2, 0), (0, 0)]
-
-
-def tilted() -> Marker:
-    message = box('new/0')
-    message.pose.orientation = Quaternion(x=math.sin(0.05), w=math.cos(0.05))
-    return message
+PATH: dict[str, Any] = {'kind': 'path', 'points': [[0, 0], [4, 0]], 'speed': 1.0}
 
 
 def tipped() -> Any:
@@ -34,37 +35,31 @@ def tipped() -> Any:
     return message
 
 
-def nan_at() -> Marker:
-    return box('new/0', at=(NAN, 0.0))
+def joint(text: str) -> Marker:
+    return marker(Marker.LINE_LIST, 'joint/0', points=[(0.4, 0.0)], text=text)
 
 
-def of_type(kind: int) -> Marker:
-    return marker(kind, 'new/0', points=[(0, 0), (1, 0)])
+def plan() -> Any:
+    return grid('#.', '.#')
 
 
+TILTED = Quaternion(x=math.sin(0.05), w=math.cos(0.05))
 SPAWNS: list[tuple[Marker, str, str]] = [
-    (nan_at(), 'malformed', 'pose'),
-    (box('new/0', size=(math.inf, 1.0)), 'malformed', 'scale.x'),
+    (box('new/0', size=(INF, 1.0)), 'malformed', 'scale.x'),
     (disc('new/0', diameter=NAN), 'malformed', 'scale.x'),
     (polygon('new/0', outline=[(0, 0), (NAN, 0), (0, 1), (0, 0)]), 'malformed', 'points'),
     (box('new/0', color=(NAN, 0, 0, 1)), 'malformed', 'color'),
-    (box('new/0', text='{velocity: [1]}'), 'malformed', 'velocity'),
     (box('new/0', text='{spin: .nan}'), 'malformed', 'spin'),
     (box('new/0', text='friction 0.1'), 'malformed', 'text'),
     (box('new/0', text=r'{"\ud800": 1, "\ud800": 2}'), 'malformed', 'text'),
     (box('new/0', text=r'{"\ud800": 1}'), 'malformed', 'text'),
-    (of_type(Marker.ARROW), 'unknown_shape', 'type'),
-    (of_type(Marker.LINE_LIST), 'unknown_shape', 'type'),
-    (of_type(Marker.POINTS), 'unknown_shape', 'type'),
+    (marker(Marker.ARROW, 'new/0', points=[(0, 0), (1, 0)]), 'unknown_shape', 'type'),
     (marker(Marker.TEXT_VIEW_FACING, 'new/0', text='\t'), 'bad_property', 'label'),
     (marker(Marker.TEXT_VIEW_FACING, 'new/0', scale=(1.0, 1.0, 0.0)), 'bad_size', 'scale.z'),
-    (of_type(Marker.MESH_RESOURCE), 'unknown_shape', 'type'),
     (box('new/0', size=(0.0, 1.0)), 'bad_size', 'scale.x'),
-    (box('new/0', size=(1.0, -1.0)), 'bad_size', 'scale.y'),
     (marker(Marker.SPHERE, 'new/0', scale=(1.0, 2.0)), 'bad_size', 'scale.y'),
-    (polygon('new/0', outline=BOWTIE), 'bad_outline', 'points'),
     (polygon('new/0', outline=FLAT), 'bad_outline', 'points'),
-    (tilted(), 'not_planar', 'pose.orientation'),
+    (spoiled(box('new/0'), 'pose.orientation', TILTED), 'not_planar', 'pose.orientation'),
     (box('new/0', frame='map'), 'unknown_frame', 'header.frame_id'),
     (box('new/0', frame='new/0'), 'unknown_frame', 'header.frame_id'),
     (box('new/0', text='{colour: red}'), 'unknown_property', 'colour'),
@@ -78,55 +73,94 @@ SPAWNS: list[tuple[Marker, str, str]] = [
     (delete('new/0'), 'unknown_body', 'name'),
     (box('new/0', text='{anchored: true, velocity: [1, 0]}'), 'anchored', 'velocity'),
     (box('held/0', text='{velocity: [1, 0]}'), 'anchored', 'velocity'),
+    (disc('new/0', actor={**PATH, 'start': {'gate': 'door/0'}}), 'unknown_body', 'gate'),
+    (disc('new/0', actor={**PATH, 'speed': 0}), 'bad_property', 'speed'),
+    (disc('new/0', actor={**PATH, 'kind': 'walk'}), 'bad_property', 'kind'),
+    (disc('new/0', actor={**PATH, 'sped': 1}), 'unknown_property', 'sped'),
+    (disc('new/0', actor={**PATH, 'points': [[0, 0], [1]]}), 'malformed', 'points'),
 ]
-
-# topic, message, hardware_id, code, field
+JOINTS: list[tuple[Marker, str, str]] = [
+    (joint('{kind: glue}'), 'bad_property', 'kind'),
+    (joint('{kind: axle, stifness: 3}'), 'unknown_property', 'stifness'),
+    (joint('{kind: axle, a: x/0}'), 'unknown_body', 'a'),
+    (joint('{kind: spring}'), 'malformed', 'points'),
+    (joint('kind: ['), 'malformed', 'text'),
+    (delete('joint/0'), 'unknown_joint', 'name'),
+]
+# topic, message, code, field; of these without a subject
+PLACES: list[tuple[str, Any, str, str]] = [
+    ('~/anchor', point(NAN, 0), 'malformed', 'point'),
+    ('~/anchor', point(0, INF), 'malformed', 'point'),
+    ('~/anchor', point(0, 0, 'map'), 'unknown_frame', 'header.frame_id'),
+    ('~/anchor', point(50, 50), 'nothing_there', 'point'),
+    ('~/release', point(0, NAN), 'malformed', 'point'),
+    ('~/release', point(0, 0, 'map'), 'unknown_frame', 'header.frame_id'),
+    ('~/release', point(50, 50), 'nothing_there', 'point'),
+    ('~/pin', point(50, 50), 'nothing_there', 'point'),
+    ('~/axle', point(50, 50), 'nothing_there', 'point'),
+    ('~/pin', point(5, 0), 'anchored', 'point'),
+    ('~/axle', point(0, 0, 'map'), 'unknown_frame', 'header.frame_id'),
+    ('clicked_point', point(50, 50), 'nothing_there', 'point'),
+    ('clicked_point', point(5, 0), 'anchored', 'point'),
+    ('clicked_point', point(0, 0, 'map'), 'unknown_frame', 'header.frame_id'),
+    ('~/drag/feedback', feedback(DOWN, 9.0, 9.0), 'nothing_there', 'mouse_point'),
+    ('~/drag/feedback', feedback(DOWN, NAN, 0.0), 'malformed', 'mouse_point'),
+    ('~/drag/feedback', feedback(MOVE, 0.0, INF), 'malformed', 'mouse_point'),
+    ('~/drag/feedback', feedback(DOWN, frame='nobody/0'), 'unknown_frame', 'header.frame_id'),
+    ('~/drag/feedback', feedback(DOWN, hand='a\nb'), 'malformed', 'client_id'),
+    (
+        '~/drag/feedback',
+        feedback(InteractiveMarkerFeedback.BUTTON_CLICK),
+        'bad_property',
+        'event_type',
+    ),
+    ('~/stroke', stroke((0, 0)), 'bad_size', 'poses'),
+    ('~/stroke', stroke((0, 0), (NAN, 1), (2, 2)), 'malformed', 'poses'),
+    ('~/stroke', stroke(*circle(0, 0, 1), frame='nobody/0'), 'unknown_frame', 'header.frame_id'),
+    ('~/walls', spoiled(plan(), 'data', plan().data[:-1]), 'malformed', 'data'),
+    ('~/walls', spoiled(plan(), 'info.resolution', 0.0), 'bad_size', 'resolution'),
+    ('~/walls', spoiled(plan(), 'info.resolution', NAN), 'malformed', 'resolution'),
+    (
+        '~/walls',
+        spoiled(plan(), 'header.frame_id', 'base_link'),
+        'unknown_frame',
+        'header.frame_id',
+    ),
+    (
+        '~/walls',
+        spoiled(plan(), 'info.origin.orientation.x', 1.0),
+        'not_planar',
+        'info.origin.orientation',
+    ),
+    # Just before the oldest step, after the newest one, and as far off as a clock tells.
+    *(
+        ('~/seek', clock_of(stamp), 'out_of_history', 'clock')
+        for stamp in (-3_000_000, 1000 * SECOND, 2_000_000_000 * SECOND)
+    ),
+    ('~/speed', Float64(data=NAN), 'malformed', 'speed'),
+    ('~/speed', Float64(data=INF), 'malformed', 'speed'),
+    ('~/speed', Float64(data=65.0), 'bad_property', 'speed'),
+    ('~/speed', Float64(data=-65.0), 'bad_property', 'speed'),
+]
+COMMANDS: list[tuple[Any, str, str]] = [
+    (command('a/0', twists=[(0, 0, 0)] * 2), 'malformed', 'twist'),
+    (tipped(), 'not_planar', 'transforms'),
+    (command('a/0', poses=[(0, 0, 0)], frame='map'), 'unknown_frame', 'header.frame_id'),
+    (command('a/0', twists=[(0, 0, 0)], frame='map'), 'unknown_frame', 'header.frame_id'),
+    (command('a/0', twists=[(1e9, 0, 0)]), 'bad_property', 'twist'),
+    (command('a/0', wrenches=[(1e19, 0, 0)]), 'bad_property', 'wrench'),
+    (command('new/0', poses=[(0, 0, 0)]), 'unknown_body', 'joint_names'),
+    (command('held/0', twists=[(0, 0, 0)]), 'anchored', 'joint_names'),
+    (command('held/0', wrenches=[(0, 0, 0)]), 'anchored', 'joint_names'),
+]
+# topic, message, subject, code, field
 REQUESTS: list[tuple[str, Any, str, str, str]] = [
     *(('~/spawn', message, f'{message.ns}/{message.id}', *rest) for message, *rest in SPAWNS),
-    ('~/anchor', point(NAN, 0), '', 'malformed', 'point'),
-    ('~/anchor', point(0, math.inf), '', 'malformed', 'point'),
-    ('~/anchor', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
-    ('~/anchor', point(50, 50), '', 'nothing_there', 'point'),
-    ('~/release', point(0, NAN), '', 'malformed', 'point'),
-    ('~/release', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
-    ('~/release', point(50, 50), '', 'nothing_there', 'point'),
-    ('~/pin', point(50, 50), '', 'nothing_there', 'point'),
-    ('~/axle', point(50, 50), '', 'nothing_there', 'point'),
-    ('~/pin', point(5, 0), '', 'anchored', 'point'),
-    ('~/axle', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
-    ('clicked_point', point(50, 50), '', 'nothing_there', 'point'),
-    ('clicked_point', point(5, 0), '', 'anchored', 'point'),
-    ('clicked_point', point(0, 0, 'map'), '', 'unknown_frame', 'header.frame_id'),
     ('~/spawn', box('anchor:a/0'), 'anchor:a/0', 'malformed', 'name'),
-    ('~/command', command(), '', 'malformed', 'joint_names'),
+    *(('~/join', message, 'joint/0', *rest) for message, *rest in JOINTS),
+    *((topic, message, '', *rest) for topic, message, *rest in PLACES),
+    *(('~/command', message, message.joint_names[0], *rest) for message, *rest in COMMANDS),
     ('~/command', command('a/0', 'a/0'), '', 'malformed', 'joint_names'),
-    ('~/command', command('a/0', twists=[(0, 0, 0)] * 2), 'a/0', 'malformed', 'twist'),
-    ('~/command', command('a/0', wrenches=[(0, 0, NAN)]), 'a/0', 'malformed', 'wrench'),
-    ('~/command', command('a/0', poses=[(0, 0, 0)] * 2), 'a/0', 'malformed', 'transforms'),
-    ('~/command', tipped(), 'a/0', 'not_planar', 'transforms'),
-    (
-        '~/command',
-        command('a/0', poses=[(0, 0, 0)], frame='map'),
-        'a/0',
-        'unknown_frame',
-        'header.frame_id',
-    ),
-    (
-        '~/command',
-        command('a/0', twists=[(0, 0, 0)], frame='map'),
-        'a/0',
-        'unknown_frame',
-        'header.frame_id',
-    ),
-    ('~/command', command('a/0', twists=[(1e9, 0, 0)]), 'a/0', 'bad_property', 'twist'),
-    ('~/command', command('a/0', wrenches=[(1e19, 0, 0)]), 'a/0', 'bad_property', 'wrench'),
-    ('~/command', command('new/0', poses=[(0, 0, 0)]), 'new/0', 'unknown_body', 'joint_names'),
-    ('~/command', command('held/0', twists=[(0, 0, 0)]), 'held/0', 'anchored', 'joint_names'),
-    ('~/command', command('held/0', wrenches=[(0, 0, 0)]), 'held/0', 'anchored', 'joint_names'),
-    ('~/speed', Float64(data=NAN), '', 'malformed', 'speed'),
-    ('~/speed', Float64(data=math.inf), '', 'malformed', 'speed'),
-    ('~/speed', Float64(data=65.0), '', 'bad_property', 'speed'),
-    ('~/speed', Float64(data=-65.0), '', 'bad_property', 'speed'),
 ]
 
 

@@ -8,15 +8,22 @@ from __future__ import annotations
 from itertools import pairwise
 from pathlib import Path
 
-from physsim_ros.testing import box, disc, PhysSim
+from physsim_ros.testing import disc, PhysSim
 import pytest
 from rcl_interfaces.srv import SetParameters
-from rclpy.parameter import Parameter
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from .journey import Journey
-from ..client import Client, Event, failed, parameter, set_parameter, succeeded
+from ..client import (
+    Client,
+    Event,
+    failed,
+    message_of,
+    parameter,
+    set_parameter,
+    succeeded,
+)
 
 
 def steps_after(journey: Journey, frames: int) -> list[int]:
@@ -28,7 +35,7 @@ def steps_after(journey: Journey, frames: int) -> list[int]:
     return steps
 
 
-# Play, pause, step
+# Play, pause; steps are in `test_timeline.py`
 
 
 def test_pause_stops_time_and_play_lets_it_run_at_speed_1(
@@ -44,39 +51,6 @@ def test_pause_stops_time_and_play_lets_it_run_at_speed_1(
     steps_after(journey, 1)
     steps = steps_after(journey, 10)
     assert [after - before for before, after in pairwise(steps)] == [4] * 9
-
-
-def test_a_step_is_one_publish_period(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(disc(at=(0.0, 5.0)))
-    succeeded(client.call('~/pause'))
-    for number in range(1, 4):
-        succeeded(client.call('~/step'))
-        assert physsim.time == pytest.approx(number / 60.0, abs=1e-9)
-        # m
-        fallen = 9.81 * (number / 60.0) ** 2 / 2
-        assert physsim.pose('body/0').y == pytest.approx(5.0 - fallen, abs=1e-9)
-
-
-def test_a_step_is_refused_while_time_runs(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(box())
-    before = physsim.digest()
-    assert 'pause' in failed(client.call('~/step'))
-    assert physsim.digest() == before
-    assert physsim.time == 0.0
-
-
-def test_a_paused_world_takes_and_answers_requests(journey: Journey, client: Client) -> None:
-    succeeded(client.call('~/pause'))
-    client.publish('~/spawn', box('a/0', at=(1.0, 2.0)))
-    journey.physsim.settle()
-    steps_after(journey, 2)
-    assert [(event.name, event.code) for event in client.events] == [
-        ('~/pause', 'ok'),
-        ('~/spawn', 'ok'),
-    ]
-    assert journey.physsim.pose('a/0') == (1.0, 2.0, 0.0)
-    steps_after(journey, 5)
-    assert journey.physsim.pose('a/0') == (1.0, 2.0, 0.0)
 
 
 # Speed
@@ -97,32 +71,7 @@ def test_time_runs_at_the_speed_that_is_set(
         assert all(step % 4 == 0 for step in steps)
 
 
-# Clear, reset
-
-
-def test_clear_deletes_all_bodies_and_time_goes_on(physsim: PhysSim, client: Client) -> None:
-    physsim.spawn(disc('a/0', at=(0.0, 5.0)))
-    time = physsim.time
-    bodies = len(physsim.names)
-    assert str(bodies) in succeeded(client.call('~/clear'))
-    assert physsim.names == ()
-    assert physsim.time == time
-    physsim.spawn(disc())
-    physsim.step()
-    assert physsim.time > time
-
-
 # Save, load
-
-
-def test_time_goes_on_over_a_load(physsim: PhysSim, client: Client) -> None:
-    physsim.run(0.5)
-    set_parameter(physsim, 'world_file', 'demo')
-    message = succeeded(client.call('~/load_world'))
-    assert 'demo' in message
-    assert physsim.time == pytest.approx(0.5)
-    assert 'ramp/0' in physsim.names
-    assert list(parameter(physsim, 'bounds')) == [-10.0, 0.0, 10.0, 12.0]
 
 
 def test_a_world_is_loaded_by_the_path_of_its_file(
@@ -180,23 +129,22 @@ def test_a_peer_is_not_told_what_a_refused_file_holds(
         assert 'hunter2' not in message
 
 
+def begin_seek(physsim: PhysSim, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Begin a seek as with ticks, which bring the world to the cached frame that is shown."""
+    physsim.run(1.0)
+    monkeypatch.setattr(physsim.node.loop, 'started', True)
+    physsim.node.simulation.requests.submit_seek(500_000_000, topic='~/seek')
+
+
 @pytest.mark.parametrize('waits', [False, True])
 def test_a_service_that_needs_the_world_waits_for_the_end_of_a_seek_and_replies_then(
-    physsim: PhysSim,
-    client: Client,
-    monkeypatch: pytest.MonkeyPatch,
-    waits: bool,
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, *, waits: bool
 ) -> None:
     simulation = physsim.node.simulation
     client.ask('~/spawn', disc('disc/0', at=(0.0, 5.0)))
     client.ask('~/spawn', disc('disc/1', at=(3.0, 5.0)))
-    physsim.run(1.0)
-    clear = client.node.create_client(Trigger, '/physsim/clear')
-    pause = client.node.create_client(Trigger, '/physsim/pause')
-    client.spin_until(lambda: clear.service_is_ready() and pause.service_is_ready())
-    # As with ticks, which bring the world to the cached frame that is shown.
-    monkeypatch.setattr(physsim.node.loop, 'started', True)
-    simulation.requests.submit_seek(500_000_000, topic='~/seek')
+    clear, pause = (client.service(Trigger, f'~/{name}') for name in ('clear', 'pause'))
+    begin_seek(physsim, monkeypatch)
     if not waits:
         assert not simulation.apply_up_to_seek()
     cleared, paused = clear.call_async(Trigger.Request()), pause.call_async(Trigger.Request())
@@ -217,16 +165,13 @@ def test_a_world_that_waits_to_be_loaded_is_that_which_was_named_before(
     physsim.spawn(disc('first/0', at=(0.0, 5.0)))
     set_parameter(physsim, 'world_file', 'first')
     succeeded(client.call('~/save_world'))
-    load = client.node.create_client(Trigger, '/physsim/load_world')
-    name = client.node.create_client(SetParameters, '/physsim/set_parameters')
-    client.spin_until(lambda: load.service_is_ready() and name.service_is_ready())
-    physsim.run(1.0)
-    # As with ticks, which bring the world to the cached frame that is shown.
-    monkeypatch.setattr(physsim.node.loop, 'started', True)
-    physsim.node.simulation.seek(500_000_000)
+    load = client.service(Trigger, '~/load_world')
+    name = client.service(SetParameters, '~/set_parameters')
+    begin_seek(physsim, monkeypatch)
+    assert not physsim.node.simulation.apply_up_to_seek()
     loaded = load.call_async(Trigger.Request())
     physsim.settle()
-    second = Parameter('world_file', value='second').to_parameter_msg()
+    second = message_of('world_file', 'second')
     named = name.call_async(SetParameters.Request(parameters=[second]))
     physsim.settle()
     assert not loaded.done()
@@ -236,22 +181,17 @@ def test_a_world_that_waits_to_be_loaded_is_that_which_was_named_before(
     assert parameter(physsim, 'world_file') == 'second'
 
 
-@pytest.mark.parametrize('name', ['gravity', 'tool'])
+@pytest.mark.parametrize(('name', 'value'), [('gravity', [0.0, -1.0]), ('tool', 'anchor')])
 def test_a_parameter_waits_for_the_end_of_a_seek_where_the_world_has_it(
-    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, name: str
+    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, name: str, value: object
 ) -> None:
-    service = client.node.create_client(SetParameters, '/physsim/set_parameters')
-    client.spin_until(service.service_is_ready)
-    physsim.run(1.0)
-    monkeypatch.setattr(physsim.node.loop, 'started', True)
-    simulation = physsim.node.simulation
-    simulation.seek(500_000_000)
-    value = [0.0, -1.0] if name == 'gravity' else 'anchor'
-    request = SetParameters.Request(parameters=[Parameter(name, value=value).to_parameter_msg()])
-    named = service.call_async(request)
+    service = client.service(SetParameters, '~/set_parameters')
+    begin_seek(physsim, monkeypatch)
+    assert not physsim.node.simulation.apply_up_to_seek()
+    named = service.call_async(SetParameters.Request(parameters=[message_of(name, value)]))
     physsim.settle()
     physsim.settle()
-    assert not simulation.apply_up_to_seek()
+    assert not physsim.node.simulation.apply_up_to_seek()
     assert named.done() is (name == 'tool')
     physsim.node.apply_requests()
     client.spin_until(named.done)

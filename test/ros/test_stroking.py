@@ -5,11 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 import math
 
-from geometry_msgs.msg import PoseStamped
-from nav_msgs.msg import Path
 from physsim_ros.model.errors import Malformed
 from physsim_ros.model.settings import MOST_SAMPLES
 from physsim_ros.ros.requests.conversions import stroke_samples
@@ -18,31 +15,8 @@ import pytest
 from rclpy.parameter import Parameter
 from visualization_msgs.msg import Marker, MarkerArray
 
+from .messages import circle, stroke
 from ..client import Client, KEPT
-
-Points = Sequence[tuple[float, float]]
-
-
-def stroke(
-    *points: Sequence[float], frame: str = '', frames: Sequence[str] = (), begin: int = 0
-) -> Path:
-    """Return a path, its points x, y and, where there are three, time [s]."""
-    message = Path()
-    message.header.frame_id = frame
-    for number, point in enumerate(points):
-        sample = PoseStamped()
-        x, y, seconds = (*map(float, point), 0.0)[:3]
-        sample.pose.position.x, sample.pose.position.y, sample.pose.position.z = x, y, 7.0
-        stamp = begin + round(seconds * 1e9)
-        sample.header.stamp.sec, sample.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
-        sample.header.frame_id = frames[number] if frames else ''
-        message.poses.append(sample)
-    return message
-
-
-def circle(x: float, y: float, radius: float, count: int = 60) -> Points:
-    angles = [math.tau * number / count for number in range(count + 1)]
-    return [(x + radius * math.cos(angle), y + radius * math.sin(angle)) for angle in angles]
 
 
 def test_a_stroke_becomes_a_body_and_is_told_with_its_confidence(
@@ -78,35 +52,6 @@ def test_a_stroke_may_be_drawn_in_the_frame_of_a_body(client: Client) -> None:
     events = client.ask('~/stroke', stroke(*circle(3.0, 0.0, 1.0), frame='a/0'))
     assert [event.code for event in events] == ['ok', 'ok']
     assert client.physsim.pose('drawn/0')[:2] == pytest.approx((10.0, 8.0), abs=0.01)
-
-
-@pytest.mark.parametrize(
-    ('points', 'code', 'field'),
-    [
-        ([(0, 0)], '', ''),
-        ([(0, 0), (math.nan, 1), (2, 2)], 'malformed', ''),
-        ([(0.001 * number, 0.0) for number in range(11_000)], 'malformed', 'poses'),
-    ],
-    ids=['one point', 'nan', 'too long'],
-)
-def test_what_is_no_stroke_is_refused_with_a_code_and_changes_nothing(
-    client: Client, points: Points, code: str, field: str
-) -> None:
-    client.physsim.spawn(disc('a/0'))
-    before = client.physsim.digest()
-
-    (event,) = client.ask('~/stroke', stroke(*points))
-
-    assert (event.level, event.name) == (2, '~/stroke')
-    assert event.code in ([code] if code else ['bad_size', 'not_recognised', 'bad_property'])
-    assert event.message
-    assert not field or event.field == field
-    assert client.physsim.digest() == before
-
-
-def test_an_unknown_frame_is_refused(client: Client) -> None:
-    (event,) = client.ask('~/stroke', stroke(*circle(0, 0, 1), frame='nobody/0'))
-    assert (event.code, event.field) == ('unknown_frame', 'header.frame_id')
 
 
 def test_below_the_confidence_that_is_asked_for_nothing_is_built(

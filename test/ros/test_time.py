@@ -14,10 +14,9 @@ from physsim_ros.testing import disc, PhysSim, Refused
 import pytest
 from rclpy.node import Node
 from std_msgs.msg import Float64
-from visualization_msgs.msg import MarkerArray
 
-from .journey import clock_of, Journey, PERIOD, SECOND, STEP
-from ..client import failed, parameter, set_parameter, succeeded
+from .journey import clock_of, Journey, PERIOD, SECOND
+from ..client import Client, parameter, set_parameter, succeeded
 
 # Back, and on again
 
@@ -145,22 +144,6 @@ def test_a_seek_while_time_runs_lets_it_run_on(journey: Journey) -> None:
     journey.compare(frames, 18)
 
 
-# Just before the oldest step, just after the newest, and as far off as a clock tells.
-@pytest.mark.parametrize('off', [-3_000_000, 3_000_000, 2_000_000_000 * 10**9])
-def test_a_seek_out_of_history_is_refused_and_changes_nothing(journey: Journey, off: int) -> None:
-    journey.live(60)
-    before, speed = journey.physsim.digest(), parameter(journey.physsim, 'speed')
-    journey.shown()
-
-    answer = journey.seek(off if off < 0 else journey.end + off)
-
-    assert answer.level == 2
-    assert (answer.code, answer.field) == ('out_of_history', 'clock')
-    assert journey.physsim.digest() == before
-    assert parameter(journey.physsim, 'speed') == speed
-    assert journey.tick(3) == []
-
-
 @pytest.mark.parametrize(
     ('topic', 'message'),
     [
@@ -169,19 +152,19 @@ def test_a_seek_out_of_history_is_refused_and_changes_nothing(journey: Journey, 
     ],
 )
 def test_what_was_asked_before_is_answered_before(
-    journey: Journey, topic: str, message: Any
+    physsim: PhysSim, client: Client, topic: str, message: Any
 ) -> None:
-    journey.live(60)
+    physsim.run(0.5)
     # Both ways are known before anything is asked.
-    journey.client.ask('~/spawn', disc('a/0'))
-    journey.client.ask(topic, message)
-    told = len(journey.client.events)
+    client.ask('~/spawn', disc('a/0'))
+    client.ask(topic, message)
+    client.events.clear()
 
-    journey.client.publish('~/spawn', disc('b/0'))
-    journey.physsim.settle()
-    journey.client.ask(topic, message)
+    client.publish('~/spawn', disc('b/0'))
+    physsim.settle()
+    client.ask(topic, message)
 
-    names = [event.name for event in journey.client.events[told:] if event.name[:2] == '~/']
+    names = [event.name for event in client.events if event.name[:2] == '~/']
     assert names == ['~/spawn', topic]
 
 
@@ -218,67 +201,7 @@ def test_looking_and_changing_pace_in_the_past_begins_none(journey: Journey) -> 
     assert journey.seek(journey.end).code == 'ok'
 
 
-# History
-
-
-def test_history_is_how_far_back_it_goes(journey: Journey) -> None:
-    journey.live(200)
-    last = round(journey.end / STEP)
-    set_parameter(journey.physsim, 'history', 1.0)
-
-    for stamp in (journey.end - SECOND - 1.1 * STEP, 0.0):
-        assert journey.seek(stamp).code == 'out_of_history'
-    journey.shown()
-    succeeded(journey.client.call('~/rewind'))
-    frames = journey.tick(80)
-
-    journey.compare(frames, 58)
-    assert round(frames[-1][0] / STEP) == last - 240
-    assert journey.client.events[-1].name == 'history'
-    assert parameter(journey.physsim, 'speed') == 0.0
-
-
-# Undo, redo, reset
-
-
-def test_undo_goes_back_to_the_moment_before_the_last_request(journey: Journey) -> None:
-    journey.live(60)
-    physsim, before = journey.physsim, journey.physsim.digest()
-    names, time = physsim.names, physsim.time
-    physsim.spawn(disc('new/0', at=(0.0, 9.0)))
-    journey.run(30)
-
-    message = succeeded(journey.client.call('~/undo'))
-
-    assert 'new/0' in message
-    assert f'{time:.3f}' in message
-    assert physsim.names == names
-    assert physsim.time == time
-    assert physsim.digest() == before
-
-
-def test_an_array_is_undone_whole(journey: Journey) -> None:
-    journey.live(30)
-    physsim, before = journey.physsim, journey.physsim.digest()
-    physsim.spawn(MarkerArray(markers=[disc(f'new/{each}', at=(each, 9)) for each in range(3)]))
-    after = physsim.digest()
-
-    message = succeeded(journey.client.call('~/undo'))
-
-    assert physsim.digest() == before, message
-    succeeded(journey.client.call('~/redo'))
-    assert physsim.digest() == after
-
-
-def test_undo_and_redo_of_nothing_are_refused_and_change_nothing(journey: Journey) -> None:
-    journey.physsim.step(10)
-    before = journey.physsim.digest()
-
-    for service in ('~/undo', '~/redo'):
-        assert failed(journey.client.call(service)).startswith('out_of_history: ')
-
-    assert journey.physsim.digest() == before
-    assert journey.physsim.time == pytest.approx(10 / 60)
+# Undo and redo: what lies behind them is in `test/simulation/test_undo.py`.
 
 
 @pytest.mark.parametrize('what', ['clear', 'load_world', 'gravity'])
@@ -306,45 +229,17 @@ def test_whatever_changes_the_world_is_undone_and_redone(journey: Journey, what:
     assert physsim.digest() == after
 
 
-def test_a_reset_is_undone_and_redone(journey: Journey) -> None:
-    journey.live(100)
-    physsim = journey.physsim
-    set_parameter(physsim, 'gravity', [1.0, 2.0])
-    journey.run(10)
-    before, time = physsim.digest(), physsim.time
-
-    succeeded(journey.client.call('~/reset'))
-    assert (physsim.time, physsim.names) == (0.0, ())
-    assert parameter(physsim, 'gravity') == [0.0, -9.81]
-    succeeded(journey.client.call('~/undo'))
-
-    assert (physsim.digest(), physsim.time) == (before, time)
-    assert parameter(physsim, 'gravity') == [1.0, 2.0]
-    # Its past is there again.
-    journey.shown()
-    journey.seek(SECOND)
-    journey.compare(journey.shown(), 1)
-    journey.seek(journey.end)
-    succeeded(journey.client.call('~/redo'))
-    assert (physsim.time, physsim.names) == (0.0, ())
-
-
-@pytest.mark.parametrize(
-    'service', ['play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'save_world']
-)
-def test_a_service_does_nothing_twice(journey: Journey, tmp_path: Path, service: str) -> None:
+def test_a_service_does_nothing_twice(journey: Journey, tmp_path: Path) -> None:
+    physsim, client = journey.physsim, journey.client
     journey.live(60)
-    set_parameter(journey.physsim, 'world_file', 'mine')
+    set_parameter(physsim, 'world_file', 'mine')
 
-    messages, digests, speeds = [], [], []
-    for _ in range(2):
-        messages.append(succeeded(journey.client.call(f'~/{service}')))
-        digests.append(journey.physsim.digest())
-        speeds.append(parameter(journey.physsim, 'speed'))
+    def done() -> tuple[object, ...]:
+        message = succeeded(client.call(f'~/{service}'))
         files = [path.read_bytes() for path in tmp_path.iterdir()]
+        return message, physsim.digest(), parameter(physsim, 'speed'), files
 
-    assert messages[0] == messages[1]
-    assert digests[0] == digests[1]
-    assert speeds[0] == speeds[1]
-    assert len(files) == (service == 'save_world')
+    for service in ('play', 'pause', 'rewind', 'fast_forward', 'fast_rewind', 'save_world'):
+        assert done() == done(), service
+    assert [path.name for path in tmp_path.iterdir()] == ['mine.yaml']
     assert journey.seek(journey.end).code == 'ok'

@@ -44,8 +44,7 @@ def test_it_tells_the_state_the_course_and_what_can_be_undone(
     physsim.spawn(disc('a/0'))
     physsim.run(1.0)
     client.call('~/pause')
-    physsim.node.apply_requests()
-    physsim.settle()
+    client.catch_up()
     status = told(messages[-1])
     assert (status['state'], status['now'], status['newest']) == ('paused', '1.000000', '1.000000')
 
@@ -60,8 +59,7 @@ def test_it_tells_the_state_the_course_and_what_can_be_undone(
     )
     assert status['courses'] == '1:0.500000:1.000000'
     client.call('~/undo')
-    physsim.node.apply_requests()
-    physsim.settle()
+    client.catch_up()
     status = told(messages[-1])
     assert (status['undo'], status['redo']) == ('undo spawn a/0', 'redo set motion of a/0')
     physsim.spawn(delete('a/0'))
@@ -75,8 +73,7 @@ def test_a_shorter_history_is_told_while_time_is_paused(physsim: PhysSim, client
     client.call('~/pause')
     physsim.node.apply_requests()
     set_parameter(physsim, 'history', 0.2)
-    physsim.node.apply_requests()
-    physsim.settle()
+    client.catch_up()
     status = told(messages[-1])
     assert (status['oldest'], status['undo']) == ('0.800000', '')
 
@@ -86,8 +83,7 @@ def test_each_step_of_a_paused_world_is_told(physsim: PhysSim, client: Client) -
     client.call('~/pause')
     for _ in range(3):
         client.call('~/step')
-        physsim.node.apply_requests()
-        physsim.settle()
+        client.catch_up()
 
         assert float(told(messages[-1])['now']) == pytest.approx(physsim.time, abs=1e-6)
     assert physsim.time == pytest.approx(3 / 60)

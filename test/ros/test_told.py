@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from nav_msgs.msg import Path
 from physsim_ros.ros.requests import request_topics
 from physsim_ros.testing import disc, PhysSim
@@ -21,8 +19,7 @@ from ..client import Client, Event, message_of
 
 def told(client: Client) -> list[Event]:
     """Return the events since the last time."""
-    client.physsim.node.apply_requests()
-    client.physsim.settle()
+    client.catch_up()
     events, client.events[:] = list(client.events), []
     return events
 
@@ -40,17 +37,17 @@ def test_what_a_service_did_is_told_in_the_same_sentence(client: Client, service
 
 
 @pytest.mark.parametrize(
-    ('service', 'code'),
+    ('service', 'code', 'word'),
     [
-        ('step', 'running'),
-        ('undo', 'out_of_history'),
-        ('redo', 'out_of_history'),
-        ('load_world', 'bad_world_file'),
-        ('save_world', 'bad_world_file'),
+        ('step', 'running', 'pause'),
+        ('undo', 'out_of_history', 'undo'),
+        ('redo', 'out_of_history', 'redo'),
+        ('load_world', 'bad_world_file', 'world_file'),
+        ('save_world', 'bad_world_file', 'world_file'),
     ],
 )
 def test_why_a_service_did_nothing_is_told_in_the_same_sentence(
-    physsim: PhysSim, client: Client, service: str, code: str
+    physsim: PhysSim, client: Client, service: str, code: str, word: str
 ) -> None:
     before = physsim.digest()
     response = client.call(f'~/{service}')
@@ -58,6 +55,7 @@ def test_why_a_service_did_nothing_is_told_in_the_same_sentence(
     (event,) = told(client)
     assert (event.level, event.name, event.code) == (2, f'~/{service}', code)
     assert response.message == f'{code}: {event.message}'
+    assert word in event.message
     assert physsim.digest() == before
 
 
@@ -100,61 +98,45 @@ TOPICS = {
     MarkerArray: '~/spawn_array',
     MultiDOFJointState: '~/command',
     Path: '~/stroke',
+    Float64: '~/speed',
 }
 NOISE = b'\0\1\0\0' + b'\xff' * 16
+# Of a number there is nothing to decode wrongly, and rclpy sends no more than it.
+LARGE = [kind for kind in TOPICS if kind is not Float64]
 
 
-@pytest.mark.parametrize('kind', TOPICS)
-def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
-    physsim: PhysSim, client: Client, kind: Any
-) -> None:
-    topic = TOPICS[kind]
-    client.ask(topic, kind())
+def check_malformed(client: Client, kind: type, data: bytes) -> None:
+    """Publish bytes on a topic, and check that they are answered and change nothing."""
+    topic, physsim = TOPICS[kind], client.physsim
     told(client)
-    before = physsim.digest()
-    publisher = client._publishers[topic]  # noqa: SLF001 - what it sends is no message
-    publisher.publish(NOISE)
+    before = physsim.digest(), physsim.node.simulation.speed
+    client._publishers[topic].publish(data)  # noqa: SLF001 - what it sends is no message
     physsim.settle()
     (event,) = told(client)
     assert (event.level, event.name, event.code) == (2, topic, 'malformed')
-    assert physsim.node.requests.undecodable == 1
-    assert physsim.digest() == before
+    assert (physsim.digest(), physsim.node.simulation.speed) == before
 
 
 @pytest.mark.parametrize(
-    ('kind', 'most'),
+    ('kind', 'data'),
     [
-        (Marker, request_topics.MOST_BYTES_OF_ONE),
-        (MarkerArray, request_topics.MOST_BYTES[MarkerArray]),
-        (MultiDOFJointState, request_topics.MOST_BYTES[MultiDOFJointState]),
-        (Path, request_topics.MOST_BYTES[Path]),
+        *((kind, NOISE) for kind in LARGE),
+        *((kind, serialize_message(kind())[:-3]) for kind in TOPICS),
     ],
 )
-def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
-    physsim: PhysSim, client: Client, monkeypatch: pytest.MonkeyPatch, kind: Any, most: int
+def test_a_message_that_cannot_be_decoded_is_answered_and_counted(
+    physsim: PhysSim, client: Client, kind: type, data: bytes
 ) -> None:
-    topic = TOPICS[kind]
-    client.ask(topic, kind())
-    told(client)
-    before = physsim.digest()
-    decoded = list[bytes]()
-    monkeypatch.setattr(
-        request_topics, 'deserialize_message', lambda data, _: decoded.append(data)
-    )
-    client._publishers[topic].publish(bytes(most + 1))  # noqa: SLF001 - it is sent as it is
-    physsim.settle()
-    (event,) = told(client)
-    assert (event.level, event.name, event.code) == (2, topic, 'malformed')
-    assert decoded == []
-    assert physsim.digest() == before
+    client.ask(TOPICS[kind], kind())
+    check_malformed(client, kind, data)
+    assert physsim.node.requests.undecodable == 1
 
 
-def test_half_a_message_is_answered(physsim: PhysSim, client: Client) -> None:
-    client.ask('~/speed', Float64(data=1.0))
-    told(client)
-    half = serialize_message(Float64(data=3.0))[:-3]
-    client._publishers['~/speed'].publish(half)  # noqa: SLF001 - what it sends is no message
-    physsim.settle()
-    (event,) = told(client)
-    assert (event.name, event.code) == ('~/speed', 'malformed')
-    assert physsim.node.simulation.speed == 1.0
+@pytest.mark.parametrize('kind', LARGE)
+def test_a_message_that_is_too_large_is_refused_before_it_is_decoded(
+    client: Client, monkeypatch: pytest.MonkeyPatch, kind: type
+) -> None:
+    client.ask(TOPICS[kind], kind())
+    monkeypatch.setattr(request_topics, 'deserialize_message', lambda *_: pytest.fail('decoded'))
+    most = request_topics.MOST_BYTES.get(kind, request_topics.MOST_BYTES_OF_ONE)
+    check_malformed(client, kind, bytes(most + 1))

@@ -104,6 +104,11 @@ class Page:
     def of_type(self, kind: str) -> list[dict[str, Any]]:
         return [each for each in self.messages if each['type'] == kind]
 
+    def last(self, kind: str) -> dict[str, Any]:
+        """Wait for a message of a type, and return the last one."""
+        self.until(lambda: self.of_type(kind))
+        return self.of_type(kind)[-1]
+
     def answers(self, id_: str) -> list[dict[str, Any]]:
         return [each for each in self.of_type('answer') if each['request'] == id_]
 
@@ -112,6 +117,11 @@ class Page:
         id_ = self.send(kind, **fields)
         self.browser.until(lambda: self.answers(id_))
         return self.answers(id_)[-1]
+
+    def spawn(self, name: str, x: float = 0.0, y: float = 5.0, **fields: Any) -> dict[str, Any]:
+        """Add a body, a disc where its fields have no shape, and return the answer."""
+        shape = {} if {'box', 'polygon', 'robot'} & fields.keys() else {'circle': {'radius': 0.5}}
+        return self.ask('spawn', body={'name': name, 'at': [x, y], **shape, **fields})
 
     def until(self, predicate: Callable[[], object]) -> None:
         self.browser.until(predicate)
@@ -132,8 +142,8 @@ class Browser:
         self.physsim = physsim
         sketchpad = physsim.node.outputs.sketchpad
         assert sketchpad is not None
+        self.url = sketchpad.url
         self.login = sketchpad.url()
-        self.view_login = sketchpad.url(Role.VIEW)
         self.base = self.login.partition('/login')[0]
         self.loop = asyncio.new_event_loop()
         self.cookie = self.login_cookie(self.login)
@@ -174,10 +184,24 @@ class Browser:
             **options,
         )
 
+    def upload(self, text: str | bytes, path: str = '/world', **options: Any) -> HTTPResponse:
+        """Return the response to a file that is sent, whatever its status."""
+        headers = {'Origin': self.base} | options.pop('headers', {})
+        return self.fetch(path, method='POST', body=text, headers=headers, **options)
+
+    def open_world(self, text: str) -> dict[str, Any]:
+        """Replace the world by that of a text, and return the answer."""
+        answer: dict[str, Any] = json.loads(self.upload(text).body)
+        return answer
+
     def login_cookie(self, url: str) -> str:
         """Log in, and return the cookie; '' where none is given."""
         response = self.fetch(url.removeprefix(self.base), cookie='')
         return response.headers.get('Set-Cookie', '').partition(';')[0]
+
+    def cookie_of(self, role: Role) -> str:
+        """Log in by the address of a role, and return the cookie."""
+        return self.login_cookie(self.url(role))
 
     def open_page(
         self, path: str = '/ws', *, cookie: str | None = None, origin: str | None = None

@@ -1,11 +1,10 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-from collections.abc import Generator, Iterator
-from pathlib import Path
+from collections.abc import Callable, Generator, Iterator
 from typing import Any
 
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser
@@ -30,14 +29,11 @@ def pytest_runtest_makereport(
 
 
 @pytest.fixture
-def browser(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Browser]:
+def browser(start: Callable[..., PhysSim]) -> Iterator[Browser]:
     """Give clients of the page of a world, whose time the test advances."""
-    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
-    values = {'world_dir': str(tmp_path), 'sketchpad': 'serve', 'sketchpad_port': 0}
-    with own_context(monkeypatch) as context, PhysSim(context, **values) as physsim:
-        browser = Browser(physsim)
-        yield browser
-        browser.close()
+    browser = Browser(start(sketchpad='serve', sketchpad_port=0))
+    yield browser
+    browser.close()
 
 
 @pytest.fixture(scope='module')

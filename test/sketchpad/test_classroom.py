@@ -5,9 +5,7 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Any
 from urllib.parse import quote
 
 from physsim_ros.files import shipped_lessons
@@ -20,30 +18,10 @@ from rclpy.parameter import Parameter
 
 from .browser import Browser, Page
 
-BALL = {'circle': {'radius': 0.5}}
-
-
-def url(browser: Browser, role: Role) -> str:
-    """Return the address of a role."""
-    address: str = browser.physsim.node.outputs.sketchpad.url(role)
-    return address
-
 
 def teacher(browser: Browser) -> Page:
     """Open the page of a teacher."""
-    return browser.open_page(cookie=browser.login_cookie(url(browser, Role.TEACH)))
-
-
-def spawn(page: Page, name: str, x: float) -> dict[str, Any]:
-    """Add a ball, and return the answer."""
-    return page.ask('spawn', body=BALL | {'name': name, 'at': [x, 5.0]})
-
-
-def upload_code(browser: Browser) -> str:
-    """Replace the world by an empty one as a pupil, and return the code of the answer."""
-    headers = {'Origin': browser.base}
-    response = browser.fetch('/world', method='POST', body='format: 1', headers=headers)
-    return str(json.loads(response.body)['code'])
+    return browser.open_page(cookie=browser.cookie_of(Role.TEACH))
 
 
 def people(page: Page) -> list[tuple[str, str]]:
@@ -60,7 +38,7 @@ def test_a_teacher_freezes_the_pages_of_pupils_and_not_the_own(browser: Browser)
     assert boss.ask('freeze', frozen=True)['ok']
     pupil.until(lambda: any(each['frozen'] for each in pupil.of_type('class')))
     for kind, fields in (
-        ('spawn', {'body': BALL | {'name': 'a/0'}}),
+        ('spawn', {'body': {'name': 'a/0', 'circle': {'radius': 1}}}),
         ('stroke', {'points': [[0, 0, 0], [1, 1, 1]]}),
         ('service', {'name': 'play'}),
         ('seek', {'time': 0}),
@@ -70,24 +48,24 @@ def test_a_teacher_freezes_the_pages_of_pupils_and_not_the_own(browser: Browser)
         assert pupil.ask(kind, **fields)['code'] == 'frozen', kind
     for kind in ('drop', 'share'):
         assert pupil.ask(kind)['ok'], kind
-    assert upload_code(browser) == 'frozen'
+    assert browser.open_world('format: 1')['code'] == 'frozen'
     assert browser.physsim.names == ()
-    assert spawn(boss, 'a/0', 0.0)['ok']
+    assert boss.spawn('a/0')['ok']
     assert boss.ask('freeze', frozen=False)['ok']
-    assert spawn(pupil, 'b/0', 3.0)['ok']
+    assert pupil.spawn('b/0', 3.0)['ok']
 
 
 def test_freezing_and_locking_are_parameters_that_scripts_have_too(browser: Browser) -> None:
     pupil = browser.open_page()
     browser.physsim.node.set_parameters([Parameter('sketchpad_frozen', value=True)])
-    assert spawn(pupil, 'a/0', 0.0)['code'] == 'frozen'
+    assert pupil.spawn('a/0')['code'] == 'frozen'
     parameters = [
         Parameter('sketchpad_frozen', value=False),
         Parameter('sketchpad_locked', value='a/*, b/0'),
     ]
     browser.physsim.node.set_parameters(parameters)
-    assert spawn(pupil, 'a/7', 0.0)['code'] == 'frozen'
-    assert spawn(pupil, 'b/1', 0.0)['ok']
+    assert pupil.spawn('a/7')['code'] == 'frozen'
+    assert pupil.spawn('b/1')['ok']
     # A script may forbid what a teacher asks for.
     refusal = SetParametersResult(successful=False, reason='not now')
     browser.physsim.node.add_on_set_parameters_callback(lambda _: refusal)
@@ -104,17 +82,17 @@ def test_thousands_of_names_may_be_locked_and_some_patterns(browser: Browser) ->
     patterns = [f'b{number}/*' for number in range(MOST_PATTERNS)]
     assert boss.ask('lock', names=[*names, *patterns])['ok']
     for name in ('a/4999', 'b49/3'):
-        assert spawn(pupil, name, 0.0)['code'] == 'frozen'
+        assert pupil.spawn(name)['code'] == 'frozen'
     refused = boss.ask('lock', names=[*patterns, 'c/?'])
     assert (refused['code'], 'wildcards' in refused['message']) == ('bad_property', True)
-    assert spawn(pupil, 'c/1', 0.0)['ok']
-    assert spawn(pupil, 'a/1', 0.0)['code'] == 'frozen'
+    assert pupil.spawn('c/1')['ok']
+    assert pupil.spawn('a/1')['code'] == 'frozen'
 
 
 def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
     pupil, boss = browser.open_page(), teacher(browser)
     for name, x in (('a/0', 0.0), ('b/0', 4.0)):
-        spawn(pupil, name, x)
+        pupil.spawn(name, x)
     assert boss.ask('lock', names=['a/*'])['ok']
     pupil.ask('click', tool='chain', point=[4, 5])
     refused = (
@@ -134,7 +112,7 @@ def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
         pupil.until(lambda id_=id_: pupil.answers(id_))
         # Nothing is told before it.
         assert [each['code'] for each in pupil.answers(id_)] == ['frozen'], (kind, fields)
-    assert upload_code(browser) == 'frozen'
+    assert browser.open_world('format: 1')['code'] == 'frozen'
     # A scribble over it.
     zigzag = [[-0.6 + 0.1 * n, 5.5 if n % 2 else 4.5, 0.05 * n] for n in range(13)]
     pupil.ask('stroke', points=zigzag)
@@ -151,7 +129,7 @@ def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
 
 @pytest.mark.parametrize('role', [Role.DRAW, Role.VIEW])
 def test_what_is_for_teachers_is_refused_to_others(browser: Browser, role: Role) -> None:
-    page = browser.open_page(cookie=browser.login_cookie(url(browser, role)))
+    page = browser.open_page(cookie=browser.cookie_of(role))
     code = 'teacher_only' if role is Role.DRAW else 'view_only'
     for kind, fields in (
         ('freeze', {'frozen': True}),
@@ -167,7 +145,7 @@ def test_people_have_names_and_answers_say_who_did_it(browser: Browser) -> None:
     assert anna.ask('person', name=' Anna ')['ok']
     ben.until(lambda: people(ben) == [('Anna', 'draw'), ('Teacher', 'teach')])
     viewer.until(lambda: ('Anna', 'draw') in people(viewer))
-    spawn(anna, 'a/0', 0.0)
+    anna.spawn('a/0')
     ben.until(lambda: any(each.get('subject') == 'a/0' for each in ben.of_type('answer')))
     (told,) = (each for each in ben.of_type('answer') if each['subject'] == 'a/0')
     assert told['page'] == int(anna.of_type('welcome')[0]['client'])
@@ -182,7 +160,7 @@ def test_each_undoes_what_is_its_own_and_a_teacher_clears_what_one_drew(browser:
     anna.ask('person', name='Anna')
     ben.ask('person', name='Ben')
     for page, name, x in ((anna, 'a/0', -6), (ben, 'b/0', 0), (anna, 'a/1', 6), (ben, 'b/1', 3)):
-        assert spawn(page, name, x)['ok']
+        assert page.spawn(name, x)['ok']
         browser.physsim.run(0.1)
     assert anna.ask('take_back')['ok']
     assert browser.physsim.names == ('a/0', 'b/0', 'b/1')
@@ -197,9 +175,9 @@ def test_each_undoes_what_is_its_own_and_a_teacher_clears_what_one_drew(browser:
 
 def test_a_page_that_comes_again_with_its_key_is_the_same_person(browser: Browser) -> None:
     anna, ben = browser.open_page(), browser.open_page()
-    assert spawn(anna, 'a/0', 0.0)['ok']
+    assert anna.spawn('a/0')['ok']
     assert anna.ask('grab', point=[0, 5])['ok']
-    assert spawn(anna, 'a/1', 3.0)['ok']
+    assert anna.spawn('a/1', 3.0)['ok']
     key = quote(anna.of_type('welcome')[0]['person'])
     # Anna's connection is lost, which the server does not know yet.
     again = browser.open_page(f'/ws?person={key}')
@@ -226,7 +204,7 @@ def test_a_page_that_comes_again_with_its_key_is_the_same_person(browser: Browse
 
 def test_an_undo_of_what_another_person_has_used_since_is_refused(browser: Browser) -> None:
     anna, ben = browser.open_page(), browser.open_page()
-    assert spawn(anna, 'a/0', 0.0)['ok']
+    assert anna.spawn('a/0')['ok']
     assert ben.ask('change', name='a/0', properties={'friction': 0.1})['ok']
     assert anna.ask('take_back')['code'] == 'not_alone'
     assert browser.physsim.names == ('a/0',)
@@ -244,23 +222,22 @@ def test_cursors_go_to_all_pages_without_the_world(browser: Browser) -> None:
 
 def test_the_address_of_pupils_is_a_qr_code_for_teachers(browser: Browser) -> None:
     segno = pytest.importorskip('segno', reason='segno is not installed')
-    image = browser.fetch('/qr.svg', cookie=browser.login_cookie(url(browser, Role.TEACH)))
+    image = browser.fetch('/qr.svg', cookie=browser.cookie_of(Role.TEACH))
     assert image.headers['Content-Type'] == 'image/svg+xml'
-    size = segno.make(url(browser, Role.DRAW), micro=False).symbol_size(scale=8, border=4)[0]
+    size = segno.make(browser.url(Role.DRAW), micro=False).symbol_size(scale=8, border=4)[0]
     assert f'width="{size}"'.encode() in image.body
     assert browser.fetch('/qr.svg').code == 403
 
 
 def test_driving_is_one_gesture_though_others_draw_meanwhile(browser: Browser) -> None:
     anna, ben = browser.open_page(), browser.open_page()
-    robot = {'name': 'r/0', 'robot': 'turtlebot4', 'at': [0, 0]}
     anna.ask('gravity', gravity=[0, 0])
     ben.ask('person', name='Ben')
     anna.ask('person', name='Anna')
-    anna.ask('spawn', body=robot)
+    anna.spawn('r/0', y=0.0, robot='turtlebot4')
     anna.send('drive', name='r/0', velocity=[0.2, 0, 0])
     browser.physsim.run(0.1)
-    spawn(ben, 'b/0', 5.0)
+    ben.spawn('b/0', 5.0)
     anna.send('drive', name='r/0', velocity=[0.1, 0, 0])
     anna.ask('drop')
     browser.physsim.run(0.1)
@@ -300,14 +277,13 @@ def test_a_teacher_sees_answers_to_lessons_and_hands_and_says_something_to_all(
 
 def test_a_page_that_watches_a_class_is_nobody_in_its_world(browser: Browser) -> None:
     pupil = browser.open_page()
-    cookie = browser.login_cookie(url(browser, Role.TEACH))
-    watching = browser.open_page('/ws?watch', cookie=cookie)
+    watching = browser.open_page('/ws?watch', cookie=browser.cookie_of(Role.TEACH))
     pupil.until(lambda: any(each['watched'] for each in pupil.of_type('class')))
     assert [role for _, role in people(pupil)] == ['draw']
     # It teaches, and gets the last frame of a world in which nothing moves.
     assert watching.ask('freeze', frozen=True)['ok']
     assert watching.ask('service', name='pause')['ok']
-    assert watching.ask('spawn', body=BALL | {'name': 'a/0', 'at': [0.0, 5.0]})['ok']
+    assert watching.spawn('a/0')['ok']
     watching.until(lambda: watching.frames and watching.frames[-1].count == 1)
     watching.close()
     pupil.until(lambda: not pupil.of_type('class')[-1]['watched'])

@@ -5,10 +5,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 import gc
 import json
 import math
+from pathlib import Path
 import time
 from typing import Any
 
@@ -19,7 +20,7 @@ from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import KINDS, Message, read_message
 from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server.server import MOST_BYTES
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import PhysSim
 import pytest
 
 pytestmark = pytest.mark.slow
@@ -121,22 +122,17 @@ def world_text() -> str:
 
 
 @pytest.fixture
-def crowded(
-    tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[PhysSim]:
+def crowded(start: Callable[..., PhysSim], tmp_path: Path) -> Iterator[PhysSim]:
     """Give a test a world of many bodies, which has a page."""
-    directory = tmp_path_factory.mktemp('worlds')
-    monkeypatch.setenv('XDG_STATE_HOME', str(directory))
-    values = {'world_dir': str(directory), 'sketchpad': 'serve', 'sketchpad_port': 0}
-    with own_context(monkeypatch) as context, PhysSim(context, **values) as physsim:
-        (directory / 'crowded.yaml').write_text(world_text())
-        physsim.load(directory / 'crowded.yaml')
-        physsim.step(2)
-        # What other tests have left would be collected within a message.
-        gc.collect()
-        gc.freeze()
-        yield physsim
-        gc.unfreeze()
+    physsim = start(sketchpad='serve', sketchpad_port=0)
+    (tmp_path / 'crowded.yaml').write_text(world_text())
+    physsim.load(tmp_path / 'crowded.yaml')
+    physsim.step(2)
+    # What other tests have left would be collected within a message.
+    gc.collect()
+    gc.freeze()
+    yield physsim
+    gc.unfreeze()
 
 
 def test_no_message_takes_the_thread_of_the_world_for_long(crowded: PhysSim) -> None:

@@ -5,8 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-import json
 from pathlib import Path
 from typing import Any
 
@@ -27,54 +25,36 @@ from physsim_ros.sketchpad.server.server import Server
 import pytest
 
 from .browser import Browser
+from ..client import parameter
+from ..doors import Doors, fail
 
 WORLD = 'format: 1\nbodies: [{name: a/0, circle: {radius: 1}}]\n'
 
 
-def fail(*_: object, **__: object) -> Any:
-    raise ZeroDivisionError('by zero')
-
-
-class Doors:
+class PageDoors(Doors):
     """The pages of a world of which a part fails from some moment on."""
 
-    def __init__(self, browser: Browser, monkeypatch: pytest.MonkeyPatch, read_log: Any) -> None:
+    def __init__(self, browser: Browser, *fixtures: Any) -> None:
+        super().__init__(browser.physsim, *fixtures)
         self.browser = browser
-        self.monkeypatch = monkeypatch
-        self._read_log = read_log
-        self.errors: list[BaseException] = []
-        browser.physsim.node.boundary.on_error = self.errors.append
-
-    def fail(self, owner: object, name: str) -> None:
-        """Have a part raise an error that nobody expects."""
-        self.monkeypatch.setattr(owner, name, fail)
 
     def go_on(self) -> None:
-        """Check that the error was told, and that world and pages go on without it."""
-        browser, errors = self.browser, self.errors
-        browser.until(lambda: errors)
-        assert {type(each) for each in errors} == {ZeroDivisionError}
-        self.monkeypatch.undo()
-        log = self._read_log()
-        assert 'failure 1, ' in log
-        assert 'ZeroDivisionError: by zero' in log
-        page, before, count = browser.open_page(), browser.physsim.time, len(errors)
+        """Check that errors were told, and that world and pages go on without them."""
+        self.browser.until(lambda: self.errors)
+        self.repair()
+        page, count = self.browser.open_page(), len(self.errors)
         assert page.ask('drop')['ok']
-        browser.physsim.run(0.1)
-        assert browser.physsim.time == pytest.approx(before + 0.1)
-        page.until(lambda: page.frames and page.frames[-1].time == pytest.approx(before + 0.1))
-        assert len(errors) == count
+        self.run_on()
+        page.until(lambda: page.frames and page.frames[-1].time == self.physsim.time)
+        assert len(self.errors) == count
 
 
 @pytest.fixture
 def doors(
     browser: Browser, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> Iterator[Doors]:
+) -> PageDoors:
     """Give a test pages and what makes their parts fail."""
-    doors = Doors(browser, monkeypatch, lambda: capfd.readouterr().err)
-    yield doors
-    # Each of these tests makes sure that its error came about.
-    assert doors.errors
+    return PageDoors(browser, monkeypatch, capfd)
 
 
 def assert_failed(answer: dict[str, Any]) -> None:
@@ -82,18 +62,18 @@ def assert_failed(answer: dict[str, Any]) -> None:
     assert 'failure 1 in the log' in answer['message']
 
 
-@pytest.mark.parametrize('kind', sorted(name for name in KINDS if KINDS[name].for_world))
-def test_a_message_on_the_thread_of_the_world(doors: Doors, kind: str) -> None:
-    server = doors.browser.physsim.node.outputs.sketchpad
-    assert server is not None
+def test_messages_on_the_thread_of_the_world(doors: PageDoors) -> None:
     # A teacher's page may send all kinds.
-    page = doors.browser.open_page(cookie=doors.browser.login_cookie(server.url(Role.TEACH)))
-    doors.monkeypatch.setitem(KINDS, kind, KINDS[kind]._replace(handle=fail, fields={}))
-    assert_failed(page.ask(kind))
+    page = doors.browser.open_page(cookie=doors.browser.cookie_of(Role.TEACH))
+    kinds = sorted(name for name in KINDS if KINDS[name].for_world)
+    for kind in kinds:
+        doors.monkeypatch.setitem(KINDS, kind, KINDS[kind]._replace(handle=fail, fields={}))
+        assert_failed(page.ask(kind))
+    assert len(doors.errors) == len(kinds)
     doors.go_on()
 
 
-def test_a_message_that_is_read(doors: Doors) -> None:
+def test_a_message_that_is_read(doors: PageDoors) -> None:
     page = doors.browser.open_page()
     doors.fail(message, 'check_right')
     assert_failed(page.ask('drop'))
@@ -115,23 +95,20 @@ def test_a_message_that_is_read(doors: Doors) -> None:
     ],
 )
 def test_an_action(
-    doors: Doors, kind: str, fields: dict[str, Any], where: object, name: str
+    doors: PageDoors, kind: str, fields: dict[str, Any], where: object, name: str
 ) -> None:
-    page, node = doors.browser.open_page(), doors.browser.physsim.node
-    world_file = node.get_parameter('world_file').value
+    page = doors.browser.open_page()
+    world_file = parameter(doors.physsim, 'world_file')
     doors.fail(where, name)
     assert_failed(page.ask(kind, **fields))
-    assert node.get_parameter('world_file').value == world_file
+    assert parameter(doors.physsim, 'world_file') == world_file
     doors.go_on()
 
 
 @pytest.mark.parametrize('part', ['state_from', 'check_locked'])
-def test_an_upload(doors: Doors, part: str) -> None:
+def test_an_upload(doors: PageDoors, part: str) -> None:
     doors.fail(sketchpad, part)
-    upload = doors.browser.fetch(
-        '/world', method='POST', body=WORLD, headers={'Origin': doors.browser.base}
-    )
-    assert_failed(json.loads(upload.body))
+    assert_failed(doors.browser.open_world(WORLD))
     doors.go_on()
 
 
@@ -144,7 +121,7 @@ REQUESTS: dict[str, tuple[object, str]] = {
 
 
 @pytest.mark.parametrize('path', REQUESTS)
-def test_a_request(doors: Doors, path: str) -> None:
+def test_a_request(doors: PageDoors, path: str) -> None:
     doors.fail(*REQUESTS[path])
     response = doors.browser.fetch(path)
     assert response.code == 500
@@ -152,9 +129,9 @@ def test_a_request(doors: Doors, path: str) -> None:
     doors.go_on()
 
 
-def test_a_file_of_the_list_of_worlds(doors: Doors) -> None:
+def test_a_file_of_the_list_of_worlds(doors: PageDoors) -> None:
     """A lesson that nobody can read is in the list by its name, and so are all others."""
-    load, bad = gallery.load_world, doors.browser.physsim.node.world_files.directory / 'lessons'
+    load, bad = gallery.load_world, doors.node.world_files.directory / 'lessons'
     bad.mkdir()
     (bad / 'bad.yaml').write_text(WORLD)
 
@@ -184,19 +161,19 @@ def test_a_file_of_the_list_of_worlds(doors: Doors) -> None:
     ],
     ids=lambda value: value if isinstance(value, str) else '',
 )
-def test_what_goes_to_a_page(doors: Doors, where: object, name: str) -> None:
+def test_what_goes_to_a_page(doors: PageDoors, where: object, name: str) -> None:
     page = doors.browser.open_page()
     assert page.ask('drop')['ok']
     doors.fail(where, name)
     doors.browser.open_page()
     page.send('here', point=[0, 0])
-    doors.browser.physsim.step()
+    doors.physsim.step()
     doors.go_on()
 
 
-def test_an_autosave(doors: Doors) -> None:
+def test_an_autosave(doors: PageDoors) -> None:
     page = doors.browser.open_page()
     doors.fail(autosave, 'write_file')
-    assert page.ask('spawn', body={'name': 'a/0', 'circle': {'radius': 1}})['ok']
-    doors.browser.physsim.step(2)
+    assert page.spawn('a/0')['ok']
+    doors.physsim.step(2)
     doors.go_on()

@@ -62,7 +62,7 @@ def test_a_world_that_cannot_be_kept_is_not_written_over(
     assert page.ask('save', name='mine')['ok']
     before = (worlds / 'mine.yaml').read_text()
     occupy(worlds / '.kept')
-    assert page.ask('spawn', body={'name': 'a/0', 'circle': {'radius': 1}})['ok']
+    assert page.spawn('a/0')['ok']
     for kind in ('save', 'remove'):
         answer = page.ask(kind, name='mine', **({'replace': True} if kind == 'save' else {}))
         assert answer['code'] == 'bad_world_file'
@@ -108,9 +108,8 @@ def test_files_and_directories_are_for_this_user_alone(browser: Browser) -> None
     png = b'\x89PNG\r\n\x1a\n'
     assert page.ask('save', name='mine')['ok']
     assert page.ask('save', name='mine', replace=True)['ok']
-    headers = {'Origin': browser.base}
-    assert browser.fetch('/picture/mine', method='POST', body=png, headers=headers).code == 200
-    assert page.ask('spawn', body={'name': 'a/0', 'circle': {'radius': 1}})['ok']
+    assert browser.upload(png, '/picture/mine').code == 200
+    assert page.spawn('a/0')['ok']
     browser.physsim.step(2)
     browser.until((worlds / '.autosave.yaml').exists)
     made = {path.relative_to(worlds): path.stat().st_mode for path in worlds.rglob('*')}

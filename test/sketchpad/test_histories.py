@@ -5,8 +5,7 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any
 
 from physsim_ros.model.body_properties import Properties
@@ -20,7 +19,7 @@ from physsim_ros.model.requests import (
     Unjoin,
 )
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import PhysSim
 import pytest
 
 from .browser import Browser
@@ -90,25 +89,18 @@ class PagePlayer(NodePlayer):
 @pytest.mark.slow
 @pytest.mark.parametrize('seed', SEEDS)
 def test_a_history_on_a_page_shows_what_its_requests_show_when_they_are_played_from_nothing(
-    seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    seed: int, start: Callable[..., PhysSim], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
     assert SETTINGS.bounds is not None
-    with ExitStack() as closing:
-        context = closing.enter_context(own_context(monkeypatch))
-        physsim = closing.enter_context(
-            PhysSim(context, bounds=[*SETTINGS.bounds], sketchpad='serve', sketchpad_port=0)
-        )
-        browser = Browser(physsim)
-        closing.callback(browser.close)
-        player = PagePlayer(browser)
-        outputs = physsim.node.outputs
-        show = outputs.show
+    browser = Browser(start(bounds=[*SETTINGS.bounds], sketchpad='serve', sketchpad_port=0))
+    player, outputs = PagePlayer(browser), browser.physsim.node.outputs
+    show = outputs.show
 
-        def note(frame: Frame) -> None:
-            player.pending.append(frame)
-            show(frame)
+    def note(frame: Frame) -> None:
+        player.pending.append(frame)
+        show(frame)
 
-        monkeypatch.setattr(outputs, 'show', note)
-        play(history_of_node(seed), player)
+    monkeypatch.setattr(outputs, 'show', note)
+    play(history_of_node(seed), player)
+    browser.close()
     assert player.sent

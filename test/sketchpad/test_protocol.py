@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import text_of
 from physsim_ros.model.snapshot import Answer, Grip
-from physsim_ros.sketchpad import past
+from physsim_ros.sketchpad import past, Role
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.messages import worlds
 from physsim_ros.sketchpad.server import open_pages
@@ -29,6 +29,8 @@ from rclpy.parameter import Parameter
 
 from .browser import Browser, Page
 from ..outside import PATIENCE
+
+BOX, GATE = {'width': 1, 'height': 1}, {'width': 0.2, 'height': 2}
 
 
 def circle(x: float, y: float, radius: float) -> list[list[float]]:
@@ -63,12 +65,11 @@ def test_a_page_gets_the_poses_of_the_world(browser: Browser) -> None:
 def test_a_page_that_only_shows_gets_the_contacts_of_a_paused_world(browser: Browser) -> None:
     physsim, drawing = browser.physsim, browser.open_page()
     physsim.node.outputs.records_contacts = False
-    for name, anchored in (('a/0', True), ('b/0', False)):
-        body = {'name': name, 'box': {'width': 1, 'height': 1}, 'at': [0, 0.9 * (not anchored)]}
-        assert drawing.ask('spawn', body=body | {'anchored': anchored})['ok']
+    for name, y, anchored in (('a/0', 0.0, True), ('b/0', 0.9, False)):
+        assert drawing.spawn(name, y=y, box=BOX, anchored=anchored)['ok']
     physsim.run(0.1)
     physsim.node.simulation.speed = 0.0
-    page = browser.open_page(cookie=browser.login_cookie(browser.view_login))
+    page = browser.open_page(cookie=browser.cookie_of(Role.VIEW))
     page.until(lambda: page.frames)
     page.send('show', contacts=True)
     page.until(lambda: physsim.node.outputs.wants_contacts)
@@ -159,8 +160,7 @@ def test_a_scene_above_the_limit_of_what_is_left_unread_is_shown(
     monkeypatch.setattr(open_pages, 'MOST_UNREAD', 20_000)
     first = browser.open_page()
     corners = [[math.cos(each / 100), math.sin(each / 100)] for each in range(600)]
-    body = {'name': 'big/0', 'polygon': corners, 'at': [0, 5]}
-    assert first.ask('spawn', body=body)['ok']
+    assert first.spawn('big/0', polygon=corners)['ok']
     # Later with the first frame and the timeline behind it, and with a ghost.
     browser.physsim.run(0.5)
     assert first.ask('seek', time=0.2)['ok']
@@ -176,9 +176,7 @@ def test_a_scene_above_the_limit_of_what_is_left_unread_is_shown(
 
 def test_the_hand_of_a_page_throws_a_body(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
-    page.send('stroke', points=circle(0.0, 5.0, 0.5))
-    page.until(lambda: physsim.names)
-    (name,) = physsim.names
+    assert page.spawn('a/0')['ok']
     physsim.step()
     assert page.ask('grab', point=[0.0, 5.0])['ok']
     for number in range(1, 11):
@@ -188,14 +186,13 @@ def test_the_hand_of_a_page_throws_a_body(browser: Browser) -> None:
     page.until(lambda: page.frames[-1].hands and page.frames[-1].time == physsim.time)
     assert page.frames[-1].hand_lines[0, 2] == pytest.approx(2.0)
     assert page.ask('let_go')['ok']
-    assert physsim.twist(name).vx > 1.0
+    assert physsim.twist('a/0').vx > 1.0
 
 
 def test_a_page_that_is_closed_lets_go(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
-    page.send('stroke', points=circle(0.0, 5.0, 0.5))
-    page.until(lambda: physsim.names)
-    page.ask('grab', point=[0.0, 5.0])
+    assert page.spawn('a/0')['ok']
+    assert page.ask('grab', point=[0.0, 5.0])['ok']
     assert grips(physsim)
     page.close()
     browser.until(lambda: not grips(physsim))
@@ -203,9 +200,8 @@ def test_a_page_that_is_closed_lets_go(browser: Browser) -> None:
 
 def test_a_page_takes_the_runner_up_of_a_stroke_instead(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
-    for x in (0.0, 3.0):
-        page.send('stroke', points=circle(x, 5.0, 0.5))
-    page.until(lambda: len(physsim.names) == 2)
+    for name, x in (('a/0', 0.0), ('b/0', 3.0)):
+        assert page.spawn(name, x)['ok']
     line = [[0.03 * number, 5.0, 0.005 * number] for number in range(101)]
     page.ask('stroke', points=line)
     page.until(lambda: page.of_type('reading')[-1]['meaning'] == 'rod')
@@ -232,31 +228,25 @@ def test_a_page_draws_with_its_own_material(browser: Browser) -> None:
 
 def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
-    page.until(lambda: page.of_type('worlds'))
-    shipped = {each['name']: each for each in page.of_type('worlds')[0]['worlds']}
+    shipped = {each['name']: each for each in page.last('worlds')['worlds']}
     assert shipped['newtons_cradle']['shipped']
     picture = browser.fetch(shipped['newtons_cradle']['picture'])
     assert picture.code == 200
     assert picture.headers['Content-Type'] == 'image/png'
-    page.send('stroke', points=circle(0.0, 5.0, 0.5))
-    page.until(lambda: physsim.names)
-    before = physsim.names, physsim.pose(physsim.names[0])
+    assert page.spawn('a/0')['ok']
+    before = physsim.names, physsim.pose('a/0')
     assert page.ask('save', name='mine')['ok']
     page.until(lambda: 'mine' in [each['name'] for each in page.of_type('worlds')[-1]['worlds']])
     text = page.ask('share')['values']['yaml']
     assert browser.fetch('/world/mine.yaml').body.decode() == text
     assert page.ask('open', name='newtons_cradle')['ok']
     assert len(physsim.names) > 5
-    response = browser.fetch('/world', method='POST', body=text, headers={'Origin': browser.base})
-    assert json.loads(response.body)['ok']
-    assert (physsim.names, physsim.pose(physsim.names[0])) == before
+    assert browser.open_world(text)['ok']
+    assert (physsim.names, physsim.pose('a/0')) == before
     assert page.ask('open', name='../../etc/passwd')['code'] == 'bad_world_file'
     page.close()
-    response = browser.fetch('/world', method='POST', body='[', headers={'Origin': browser.base})
-    assert json.loads(response.body)['code'] == 'malformed'
-    empty = 'format: 1\n'
-    response = browser.fetch('/world', method='POST', body=empty, headers={'Origin': browser.base})
-    assert json.loads(response.body)['ok']
+    assert browser.open_world('[')['code'] == 'malformed'
+    assert browser.open_world('format: 1\n')['ok']
     assert physsim.names == ()
 
 
@@ -264,8 +254,7 @@ def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     physsim, page = browser.physsim, browser.open_page()
-    page.send('stroke', points=circle(0.0, 5.0, 0.5))
-    page.until(lambda: physsim.names)
+    assert page.spawn('a/0')['ok']
     physsim.run(1.0)
     simulation = physsim.node.simulation
     # As with ticks, which bring the world to the cached frame that is shown.
@@ -285,12 +274,10 @@ def test_a_world_is_shared_when_a_seek_under_way_has_ended(
 
 def test_the_past_of_a_body_is_told(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
-    page.send('stroke', points=circle(0.0, 5.0, 0.5))
-    page.until(lambda: physsim.names)
+    assert page.spawn('a/0')['ok']
     physsim.run(0.5)
-    page.send('watch', name=physsim.names[0])
-    page.until(lambda: page.of_type('body'))
-    (body,) = page.of_type('body')
+    page.send('watch', name='a/0')
+    body = page.last('body')
     times = np.array(body['time'])
     assert len(times) == 31
     assert np.array(body['y']) == pytest.approx(5.0 - 9.81 / 2 * times**2, abs=1e-6)
@@ -326,8 +313,8 @@ def test_a_world_that_is_too_long_to_share_is_refused(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     page = browser.open_page()
-    for x in range(3):
-        page.ask('spawn', body={'circle': {'radius': 0.4}, 'at': [x, 5]})
+    for number in range(3):
+        page.spawn(f'a/{number}', number)
     text = page.ask('share')['values']['yaml']
     monkeypatch.setattr(worlds, 'MOST_SHARED', len(text))
     assert page.ask('share')['ok']
@@ -339,8 +326,7 @@ def test_a_world_that_is_too_long_to_share_is_refused(
 def test_a_body_is_spawned_changed_moved_and_deleted_by_name(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
     for number in range(3):
-        body = {'name': f'box/{number}', 'box': {'width': 1, 'height': 1}, 'at': [2 * number, 5]}
-        assert page.ask('spawn', body=body)['ok']
+        assert page.spawn(f'box/{number}', 2 * number, box=BOX)['ok']
     actor = {'kind': 'path', 'points': [[0, 7]], 'times': [0]}
     assert page.ask('change', name='box/0', properties={'actor': actor})['ok']
     changed = {'friction': 0.9, 'color': '#00ff00', 'velocity': [1, 0], 'at': [0, 7, 0.5]}
@@ -378,9 +364,7 @@ def test_more_than_a_thousand_bodies_are_moved_and_deleted_at_once(browser: Brow
         f'  - {{name: {name}, circle: {{radius: 0.1}}, at: [{row % 40}, {row // 40}]}}'
         for row, name in enumerate(names)
     ]
-    body = '\n'.join(['format: 1', 'bodies:', *lines])
-    response = browser.fetch('/world', method='POST', body=body, headers={'Origin': browser.base})
-    assert json.loads(response.body)['ok']
+    assert browser.open_world('\n'.join(['format: 1', 'bodies:', *lines]))['ok']
     assert page.ask('move_bodies', names=names, by=[0, 50])['ok']
     assert physsim.pose('disc/1199').y == 79
     assert page.ask('delete', names=names)['ok']
@@ -394,14 +378,13 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
 ) -> None:
     physsim, page = browser.physsim, browser.open_page()
     physsim.node.set_parameters([Parameter('speed', value=0.0)])
-    page.send('stroke', points=circle(0.0, 5.0, 0.5))
-    page.until(lambda: physsim.names)
+    assert page.spawn('a/0')['ok']
     physsim.run(1.0)
-    fallen, digest = physsim.pose(physsim.names[0]), physsim.digest()
+    fallen, digest = physsim.pose('a/0'), physsim.digest()
     assert page.ask('seek', time=0.5)['ok']
     page.until(lambda: page.of_type('timeline')[-1]['state'] == 'in the past')
     assert page.of_type('timeline')[-1]['newest'] == pytest.approx(1.0)
-    assert page.ask('change', name=physsim.names[0], properties={'velocity': [3, 0]})['ok']
+    assert page.ask('change', name='a/0', properties={'velocity': [3, 0]})['ok']
     page.until(lambda: page.of_type('timeline')[-1]['courses'])
     (left,) = page.of_type('timeline')[-1]['courses']
     assert (left['from'], left['to']) == pytest.approx((0.5, 1.0))
@@ -410,7 +393,7 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     (ghost,) = [each for each in page.ghosts if each.time == pytest.approx(1.0)][-1:]
     assert ghost.epoch == page.of_type('ghost')[-1]['epoch']
     assert ghost.poses[0] == pytest.approx(np.array(fallen), abs=1e-6)
-    assert physsim.pose(physsim.names[0]).x == pytest.approx(1.5, abs=1e-6)
+    assert physsim.pose('a/0').x == pytest.approx(1.5, abs=1e-6)
     assert page.ask('course', course=left['id'])['ok']
     assert physsim.digest() == digest
     undone = page.ask('service', name='undo')
@@ -419,56 +402,38 @@ def test_a_change_of_the_past_branches_and_the_old_course_stays_as_a_ghost(
     assert len(told) == 1
 
 
-def test_touches_of_a_body_that_a_page_follows_have_the_time_of_the_first_touch(
-    browser: Browser,
-) -> None:
-    physsim, page, other = browser.physsim, browser.open_page(), browser.open_page()
-    gate = {'name': 'gate/0', 'box': {'width': 0.2, 'height': 2}, 'at': [3, 0], 'anchored': True}
-    assert page.ask('gravity', gravity=[0, 0])['ok']
-    assert page.ask('spawn', body=gate | {'sensor': True})['ok']
-    ball = {'name': 'ball/0', 'circle': {'radius': 0.5}, 'at': [0, 0], 'velocity': [1, 0]}
-    assert page.ask('spawn', body=ball)['ok']
-    assert page.ask('follow', names=['gate/0'])['ok']
-    physsim.run(3.0)
-    page.until(lambda: page.of_type('touches'))
-    (message,) = page.of_type('touches')
-    ((name, toucher, time),) = message['touches']
-    assert (name, toucher) == ('gate/0', 'ball/0')
-    # 2.4 m at 1 m/s.
-    assert time == pytest.approx(2.4, abs=1e-4)
-    assert not other.of_type('touches')
-    assert page.ask('follow', names=[])['ok']
-    assert page.ask('follow', names='gate/0')['code'] == 'bad_property'
-
-
-def test_a_gate_that_is_followed_after_the_run_tells_the_touches_of_the_past(
+def test_touches_of_a_gate_are_told_once_it_is_followed_those_of_the_past_too(
     browser: Browser,
 ) -> None:
     physsim, page, late = browser.physsim, browser.open_page(), browser.open_page()
     assert page.ask('gravity', gravity=[0, 0])['ok']
-    for name, x in (('gate/0', 1.0), ('gate/1', 6.0)):
-        gate = {'name': name, 'box': {'width': 0.2, 'height': 2}, 'at': [x, 0], 'sensor': True}
-        assert page.ask('spawn', body=gate | {'anchored': True})['ok']
-    ball = {'name': 'ball/0', 'circle': {'radius': 0.3}, 'at': [0, 0], 'velocity': [1, 0]}
-    assert page.ask('spawn', body=ball)['ok']
+    for name, x in (('gate/0', 1.2), ('gate/1', 6.2)):
+        assert page.spawn(name, x, 0, box=GATE, anchored=True, sensor=True)['ok']
+    assert page.spawn('ball/0', 0, 0, velocity=[1, 0])['ok']
     assert page.ask('follow', names=['gate/0'])['ok']
     physsim.run(7.0)
+    assert not late.of_type('touches')
     assert late.ask('follow', names=['gate/0', 'gate/1'])['ok']
 
     late.until(lambda: physsim.step() or len(late.of_type('touches')) == 2)
 
     (live,) = page.of_type('touches')
     first, second = (each['touches'][0] for each in late.of_type('touches'))
-    assert first == pytest.approx(live['touches'][0])
-    assert first[2] == pytest.approx(0.6, abs=1e-4)
-    assert second[:2] == ['gate/1', 'ball/0']
-    assert second[2] == pytest.approx(5.6, abs=1e-4)
+    assert [live['touches'][0][:2], first[:2], second[:2]] == [
+        ['gate/0', 'ball/0'],
+        ['gate/0', 'ball/0'],
+        ['gate/1', 'ball/0'],
+    ]
+    # 0.6 m and 5.6 m at 1 m/s.
+    assert (live['touches'][0][2], first[2], second[2]) == pytest.approx((0.6, 0.6, 5.6), abs=1e-4)
+    assert len(live['touches']) == 1
+    assert page.ask('follow', names=[])['ok']
+    assert page.ask('follow', names='gate/0')['code'] == 'bad_property'
 
 
 def spawned_robot(page: Page) -> None:
-    body = {'name': 'tb3/0', 'robot': 'turtlebot3_burger', 'at': [0, 0]}
     assert page.ask('gravity', gravity=[0, 0])['ok']
-    assert page.ask('spawn', body=body)['ok']
+    assert page.spawn('tb3/0', 0, 0, robot='turtlebot3_burger')['ok']
 
 
 def test_a_page_drives_a_robot_and_undoes_it_as_one(browser: Browser) -> None:
@@ -494,7 +459,7 @@ def test_a_page_drives_a_robot_and_undoes_it_as_one(browser: Browser) -> None:
 def test_a_drive_that_is_no_drive_is_refused(browser: Browser) -> None:
     page = browser.open_page()
     spawned_robot(page)
-    assert page.ask('spawn', body={'name': 'ball/0', 'circle': {'radius': 1}, 'at': [5, 0]})['ok']
+    assert page.spawn('ball/0', 5, 0)['ok']
     digest = browser.physsim.digest()
     for fields, field, code in (
         ({'name': 'tb3/0', 'velocity': [1, 0]}, 'velocity', 'malformed'),
@@ -527,8 +492,8 @@ def test_driving_in_the_past_begins_another_course(browser: Browser) -> None:
 def test_a_page_gets_the_scans_of_the_robot_that_it_shows(browser: Browser) -> None:
     physsim, page = browser.physsim, browser.open_page()
     spawned_robot(page)
-    wall = {'name': 'wall/0', 'box': {'width': 0.2, 'height': 9}, 'at': [2.1, 0], 'anchored': True}
-    assert page.ask('spawn', body=wall)['ok']
+    wall = {'width': 0.2, 'height': 9}
+    assert page.spawn('wall/0', 2.1, 0, box=wall, anchored=True)['ok']
     page.send('show', laser='tb3/0')
     page.until(lambda: page.frames and page.frames[-1].flags & Show.SCAN)
     # All round: the laser, 360 beams, and the first one again.
@@ -588,11 +553,9 @@ def test_pages_are_told_the_address_of_reruns_page_and_when_it_changes(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     page = browser.open_page()
-    page.until(lambda: page.of_type('welcome'))
-    assert page.of_type('welcome')[0]['rerun'] == ''
+    assert page.last('welcome')['rerun'] == ''
 
     monkeypatch.setattr(Viewer, 'page_address', 'http://127.0.0.1:9090/')
     browser.physsim.run(0.1)
-    page.until(lambda: page.of_type('recording'))
 
-    assert page.of_type('recording')[0]['rerun'] == 'http://127.0.0.1:9090/'
+    assert page.last('recording')['rerun'] == 'http://127.0.0.1:9090/'

@@ -5,12 +5,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import json
 from pathlib import Path
 import subprocess
 import sys
 
-from physsim_ros.testing import box, own_context, PhysSim
+from physsim_ros.testing import box, PhysSim
 import pytest
 
 from ..client import Client
@@ -38,11 +39,11 @@ def test_no_other_process_hears_a_world_or_is_heard_by_it(
 
 
 def test_two_worlds_of_one_process_do_not_see_each_other(
-    physsim: PhysSim, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    physsim: PhysSim, start: Callable[..., PhysSim]
 ) -> None:
-    with own_context(monkeypatch) as context, PhysSim(context, world_dir=str(tmp_path)) as other:
-        physsim.spawn(box('a/0'))
-        other.spawn(box('b/0'))
-        physsim.step(3)
-        assert (physsim.names, other.names) == (('a/0',), ('b/0',))
-        assert other.time == 0.0
+    other = start()
+    physsim.spawn(box('a/0'))
+    other.spawn(box('b/0'))
+    physsim.step(3)
+    assert (physsim.names, other.names) == (('a/0',), ('b/0',))
+    assert other.time == 0.0

@@ -14,7 +14,8 @@ from physsim_ros.testing import disc, own_context, PhysSim, Refused
 import pytest
 from rerun import chunk
 
-from ..outside import ROOT, run_python
+from ..outside import run_python
+from ..source_tree import blocks_of
 
 pytest_plugins = ['pytester']
 PLUGIN = 'physsim_ros.testing.plugin'
@@ -255,12 +256,9 @@ def test_a_recording_that_cannot_be_written_is_refused(physsim: PhysSim, tmp_pat
 
 
 def test_the_tests_in_the_documents_pass(pytester: pytest.Pytester) -> None:
-    count = 0
-    for document in (ROOT / 'README.md', ROOT / 'docs' / 'testing.md'):
-        text = document.read_text(encoding='utf-8')
-        for block in re.findall(r'^```python\n(.*?)^```', text, re.MULTILINE | re.DOTALL):
-            if 'def test_' in block:
-                (pytester.path / f'test_{document.stem}_{count}.py').write_text(block)
-                count += 1
-    assert count == 4
-    pytester.runpytest_subprocess().assert_outcomes(passed=count)
+    blocks = blocks_of('README.md', 'python') + blocks_of('docs/testing.md', 'python')
+    tests = [block for block in blocks if 'def test_' in block]
+    for number, test in enumerate(tests):
+        (pytester.path / f'test_{number}.py').write_text(test)
+    assert len(tests) == 4
+    pytester.runpytest_subprocess().assert_outcomes(passed=4)

@@ -14,7 +14,7 @@ import sys
 import pytest
 
 from ..outside import Outside
-from ..source_tree import copy_source, ROOT
+from ..source_tree import blocks_of, copy_source, ROOT
 
 pytest_plugins = ['pytester']
 DOCS = ROOT / 'docs'
@@ -22,8 +22,6 @@ DOCS = ROOT / 'docs'
 FILE = re.compile(r'^.*?`(\w+\.py)`.*?^```python\n(.*?)^```', re.MULTILINE | re.DOTALL)
 # A line of a file, the file, and a block of Python that is written above that line.
 EDIT = re.compile(r'(?ims)above `([^`]+)` in `([^`]+)`:\n\n```python\n(.*?)^```')
-# A block of commands with what they print.
-CONSOLE = re.compile(r'^```console\n(.*?)^```', re.MULTILINE | re.DOTALL)
 # Columns of a measured law without its error, which is one of rounding.
 MEASURED = 78
 
@@ -53,7 +51,7 @@ def test_its_tests_pass(pytester: pytest.Pytester, name: str, passed: int) -> No
 def test_free_fall_is_measured_again_and_again(outside: Outside) -> None:
     program = outside.directory / 'fall.py'
     program.write_text(dict(FILE.findall(page('tutorials/teach_free_fall')))['fall.py'], 'utf-8')
-    (printed,) = re.findall(r'```text\n(.*?)```', page('tutorials/teach_free_fall'), re.DOTALL)
+    (printed,) = blocks_of('docs/tutorials/teach_free_fall.md', 'text')
     with outside.start_world(bounds='[-10.0, 0.0, 10.0, 12.0]') as world:
         world.wait_for('ready')
         for _ in range(4):
@@ -76,7 +74,7 @@ def test_a_kind_of_joint_is_added_in_the_steps_of_its_tutorial(tmp_path: Path) -
         text = (tree / file).read_text(encoding='utf-8')
         assert text.count(line) == 1, line
         (tree / file).write_text(text.replace(line, block + line), encoding='utf-8')
-    for block in CONSOLE.findall(page('tutorials/add_a_joint_kind')):
+    for block in blocks_of('docs/tutorials/add_a_joint_kind.md', 'console'):
         run_as_told(block, tree)
 
 

@@ -5,11 +5,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import math
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.testing import box, command, delete, disc, own_context, PhysSim, Refused
+from physsim_ros.testing import box, command, delete, disc, PhysSim, Refused
 import pytest
 from rclpy.node import Node
 from rclpy.time import Time
@@ -117,19 +118,12 @@ def test_a_world_is_loaded_by_name_or_path(
     assert physsim.names == ('a/0',)
 
 
-def test_two_runs_of_a_world_give_the_same_bits(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    digests = []
-    for _ in range(2):
-        with (
-            own_context(monkeypatch) as context,
-            PhysSim(context, world_dir=str(tmp_path)) as world,
-        ):
-            world.load('demo')
-            world.run(2.0)
-            digests.append(world.digest())
-    assert digests[0] == digests[1]
+def test_two_runs_of_a_world_give_the_same_bits(start: Callable[..., PhysSim]) -> None:
+    worlds = start(), start()
+    for world in worlds:
+        world.load('demo')
+        world.run(2.0)
+    assert worlds[0].digest() == worlds[1].digest()
 
 
 class Watch(Node):

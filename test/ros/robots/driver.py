@@ -10,6 +10,7 @@ from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
 from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
+from physsim_ros.testing import PhysSim
 from rclpy.context import Context
 from sensor_msgs.msg import LaserScan
 
@@ -46,6 +47,13 @@ class Driver(NodeWithoutQosEvents):
         if isinstance(message, TwistStamped) and stamp is not None:
             message.header.stamp = stamp
         self.publisher.publish(message)
+
+
+def driver_of(physsim: PhysSim, *, looks: bool = False, kind: type = Twist) -> Driver:
+    """Return a driver in a world, which is told what to do where it does not look."""
+    driver = Driver(physsim.context, kind=kind, looks=looks)
+    physsim.add(driver)
+    return driver
 
 
 def yaw_of(orientation: Any) -> float:

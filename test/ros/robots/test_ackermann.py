@@ -5,11 +5,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable
 import math
-from typing import Any
 
-from physsim_ros.testing import own_context, PhysSim
+from physsim_ros.testing import PhysSim
 import pytest
 
 from ..built_interfaces import import_built
@@ -17,33 +16,23 @@ from ...client import Client
 
 
 @pytest.fixture
-def flat(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[PhysSim]:
+def flat(request: pytest.FixtureRequest, start: Callable[..., PhysSim]) -> PhysSim:
     """Give a test a world that is seen from above."""
     import_built('ackermann_msgs', request)
-    with (
-        own_context(monkeypatch) as context,
-        PhysSim(context, gravity=[0.0, 0.0], floor_friction=0.5) as physsim,
-    ):
-        yield physsim
+    return start(gravity=[0.0, 0.0], floor_friction=0.5)
 
 
-def _publisher(flat: PhysSim) -> tuple[Client, Any, type]:
+def commanded(flat: PhysSim, speed: float, angle: float) -> Client:
+    """Send a command, and return the client that has sent it."""
     from ackermann_msgs.msg import AckermannDriveStamped  # noqa: PLC0415 - built for the test
 
-    client = Client(flat)
+    client, message = Client(flat), AckermannDriveStamped()
     publisher = client.node.create_publisher(AckermannDriveStamped, '/robot_0/cmd_vel', 10)
-    flat.settle()
-    return client, publisher, AckermannDriveStamped
-
-
-def _send(flat: PhysSim, client: Client, publisher: Any, message: Any) -> None:
-    def is_heard() -> bool:
-        flat.step()
-        return bool(publisher.get_subscription_count())
-
-    client.spin_until(is_heard)
+    message.drive.speed, message.drive.steering_angle = speed, angle
+    flat.run(0.5)
     publisher.publish(message)
     flat.settle()
+    return client
 
 
 @pytest.mark.parametrize(
@@ -55,10 +44,7 @@ def test_a_car_drives_the_circle_of_its_steering_angle(
 ) -> None:
     drive = {'kind': 'car', 'wheelbase': 0.25, 'steering': 0.6, 'max_speed': 1.0, 'max_turn': 9.0}
     robot = flat.robot({'from': 'car', 'drive': {**drive, 'timeout': 0}})
-    client, publisher, kind = _publisher(flat)
-    message = kind()
-    message.drive.speed, message.drive.steering_angle = speed, angle
-    _send(flat, client, publisher, message)
+    commanded(flat, speed, angle)
     flat.run(1.0)
     twist = robot.truth().twist.twist
     assert twist.linear.x == pytest.approx(speed, abs=1e-6)
@@ -67,18 +53,14 @@ def test_a_car_drives_the_circle_of_its_steering_angle(
 
 def test_what_is_not_finite_is_refused(flat: PhysSim) -> None:
     flat.robot('car')
-    client, publisher, kind = _publisher(flat)
-    message = kind()
-    message.drive.speed, message.drive.steering_angle = 0.5, math.nan
-    _send(flat, client, publisher, message)
+    client = commanded(flat, 0.5, math.nan)
     flat.run(0.5)
-    assert [event.code for event in client.events if event.code != 'ok'] == ['malformed']
+    assert [event.code for event in client.refusals] == ['malformed']
 
 
 def test_no_other_drive_hears_them(flat: PhysSim) -> None:
     flat.robot('turtlebot3_burger')
-    client, _, _ = _publisher(flat)
-    flat.run(0.5)
-    (event,) = [event for event in client.events if event.code != 'ok']
+    client = commanded(flat, 0.5, 0.0)
+    (event,) = client.refusals
     assert (event.code, event.field) == ('bad_property', 'cmd_vel')
     assert 'Twist or TwistStamped is heard' in event.message

@@ -5,26 +5,23 @@
 
 from __future__ import annotations
 
-from typing import Any
 from xml.etree import ElementTree as ET
 
 from physsim_ros.model.robots import Robot
-from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Shape
 from physsim_ros.ros.robots.frames import RobotFrames, RobotTf, urdf_of
 from physsim_ros.testing import PhysSim
 import pytest
-from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
 
-from ...building import spawn
-from ...client import Client, set_parameter
+from ...building import ELL, spawn
+from ...client import Client, KEPT
 from ...sensing.worlds import plane
 
 ROBOT = {
     'drive': {'kind': 'differential'},
     'sensors': [{'kind': 'laser', 'name': 'scan', 'at': [0.1, -0.2, 1.5]}],
 }
-L_SHAPE = Polygon(outline=((0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)))
 
 
 def described(shape: Shape, namespace: str = 'tb') -> ET.Element:
@@ -42,7 +39,7 @@ def described(shape: Shape, namespace: str = 'tb') -> ET.Element:
         (Box(width=0.4, height=0.2), ['box']),
         (Compound(element=Disc(radius=0.1), centers=((0.0, 0.0), (0.3, 0.0))), ['cylinder'] * 2),
         (Chain(points=((-1.0, 0.0), (1.0, 0.0)), thickness=0.1), ['cylinder', 'cylinder', 'box']),
-        (L_SHAPE, ['box'] * 2),
+        (ELL, ['box'] * 2),
     ],
     ids=repr,
 )
@@ -76,24 +73,16 @@ def test_links_are_one_tree_with_the_frames_of_the_robot() -> None:
 
 
 def test_a_late_listener_has_the_description_and_a_change_of_shape_is_told(
-    physsim: PhysSim,
+    flat: PhysSim, client: Client
 ) -> None:
-    set_parameter(physsim, 'gravity', [0.0, 0.0])
-    physsim.robot('turtlebot3_burger')
-    client = Client(physsim)
-    texts: list[str] = []
-    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-
-    def hear(message: Any) -> None:
-        texts.append(message.data)
-
-    client.node.create_subscription(String, '/robot_0/robot_description', hear, latched)
-    client.spin_until(lambda: bool(texts))
-    assert 'radius="0.105"' in texts[-1]
-    physsim.run(0.5)
+    flat.robot('turtlebot3_burger')
+    texts = client.listen(String, '/robot_0/robot_description', KEPT)
+    client.spin_until(lambda: texts)
+    assert 'radius="0.105"' in texts[-1].data
+    flat.run(0.5)
     assert len(texts) == 1
-    physsim.robot(
+    flat.robot(
         {'from': 'turtlebot3_burger', 'drive': {'max_speed': 0.1}}, name='other/0', at=(1, 0)
     )
-    physsim.run(0.5)
+    flat.run(0.5)
     assert len(texts) == 1

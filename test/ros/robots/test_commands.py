@@ -1,0 +1,179 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Commands of robots over topics: which counts, which is refused, which types are heard."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from functools import partial
+import math
+
+from geometry_msgs.msg import Twist, TwistStamped
+from physsim_ros.ros.node import PhysSimNode
+from physsim_ros.testing import PhysSim, shared_context
+import pytest
+import rclpy
+from rclpy.context import Context
+from std_msgs.msg import Bool
+
+from .driver import Driver, driver_of
+from ...client import Client, Event
+
+
+def test_a_robot_that_stops_as_no_command_comes_is_told_once_and_one_that_was_stopped_not(
+    flat: PhysSim, client: Client
+) -> None:
+    flat.robot('turtlebot3_burger')
+    driver = driver_of(flat)
+
+    def told() -> list[Event]:
+        return [event for event in client.events if event.name == '/robot_0/cmd_vel']
+
+    for speed in (0.2, 0.0):
+        driver.send(speed)
+        flat.run(0.3)
+    flat.run(1.0)
+    assert not told()
+    for _ in range(2):
+        driver.send(0.2)
+        flat.run(1.0)
+    (event,) = told()
+    assert event.code == 'ok'
+    assert 'for 0.5 s' in event.message
+
+
+@pytest.mark.parametrize('kind', [Twist, TwistStamped])
+def test_commands_are_listed_before_anybody_publishes_where_the_process_is_the_nodes_own(
+    monkeypatch: pytest.MonkeyPatch, kind: type
+) -> None:
+    own = partial(PhysSimNode, expected_commands=Twist)
+    monkeypatch.setattr('physsim_ros.testing.world.PhysSimNode', own)
+    other = Context()
+    with (
+        shared_context(monkeypatch) as context,
+        PhysSim(context, gravity=[0.0, 0.0]) as sim,
+        ExitStack() as closing,
+    ):
+        robot, client = sim.robot('turtlebot3_burger'), Client(sim)
+        listed = dict(client.node.get_topic_names_and_types())
+        assert listed['/robot_0/cmd_vel'] == ['geometry_msgs/msg/Twist']
+        rclpy.init(context=other, domain_id=context.get_domain_id(), args=[])
+        closing.callback(other.try_shutdown)
+        driver = Driver(other, kind=kind, looks=False)
+
+        def drives() -> bool:
+            driver.send(0.2)
+            sim.step()
+            return bool(robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6))
+
+        client.spin_until(drives)
+
+
+def test_commands_in_the_past_are_refused_once_and_nothing_branches(
+    flat: PhysSim, client: Client
+) -> None:
+    flat.robot('turtlebot3_burger')
+    driver = driver_of(flat)
+    driver.send(0.2)
+    flat.run(3.0)
+    after = flat.digest()
+    flat.rewind(2.0)
+    client.events.clear()
+    for _ in range(30):
+        driver.send(0.0, 1.0)
+        flat.step()
+    flat.run(1.5)
+    assert [event.code for event in client.refusals] == ['in_past']
+    assert flat.node.simulation.status.course == 1
+    assert flat.digest() == after
+
+
+@pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf])
+def test_commands_that_are_not_finite_are_refused_once(
+    flat: PhysSim, client: Client, value: float
+) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    driver = driver_of(flat)
+    client.events.clear()
+    for _ in range(5):
+        driver.send(value)
+        flat.step()
+    (event,) = client.refusals
+    assert (event.code, event.name, event.hardware_id) == (
+        'malformed',
+        '/robot_0/cmd_vel',
+        'robot/0',
+    )
+    assert robot.truth().twist.twist.linear.x == 0.0
+    # Good commands between them change nothing; another refusal is told, and one after many.
+    for speed in (*(0.0, value) * 5, 1e9, value, *(0.0,) * 60, value):
+        driver.send(speed)
+        flat.step()
+    codes = [event.code for event in client.refusals]
+    assert codes == ['malformed', 'bad_property', 'malformed']
+
+
+def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    driver = driver_of(flat)
+    before = flat.node.simulation.requests.gesture
+    for number in range(1000):
+        driver.send(0.1 if number < 999 else 0.2)
+        if number % 8 == 0:
+            flat.settle()
+    flat.run(0.4)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6)
+    assert flat.node.simulation.requests.gesture == before
+
+
+def test_publishers_of_both_types_are_told_and_one_is_heard_then_the_other(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # One participant has one type for a topic.
+    others = Context(), Context()
+    with (
+        shared_context(monkeypatch) as context,
+        PhysSim(context, gravity=[0.0, 0.0]) as sim,
+        ExitStack() as closing,
+    ):
+        for other in others:
+            rclpy.init(context=other, domain_id=context.get_domain_id(), args=[])
+            closing.callback(other.try_shutdown)
+        robot, client = sim.robot('turtlebot3_burger'), Client(sim)
+        plain = Driver(others[0], looks=False)
+        stamped = Driver(others[1], kind=TwistStamped, looks=False)
+
+        def drives(driver: Driver, speed: float) -> bool:
+            driver.send(speed)
+            sim.step()
+            return bool(robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6))
+
+        known = partial(sim.node.get_publishers_info_by_topic, '/robot_0/cmd_vel')
+        client.spin_until(lambda: len(known()) == 2)
+        client.spin_until(lambda: drives(plain, 0.2))
+        told = [event for event in client.events if event.field == 'cmd_vel']
+        assert [event.code for event in told] == ['bad_property']
+        plain.destroy_publisher(plain.publisher)
+        client.spin_until(lambda: drives(stamped, -0.1))
+
+
+def test_a_publisher_of_another_type_than_commands_is_told_once(
+    flat: PhysSim, client: Client
+) -> None:
+    flat.robot('turtlebot3_burger')
+    client.node.create_publisher(Bool, '/robot_0/cmd_vel', 10)
+    flat.run(0.5)
+    (event,) = client.refusals
+    assert (event.code, event.field) == ('bad_property', 'cmd_vel')
+    assert 'std_msgs/msg/Bool' in event.message
+
+
+def test_the_last_command_of_a_node_that_has_gone_counts(flat: PhysSim) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    driver = driver_of(flat)
+    driver.send(0.2)
+    flat.settle()
+    driver.destroy_publisher(driver.publisher)
+    flat.run(0.3)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(0.2, abs=1e-6)

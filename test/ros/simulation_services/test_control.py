@@ -1,0 +1,178 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""What the simulator can do, its time, its end and its errors, by the standard services."""
+
+from __future__ import annotations
+
+from importlib.util import find_spec
+from typing import Any
+
+from physsim_ros.testing import disc, PhysSim
+import pytest
+from rclpy.action import ActionClient
+
+from .caller import (
+    Caller,
+    INCORRECT_STATE,
+    names_in,
+    OK,
+    OPERATION_FAILED,
+    UNSUPPORTED,
+)
+from ...client import set_parameter
+from ...doors import fail
+
+pytestmark = pytest.mark.slow
+
+
+def simulate_steps(caller: Caller, steps: int) -> tuple[Any, list[tuple[int, int]]]:
+    """Return the result of the action, and completed and remaining steps of its feedback."""
+    from simulation_interfaces.action import SimulateSteps  # noqa: PLC0415
+
+    client = ActionClient(caller.client.node, SimulateSteps, '/physsim/simulation/simulate_steps')
+    caller.client.spin_until(client.server_is_ready)
+    told: list[tuple[int, int]] = []
+    sent = client.send_goal_async(
+        SimulateSteps.Goal(steps=steps),
+        lambda message: told.append(
+            (message.feedback.completed_steps, message.feedback.remaining_steps)
+        ),
+    )
+    caller.client.spin_until(sent.done)
+    answered = sent.result().get_result_async()
+    caller.client.spin_until(answered.done)
+    result = answered.result().result.result
+    if result.result == OK:
+        caller.client.spin_until(lambda: len(told) == steps)
+    client.destroy()
+    return result, told
+
+
+def test_what_is_told_of_the_simulator_is_what_it_has(caller: Caller) -> None:
+    from simulation_interfaces.msg import SimulatorFeatures  # noqa: PLC0415
+
+    told = set(caller('GetSimulatorFeatures').features.features)
+    constants = [getattr(SimulatorFeatures, each) for each in dir(SimulatorFeatures)]
+    all_of_them = {each for each in constants if isinstance(each, int)}
+    assert all_of_them - told == {
+        SimulatorFeatures.ENTITY_BOUNDS_CONVEX,
+        SimulatorFeatures.SIMULATION_RESET_TIME,
+        SimulatorFeatures.SIMULATION_RESET_STATE,
+        SimulatorFeatures.WORLD_RESOURCE_STRING,
+    }
+    spawnables = caller('GetSpawnables', sources=['elsewhere'])
+    assert 'elsewhere' in spawnables.result.error_message
+    uris = {each.uri for each in spawnables.spawnables}
+    assert {'turtlebot3_burger', 'omni', 'disc', 'box'} <= uris
+    # All of them can be spawned.
+    for number, uri in enumerate(sorted(uris)):
+        spawned = caller('SpawnEntity', name=f'some/{number}', uri=uri)
+        assert (spawned.result.result, spawned.result.error_message) == (OK, '')
+        assert spawned.entity_name == f'some/{number}'
+
+
+def test_time_is_stopped_played_and_paused(caller: Caller) -> None:
+    stopped, playing, paused, quitting, no_world, loading = range(6)
+
+    def change(state: int) -> int:
+        return caller.code('SetSimulationState', state__state=state)
+
+    def now() -> int:
+        return int(caller('GetSimulationState').state.state)
+
+    caller.physsim.spawn(disc('a/0'))
+    assert now() == stopped
+    assert change(stopped) == 101
+    for state in (quitting, no_world, loading, 99):
+        assert change(state) == UNSUPPORTED
+    # Paused at time 0 is not stopped, until it is stopped or loaded again.
+    assert (change(paused), now()) == (OK, paused)
+    assert change(paused) == 101
+    assert (change(stopped), now()) == (OK, stopped)
+    caller.physsim.spawn(disc('a/0'))
+    assert (change(paused), now()) == (OK, paused)
+    assert (change(playing), now()) == (OK, playing)
+    assert caller.code('StepSimulation', steps=1) == INCORRECT_STATE
+    caller.physsim.run(0.5)
+    assert (change(paused), now()) == (OK, paused)
+    assert (change(stopped), now()) == (OK, stopped)
+    # A stop is a reset.
+    assert caller.physsim.node.simulation.step == 0
+    assert names_in(caller.physsim) == ()
+
+
+def test_a_paused_world_goes_on_by_steps(caller: Caller) -> None:
+    world = caller.physsim.node.simulation
+    assert caller.code('StepSimulation', steps=3) == OK
+    assert world.step == 3 * world.frame_steps
+    for steps in (0, 601, 2**64 - 1):
+        assert caller.code('StepSimulation', steps=steps) == OPERATION_FAILED
+    assert world.step == 3 * world.frame_steps
+
+
+def test_an_action_goes_on_by_steps_and_tells_each(caller: Caller) -> None:
+    world = caller.physsim.node.simulation
+    result, told = simulate_steps(caller, 3)
+    assert result.result == OK
+    assert world.step == 3 * world.frame_steps
+    assert told == [(1, 2), (2, 1), (3, 0)]
+    set_parameter(caller.physsim, 'speed', 1.0)
+    result, told = simulate_steps(caller, 3)
+    assert (result.result, told) == (INCORRECT_STATE, [])
+
+
+def test_the_program_ends_after_its_reply(caller: Caller) -> None:
+    quitting = 3
+    ended: list[str] = []
+    node = caller.physsim.node
+    node.control.on_quit = lambda: ended.append('ended')
+    set_parameter(caller.physsim, 'speed', 1.0)
+    assert caller.code('SetSimulationState', state__state=quitting) == OK
+    assert caller('GetSimulationState').state.state == quitting
+    assert node.simulation.speed == 0.0
+    assert caller.code('SetSimulationState', state__state=1) == 103
+    assert ended == []
+    node.tick(0)
+    node.tick(1)
+    assert ended == ['ended']
+
+
+def test_an_error_that_nobody_expected_fails_a_call_and_nothing_else(
+    caller: Caller, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from physsim_ros.ros.simulation_services.services import (  # noqa: PLC0415
+        SimulationServices,
+    )
+    from simulation_interfaces import srv  # noqa: PLC0415
+
+    fill, node = vars(SimulationServices)['_fill'], caller.physsim.node
+    errors: list[BaseException] = []
+    node.boundary.on_error = errors.append
+    monkeypatch.setattr(
+        SimulationServices,
+        '_fill',
+        lambda self, topic, _, *others: fill(self, topic, fail, *others),
+    )
+    kinds = [each for each in vars(srv) if each[0].isupper() and '_' not in each]
+    offered = [each.srv_name for each in node.services if '/simulation/' in each.srv_name]
+    # Each service of the standard is there.
+    assert len(kinds) == len([each for each in offered if '/_action/' not in each]) == 22
+    for number, kind in enumerate(kinds, 1):
+        response = caller(kind)
+        if kind != 'GetSimulatorFeatures':
+            assert response.result.result == OPERATION_FAILED
+            assert 'failure 1 in the log' in response.result.error_message
+        assert len(errors) == number
+    result, _ = simulate_steps(caller, 1)
+    assert result.result == OPERATION_FAILED
+    assert {type(each) for each in errors} == {ZeroDivisionError}
+    monkeypatch.undo()
+    assert caller.code('StepSimulation', steps=1) == OK
+
+
+@pytest.mark.skipif(
+    find_spec('simulation_interfaces') is not None, reason='simulation_interfaces is installed'
+)
+def test_without_the_package_there_are_no_services(physsim: PhysSim) -> None:
+    assert not [each for each in physsim.node.services if '/simulation/' in each.srv_name]
