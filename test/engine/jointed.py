@@ -3,14 +3,10 @@
 
 """Short words for the tests of joints: two boxes, and what joins them."""
 
-from __future__ import annotations
-
 from typing import Any
 
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import (
-    Join,
-)
+from physsim_ros.model.requests import Join
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World

@@ -3,8 +3,6 @@
 
 """Machines of joints go on alike to the bit."""
 
-from __future__ import annotations
-
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 
@@ -30,7 +28,7 @@ def machine() -> World:
     return world
 
 
-def test_a_world_goes_on_from_a_checkpoint_to_the_bit() -> None:
+def test_a_world_goes_on_from_a_checkpoint_to_the_bit():
     world = machine()
     world.step(200)
     key = world.renew()
@@ -41,7 +39,7 @@ def test_a_world_goes_on_from_a_checkpoint_to_the_bit() -> None:
     assert world.digest() == first
 
 
-def test_scenes_are_the_same_object_until_a_joint_comes_or_goes() -> None:
+def test_scenes_are_the_same_object_until_a_joint_comes_or_goes():
     world = pair()
     before = world.snapshot().scene
     world.apply(joining('axle', [(0.4, 0.0)]))

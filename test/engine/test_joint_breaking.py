@@ -3,10 +3,6 @@
 
 """Joints break under their own load, in the step in which it comes, and that is told."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import numpy as np
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.simulation import Simulation
@@ -17,7 +13,7 @@ from .jointed import joining, joints
 from ..building import BOX, command, DISC, DT, G, spawn
 
 
-def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told() -> None:
+def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told():
     sim = Simulation()
     spawn(sim.world, 'a/0', BOX, mass=1.0)
     sim.perform(joining('axle', [(0.0, 0.0)], break_force=5.0))
@@ -27,7 +23,7 @@ def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told() -> None:
     assert joints(sim.world) == ()
 
 
-def test_a_joint_that_is_strong_enough_does_not_break() -> None:
+def test_a_joint_that_is_strong_enough_does_not_break():
     world = World()
     spawn(world, 'a/0', BOX, mass=1.0)
     world.apply(joining('axle', [(0.0, 0.0)], break_force=15.0))
@@ -36,7 +32,7 @@ def test_a_joint_that_is_strong_enough_does_not_break() -> None:
     assert len(joints(world)) == 1
 
 
-def test_a_commanded_velocity_does_not_load_a_joint_by_itself() -> None:
+def test_a_commanded_velocity_does_not_load_a_joint_by_itself():
     world = World()
     spawn(world, 'a/0', DISC, mass=1.0)
     world.apply(joining('axle', [(0.0, 0.0)], break_force=1.01 * G))
@@ -48,7 +44,7 @@ def test_a_commanded_velocity_does_not_load_a_joint_by_itself() -> None:
 
 
 @pytest.mark.parametrize('height', [0.3, 5.1])
-def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height: float) -> None:
+def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height):
     worlds = []
     for _ in range(2):
         world = World(settings=WorldSettings(bounds=(-40.0, 0.0, 40.0, 90.0)))
@@ -78,9 +74,7 @@ def expire(world: World, number: int) -> None:
 
 
 @pytest.mark.parametrize('change', [come, expire, lambda world, _: world.renew()])
-def test_joints_that_come_and_go_and_checkpoints_change_no_break(
-    change: Callable[[World, int], object],
-) -> None:
+def test_joints_that_come_and_go_and_checkpoints_change_no_break(change):
     world = World()
     spawn(world, 'far/0', DISC, (50.0, 0.0, 0.0))
     spawn(world, 'a/0', BOX, mass=1.0)
@@ -95,7 +89,7 @@ def test_joints_that_come_and_go_and_checkpoints_change_no_break(
     assert told == [(1, 'joint/0')]
 
 
-def test_a_joint_whose_first_step_is_to_come_is_new_in_a_checkpoint_too() -> None:
+def test_a_joint_whose_first_step_is_to_come_is_new_in_a_checkpoint_too():
     world = World()
     # In free flight its velocity leads by half a step, which the joint takes back: 14.7 N.
     spawn(world, 'a/0', BOX, mass=1.0)

@@ -3,12 +3,9 @@
 
 """Joints that are removed, changed, or wait, with their bodies and by name."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -29,7 +26,7 @@ from ..building import BOX, DISC, pose, spawn, twist
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_a_joint_goes_with_its_body(kind: JointKind) -> None:
+def test_a_joint_goes_with_its_body(kind):
     world = pair()
     world.apply(joining(kind, points_of(kind)))
     world.apply(Delete(name='a/1'))
@@ -37,14 +34,14 @@ def test_a_joint_goes_with_its_body(kind: JointKind) -> None:
     assert joints(world) == ()
 
 
-def test_clearing_the_world_clears_its_joints() -> None:
+def test_clearing_the_world_clears_its_joints():
     world = pair()
     world.apply(joining('axle', [(0.4, 0.0)]))
     world.apply(DeleteAll())
     assert joints(world) == ()
 
 
-def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together() -> None:
+def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together():
     world = pair()
     for name in ('x/0', 'x/1', 'y/0'):
         world.apply(joining('axle', [(0.4, 0.0)], name))
@@ -57,7 +54,7 @@ def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together() -> Non
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_a_body_that_is_changed_in_place_keeps_its_joints(kind: JointKind) -> None:
+def test_a_body_that_is_changed_in_place_keeps_its_joints(kind):
     world = pair()
     world.apply(joining(kind, points_of(kind), **PROPERTIES.get(kind, {})))
     before = joints(world)
@@ -68,7 +65,7 @@ def test_a_body_that_is_changed_in_place_keeps_its_joints(kind: JointKind) -> No
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_a_joint_waits_while_both_its_bodies_are_anchored(kind: JointKind) -> None:
+def test_a_joint_waits_while_both_its_bodies_are_anchored(kind):
     world = pair()
     world.apply(joining(kind, points_of(kind)))
     held = pose(world, 'a/0').tolist(), pose(world, 'a/1').tolist()
@@ -82,7 +79,7 @@ def test_a_joint_waits_while_both_its_bodies_are_anchored(kind: JointKind) -> No
     assert len(joints(world)) == 1
 
 
-def test_a_command_of_a_yaw_does_not_wind_a_joint_up() -> None:
+def test_a_command_of_a_yaw_does_not_wind_a_joint_up():
     world = World()
     spawn(world, 'a/0', BOX, spin=20.0)
     spawn(world, 'a/1', BOX, (0.8, 0.0, 0.0))
@@ -95,7 +92,7 @@ def test_a_command_of_a_yaw_does_not_wind_a_joint_up() -> None:
     assert twist(world, 'a/0')[2] == pytest.approx(spin, abs=1e-3)
 
 
-def test_releasing_a_body_removes_the_pins_and_axles_there() -> None:
+def test_releasing_a_body_removes_the_pins_and_axles_there():
     world = pair()
     world.apply(Pin(point=(0.4, 0.0)))
     world.apply(Axle(point=(0.4, 0.0)))
@@ -104,7 +101,7 @@ def test_releasing_a_body_removes_the_pins_and_axles_there() -> None:
     assert [joint.name for joint in joints(world)] == ['joint/0']
 
 
-def test_releasing_a_long_body_leaves_the_axles_farther_along_it() -> None:
+def test_releasing_a_long_body_leaves_the_axles_farther_along_it():
     world = World()
     spawn(world, 'plank/0', Box(width=20.0, height=1.0))
     for x in (0.1, 2.4):
@@ -114,7 +111,7 @@ def test_releasing_a_long_body_leaves_the_axles_farther_along_it() -> None:
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_what_is_asked_for_again_where_it_is_changes_nothing(kind: JointKind) -> None:
+def test_what_is_asked_for_again_where_it_is_changes_nothing(kind):
     world = pair()
     request = joining(kind, points_of(kind), a='a/0', b='a/1', **PROPERTIES.get(kind, {}))
     world.apply(request)
@@ -123,7 +120,7 @@ def test_what_is_asked_for_again_where_it_is_changes_nothing(kind: JointKind) ->
     assert world.digest() == before
 
 
-def test_a_joint_that_is_changed_keeps_what_is_not_said() -> None:
+def test_a_joint_that_is_changed_keeps_what_is_not_said():
     world = pair()
     world.apply(joining('spring', [(0.4, 0.0), (-0.3, 0.0)], stiffness=7.0, damping=1.0))
     world.apply(joining('spring', [(0.4, 0.1), (-0.3, 0.0)], stiffness=9.0))

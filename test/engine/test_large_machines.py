@@ -3,8 +3,6 @@
 
 """Hundreds of joints that hang together are held as exactly as two, and found out about once."""
 
-from __future__ import annotations
-
 import math
 import tracemalloc
 
@@ -28,14 +26,14 @@ def stretched(world: World) -> float:
 
 
 @pytest.mark.parametrize('side', [5, 20])
-def test_a_net_is_as_long_as_its_rods(side: int) -> None:
+def test_a_net_is_as_long_as_its_rods(side):
     world = net(side)
     for _ in range(10):
         world.step(12)
         assert stretched(world) < 2e-3
 
 
-def test_a_heavy_ball_swings_on_a_light_chain() -> None:
+def test_a_heavy_ball_swings_on_a_light_chain():
     world = swing(link=0.5, ball=20.0, radius=0.1)
     start = world.snapshot()
     fall = 20.0 * G * 3.0 * (1.0 - math.cos(math.radians(45.0)))
@@ -68,7 +66,7 @@ def wheel(spokes: int) -> World:
     return world
 
 
-def test_what_is_too_much_to_be_solved_at_once_is_held_part_by_part() -> None:
+def test_what_is_too_much_to_be_solved_at_once_is_held_part_by_part():
     # Three rows of each of 220 pins meet on the hub, and the bars beyond them hang together only
     # by what is in other parts.
     world = wheel(220)
@@ -81,7 +79,7 @@ def test_what_is_too_much_to_be_solved_at_once_is_held_part_by_part() -> None:
     assert np.hypot(*inner.T) == pytest.approx(np.full(220, 1.5), abs=0.02)
 
 
-def test_a_machine_among_bodies_that_come_goes_on_as_one_that_knows_nothing() -> None:
+def test_a_machine_among_bodies_that_come_goes_on_as_one_that_knows_nothing():
     known, fresh = net(5), net(5)
     for world in (known, fresh):
         world.step(3)
@@ -96,7 +94,7 @@ def test_a_machine_among_bodies_that_come_goes_on_as_one_that_knows_nothing() ->
     assert known.digest() == fresh.digest()
 
 
-def test_a_thousand_joints_of_one_body_are_linear_in_memory() -> None:
+def test_a_thousand_joints_of_one_body_are_linear_in_memory():
     # Its rows would fill a band of 2,000 by 2,000, from 4 million pairs.
     world = World()
     spawn(world, 'hub/0', Disc(radius=1.0), (0.0, 0.0, 0.0))

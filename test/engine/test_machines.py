@@ -7,8 +7,6 @@ Machines at random: no number leaves the range, nothing raises, and no energy co
 `PHYSSIM_MACHINES` sets how many; a few hundred take some minutes.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 import math
 import os
@@ -27,7 +25,6 @@ from physsim_ros.model.requests import (
     Join,
     Pin,
     Release,
-    Request,
     Spawn,
     Unjoin,
     UnjoinAll,
@@ -112,7 +109,7 @@ def machine(pick: random.Random, *, sensors: bool) -> World:
 @pytest.mark.slow
 @settings(max_examples=COUNT, deadline=None, derandomize=True, phases=[Phase.generate])
 @given(seed=strategies.integers(0, 2**32), sensors=strategies.booleans())
-def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:
+def test_any_machine_runs_for_ten_seconds(seed, sensors):
     world = machine(random.Random(seed), sensors=sensors)
     before = world.snapshot()
     began = energy(before)
@@ -128,7 +125,7 @@ def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:
 
 
 @pytest.mark.parametrize('kind', [JointKind.AXLE, JointKind.ROD])
-def test_a_joint_against_a_contact_moves_no_free_machine(kind: JointKind) -> None:
+def test_a_joint_against_a_contact_moves_no_free_machine(kind):
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     # Drawn into each other, and yet to collide.
     spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0), velocity=(1.0, 0.0))
@@ -155,7 +152,7 @@ def hanging() -> World:
     return world
 
 
-def test_what_joints_gave_stays_where_others_come_and_go() -> None:
+def test_what_joints_gave_stays_where_others_come_and_go():
     world = hanging()
     forces = world.snapshot().forces
     assert (forces > 1.0).all()
@@ -169,7 +166,7 @@ def test_what_joints_gave_stays_where_others_come_and_go() -> None:
     assert world.snapshot().forces.tolist() == [forces[1], 0.0]
 
 
-def test_joints_come_and_go_in_a_world_that_stands() -> None:
+def test_joints_come_and_go_in_a_world_that_stands():
     world = hanging()
     x, y, _ = world.snapshot().poses[2].tolist()
     for _ in range(3):
@@ -198,7 +195,7 @@ def weighted(
 
 @pytest.mark.parametrize('physics_rate', [60.0, 240.0])
 @pytest.mark.parametrize('stiffness', [4.0, 40.0])
-def test_a_weight_at_balance_on_its_spring_stays(stiffness: float, physics_rate: float) -> None:
+def test_a_weight_at_balance_on_its_spring_stays(stiffness, physics_rate):
     world = weighted(stiffness, physics_rate=physics_rate)
     for _ in range(240):
         world.step(10)
@@ -216,7 +213,7 @@ def test_a_weight_at_balance_on_its_spring_stays(stiffness: float, physics_rate:
     ],
     ids=['released', 'stopped', 'put', 'gravity', 'changed'],
 )
-def test_it_stays_where_it_is_let_go_again(again: tuple[Request, ...]) -> None:
+def test_it_stays_where_it_is_let_go_again(again):
     world = weighted(10.0)
     world.step(60)
     for request in again:
@@ -225,7 +222,7 @@ def test_it_stays_where_it_is_let_go_again(again: tuple[Request, ...]) -> None:
     assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
 
 
-def test_what_hangs_on_a_weight_by_a_rod_stays_with_it() -> None:
+def test_what_hangs_on_a_weight_by_a_rod_stays_with_it():
     world = weighted(20.0, mass=0.5)
     spawn(world, 'weight/1', Disc(radius=0.1), (0.0, -1.0, 0.0), mass=0.5)
     below = ((0.0, 0.0), (0.0, -1.0))
@@ -235,7 +232,7 @@ def test_what_hangs_on_a_weight_by_a_rod_stays_with_it() -> None:
         assert np.abs(world.snapshot().twists).max() < 1e-3
 
 
-def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled() -> None:
+def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled():
     world = weighted(10.0, stretched=0.2)
     omega, start = math.sqrt(10.0), world.snapshot()
     for _ in range(480):
@@ -247,7 +244,7 @@ def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled() -> None
         assert energy(now) == pytest.approx(energy(start), abs=0.01 * 0.2)
 
 
-def test_two_bodies_that_a_spring_joins_fly_together_exactly() -> None:
+def test_two_bodies_that_a_spring_joins_fly_together_exactly():
     world = World()
     for number in range(2):
         spawn(world, f'weight/{number}', Disc(radius=0.1), (float(number), 0.0, 0.0))

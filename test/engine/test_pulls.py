@@ -3,8 +3,6 @@
 
 """The forces of joints as vectors: with weight they are what changes the momentum of a body."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -31,7 +29,7 @@ def loaded(kind: JointKind) -> World:
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_weight_and_joint_are_what_changes_the_momentum(kind: JointKind) -> None:
+def test_weight_and_joint_are_what_changes_the_momentum(kind):
     world = loaded(kind)
     (joint,) = world.snapshot().scene.joints
     sign = 1.0 if joint.b == 'a/1' else -1.0
@@ -50,7 +48,7 @@ def test_weight_and_joint_are_what_changes_the_momentum(kind: JointKind) -> None
         assert changed == pytest.approx(expected, abs=0.5 * slack + 1e-4)
 
 
-def test_joints_have_no_vectors_where_nobody_watches() -> None:
+def test_joints_have_no_vectors_where_nobody_watches():
     world = loaded(JointKind.ROD)
     world.reports_contacts = False
     world.step(4)

@@ -113,14 +113,7 @@ def test_a_pendulum_hangs_along_the_sum_of_weight_and_pull(report):
     *_, last = steps(sim, 6000)
 
     x, y = last.poses[0, :2]
-    report.check(
-        54,
-        'pendulum pulled by its weight',
-        math.atan2(x, -y),
-        math.pi / 4,
-        1e-3,
-        'rad',
-    )
+    report.check(54, 'pendulum pulled by its weight', math.atan2(x, -y), math.pi / 4, 1e-3, 'rad')
 
 
 def test_switching_a_force_off_and_on_leaves_the_velocity_of_that_moment(report):

@@ -166,10 +166,7 @@ def _anchored():
         velocity = (20.0, 1.0)
         spawn(sim, f'hit/{number}', Disc(radius=0.3), at, mass=100.0, velocity=velocity)
     hold = Command(names=('held/0',), poses=((0.0, 3.0, 0.0),))
-    return sim, {
-        150: [Release(point=(0.1, 2.0))],
-        450: [hold, Anchor(point=(0.0, 3.0))],
-    }
+    return sim, {150: [Release(point=(0.1, 2.0))], 450: [hold, Anchor(point=(0.0, 3.0))]}
 
 
 def _robots():

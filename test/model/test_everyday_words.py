@@ -3,8 +3,6 @@
 
 """Refusals that tell the property which an everyday word means."""
 
-from __future__ import annotations
-
 from dataclasses import fields
 
 from physsim_ros.model.body_properties import Properties
@@ -26,7 +24,7 @@ KEYS = {each.name for kind in (Properties, JointProperties) for each in fields(k
      ('is-trigger', 'sensor'),
      ('layer', 'group'), ('caption', 'label'), ('thruster', 'forces')],
 )  # fmt: skip
-def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, name: str) -> None:
+def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word, name):
     with pytest.raises(UnknownProperty) as refused:
         Properties.from_mapping({word: 1})
 
@@ -39,7 +37,7 @@ def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, n
     [('speed', 'rate'), ('rpm', 'rate'), ('k', 'stiffness'), ('min', 'lower'), ('max', 'upper'),
      ('torque', 'max_torque'), ('natural_length', 'rest_length'), ('breakable', 'break_force')],
 )  # fmt: skip
-def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word: str, name: str) -> None:
+def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word, name):
     with pytest.raises(UnknownProperty, match=f"; use '{name}'$"):
         JointProperties.from_mapping({word: 1})
 
@@ -49,17 +47,17 @@ def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word: str, 
     [('weld', "use 'pin'"), ('Hinge', "use 'axle'"), ('prismatic', "use 'slider'"),
      ('sprng', "nearest is 'spring'"), ('Motr', "nearest is 'motor'"), ('xyz', 'there are pin')],
 )  # fmt: skip
-def test_a_word_for_a_kind_of_joint_is_told_its_name(word: str, hint: str) -> None:
+def test_a_word_for_a_kind_of_joint_is_told_its_name(word, hint):
     with pytest.raises(BadProperty, match=f"^there is no kind of joint '{word}'; {hint}"):
         kind_from(word)
 
 
-def test_every_property_has_everyday_words_and_none_of_them_is_a_property() -> None:
+def test_every_property_has_everyday_words_and_none_of_them_is_a_property():
     assert set(EVERYDAY_WORDS) == KEYS
     assert not {word for words in EVERYDAY_WORDS.values() for word in words} & KEYS
 
 
-def test_every_kind_of_joint_has_everyday_words_and_none_of_them_is_a_kind() -> None:
+def test_every_kind_of_joint_has_everyday_words_and_none_of_them_is_a_kind():
     for kind in JointKind:
         assert kind.schema.words
         assert not {*JointKind}.intersection(kind.schema.words)

@@ -12,7 +12,7 @@ from physsim_ros.model.shapes import LARGEST
 import pytest
 
 
-def test_the_defaults_are_those_of_the_contract() -> None:
+def test_the_defaults_are_those_of_the_contract():
     assert WorldSettings() == WorldSettings(
         gravity=(0.0, -9.81),
         damping=0.0,
@@ -36,7 +36,7 @@ def test_the_defaults_are_those_of_the_contract() -> None:
      ((0.0, 0.0, 1.0, 2 * LARGEST), BadProperty), (5.0, BadProperty), ('wide', BadProperty),
      ((0.0, 0.0, '1', 1.0), BadProperty), ((0.0, 0.0, True, 1.0), BadProperty)],
 )  # fmt: skip
-def test_bounds_are_a_rectangle_or_none(bounds: object, error: type[Refusal]) -> None:
+def test_bounds_are_a_rectangle_or_none(bounds, error):
     assert WorldSettings(bounds=None).bounds is None
     assert WorldSettings(bounds=[-1, 0, LARGEST, 2]).bounds == (-1.0, 0.0, LARGEST, 2.0)
     with pytest.raises(error) as refused:
@@ -45,14 +45,14 @@ def test_bounds_are_a_rectangle_or_none(bounds: object, error: type[Refusal]) ->
 
 
 @pytest.mark.parametrize('datum', [(91.0, 0.0), (0.0, 181.0), (0.0,), 'here', (0.0, math.nan)])
-def test_a_datum_is_a_latitude_and_a_longitude(datum: object) -> None:
+def test_a_datum_is_a_latitude_and_a_longitude(datum):
     assert WorldSettings(datum=[-90, 180]).datum == (-90.0, 180.0)
     with pytest.raises(Refusal) as refused:
         WorldSettings(datum=datum)
     assert refused.value.field == 'datum'
 
 
-def test_settings_are_frozen_and_a_change_is_checked_anew() -> None:
+def test_settings_are_frozen_and_a_change_is_checked_anew():
     settings = WorldSettings()
 
     with pytest.raises(FrozenInstanceError):
@@ -62,7 +62,7 @@ def test_settings_are_frozen_and_a_change_is_checked_anew() -> None:
     assert replace(settings, damping=0.5).damping == 0.5
 
 
-def test_only_the_names_of_settings_are_settings() -> None:
+def test_only_the_names_of_settings_are_settings():
     for name in WorldSettings.FIELDS:
         check_setting(name)
     for name in ('speed', '', 'Gravity', 'friction '):

@@ -3,8 +3,6 @@
 
 """A simulation that tests drive by the time of a wall clock, and compare with what it showed."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

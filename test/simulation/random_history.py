@@ -9,8 +9,6 @@ saved worlds. Each is the name of a method of `histories.Player` with its argume
 so that requests meet. Some histories begin with a shipped world, and are about its bodies.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 import functools
@@ -366,8 +364,7 @@ def request_of(rng: Choices) -> Request:
         (
             2,
             lambda: ChangeBody(
-                name=rng.choice(rng.names),
-                unset=tuple(rng.some(list(Properties.FIELDS), 3)),
+                name=rng.choice(rng.names), unset=tuple(rng.some(list(Properties.FIELDS), 3))
             ),
         ),
         (3, lambda: MoveBodies(names=(rng.choice(rng.names),), by=(number_of(rng), 1.0))),

@@ -3,8 +3,6 @@
 
 """Bodies are changed by the properties that are named, and moved and deleted by the name."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -24,7 +22,7 @@ def changed(world: World, **properties: object) -> None:
     assert message == Answer(subject='a/0', message='changed a/0')
 
 
-def test_only_what_is_named_changes() -> None:
+def test_only_what_is_named_changes():
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', ELL, (1.0, 2.0, 0.3), velocity=(1.0, 2.0), spin=3.0, lifetime=9.0)
     world.step(7)
@@ -56,9 +54,7 @@ def test_only_what_is_named_changes() -> None:
         ('robot', {'drive': {'kind': 'omni'}}, None),
     ],
 )
-def test_a_property_that_is_unset_has_its_default_again(
-    name: str, value: object, default: object
-) -> None:
+def test_a_property_that_is_unset_has_its_default_again(name, value, default):
     world = World(settings=replace(NOWHERE, friction=0.75, elasticity=0.125, density=3.0))
     spawn(world, 'a/0', DISC)
     before = body(world, 'a/0')
@@ -70,7 +66,7 @@ def test_a_property_that_is_unset_has_its_default_again(
     assert body(world, 'a/0') == before
 
 
-def test_a_mass_that_is_unset_leaves_the_default_density() -> None:
+def test_a_mass_that_is_unset_leaves_the_default_density():
     world = World(settings=replace(NOWHERE, density=3.0))
     spawn(world, 'a/0', DISC, mass=20.0)
     spawn(world, 'a/1', DISC, density=5.0)
@@ -81,7 +77,7 @@ def test_a_mass_that_is_unset_leaves_the_default_density() -> None:
     assert [(each.mass, each.density) for each in world.scene.bodies] == [(None, 3.0), (None, 5.0)]
 
 
-def test_a_density_that_is_unset_leaves_a_mass() -> None:
+def test_a_density_that_is_unset_leaves_a_mass():
     world = World(settings=replace(NOWHERE, density=3.0))
     spawn(world, 'a/0', DISC, mass=20.0)
     spawn(world, 'a/1', DISC, density=5.0)
@@ -94,7 +90,7 @@ def test_a_density_that_is_unset_leaves_a_mass() -> None:
     assert [(each.mass, each.density) for each in world.scene.bodies][1] == (None, 3.0)
 
 
-def test_a_velocity_that_is_unset_is_none() -> None:
+def test_a_velocity_that_is_unset_is_none():
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', DISC, velocity=(1.0, 2.0), spin=3.0)
 
@@ -104,12 +100,12 @@ def test_a_velocity_that_is_unset_is_none() -> None:
     assert not twist(world, 'a/0').any()
 
 
-def test_a_property_that_there_is_not_cannot_be_unset() -> None:
+def test_a_property_that_there_is_not_cannot_be_unset():
     with pytest.raises(UnknownProperty, match="nearest is 'friction'"):
         ChangeBody(name='a/0', unset=('frictoin',))
 
 
-def test_pose_velocity_and_role_change_too() -> None:
+def test_pose_velocity_and_role_change_too():
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', DISC, velocity=(1.0, 0.0))
     spawn(world, 'b/0', DISC, (5.0, 5.0, 0.0))
@@ -125,7 +121,7 @@ def test_pose_velocity_and_role_change_too() -> None:
     assert world.snapshot().poses[0] == pytest.approx((6.0, 7.0, 0.5))
 
 
-def test_bodies_are_moved_together_and_keep_their_motion() -> None:
+def test_bodies_are_moved_together_and_keep_their_motion():
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', ELL, (0.0, 0.0, 0.3), velocity=(1.0, 2.0), spin=3.0)
     spawn(world, 'a/1', BOX, (5.0, 0.0, 0.0), anchored=True)
@@ -141,7 +137,7 @@ def test_bodies_are_moved_together_and_keep_their_motion() -> None:
     assert np.array_equal(world.snapshot().twists, before.twists)
 
 
-def test_several_are_deleted_with_one_gesture() -> None:
+def test_several_are_deleted_with_one_gesture():
     sim = Simulation(settings=NOWHERE)
     for number in range(4):
         sim.perform(spawning_at(number))
@@ -158,7 +154,7 @@ def spawning_at(number: int) -> Request:
 
 
 @pytest.mark.parametrize('names', [(), ('a/0', 'a/0')])
-def test_bodies_are_named_once_each(names: tuple[str, ...]) -> None:
+def test_bodies_are_named_once_each(names):
     for make in (lambda: DeleteBodies(names=names), lambda: MoveBodies(names=names, by=(1, 0))):
         with pytest.raises(Refusal):
             make()

@@ -6,18 +6,10 @@
 import math
 
 import numpy as np
-from physsim_ros.model.errors import (
-    NothingThere,
-)
-from physsim_ros.model.requests import (
-    Anchor,
-    Command,
-    Configure,
-    Delete,
-    Release,
-)
+from physsim_ros.model.errors import NothingThere
+from physsim_ros.model.requests import Anchor, Command, Configure, Delete, Release
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Disc, Shape
+from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 import pytest
@@ -43,7 +35,7 @@ from ..building import (
 # Change in place
 
 
-def test_a_change_keeps_what_is_not_said(world: World) -> None:
+def test_a_change_keeps_what_is_not_said(world):
     said = {'mass': 4.0, 'friction': 0.25, 'elasticity': 0.75, 'group': 5, 'sensor': True,
             'label': 'm1'}  # fmt: skip
     spawn(world, 'a/0', DISC, color=RED, lifetime=9.0, **said)
@@ -61,7 +53,7 @@ def test_a_change_keeps_what_is_not_said(world: World) -> None:
 
 
 @pytest.mark.parametrize('shape', [DISC, BOX, ELL], ids=['same shape', 'box', 'ell'])
-def test_a_change_keeps_the_motion_in_the_middle_of_it(shape: Shape) -> None:
+def test_a_change_keeps_the_motion_in_the_middle_of_it(shape):
     world = World()
     spawn(world, 'a/0', DISC, velocity=(1.0, 5.0), spin=2.0)
     world.step(24)
@@ -76,7 +68,7 @@ def test_a_change_keeps_the_motion_in_the_middle_of_it(shape: Shape) -> None:
     assert twist(world, 'a/0') == pytest.approx((1.0, 5.0 - 1.962, 2.0), abs=1e-9)
 
 
-def test_a_change_takes_over_what_is_said(world: World) -> None:
+def test_a_change_takes_over_what_is_said(world):
     spawn(world, 'a/0', DISC, velocity=(1.0, 2.0), spin=3.0, mass=2.0)
 
     spawn(world, 'a/0', DISC, velocity=(5.0, 6.0))
@@ -91,7 +83,7 @@ def test_a_change_takes_over_what_is_said(world: World) -> None:
     assert twist(world, 'a/0') == pytest.approx((5.0, 6.0, 0.0), abs=ROUNDING)
 
 
-def test_a_change_keeps_the_place_in_the_order_and_on_top(world: World) -> None:
+def test_a_change_keeps_the_place_in_the_order_and_on_top(world):
     for name in ('a/0', 'a/1', 'a/2'):
         spawn(world, name, DISC)
 
@@ -103,7 +95,7 @@ def test_a_change_keeps_the_place_in_the_order_and_on_top(world: World) -> None:
     assert len(world) == 3
 
 
-def test_a_recoloured_and_labelled_body_that_rests_does_not_stir() -> None:
+def test_a_recoloured_and_labelled_body_that_rests_does_not_stir():
     settings = WorldSettings(bounds=(-9.0, 0.0, 9.0, 99.0))
     world, other = World(settings=settings), World(settings=settings)
     for each in (world, other):
@@ -119,7 +111,7 @@ def test_a_recoloured_and_labelled_body_that_rests_does_not_stir() -> None:
     assert np.array_equal(world.snapshot().poses, other.snapshot().poses)
 
 
-def test_a_change_that_changes_nothing_leaves_the_digest() -> None:
+def test_a_change_that_changes_nothing_leaves_the_digest():
     world = World()
     spawn(world, 'a/0', BOX, velocity=(1.0, 0.0))
     world.step(10)
@@ -130,7 +122,7 @@ def test_a_change_that_changes_nothing_leaves_the_digest() -> None:
     assert world.digest() == before
 
 
-def test_a_wrench_stays_through_a_change(world: World) -> None:
+def test_a_wrench_stays_through_a_change(world):
     spawn(world, 'a/0', DISC, mass=2.0)
     world.apply(Configure(changes={'command_timeout': 0.0}))
     world.apply(Command(names=('a/0',), wrenches=((4.0, 0.0, 0.0),)))
@@ -144,7 +136,7 @@ def test_a_wrench_stays_through_a_change(world: World) -> None:
     assert twist(world, 'a/0') == pytest.approx((3.0, 0.0, 0.0), abs=1e-9)
 
 
-def test_a_body_can_be_anchored_and_freed_by_a_change(world: World) -> None:
+def test_a_body_can_be_anchored_and_freed_by_a_change(world):
     spawn(world, 'a/0', ELL, (1.0, 2.0, 0.7), velocity=(1.0, 0.0), spin=1.0)
     spawn(world, 'a/0', ELL, (1.0, 2.0, 0.7), anchored=True)
     world.step(24)
@@ -160,7 +152,7 @@ def test_a_body_can_be_anchored_and_freed_by_a_change(world: World) -> None:
 # Anchoring and releasing by a point
 
 
-def test_the_topmost_is_the_one_that_spawned_last(world: World) -> None:
+def test_the_topmost_is_the_one_that_spawned_last(world):
     for name in ('a/3', 'a/1', 'a/2'):
         spawn(world, name, DISC)
 
@@ -169,7 +161,7 @@ def test_the_topmost_is_the_one_that_spawned_last(world: World) -> None:
     assert body_at(world, (0.1, 0.1)) == 'a/1'
 
 
-def test_sensors_and_grouped_bodies_are_found_under_a_point(world: World) -> None:
+def test_sensors_and_grouped_bodies_are_found_under_a_point(world):
     spawn(world, 'a/0', DISC, sensor=True)
     spawn(world, 'a/1', DISC, (3.0, 0.0, 0.0), group=1)
 
@@ -177,7 +169,7 @@ def test_sensors_and_grouped_bodies_are_found_under_a_point(world: World) -> Non
     assert body_at(world, (3.0, 0.0)) == 'a/1'
 
 
-def test_walls_are_no_bodies() -> None:
+def test_walls_are_no_bodies():
     world = World(settings=WorldSettings(bounds=(-1.0, -1.0, 1.0, 1.0)))
 
     assert body_at(world, (0.0, -1.5)) is None
@@ -186,7 +178,7 @@ def test_walls_are_no_bodies() -> None:
 
 
 @pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())
-def test_an_anchored_body_stays_where_it_was_and_released_it_falls(shape: Shape) -> None:
+def test_an_anchored_body_stays_where_it_was_and_released_it_falls(shape):
     world = World()
     spawn(world, 'a/0', shape, (1.0, 5.0, 0.7), velocity=(1.0, 2.0), spin=3.0)
     world.step(12)
@@ -214,7 +206,7 @@ def test_an_anchored_body_stays_where_it_was_and_released_it_falls(shape: Shape)
     assert pose(world, 'a/0') == pytest.approx(held - (0.0, 9.81 / 200, 0.0), abs=1e-9)
 
 
-def test_anchoring_twice_and_releasing_twice_is_no_mistake(world: World) -> None:
+def test_anchoring_twice_and_releasing_twice_is_no_mistake(world):
     spawn(world, 'a/0', DISC, velocity=(1.0, 0.0))
     assert world.apply(Release(point=(0.0, 0.0))) == Answer(subject='a/0', message='released a/0')
     assert twist(world, 'a/0').tolist() == [1.0, 0.0, 0.0]
@@ -225,7 +217,7 @@ def test_anchoring_twice_and_releasing_twice_is_no_mistake(world: World) -> None
     assert world.digest() == before
 
 
-def test_only_the_topmost_body_is_anchored(world: World) -> None:
+def test_only_the_topmost_body_is_anchored(world):
     spawn(world, 'a/0', DISC)
     spawn(world, 'a/1', DISC)
 
@@ -236,7 +228,7 @@ def test_only_the_topmost_body_is_anchored(world: World) -> None:
 
 
 @pytest.mark.parametrize('born', [True, False], ids=['from birth', 'later'])
-def test_an_anchored_body_still_answers_to_changes(born: bool) -> None:
+def test_an_anchored_body_still_answers_to_changes(born):
     world = World()
     spawn(world, 'a/0', BOX, (0.0, 0.0, 0.7), anchored=born)
     if not born:

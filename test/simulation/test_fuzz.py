@@ -330,7 +330,7 @@ def carry_out(world: World, make: Callable[[World], Request]) -> Request | None:
 @pytest.mark.slow
 @settings(deadline=None, max_examples=150)
 @given(sequence=st.one_of(*(st.lists(each, min_size=4, max_size=12) for each in ASKED)))
-def test_any_sequence_of_requests_leaves_a_sound_world(sequence: list[Ask]) -> None:
+def test_any_sequence_of_requests_leaves_a_sound_world(sequence):
     world, model = begun()
 
     for make in sequence:
@@ -345,9 +345,7 @@ def test_any_sequence_of_requests_leaves_a_sound_world(sequence: list[Ask]) -> N
 
 @settings(deadline=None, max_examples=60)
 @given(sequence=st.lists(requests, min_size=4, max_size=8))
-def test_any_sequence_gives_the_same_digests_and_a_state_that_is_restored(
-    sequence: list[Ask],
-) -> None:
+def test_any_sequence_gives_the_same_digests_and_a_state_that_is_restored(sequence):
     worlds = [begun()[0] for _ in range(2)]
     for world in worlds:
         for make in sequence:

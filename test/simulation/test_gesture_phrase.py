@@ -16,7 +16,6 @@ from physsim_ros.model.requests import (
     Join,
     MoveBodies,
     Pin,
-    Request,
     Restore,
     Unjoin,
     UnjoinAll,
@@ -60,9 +59,7 @@ def sim() -> Simulation:
         (Cut(pieces=(), severed=(Unjoin(name='j/0'), Unjoin(name='j/1'))), 'cut several joints'),
     ],
 )
-def test_a_gesture_is_named_by_verb_and_object(
-    sim: Simulation, request_: Request, phrase: str
-) -> None:
+def test_a_gesture_is_named_by_verb_and_object(sim, request_, phrase):
     sim.perform(request_)
 
     assert sim.status.undo == f'undo {phrase}'
@@ -70,18 +67,18 @@ def test_a_gesture_is_named_by_verb_and_object(
     assert sim.status.redo == f'redo {phrase}'
 
 
-def test_a_loaded_world_is_named_as_one(sim: Simulation) -> None:
+def test_a_loaded_world_is_named_as_one(sim):
     sim.perform(Restore(state=sim.save()))
     assert sim.status.undo == 'undo load world'
 
 
-def test_the_joints_of_a_namespace_are_named_by_it(sim: Simulation) -> None:
+def test_the_joints_of_a_namespace_are_named_by_it(sim):
     sim.perform(Pin(point=(0.0, 0.0)))
     sim.perform(UnjoinAll(namespace='pin'))
     assert sim.status.undo == 'undo delete all joints of pin'
 
 
-def test_requests_of_one_gesture_are_counted() -> None:
+def test_requests_of_one_gesture_are_counted():
     sim = Simulation(speed=0.0)
     for number in range(3):
         sim.requests.submit(

@@ -3,19 +3,10 @@
 
 """Hands in the time of a world: its past, its pause, its other courses."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-from physsim_ros.model.requests import (
-    Configure,
-    Grab,
-    HandRequest,
-    LetGo,
-    MoveHand,
-    Spawn,
-)
+from physsim_ros.model.requests import Configure, Grab, HandRequest, LetGo, MoveHand, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc
 from physsim_ros.simulation.simulation import Simulation
@@ -60,7 +51,7 @@ def drag(sim: Simulation, *, frames: int = 120) -> None:
         sim.advance_frame()
 
 
-def test_a_drag_is_one_gesture_to_undo_and_to_redo() -> None:
+def test_a_drag_is_one_gesture_to_undo_and_to_redo():
     sim = Simulation()
     drag(sim, frames=20)
     last = sim.world.digest()
@@ -74,7 +65,7 @@ def test_a_drag_is_one_gesture_to_undo_and_to_redo() -> None:
     assert sim.world.digest() == last
 
 
-def test_only_the_grab_and_its_end_are_answered() -> None:
+def test_only_the_grab_and_its_end_are_answered():
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
     frames = []
@@ -92,7 +83,7 @@ def test_only_the_grab_and_its_end_are_answered() -> None:
     ]
 
 
-def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
+def test_a_thousand_moves_between_two_frames_are_logged_as_one():
     sim = holding()
     for number in range(1001):
         use(sim, MoveHand(hand='h', point=(number / 1000, 0.0)))
@@ -106,7 +97,7 @@ def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
     ]
 
 
-def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
+def test_moves_do_not_pass_what_a_hand_does_in_between():
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
     use(
@@ -122,7 +113,7 @@ def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
     assert (grip.anchor, grip.target) == ((0.0, 0.1), (0.0, 0.2))
 
 
-def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
+def test_a_silent_hand_lets_go_after_five_seconds_of_running_time():
     sim = holding()
     answers = []
     for number in range(400):
@@ -139,7 +130,7 @@ def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
     assert (sim.step, sim.world.grips) == (0, ())
 
 
-def test_a_pause_is_no_silence() -> None:
+def test_a_pause_is_no_silence():
     sim = holding()
     sim.advance(0)
     sim.speed = 0.0
@@ -150,7 +141,7 @@ def test_a_pause_is_no_silence() -> None:
     assert sim.advance_frame().snapshot.grips
 
 
-def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
+def test_a_hand_that_grabbed_at_another_time_changes_nothing():
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
     sim.advance_frame()
@@ -173,7 +164,7 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
     assert not sim.advance_frame().snapshot.grips
 
 
-def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
+def test_a_branch_has_no_hands_of_the_course_that_it_left():
     sim = holding()
     for _ in range(60):
         sim.advance_frame()
@@ -184,7 +175,7 @@ def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
 
 
 @pytest.mark.parametrize('action', ['reset', 'undo'])
-def test_a_hand_lives_through_a_change_of_course(action: str) -> None:
+def test_a_hand_lives_through_a_change_of_course(action):
     sim = holding()
     sim.advance_frame()
     getattr(sim, action)()
@@ -206,7 +197,7 @@ def paused(*spawns: Spawn) -> Simulation:
     return sim
 
 
-def test_in_a_paused_world_the_body_is_placed_and_turned() -> None:
+def test_in_a_paused_world_the_body_is_placed_and_turned():
     sim = paused(spawning('a/0', BOX, (0.0, 3.0, 0.0), velocity=(1.0, 2.0)))
     use(sim, Grab(hand='h', point=(0.4, 3.0)), MoveHand(hand='h', point=(5.4, 4.0)))
     (frame,) = sim.advance(0)
@@ -220,7 +211,7 @@ def test_in_a_paused_world_the_body_is_placed_and_turned() -> None:
     assert frame.snapshot.step == 0
 
 
-def test_placing_is_one_gesture_and_the_same_bits_again() -> None:
+def test_placing_is_one_gesture_and_the_same_bits_again():
     sim = paused(FLOOR, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
     sim.advance_frame()
     before = sim.world.digest()
@@ -240,7 +231,7 @@ def test_placing_is_one_gesture_and_the_same_bits_again() -> None:
     assert sim.world.digest() == before
 
 
-def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> None:
+def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first():
     wall = spawning('wall/0', BOX, anchored=True)
     sim = paused(spawning('a/0', DISC), wall)
     for number, (hand, point) in enumerate((('g', (0.0, 0.0)), ('h', (0.45, 0.45)))):
@@ -254,7 +245,7 @@ def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> 
     assert frame.snapshot.poses[:, :2] == pytest.approx(np.array([[3.0, 0.0], [3.0, 1.0]]))
 
 
-def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None:
+def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on():
     sim = paused(spawning('a/0', DISC, (0.0, 3.0, 0.0)))
     use(sim, Grab(hand='h', point=(0.0, 3.0)))
     sim.advance(0)
@@ -268,7 +259,7 @@ def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None
     assert sim.world.snapshot().poses[0, :2] == pytest.approx([1.0, 3.0], abs=0.02)
 
 
-def test_a_body_is_not_placed_where_too_much_would_overlap() -> None:
+def test_a_body_is_not_placed_where_too_much_would_overlap():
     heap = Compound(element=Disc(radius=1.0), centers=((0.0, 0.0),) * 8)
     sim = Simulation(speed=0.0, settings=WorldSettings(max_overlaps=60))
     for number in range(2):

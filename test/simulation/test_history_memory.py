@@ -9,7 +9,7 @@ import math
 import tracemalloc
 
 import numpy as np
-from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory, Refusal
+from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
 from physsim_ros.simulation.past.budget import LEAST_MEMORY, MEGABYTE
@@ -54,7 +54,7 @@ def used(sim: Simulation) -> float:
 
 
 @pytest.mark.parametrize('paused', [slow(False), True])
-def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None:
+def test_a_flood_of_commands_takes_no_more_than_the_budget(paused):
     tracemalloc.start()
     sim = crowd(LEAST_MEMORY)
     # The world and the space before it, of which the bodies are used again, are not the past.
@@ -128,10 +128,7 @@ ACTS: dict[str, tuple[int, Callable[[Simulation, int], object]]] = {
     'boxes': (300, lambda sim, n: spawn_again(sim, Box(width=0.2 + 1e-6 * n, height=0.2))),
     'polygons': (300, lambda sim, n: spawn_again(sim, Polygon(outline=corners(1 + 1e-6 * n)))),
     'frames': (300, lambda sim, _: sim.advance_frame()),
-    'checkpoints': (
-        100,
-        lambda sim, _: (sim.advance_frame(), sim.past.cursor.add_keyframe()),
-    ),
+    'checkpoints': (100, lambda sim, _: (sim.advance_frame(), sim.past.cursor.add_keyframe())),
     'branches': (10, throw),
     'resets': (300, lambda sim, _: begin_again(sim)),
 }
@@ -139,7 +136,7 @@ QUICK = ('commands', 'frames', 'resets')
 
 
 @pytest.mark.parametrize('act', [name if name in QUICK else slow(name) for name in ACTS])
-def test_the_memory_that_is_told_is_within_a_factor_of_two_of_what_is_taken(act: str) -> None:
+def test_the_memory_that_is_told_is_within_a_factor_of_two_of_what_is_taken(act):
     times, carry_out = ACTS[act]
     sim = crowd(100.0)
     sim.advance_frame()
@@ -162,7 +159,7 @@ def test_the_memory_that_is_told_is_within_a_factor_of_two_of_what_is_taken(act:
 
 
 @pytest.mark.slow
-def test_thousands_of_resets_take_no_more_than_the_budget() -> None:
+def test_thousands_of_resets_take_no_more_than_the_budget():
     sim = Simulation(history_memory=LEAST_MEMORY)
     sim.advance_frame()
     gc.collect()
@@ -178,7 +175,7 @@ def test_thousands_of_resets_take_no_more_than_the_budget() -> None:
     assert sim.undo() == 'undid reset, back at 0.017 s'
 
 
-def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last() -> None:
+def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last():
     sim = crowd(100.0)
     told(sim, 240)
     for number in range(3):
@@ -211,7 +208,7 @@ def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last() 
     assert sim.status.oldest > 0.0
 
 
-def test_what_is_shown_of_the_past_stays_though_the_budget_shrinks() -> None:
+def test_what_is_shown_of_the_past_stays_though_the_budget_shrinks():
     sim = crowd(100.0)
     told(sim, 60)
     early = sim.world.digest()
@@ -230,7 +227,7 @@ def test_what_is_shown_of_the_past_stays_though_the_budget_shrinks() -> None:
     assert sim.status.oldest > 1.0
 
 
-def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
+def test_a_gesture_is_undone_as_a_whole_or_not_at_all():
     sim = crowd(LEAST_MEMORY)
     # One gesture, of which the log has the last part only.
     for number in range(600):
@@ -251,7 +248,7 @@ def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
     assert sim.world.digest() == before
 
 
-def test_undone_requests_and_resets_are_of_the_budget() -> None:
+def test_undone_requests_and_resets_are_of_the_budget():
     sim = crowd(2.0)
     for number in range(300):
         command(sim, number)
@@ -278,7 +275,7 @@ def test_undone_requests_and_resets_are_of_the_budget() -> None:
         (np.nan, Malformed),
     ],
 )
-def test_a_budget_that_is_none_is_refused(value: float, refusal: type[Refusal]) -> None:
+def test_a_budget_that_is_none_is_refused(value, refusal):
     sim = Simulation()
     with pytest.raises(refusal):
         Simulation(history_memory=value)

@@ -3,8 +3,6 @@
 
 """A long way through the past is made bit by bit, and leads to the same bits."""
 
-from __future__ import annotations
-
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll, DeleteBodies, MoveBodies
 from physsim_ros.model.snapshot import Answer, Frame
@@ -43,9 +41,7 @@ def ticks_to_a_frame(simulation: Simulation, now: int) -> tuple[int, Frame]:
     pytest.fail('no frame')
 
 
-def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(past):
     simulation, digests = past
     simulation.past.frames.drop_from(0)
     simulation.speed = 0.0
@@ -56,9 +52,7 @@ def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(
     assert simulation.world.digest() == digests[480]
 
 
-def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_requests_wait_for_the_end_of_a_seek_and_apply_there(past):
     simulation, _ = past
     simulation.speed = 0.0
     simulation.seek(SECOND)
@@ -69,9 +63,7 @@ def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
 
 
 @pytest.mark.parametrize('speed', [0.0, 1.0])
-def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(
-    past: tuple[Simulation, dict[int, str]], speed: float
-) -> None:
+def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(past, speed):
     simulation, _ = past
     simulation.past.frames.drop_from(0)
     simulation.speed = speed
@@ -92,9 +84,7 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(
     assert 'late/0' not in frame.snapshot.scene.names
 
 
-def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(past):
     simulation, _ = past
     simulation.speed = 0.0
     simulation.seek(SECOND)
@@ -121,9 +111,7 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
     assert len(simulation.world) == 5
 
 
-def test_what_a_person_has_added_is_looked_up_after_a_seek(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_what_a_person_has_added_is_looked_up_after_a_seek(past):
     simulation, _ = past
     simulation.speed = 0.0
     simulation.seek(SECOND)
@@ -143,9 +131,7 @@ def test_what_a_person_has_added_is_looked_up_after_a_seek(
     assert len(frame.snapshot.scene.names) == 4
 
 
-def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(past):
     simulation, _ = past
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
@@ -159,9 +145,7 @@ def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(
     assert frame.snapshot.scene.names == ('disc/0', 'disc/1', 'disc/2', 'other/0')
 
 
-def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(past):
     simulation, digests = past
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
@@ -178,9 +162,7 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(
     assert simulation.apply_up_to_seek()
 
 
-def test_another_seek_takes_the_place_of_one_and_of_its_frames(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_another_seek_takes_the_place_of_one_and_of_its_frames(past):
     simulation, _ = past
     simulation.speed = 0.0
     simulation.seek(2 * SECOND)
@@ -189,9 +171,7 @@ def test_another_seek_takes_the_place_of_one_and_of_its_frames(
     assert simulation.playback.queue_frame() == round(244 * SECOND / 240)
 
 
-def test_another_seek_takes_the_place_of_one_under_way(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_another_seek_takes_the_place_of_one_under_way(past):
     simulation, digests = past
     simulation.past.frames.drop_from(0)
     simulation.speed = 0.0
@@ -207,8 +187,8 @@ def test_another_seek_takes_the_place_of_one_under_way(
 
 
 def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_time_stands_still(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+    past,
+):
     simulation, digests = past
     simulation.speed = 0.0
     cursor = simulation.past.cursor
@@ -230,7 +210,7 @@ def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_tim
     assert simulation.world.digest() == digests[364]
 
 
-def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_step() -> None:
+def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_step():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     simulation.reports_contacts = True
     simulation.requests.submit(spawning('disc/0', DISC, (0.0, DISC.radius, 0.0)), topic='')
@@ -251,9 +231,7 @@ def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_
     assert again.snapshot.scene.names == ('disc/0', 'disc/1')
 
 
-def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
+def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(past):
     simulation, digests = past
     simulation.past.frames.drop_from(0)
     simulation.speed = -1.0
@@ -265,7 +243,7 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
     assert simulation.world.digest() == digests[first]
 
 
-def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit() -> None:
+def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     for number in range(40):
         simulation.requests.submit(
@@ -304,9 +282,7 @@ def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return made
 
 
-def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were_done(
-    steps: list[int],
-) -> None:
+def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were_done(steps):
     simulation, other = of_anna_and_ben(seconds=8), of_anna_and_ben(seconds=8)
     take_back(other, 'Anna')
     step = simulation.step
@@ -330,7 +306,7 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
     assert simulation.world.digest() == other.world.digest()
 
 
-def test_a_refused_amendment_goes_back_bit_by_bit(steps: list[int]) -> None:
+def test_a_refused_amendment_goes_back_bit_by_bit(steps):
     simulation = of_anna_and_ben(seconds=2)
     simulation.perform(MoveBodies(names=('Anna/0',), by=(1.0, 0.0)))
     simulation.run(2.0)
@@ -347,7 +323,7 @@ def test_a_refused_amendment_goes_back_bit_by_bit(steps: list[int]) -> None:
 
 
 @pytest.mark.parametrize('way', ['seek', 'undo', 'queued', 'contacts', 'begin', 'reader'])
-def test_an_amendment_under_way_is_finished_before_anything_else_moves(way: str) -> None:
+def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
     simulation = of_anna_and_ben(seconds=2)
     simulation.requests.submit(TakeBack(), topic='~/undo', author='Anna')
     for tick in range(20):

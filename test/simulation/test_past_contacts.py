@@ -3,8 +3,6 @@
 
 """The past shows the contacts that were shown, and a paused world those of its last steps."""
 
-from __future__ import annotations
-
 import numpy as np
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc
@@ -31,11 +29,7 @@ def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
             now += PERIOD_NS
             for frame in simulation.advance(now):
                 rows = np.column_stack(
-                    (
-                        frame.contacts.pairs,
-                        frame.contacts.points,
-                        frame.contacts.normals,
-                    )
+                    (frame.contacts.pairs, frame.contacts.points, frame.contacts.normals)
                 )
                 rows = sorted(map(tuple, rows.round(6).tolist()))
                 if frame.moved:

@@ -43,19 +43,7 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import (
-    body_at,
-    BOX,
-    DISC,
-    ELL,
-    names,
-    pose,
-    RED,
-    SHAPES,
-    spawn,
-    spawning,
-    stack,
-)
+from ..building import body_at, BOX, DISC, ELL, names, pose, RED, SHAPES, spawn, spawning, stack
 
 # The same requests, the same bits
 
@@ -89,7 +77,7 @@ def busy_world() -> World:
     return world
 
 
-def test_many_steps_are_as_many_times_one() -> None:
+def test_many_steps_are_as_many_times_one():
     one_by_one, at_once = busy_world(), busy_world()
 
     for count in (1, 3, 4, 7, 16, 33, 120):
@@ -100,9 +88,7 @@ def test_many_steps_are_as_many_times_one() -> None:
 
 
 @pytest.mark.parametrize('timeout', [1 / 240, 0.01, 0.03])
-def test_a_wrench_that_ends_between_frames_ends_alike_however_steps_are_counted_out(
-    timeout: float,
-) -> None:
+def test_a_wrench_that_ends_between_frames_ends_alike_however_steps_are_counted_out(timeout):
     worlds = []
     for _ in range(2):
         world = World(
@@ -121,7 +107,7 @@ def test_a_wrench_that_ends_between_frames_ends_alike_however_steps_are_counted_
 
 
 @pytest.mark.parametrize('looking', ['snapshot', 'save', 'digest', 'contacts', 'body_at'])
-def test_looking_changes_nothing(looking: str) -> None:
+def test_looking_changes_nothing(looking):
     world, unseen = busy_world(), busy_world()
     world.reports_contacts = looking == 'contacts'
 
@@ -165,9 +151,7 @@ CHANGES: dict[str, Callable[[World], object]] = {
 
 
 @pytest.mark.parametrize('change', CHANGES.values(), ids=CHANGES.keys())
-def test_whatever_decides_how_the_world_goes_on_is_in_the_digest(
-    change: Callable[[World], object],
-) -> None:
+def test_whatever_decides_how_the_world_goes_on_is_in_the_digest(change):
     world = busy_world()
     before = world.digest()
 
@@ -251,9 +235,7 @@ REFUSED: dict[str, tuple[Callable[[], Request], type[Refusal], str]] = {
 
 
 @pytest.mark.parametrize(('make', 'error', 'field'), REFUSED.values(), ids=REFUSED.keys())
-def test_a_refusal_changes_nothing(
-    make: Callable[[], Request], error: type[Refusal], field: str
-) -> None:
+def test_a_refusal_changes_nothing(make, error, field):
     world, other = busy_world(), busy_world()
     for each in (world, other):
         spawn(each, 'far/0', DISC, (100.0, 0.0, 0.0), anchored=True)
@@ -279,9 +261,7 @@ def test_a_refusal_changes_nothing(
 # Saved states
 
 
-def test_a_restored_world_is_built_once_and_is_its_first_checkpoint(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_restored_world_is_built_once_and_is_its_first_checkpoint(monkeypatch):
     world = World()
     stack(world, 8)
     state, built = replace(world.save(), memory=None), list[str]()
@@ -300,7 +280,7 @@ def test_a_restored_world_is_built_once_and_is_its_first_checkpoint(
     assert simulation.world.digest() == digest
 
 
-def test_a_restored_world_goes_on_alike_with_the_requests_that_follow() -> None:
+def test_a_restored_world_goes_on_alike_with_the_requests_that_follow():
     world = busy_world()
     world.apply(Delete(name='mix/0'))
     world.step(50)
@@ -319,7 +299,7 @@ def test_a_restored_world_goes_on_alike_with_the_requests_that_follow() -> None:
     assert worlds[0].digest() == worlds[1].digest()
 
 
-def test_restoring_replaces_everything_but_the_time() -> None:
+def test_restoring_replaces_everything_but_the_time():
     world = World(settings=WorldSettings(max_bodies=7))
     spawn(world, 'a/0', DISC)
     state = world.save()
@@ -338,7 +318,7 @@ def test_restoring_replaces_everything_but_the_time() -> None:
     assert pose(world, 'a/0')[1] < -10.0
 
 
-def test_a_saved_state_is_not_changed_by_what_follows() -> None:
+def test_a_saved_state_is_not_changed_by_what_follows():
     world = busy_world()
     state = world.save()
     text = repr(state)

@@ -3,21 +3,13 @@
 
 """Replay: the same bits again, branches of the past, what is kept of it, and what is reported."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 import gc
 from typing import Any
 
 import numpy as np
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.requests import (
-    Command,
-    Configure,
-    Delete,
-    DeleteAll,
-    UnjoinAll,
-)
+from physsim_ros.model.requests import Command, Configure, Delete, DeleteAll, UnjoinAll
 from physsim_ros.simulation.past import CachedFrame
 from physsim_ros.simulation.past.node import Node
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
@@ -27,7 +19,7 @@ from .driven import Driven, FLOOR, FRAME, SECOND, told
 from ..building import BOX, DISC, spawning
 
 
-def test_a_refused_request_in_the_past_drops_nothing(driven: Driven) -> None:
+def test_a_refused_request_in_the_past_drops_nothing(driven):
     head = driven.simulation.step
     driven.run(-1.0, 1.0)
     driven.ask(Delete(name='nobody/0'))
@@ -37,7 +29,7 @@ def test_a_refused_request_in_the_past_drops_nothing(driven: Driven) -> None:
 
 
 @pytest.mark.parametrize('stamp', [-1, 10 * SECOND, 10**18])
-def test_what_is_not_in_the_history_is_refused(driven: Driven, stamp: int) -> None:
+def test_what_is_not_in_the_history_is_refused(driven, stamp):
     step, digest = driven.simulation.step, driven.simulation.world.digest()
     if stamp < 0:
         driven.simulation.limit_history(1.0)
@@ -57,9 +49,7 @@ IDLE: list[Callable[[Driven], object]] = [
 
 @pytest.mark.parametrize('idle', IDLE)
 @pytest.mark.parametrize('back', [False, True], ids=['now', 'past'])
-def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(
-    idle: Callable[[Driven], object], *, back: bool
-) -> None:
+def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(idle, back):
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
     driven.simulation.reports_contacts = True
@@ -80,7 +70,7 @@ def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(
 
 
 @pytest.mark.parametrize('steps', [(238, 240), (239, 240), (240, 240), (237, 239)])
-def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps: tuple[int, int]) -> None:
+def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps):
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
     driven.simulation.reports_contacts = True
@@ -96,7 +86,7 @@ def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps: tuple[int, int
     np.testing.assert_allclose(again, first, rtol=1e-9, atol=1e-12)
 
 
-def test_reset_returns_to_what_was_loaded_longer_ago_than_is_kept() -> None:
+def test_reset_returns_to_what_was_loaded_longer_ago_than_is_kept():
     driven = Driven(history=5.0)
     other = Driven()
     other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
@@ -106,7 +96,7 @@ def test_reset_returns_to_what_was_loaded_longer_ago_than_is_kept() -> None:
     assert driven.names == ('b/0',)
 
 
-def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest() -> None:
+def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest():
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
     driven.record(20.0)
@@ -123,7 +113,7 @@ def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest() -> None:
 
 
 @pytest.mark.parametrize('history', [0.0, 1.0])
-def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history: float) -> None:
+def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history):
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
     driven.record(15.0)
@@ -136,7 +126,7 @@ def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history: float) -> No
     driven.assert_same(driven.apply_requests())
 
 
-def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
+def test_contacts_come_again_that_nobody_asked_for_the_first_time():
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
     driven.run(1.0, 5.0)
@@ -146,9 +136,7 @@ def test_contacts_come_again_that_nobody_asked_for_the_first_time() -> None:
         assert frame.contacts.pairs.tolist() == [[0, -1]]
 
 
-def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(monkeypatch):
     looks = [0]
 
     class Counted(Node):
@@ -176,7 +164,7 @@ def test_the_thousandth_command_to_a_paused_world_costs_no_more_than_the_first(
     assert driven.simulation.past.cursor.serial == 1001
 
 
-def test_few_bodies_take_no_more_memory_than_their_poses_would() -> None:
+def test_few_bodies_take_no_more_memory_than_their_poses_would():
     driven, bodies = Driven(history=120.0), 8
     for number in range(bodies):
         driven.ask(spawning(f'a/{number}', BOX, (1.5 * number - 6.0, 1.0, 0.0)))
@@ -187,7 +175,7 @@ def test_few_bodies_take_no_more_memory_than_their_poses_would() -> None:
         driven.assert_same(frame)
 
 
-def test_what_is_worked_out_from_the_past_is_not_kept(driven: Driven) -> None:
+def test_what_is_worked_out_from_the_past_is_not_kept(driven):
     driven.ask(spawning('sensor/0', BOX, (0.0, 0.5, 0.0), anchored=True, sensor=True))
     driven.record(4.0)
     driven.simulation.reports_contacts = True
@@ -201,7 +189,7 @@ def test_what_is_worked_out_from_the_past_is_not_kept(driven: Driven) -> None:
     assert sum('centers' in vars(shot.snapshot) for shot in shots) <= 1
 
 
-def test_other_bits_than_before_are_told(driven: Driven) -> None:
+def test_other_bits_than_before_are_told(driven):
     history = driven.simulation.past.tree
     wrong = history.keyframes[2]._replace(digest='not that')
     history.keyframes[2] = wrong
@@ -212,7 +200,7 @@ def test_other_bits_than_before_are_told(driven: Driven) -> None:
     assert f'{wrong.step / 240:.3f} s' in answer.message
 
 
-def test_a_request_that_is_refused_when_it_is_made_again_is_told(driven: Driven) -> None:
+def test_a_request_that_is_refused_when_it_is_made_again_is_told(driven):
     history = driven.simulation.past.tree
     history.nodes[-1].request = Delete(name='nobody/0')
     driven.simulation.seek(0)
@@ -220,7 +208,7 @@ def test_a_request_that_is_refused_when_it_is_made_again_is_told(driven: Driven)
     assert "is refused now: there is no body 'nobody/0'" in answer.message
 
 
-def test_saving_in_the_past_drops_nothing(driven: Driven) -> None:
+def test_saving_in_the_past_drops_nothing(driven):
     driven.run(-1.0, 1.3)
     step = driven.simulation.step
     state = driven.simulation.save()
@@ -235,9 +223,7 @@ def test_saving_in_the_past_drops_nothing(driven: Driven) -> None:
 
 
 @pytest.mark.parametrize('speeds', [(1.0,), (0.3,), (4.0,), (0.3, 1.0)])
-def test_checkpoints_come_at_the_same_steps_however_the_steps_were_made(
-    speeds: tuple[float, ...],
-) -> None:
+def test_checkpoints_come_at_the_same_steps_however_the_steps_were_made(speeds):
     # 41 steps, which are no multiple of a frame.
     driven = Driven(checkpoints=41 / 240)
     collide(driven)
@@ -249,7 +235,7 @@ def test_checkpoints_come_at_the_same_steps_however_the_steps_were_made(
     assert len(steps) > 4
 
 
-def test_redo_that_the_history_is_too_short_for_says_so() -> None:
+def test_redo_that_the_history_is_too_short_for_says_so():
     driven = Driven()
     driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
     driven.run(1.0, 1.0)
@@ -277,7 +263,7 @@ def collide(driven: Driven) -> None:
         driven.ask(spawning(f'a/{number}', BOX, (0.3 * number, 1.0 + 1.2 * number, 0.2)))
 
 
-def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was() -> None:
+def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was():
     driven = Driven()
     collide(driven)
     for _ in range(150):
@@ -296,7 +282,7 @@ def test_a_request_at_the_step_of_a_checkpoint_is_made_again_where_it_was() -> N
         assert told([frame], 'divergence') == []
 
 
-def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was() -> None:
+def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was():
     sim = Simulation(settings=FLOOR)
     # A seek comes from the frame before, for its contacts.
     sim.reports_contacts = True
@@ -319,7 +305,7 @@ def test_a_request_at_a_checkpoint_of_the_past_is_made_again_where_it_was() -> N
     assert sim.world.digest() == before
 
 
-def test_a_seek_to_now_keeps_what_was_just_asked() -> None:
+def test_a_seek_to_now_keeps_what_was_just_asked():
     driven = Driven()
     driven.record(0.5)
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
@@ -327,7 +313,7 @@ def test_a_seek_to_now_keeps_what_was_just_asked() -> None:
     assert driven.names == ('b/0',)
 
 
-def test_reset_keeps_what_was_just_asked_for_undo() -> None:
+def test_reset_keeps_what_was_just_asked_for_undo():
     driven = Driven()
     driven.record(0.5)
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
@@ -336,7 +322,7 @@ def test_reset_keeps_what_was_just_asked_for_undo() -> None:
     assert driven.names == ('b/0',)
 
 
-def test_reset_goes_to_what_was_loaded_since() -> None:
+def test_reset_goes_to_what_was_loaded_since():
     driven = Driven()
     driven.simulation.reset()
     driven.record(0.2)
@@ -349,7 +335,7 @@ def test_reset_goes_to_what_was_loaded_since() -> None:
     assert driven.names == ('b/0',)
 
 
-def test_what_changes_nothing_drops_nothing(driven: Driven) -> None:
+def test_what_changes_nothing_drops_nothing(driven):
     same = spawning('c/0', BOX, (5.0, 0.5, 0.0), anchored=True)
     driven.ask(same)
     driven.record(1.0)
@@ -362,7 +348,7 @@ def test_what_changes_nothing_drops_nothing(driven: Driven) -> None:
 
 
 @pytest.mark.parametrize('names', [None, 'a/0', 'a/4'])
-def test_what_is_deleted_at_a_checkpoint_is_gone_from_the_contacts(names: str | None) -> None:
+def test_what_is_deleted_at_a_checkpoint_is_gone_from_the_contacts(names):
     driven = Driven()
     driven.simulation.reports_contacts = True
     for number in range(5):

@@ -3,21 +3,9 @@
 
 """Joints in replay: removed, broken, and loaded again."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 from physsim_ros.files import load_world, save_world
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import (
-    Anchor,
-    Join,
-    Pin,
-    Release,
-    Request,
-    Unjoin,
-    UnjoinAll,
-)
+from physsim_ros.model.requests import Anchor, Join, Pin, Release, Unjoin, UnjoinAll
 import pytest
 
 from .driven import Driven, FLOOR, SECOND, told
@@ -29,7 +17,7 @@ from ..building import BOX, spawning
     [Unjoin(name='joint/0'), UnjoinAll(), Release(point=(0.0, 5.0))],
     ids=['unjoin', 'unjoin all', 'release'],
 )
-def test_a_joint_that_is_taken_out_is_part_of_history(request_: Request) -> None:
+def test_a_joint_that_is_taken_out_is_part_of_history(request_):
     driven = Driven()
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     driven.ask(Join(name='joint/0', kind=JointKind.PIN, points=((0.0, 5.0),), a='b/0', b='world'))
@@ -47,7 +35,7 @@ def test_a_joint_that_is_taken_out_is_part_of_history(request_: Request) -> None
     assert len(driven.simulation.world.snapshot().scene.joints) == 1
 
 
-def test_a_joint_taken_out_in_the_past_begins_a_branch() -> None:
+def test_a_joint_taken_out_in_the_past_begins_a_branch():
     driven = Driven()
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     driven.ask(Pin(point=(0.0, 5.0)))
@@ -60,7 +48,7 @@ def test_a_joint_taken_out_in_the_past_begins_a_branch() -> None:
     assert driven.simulation.world.snapshot().scene.joints == ()
 
 
-def test_a_joint_that_broke_is_told_of_once() -> None:
+def test_a_joint_that_broke_is_told_of_once():
     driven = Driven()
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     driven.ask(
@@ -82,7 +70,7 @@ def test_a_joint_that_broke_is_told_of_once() -> None:
     assert told(frames, 'joint_broken') == []
 
 
-def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) -> None:
+def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path):
     driven = Driven()
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     driven.ask(Pin(point=(0.0, 5.0)))

@@ -3,8 +3,6 @@
 
 """Rewinding: frames as they were shown, and steps that are simulated again in time for them."""
 
-from __future__ import annotations
-
 import numpy as np
 from physsim_ros.simulation.simulation import CHECKPOINTS
 from physsim_ros.simulation.world import World
@@ -15,7 +13,7 @@ from ..building import spawning
 
 
 @pytest.mark.parametrize('speed', [-1.0, -4.0, -2.0, -64.0])
-def test_rewinding_shows_every_frame_as_it_was(driven: Driven, speed: float) -> None:
+def test_rewinding_shows_every_frame_as_it_was(driven, speed):
     head = driven.simulation.step
     frames = driven.run(speed, 1.0)
     steps = [frame.snapshot.step for frame in frames]
@@ -27,7 +25,7 @@ def test_rewinding_shows_every_frame_as_it_was(driven: Driven, speed: float) -> 
             driven.assert_same(frame)
 
 
-def test_slow_motion_goes_back_step_by_step(driven: Driven) -> None:
+def test_slow_motion_goes_back_step_by_step(driven):
     frames = driven.run(-0.1, 1.0)
     steps = [frame.snapshot.step for frame in frames]
     assert len(steps) == pytest.approx(24, abs=1)
@@ -61,7 +59,7 @@ def most_made(driven: Driven, made: list[int], ticks: int) -> int:
 
 
 @pytest.mark.parametrize('speed', [-1.0, -0.5, -0.1, -2.0])
-def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: float) -> None:
+def test_no_tick_makes_many_steps_while_time_goes_back(made, speed):
     driven = Driven()
     driven.record(9.0)
     # Of the last seconds nothing is known at first but the frames that were shown.
@@ -72,7 +70,7 @@ def test_no_tick_makes_many_steps_while_time_goes_back(made: list[int], speed: f
 
 
 @pytest.mark.parametrize('on', [0.5, 2.5])
-def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) -> None:
+def test_what_a_seek_left_out_is_made_again_in_time(made, on):
     driven = Driven()
     driven.record(12.0)
     driven.simulation.past.frames.drop_from(0)
@@ -85,7 +83,7 @@ def test_what_a_seek_left_out_is_made_again_in_time(made: list[int], on: float) 
     assert driven.simulation.step < 4 * 240
 
 
-def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None:
+def test_where_frames_were_far_apart_no_others_are_made(made):
     driven = Driven()
     driven.ask(spawning('a/0'))
     driven.run(16.0, 1.0)
@@ -94,7 +92,7 @@ def test_where_frames_were_far_apart_no_others_are_made(made: list[int]) -> None
     assert driven.simulation.step < 2 * 240
 
 
-def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven: Driven) -> None:
+def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven):
     driven.simulation.past.frames.drop_from(0)
     driven.simulation.seek(round(4.8 * SECOND))
     driven.apply_requests()
@@ -109,7 +107,7 @@ def test_what_is_half_made_again_ends_no_earlier_than_time_has_come_since(driven
             driven.assert_same(frame)
 
 
-def test_at_the_oldest_step_time_stops_and_says_so(driven: Driven) -> None:
+def test_at_the_oldest_step_time_stops_and_says_so(driven):
     frames = driven.run(-64.0, 1.0)
     assert frames[-1].snapshot.step == 0
     assert driven.simulation.speed == 0.0

@@ -10,14 +10,7 @@ from physsim_ros.files import load_world, save_world
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadProperty, Exists, Malformed, Refusal, UnknownBody
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import (
-    Anchor,
-    ChangeBody,
-    Delete,
-    DriveRobot,
-    Join,
-    Restore,
-)
+from physsim_ros.model.requests import Anchor, ChangeBody, Delete, DriveRobot, Join, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World

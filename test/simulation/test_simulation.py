@@ -4,7 +4,6 @@
 """Requests go in and are answered, in order, one each; frames come out, at their time."""
 
 import math
-from typing import Any
 
 import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, NothingThere, UnknownBody
@@ -47,7 +46,7 @@ def answers(frames: list[Frame]) -> list[Answer]:
     return [answer for frame in frames for answer in frame.answers]
 
 
-def test_a_publish_rate_has_to_divide_the_physics_rate() -> None:
+def test_a_publish_rate_has_to_divide_the_physics_rate():
     assert Simulation(physics_rate=240.0, publish_rate=60.0).frame_steps == 4
     assert Simulation(physics_rate=60.0, publish_rate=60.0).frame_steps == 1
     assert Simulation(physics_rate=100.0, publish_rate=33.0 + 1.0 / 3.0).frame_steps == 3
@@ -58,7 +57,7 @@ def test_a_publish_rate_has_to_divide_the_physics_rate() -> None:
 
 
 @pytest.mark.parametrize('value', [math.nan, math.inf, -math.inf, 1e300, -65.0])
-def test_times_and_speeds_out_of_range_are_refused_and_change_nothing(value: float) -> None:
+def test_times_and_speeds_out_of_range_are_refused_and_change_nothing(value):
     for name in ('history', 'checkpoints', 'speed'):
         with pytest.raises((BadProperty, Malformed)) as refused:
             Simulation(**{name: value})
@@ -73,12 +72,12 @@ def test_times_and_speeds_out_of_range_are_refused_and_change_nothing(value: flo
     assert (sim.speed, sim.held) == (1.0, {'robot/0': drive})
 
 
-def test_a_time_beyond_all_numbers_is_refused() -> None:
+def test_a_time_beyond_all_numbers_is_refused():
     with pytest.raises(Malformed, match='clock'):
         Simulation().seek(10**400)
 
 
-def test_a_time_in_seconds_is_refused() -> None:
+def test_a_time_in_seconds_is_refused():
     sim = simulation()
     sim.advance_frame()
     with pytest.raises(BadProperty, match='whole number of ns'):
@@ -87,7 +86,7 @@ def test_a_time_in_seconds_is_refused() -> None:
     assert sim.seek(0) == 'at 0.000 s'
 
 
-def test_requests_are_answered_in_order_and_one_each() -> None:
+def test_requests_are_answered_in_order_and_one_each():
     sim = simulation()
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
     sim.requests.submit(Delete(name='a/1'), topic='~/spawn')
@@ -122,7 +121,7 @@ def test_requests_are_answered_in_order_and_one_each() -> None:
     assert frames[0].answers == tuple(answers(frames))
 
 
-def test_what_could_not_be_a_request_is_answered_in_its_place() -> None:
+def test_what_could_not_be_a_request_is_answered_in_its_place():
     sim = simulation()
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
     sim.requests.refuse(Malformed('no number', field='pose'), topic='~/spawn', subject='a/1')
@@ -139,7 +138,7 @@ def test_what_could_not_be_a_request_is_answered_in_its_place() -> None:
      (Command(names=('b/9',)), 'b/9'), (Command(names=('b/8', 'b/9')), ''),
      (Anchor(point=(9.0, 9.0)), ''), (Configure(changes={'damping': 7.0}), '')],
 )  # fmt: skip
-def test_a_refusal_names_the_body_that_it_is_about(request_: object, subject: str) -> None:
+def test_a_refusal_names_the_body_that_it_is_about(request_, subject):
     sim = simulation()
     sim.requests.submit(request_, topic='~/topic')
 
@@ -149,7 +148,7 @@ def test_a_refusal_names_the_body_that_it_is_about(request_: object, subject: st
     assert answer.code
 
 
-def test_nothing_moves_before_the_next_frame() -> None:
+def test_nothing_moves_before_the_next_frame():
     sim = simulation()
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
@@ -158,7 +157,7 @@ def test_nothing_moves_before_the_next_frame() -> None:
     assert len(sim.world) == 1
 
 
-def test_the_first_frame_shows_the_beginning() -> None:
+def test_the_first_frame_shows_the_beginning():
     sim = simulation()
 
     (frame,) = sim.advance(0)
@@ -167,7 +166,7 @@ def test_the_first_frame_shows_the_beginning() -> None:
     assert (frame.snapshot.step, frame.snapshot.stamp) == (0, 0)
 
 
-def test_frames_come_at_multiples_of_the_publish_period() -> None:
+def test_frames_come_at_multiples_of_the_publish_period():
     sim = simulation()
 
     frames = periods(sim, 61)
@@ -177,7 +176,7 @@ def test_frames_come_at_multiples_of_the_publish_period() -> None:
     assert frames[-1].snapshot.stamp == SECOND
 
 
-def test_a_paused_world_carries_out_requests_and_shows_them() -> None:
+def test_a_paused_world_carries_out_requests_and_shows_them():
     sim = simulation(speed=0.0)
     periods(sim, 1)
     assert periods(sim, 60, since=1) == []
@@ -191,7 +190,7 @@ def test_a_paused_world_carries_out_requests_and_shows_them() -> None:
     assert [answer.message for answer in frame.answers] == ['spawned a/0']
 
 
-def test_a_refused_request_is_answered_while_paused() -> None:
+def test_a_refused_request_is_answered_while_paused():
     sim = simulation(speed=0.0)
     periods(sim, 1)
 
@@ -201,7 +200,7 @@ def test_a_refused_request_is_answered_while_paused() -> None:
     assert [answer.code for answer in frame.answers] == ['unknown_body']
 
 
-def test_play_and_pause_go_on_where_they_were() -> None:
+def test_play_and_pause_go_on_where_they_were():
     sim = simulation()
     periods(sim, 11)
 
@@ -216,7 +215,7 @@ def test_play_and_pause_go_on_where_they_were() -> None:
     assert sim.playback.clock.late_frames == 0
 
 
-def test_two_frames_a_call_make_up_for_a_hiccup() -> None:
+def test_two_frames_a_call_make_up_for_a_hiccup():
     sim = simulation()
     sim.advance(0)
 
@@ -228,7 +227,7 @@ def test_two_frames_a_call_make_up_for_a_hiccup() -> None:
     assert sim.playback.clock.late_frames == 0
 
 
-def test_late_frames_are_counted_and_no_step_is_skipped() -> None:
+def test_late_frames_are_counted_and_no_step_is_skipped():
     sim = simulation()
     sim.advance(0)
 
@@ -238,7 +237,7 @@ def test_late_frames_are_counted_and_no_step_is_skipped() -> None:
     assert sim.playback.clock.late_frames == 99
 
 
-def test_an_answer_is_told_once() -> None:
+def test_an_answer_is_told_once():
     sim = simulation()
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
     sim.advance(0)
@@ -249,7 +248,7 @@ def test_an_answer_is_told_once() -> None:
     assert answers(list(frames)) == []
 
 
-def test_advance_frame_goes_on_by_a_period_whatever_the_speed() -> None:
+def test_advance_frame_goes_on_by_a_period_whatever_the_speed():
     sim = simulation(speed=0.0)
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
@@ -260,7 +259,7 @@ def test_advance_frame_goes_on_by_a_period_whatever_the_speed() -> None:
     assert sim.advance_frame().snapshot.step == 2 * FRAME
 
 
-def test_advance_frame_ends_on_a_multiple() -> None:
+def test_advance_frame_ends_on_a_multiple():
     sim = simulation(speed=0.5)
     sim.advance(0)
     sim.advance(round(PERIOD * 1.6))
@@ -269,7 +268,7 @@ def test_advance_frame_ends_on_a_multiple() -> None:
     assert sim.advance_frame().snapshot.step == FRAME
 
 
-def test_settle_carries_out_what_was_asked_and_goes_nowhere() -> None:
+def test_settle_carries_out_what_was_asked_and_goes_nowhere():
     sim = simulation()
     sim.advance(0)
     assert sim.apply_requests() is None
@@ -283,7 +282,7 @@ def test_settle_carries_out_what_was_asked_and_goes_nowhere() -> None:
     assert sim.apply_requests() is None
 
 
-def test_perform_is_at_once_after_those_that_wait() -> None:
+def test_perform_is_at_once_after_those_that_wait():
     sim = simulation()
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
 
@@ -294,7 +293,7 @@ def test_perform_is_at_once_after_those_that_wait() -> None:
     assert [answer.message for answer in answers(periods(sim, 1))] == ['spawned a/0']
 
 
-def test_perform_raises_what_is_refused_and_changes_nothing() -> None:
+def test_perform_raises_what_is_refused_and_changes_nothing():
     sim = simulation()
     before = sim.world.digest()
 
@@ -307,7 +306,7 @@ def test_perform_raises_what_is_refused_and_changes_nothing() -> None:
 
 
 @pytest.mark.parametrize('wrong', ['a', None, 3, Delete])
-def test_what_is_of_another_type_is_refused_and_changes_nothing(wrong: Any) -> None:
+def test_what_is_of_another_type_is_refused_and_changes_nothing(wrong):
     sim = simulation()
     before = sim.world.digest()
 
@@ -324,7 +323,7 @@ def test_what_is_of_another_type_is_refused_and_changes_nothing(wrong: Any) -> N
     assert sim.world.digest() == before
 
 
-def test_what_was_performed_while_paused_is_shown() -> None:
+def test_what_was_performed_while_paused_is_shown():
     sim = simulation(speed=0.0)
     sim.advance(0)
 
@@ -345,7 +344,7 @@ def saved(settings: WorldSettings) -> World:
     return world
 
 
-def test_load_replaces_the_world_and_time_goes_on() -> None:
+def test_load_replaces_the_world_and_time_goes_on():
     sim = simulation()
     sim.requests.submit(spawning('b/0'), topic='~/spawn')
     periods(sim, 11)
@@ -364,7 +363,7 @@ def test_load_replaces_the_world_and_time_goes_on() -> None:
     assert snapshot.scene.bodies[0].expires == 10 * FRAME + 2400 - 24
 
 
-def test_reset_returns_to_what_was_loaded_at_time_0() -> None:
+def test_reset_returns_to_what_was_loaded_at_time_0():
     sim = simulation()
     periods(sim, 11)
     state = saved(WorldSettings(gravity=(0.0, -1.0))).save()
@@ -387,7 +386,7 @@ def test_reset_returns_to_what_was_loaded_at_time_0() -> None:
         assert sim.world.reports_contacts
 
 
-def test_reset_without_a_load_empties_the_world() -> None:
+def test_reset_without_a_load_empties_the_world():
     sim = simulation()
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
     periods(sim, 5)
@@ -400,7 +399,7 @@ def test_reset_without_a_load_empties_the_world() -> None:
     assert sim.world.step_count == 0
 
 
-def test_reset_answers_those_that_wait_first() -> None:
+def test_reset_answers_those_that_wait_first():
     sim = simulation()
     sim.advance(0)
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
@@ -412,7 +411,7 @@ def test_reset_answers_those_that_wait_first() -> None:
     assert frame.snapshot.scene.names == ()
 
 
-def test_time_after_a_reset_begins_without_a_jump() -> None:
+def test_time_after_a_reset_begins_without_a_jump():
     sim = simulation()
     periods(sim, 601)
 
@@ -423,7 +422,7 @@ def test_time_after_a_reset_begins_without_a_jump() -> None:
     assert sim.playback.clock.late_frames == 0
 
 
-def test_contacts_come_where_somebody_watches() -> None:
+def test_contacts_come_where_somebody_watches():
     sim = simulation(settings=WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0)))
     sim.requests.submit(spawning('a/0', BOX, (0.0, 0.5, 0.0)), topic='~/spawn')
     assert {frame.contacts for frame in periods(sim, 30)} == {None}
@@ -437,7 +436,7 @@ def test_contacts_come_where_somebody_watches() -> None:
     assert {frame.contacts for frame in periods(sim, 3, since=60)} == {None}
 
 
-def test_a_lost_body_is_told_of() -> None:
+def test_a_lost_body_is_told_of():
     sim = simulation(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=0.0))
     sim.requests.submit(spawning('a/0', DISC, mass=1e-9), topic='~/spawn')
     sim.requests.submit(Command(names=('a/0',), wrenches=((1e12, 0.0, 0.0),)), topic='~/command')
@@ -453,7 +452,7 @@ def test_a_lost_body_is_told_of() -> None:
 
 
 @pytest.mark.filterwarnings('error')
-def test_a_machine_of_extreme_sizes_stays_within_the_range_of_numbers() -> None:
+def test_a_machine_of_extreme_sizes_stays_within_the_range_of_numbers():
     sim = simulation(settings=WorldSettings())
     triangle, needle = Polygon(outline=((0, 0), (1e4, 0), (0, 1e4))), Box(width=1e4, height=1e-3)
     for spawned in (
@@ -476,7 +475,7 @@ def test_a_machine_of_extreme_sizes_stays_within_the_range_of_numbers() -> None:
     assert np.abs(sim.world.snapshot().twists).max() < 1e5
 
 
-def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_steps() -> None:
+def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_steps():
     slow, fast = (Simulation(speed=64.0) for _ in range(2))
     for simulation in (slow, fast):
         simulation.requests.submit(spawning('a/0', DISC), topic='~/spawn')
@@ -494,7 +493,7 @@ def test_a_frame_that_takes_too_long_ends_at_the_next_period_and_makes_the_same_
     assert slow.world.digest() == fast.world.digest()
 
 
-def test_speed_changes_nothing_but_when_frames_come() -> None:
+def test_speed_changes_nothing_but_when_frames_come():
     settings = WorldSettings(bounds=(-5.0, 0.0, 5.0, 9.0))
     digests = []
     for speed in (1.0, 2.0, 8.0, 0.5, 1.6):

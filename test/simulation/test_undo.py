@@ -3,15 +3,9 @@
 
 """Undo, redo and reset: gestures, settings, loaded worlds, and resets one by one."""
 
-from __future__ import annotations
-
 import numpy as np
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.requests import (
-    Configure,
-    Delete,
-    DeleteAll,
-)
+from physsim_ros.model.requests import Configure, Delete, DeleteAll
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -19,7 +13,7 @@ from .driven import Driven, FRAME, SECOND, told
 from ..building import BOX, spawning
 
 
-def test_undo_goes_back_to_the_moment_before(driven: Driven) -> None:
+def test_undo_goes_back_to_the_moment_before(driven):
     message = driven.simulation.undo()
     assert driven.simulation.step == pytest.approx(3 * 240, abs=FRAME)
     assert 'late/0' in message
@@ -28,7 +22,7 @@ def test_undo_goes_back_to_the_moment_before(driven: Driven) -> None:
     np.testing.assert_array_equal(shown.poses, driven.shown[shown.step].snapshot.poses[:5])
 
 
-def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
+def test_redo_returns_to_where_undo_was_asked_for(driven):
     step, digest = driven.simulation.step, driven.simulation.world.digest()
     driven.simulation.undo()
     driven.run(1.0, 0.7)
@@ -36,7 +30,7 @@ def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
     assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
 
 
-def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
+def test_redo_shows_the_contacts_of_one_frame(driven):
     driven.simulation.reports_contacts = True
     before = driven.run(1.0, 1.0)[-1].contacts
     driven.ask(spawning('more/0', BOX, (8.0, 18.0, 0.0)))
@@ -50,7 +44,7 @@ def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
     np.testing.assert_allclose(again.impulses, before.impulses, rtol=1e-9, atol=1e-12)
 
 
-def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
+def test_what_belongs_together_is_undone_together(driven):
     driven.ask(spawning('b/0', BOX, (5.0, 5.0, 0.0)))
     driven.ask(spawning('b/1', BOX, (5.0, 8.0, 0.0)), joined=True)
     driven.apply_requests()
@@ -58,7 +52,7 @@ def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
     assert not {'b/0', 'b/1'} & set(driven.names)
 
 
-def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
+def test_a_new_request_leaves_nothing_to_redo(driven):
     driven.simulation.undo()
     driven.ask(DeleteAll())
     driven.apply_requests()
@@ -66,7 +60,7 @@ def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
         driven.simulation.redo()
 
 
-def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
+def test_a_refused_request_leaves_what_there_is_to_redo(driven):
     driven.simulation.undo()
     driven.ask(Delete(name='nobody/0'))
     driven.apply_requests()
@@ -74,7 +68,7 @@ def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
     assert 'late/0' in driven.names
 
 
-def test_settings_are_undone_and_follow_time(driven: Driven) -> None:
+def test_settings_are_undone_and_follow_time(driven):
     driven.ask(Configure(changes={'gravity': (0.0, 0.0)}))
     driven.record(1.0)
     assert driven.simulation.settings.gravity == (0.0, 0.0)
@@ -86,7 +80,7 @@ def test_settings_are_undone_and_follow_time(driven: Driven) -> None:
     assert driven.simulation.settings.gravity == (0.0, -9.81)
 
 
-def test_reset_is_undone_too(driven: Driven) -> None:
+def test_reset_is_undone_too(driven):
     step, digest = driven.simulation.step, driven.simulation.world.digest()
     driven.simulation.reset()
     assert (driven.simulation.step, driven.names) == (0, ())
@@ -99,7 +93,7 @@ def test_reset_is_undone_too(driven: Driven) -> None:
     assert (driven.simulation.step, driven.names) == (later, ())
 
 
-def test_a_reset_in_the_past_is_undone_to_there_and_to_what_lay_ahead(driven: Driven) -> None:
+def test_a_reset_in_the_past_is_undone_to_there_and_to_what_lay_ahead(driven):
     end, last = driven.simulation.step, driven.simulation.world.digest()
     driven.simulation.seek(2 * SECOND)
     asked = driven.simulation.world.digest()
@@ -112,7 +106,7 @@ def test_a_reset_in_the_past_is_undone_to_there_and_to_what_lay_ahead(driven: Dr
     assert driven.simulation.world.digest() == last
 
 
-def test_what_followed_a_reset_comes_back_with_it(driven: Driven) -> None:
+def test_what_followed_a_reset_comes_back_with_it(driven):
     driven.simulation.reset()
     driven.record(4.0)
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
@@ -136,7 +130,7 @@ def test_what_followed_a_reset_comes_back_with_it(driven: Driven) -> None:
     assert driven.simulation.world.digest() == digest
 
 
-def test_resets_are_undone_and_redone_one_by_one(driven: Driven) -> None:
+def test_resets_are_undone_and_redone_one_by_one(driven):
     moments = [driven.simulation.step]
     for seconds in (1.0, 2.0):
         driven.simulation.reset()
@@ -154,7 +148,7 @@ def test_resets_are_undone_and_redone_one_by_one(driven: Driven) -> None:
     assert forward == moments[1:]
 
 
-def test_an_undone_load_is_not_what_reset_returns_to(driven: Driven) -> None:
+def test_an_undone_load_is_not_what_reset_returns_to(driven):
     other = Driven()
     other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     driven.simulation.load(other.simulation.save())
@@ -164,7 +158,7 @@ def test_an_undone_load_is_not_what_reset_returns_to(driven: Driven) -> None:
 
 
 @pytest.mark.parametrize('more', [True, False])
-def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
+def test_undo_passes_over_nothing_that_is_kept_no_more(more):
     sim = Simulation(history=1.0)
     sim.perform(spawning('ball/0', BOX, anchored=True))
     sim.advance_frame()
@@ -180,7 +174,7 @@ def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
     assert 'ball/0' not in sim.world
 
 
-def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
+def test_what_was_loaded_at_the_beginning_cannot_be_undone():
     first = Driven()
     first.ask(spawning('a/0'))
     first.apply_requests()
@@ -191,7 +185,7 @@ def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
     assert second.names == ('a/0',)
 
 
-def test_a_world_that_was_loaded_while_time_ran_is_undone(driven: Driven) -> None:
+def test_a_world_that_was_loaded_while_time_ran_is_undone(driven):
     names = driven.names
     driven.simulation.load(Driven().simulation.save())
     assert driven.names == ()
@@ -200,7 +194,7 @@ def test_a_world_that_was_loaded_while_time_ran_is_undone(driven: Driven) -> Non
     assert driven.names == names
 
 
-def test_older_steps_than_are_kept_are_dropped() -> None:
+def test_older_steps_than_are_kept_are_dropped():
     driven = Driven(history=3.0)
     driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
     driven.record(10.0)
@@ -214,7 +208,7 @@ def test_older_steps_than_are_kept_are_dropped() -> None:
         driven.simulation.undo()
 
 
-def test_redo_does_not_pass_over_an_undone_line_that_is_no_longer_kept() -> None:
+def test_redo_does_not_pass_over_an_undone_line_that_is_no_longer_kept():
     simulation = Simulation()
     simulation.perform(spawning('a/0', BOX))
     simulation.reset()

@@ -355,9 +355,7 @@ def test_what_rests_is_not_swept():
     ('speed', 'radius'), [(5.0, 0.005), (10.0, 0.02), (20.0, 0.05), (29.0, 0.1)]
 )
 @pytest.mark.parametrize('anchored', [False, True])
-def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(
-    speed: float, radius: float, height: float, *, anchored: bool
-) -> None:
+def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(speed, radius, height, anchored):
     sim = simulation(gravity=NOWHERE)
     large = Compound(element=Box(width=1.0, height=1.0), centers=((0.0, -0.5), (0.0, 0.5)))
     spawn(sim, 'large/0', large, (-1.0 - 0.75 * speed * DT, 0.0, 0.0), velocity=(speed, 0.0))
@@ -367,9 +365,7 @@ def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(
     assert small_x > large_x + 0.5 - radius
 
 
-def test_sticks_that_spin_through_each_other_end_each_step_after_a_bounded_number_of_impacts() -> (
-    None
-):
+def test_sticks_that_spin_through_each_other_end_each_step_after_a_bounded_number_of_impacts():
     sim = simulation(gravity=NOWHERE)
     for number in range(12):
         place = (0.51 * (number % 4), 0.51 * (number // 4), 0.0)

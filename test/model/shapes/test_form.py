@@ -12,29 +12,17 @@ from itertools import pairwise
 import math
 from weakref import ref
 
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Circle,
-    Compound,
-    Disc,
-    Polygon,
-    Shape,
-    Triangles,
-)
+from physsim_ros.model.shapes import Box, Chain, Circle, Compound, Disc, Polygon, Triangles
 from physsim_ros.model.shapes.form import MOST_KEPT
 import pytest
 
-from .polygons import (
-    assert_cover,
-    ROUNDING,
-)
+from .polygons import assert_cover, ROUNDING
 from ...building import ELL, SHAPES
 
 CORNERS = ((0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (1.0, 1.0), (1.0, 4.0), (0.0, 4.0))
 
 
-def test_a_disc_is_weighed_by_its_formulas() -> None:
+def test_a_disc_is_weighed_by_its_formulas():
     form = Disc(radius=0.3).form
 
     assert form.area == pytest.approx(math.pi * 0.09, rel=ROUNDING)
@@ -44,7 +32,7 @@ def test_a_disc_is_weighed_by_its_formulas() -> None:
     assert form.pieces == (Circle((0.0, 0.0), 0.3),)
 
 
-def test_a_box_is_weighed_by_its_formulas() -> None:
+def test_a_box_is_weighed_by_its_formulas():
     form = Box(width=3.0, height=0.4).form
 
     assert form.area == pytest.approx(1.2, rel=ROUNDING)
@@ -54,7 +42,7 @@ def test_a_box_is_weighed_by_its_formulas() -> None:
     assert form.inner == pytest.approx(0.2, rel=ROUNDING)
 
 
-def test_a_right_triangle_is_weighed_by_its_formulas() -> None:
+def test_a_right_triangle_is_weighed_by_its_formulas():
     form = Polygon(outline=((1.0, 1.0), (4.0, 1.0), (1.0, 5.0))).form
 
     assert form.area == pytest.approx(6.0, rel=ROUNDING)
@@ -67,7 +55,7 @@ def test_a_right_triangle_is_weighed_by_its_formulas() -> None:
     assert form.inner == pytest.approx(1.2, rel=ROUNDING)
 
 
-def test_a_capsule_is_weighed_as_a_bar_with_two_half_discs() -> None:
+def test_a_capsule_is_weighed_as_a_bar_with_two_half_discs():
     length, radius = 2.0, 0.25
 
     form = Chain(points=((0.0, 1.0), (length, 1.0)), thickness=2 * radius).form
@@ -85,7 +73,7 @@ def test_a_capsule_is_weighed_as_a_bar_with_two_half_discs() -> None:
     assert form.inner == radius
 
 
-def test_a_chain_is_the_sum_of_its_capsules() -> None:
+def test_a_chain_is_the_sum_of_its_capsules():
     points = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (3.0, 1.0))
     links = [Chain(points=pair, thickness=0.2).form for pair in pairwise(points)]
 
@@ -106,7 +94,7 @@ def test_a_chain_is_the_sum_of_its_capsules() -> None:
 
 @pytest.mark.parametrize('step', [1, -1], ids=['counter-clockwise', 'clockwise'])
 @pytest.mark.parametrize('first', range(6))
-def test_an_ell_is_two_boxes_by_parallel_axes(step: int, first: int) -> None:
+def test_an_ell_is_two_boxes_by_parallel_axes(step, first):
     outline = (ELL.outline[first:] + ELL.outline[:first])[::step]
 
     form = Polygon(outline=outline).form
@@ -124,7 +112,7 @@ def test_an_ell_is_two_boxes_by_parallel_axes(step: int, first: int) -> None:
 
 
 @pytest.mark.parametrize('element', [Disc(radius=0.5), Box(width=1.0, height=0.5)])
-def test_a_compound_is_its_elements_by_parallel_axes(element: Disc | Box) -> None:
+def test_a_compound_is_its_elements_by_parallel_axes(element):
     form = Compound(element=element, centers=((0.0, 0.0), (3.0, 0.0), (0.0, 6.0))).form
 
     assert form.area == pytest.approx(3 * element.form.area, rel=ROUNDING)
@@ -134,7 +122,7 @@ def test_a_compound_is_its_elements_by_parallel_axes(element: Disc | Box) -> Non
     assert form.inner == element.form.inner
 
 
-def test_triangles_are_summed_and_may_be_given_either_way_round() -> None:
+def test_triangles_are_summed_and_may_be_given_either_way_round():
     square = Triangles(
         vertices=((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 0.0), (0.0, 1.0), (1.0, 1.0))
     )
@@ -145,7 +133,7 @@ def test_triangles_are_summed_and_may_be_given_either_way_round() -> None:
     assert_cover(square.form.pieces, 1.0)
 
 
-def test_a_small_shape_far_from_its_origin_loses_no_digits() -> None:
+def test_a_small_shape_far_from_its_origin_loses_no_digits():
     far, side = 9e4, 0.01
     near_corner = [(0.0, 0.0), (side, 0.0), (side, side / 2), (side / 2, side / 2), (0.0, side)]
 
@@ -160,7 +148,7 @@ def test_a_small_shape_far_from_its_origin_loses_no_digits() -> None:
     )
 
 
-def test_a_symmetric_shape_is_balanced_about_its_origin_to_the_bit() -> None:
+def test_a_symmetric_shape_is_balanced_about_its_origin_to_the_bit():
     angles = [2 * math.pi * k / 10 for k in range(10)]
     star = [
         ((1.0, 0.4)[k % 2] * math.cos(a), (1.0, 0.4)[k % 2] * math.sin(a))
@@ -170,7 +158,7 @@ def test_a_symmetric_shape_is_balanced_about_its_origin_to_the_bit() -> None:
     assert Polygon(outline=tuple(star)).form.centroid == (0.0, 0.0)
 
 
-def test_whole_numbers_make_the_same_shape_as_fractions() -> None:
+def test_whole_numbers_make_the_same_shape_as_fractions():
     assert repr(Disc(radius=1)) == repr(Disc(radius=1.0))
     assert repr(Box(width=2, height=1)) == repr(Box(width=2.0, height=1.0))
     assert repr(Chain(points=((0, 0), (1, 0)), thickness=1)) == repr(
@@ -182,7 +170,7 @@ def test_whole_numbers_make_the_same_shape_as_fractions() -> None:
 
 
 @pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())
-def test_equal_shapes_are_equal_and_hash_alike(shape: Shape) -> None:
+def test_equal_shapes_are_equal_and_hash_alike(shape):
     twin = eval(repr(shape))  # noqa: S307 - the repr of a value of our own
 
     assert twin == shape
@@ -190,7 +178,7 @@ def test_equal_shapes_are_equal_and_hash_alike(shape: Shape) -> None:
 
 
 @pytest.mark.parametrize('zero', [0.0, -0.0])
-def test_equal_shapes_share_a_form_whatever_the_sign_of_their_zeros(zero: float) -> None:
+def test_equal_shapes_share_a_form_whatever_the_sign_of_their_zeros(zero):
     outline = ((zero, zero), (7.0, zero), (zero, 3.0))
 
     polygon = Polygon(outline=outline)
@@ -199,7 +187,7 @@ def test_equal_shapes_share_a_form_whatever_the_sign_of_their_zeros(zero: float)
     assert '-0.0' not in repr((polygon.outline, polygon.form.pieces))
 
 
-def test_equal_shapes_share_a_form_as_long_as_one_of_them_is_there() -> None:
+def test_equal_shapes_share_a_form_as_long_as_one_of_them_is_there():
     first, second = Polygon(outline=CORNERS), Polygon(outline=CORNERS)
     assert first.form is second.form
     form = first.form
@@ -210,7 +198,7 @@ def test_equal_shapes_share_a_form_as_long_as_one_of_them_is_there() -> None:
     assert Polygon(outline=CORNERS).form is form
 
 
-def test_of_shapes_that_are_gone_the_last_forms_are_kept_and_no_others() -> None:
+def test_of_shapes_that_are_gone_the_last_forms_are_kept_and_no_others():
     forms = [ref(Box(width=0.0917, height=1.0 + 0.1 * number).form) for number in range(100)]
     forms += [ref(Disc(radius=0.0917 + number).form) for number in range(100)]
     gc.collect()
