@@ -69,7 +69,6 @@ def test_walls_are_raised_moved_and_taken_down_while_the_world_runs(world):
     assert pose(world, 'a/0')[0] == pytest.approx(0.0, abs=0.05)
     world.apply(Configure(changes={'bounds': None}))
     memory = world.save().memory
-    assert memory is not None
     assert memory.walls == 0
     world.step(480)
     assert pose(world, 'a/0')[0] == pytest.approx(8.0, abs=0.05)

@@ -10,17 +10,20 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request, Spawn
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Disc, Shape
+from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import TakeBack
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
+from ..building import spawning
+
 # Steps in a frame.
 FRAME = 4
 SECOND = 10**9
 FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
+SLAB = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
 
 
 class Driven:
@@ -52,9 +55,7 @@ class Driven:
         self.simulation.requests.submit(request, topic='~/test', joined=joined)
 
     def apply_requests(self) -> Frame:
-        frame = self.simulation.apply_requests()
-        assert frame is not None
-        return frame
+        return self.simulation.apply_requests()
 
     @property
     def names(self) -> tuple[str, ...]:

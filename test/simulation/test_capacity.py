@@ -34,7 +34,7 @@ from physsim_ros.simulation.world import capacity, World
 import pytest
 from tools.adversary.scenes import crossing_rods, one_pose, sphere_lists
 
-from ..building import BOX, DISC, ELL, spawn, spawning, stack, TRIANGLE
+from ..building import BOX, DISC, ELL, spawn, stack, TRIANGLE
 
 # Of 5 bodies in one place 10 pairs overlap.
 FEW = WorldSettings(max_overlaps=10, gravity=(0.0, 0.0))
@@ -70,24 +70,6 @@ def test_what_overlaps_too_much_is_refused_one_by_one(scene):
 
     assert 0 < refused < len(scene)
     world.step(10)
-
-
-def test_a_world_that_is_full_is_counted_once_a_step(monkeypatch):
-    # Large enough that a count takes longer than some requests.
-    world = World(settings=replace(FEW, max_overlaps=900))
-    assert flooded(world, one_pose(45)) == 3
-    counts = []
-    count_all = capacity._count  # noqa: SLF001
-    monkeypatch.setattr(
-        capacity, '_count', lambda *given, **said: counts.append(1) or count_all(*given, **said)
-    )
-
-    assert flooded(world, [spawning(f'late/{number}', DISC) for number in range(5)]) == 5
-    assert not counts
-
-    world.step(1)
-    assert flooded(world, [spawning(f'late/{number}', DISC) for number in range(5)]) == 5
-    assert len(counts) == 2
 
 
 def test_what_has_moved_apart_leaves_a_place():

@@ -60,10 +60,12 @@ def sim() -> Simulation:
     ],
 )
 def test_a_gesture_is_named_by_verb_and_object(sim, request_, phrase):
+    before = sim.world.digest()
     sim.perform(request_)
 
     assert sim.status.undo == f'undo {phrase}'
     assert sim.undo().startswith(f'undid {phrase}, ')
+    assert sim.world.digest() == before
     assert sim.status.redo == f'redo {phrase}'
 
 

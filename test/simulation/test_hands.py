@@ -16,12 +16,12 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
+from .driven import SLAB
 from ..building import BOX, DISC, DT, NOWHERE, spawn, spawning, twist
 
 TOPIC = '~/drag/feedback'
 # A rod, and the arm of a grip near its end [m].
 ROD, ARM = Box(width=2.0, height=0.1), 0.9
-FLOOR = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
 
 
 def dragged(world: World, to: Point, steps: int, hand: str = 'h') -> list[np.ndarray]:
@@ -36,8 +36,7 @@ def dragged(world: World, to: Point, steps: int, hand: str = 'h') -> list[np.nda
 
 @pytest.mark.parametrize('mass', [1e-3, 1.0, 1e6])
 @pytest.mark.parametrize(('shape', 'arm'), [(DISC, 0.0), (ROD, ARM)])
-def test_a_body_follows_its_hand_without_oscillation_at_any_mass_and_arm(mass, shape, arm):
-    world = World(settings=NOWHERE)
+def test_a_body_follows_its_hand_without_oscillation_at_any_mass_and_arm(mass, shape, arm, world):
     spawn(world, 'a/0', shape, mass=mass)
     world.apply(Grab(hand='h', point=(arm, 0.0)))
     world.apply(MoveHand(hand='h', point=(arm + 0.05, 0.0)))
@@ -117,23 +116,19 @@ def test_as_many_hands_on_one_body_as_there_may_be_do_not_shake_it(iterations):
     assert np.abs(twist(world, 'a/0')).max() < 1e-3
 
 
-def test_the_topmost_movable_body_is_grabbed():
-    world = World(settings=NOWHERE)
-    spawn(world, 'a/0', DISC, group=1)
-    spawn(world, 'a/1', BOX, group=1)
-    spawn(world, 'a/2', BOX, group=1, anchored=True)
-    spawn(world, 'a/3', BOX, group=1, kinematic=True)
+def test_the_topmost_movable_body_is_grabbed(world):
+    for number, said in enumerate(({}, {}, {'anchored': True}, {'kinematic': True})):
+        spawn(world, f'a/{number}', BOX if number else DISC, group=1, **said)
 
-    assert world.apply(Grab(hand='h', point=(0.0, 0.0))) == Answer(
-        subject='a/1', message='grabbed a/1'
-    )
+    answer = world.apply(Grab(hand='h', point=(0.0, 0.0)))
+    assert answer == Answer(subject='a/1', message='grabbed a/1')
     assert world.apply(Grab(hand='h', point=(0.1, 0.0), frame='a/0')).subject == 'a/1'
 
 
 @pytest.mark.parametrize('point', [(9.0, 9.0), (0.0, -0.5)])
 def test_a_hand_that_finds_no_movable_body_is_refused_and_keeps_what_it_holds(point):
     world = World()
-    world.apply(FLOOR)
+    world.apply(SLAB)
     spawn(world, 'a/0', DISC, (0.0, 3.0, 0.0))
     world.apply(Grab(hand='h', point=(0.0, 3.0)))
     before = world.digest()
@@ -145,8 +140,7 @@ def test_a_hand_that_finds_no_movable_body_is_refused_and_keeps_what_it_holds(po
     assert world.digest() == before
 
 
-def test_a_hand_beyond_as_many_as_there_may_be_is_refused_until_another_lets_go():
-    world = World(settings=NOWHERE)
+def test_a_hand_beyond_as_many_as_there_may_be_is_refused_until_another_lets_go(world):
     spawn(world, 'a/0', DISC)
     for number in range(MOST_HANDS):
         world.apply(Grab(hand=str(number), point=(0.0, 0.0)))
@@ -189,7 +183,7 @@ def test_the_name_of_a_hand_can_be_printed(hand):
 
 def test_a_sleeping_body_wakes_and_the_hand_keeps_it_awake():
     world = World()
-    world.apply(FLOOR)
+    world.apply(SLAB)
     spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0))
     world.step(480)
     world.apply(Grab(hand='h', point=(0.0, 0.5)))
@@ -225,8 +219,7 @@ def test_a_hand_loses_a_body_that_it_can_move_no_more(request_):
     assert sim.advance_frame().answers == (Answer(topic=TOPIC, message='h holds no body'),)
 
 
-def test_a_body_keeps_its_hand_when_its_shape_changes():
-    world = World(settings=NOWHERE)
+def test_a_body_keeps_its_hand_when_its_shape_changes(world):
     spawn(world, 'a/0', DISC)
     world.apply(Grab(hand='h', point=(0.2, 0.0)))
     spawn(world, 'a/0', BOX)
@@ -258,17 +251,15 @@ def test_a_paused_hand_places_an_anchored_body_and_does_not_pull_it_while_time_r
     spawn(world, 'b/0', DISC, (9.0, 0.0, 0.0))
     world.apply(Grab(hand='h', point=(0.2, 0.0), paused=True))
 
-    assert world.apply(MoveHand(hand='h', point=(1.2, 0.0), paused=True)) == Answer(
-        subject='a/0', message='placed a/0'
-    )
+    answer = world.apply(MoveHand(hand='h', point=(1.2, 0.0), paused=True))
+    assert answer == Answer(subject='a/0', message='placed a/0')
     world.apply(MoveHand(hand='h', point=(3.0, 0.0)))
     world.step(60)
 
     assert world.snapshot().poses[0].tolist() == [1.0, 0.0, 0.0]
     world.apply(Delete(name='a/0'))
-    assert world.apply(MoveHand(hand='h', point=(2.0, 0.0), paused=True)) == Answer(
-        message='h holds no body'
-    )
+    answer = world.apply(MoveHand(hand='h', point=(2.0, 0.0), paused=True))
+    assert answer == Answer(message='h holds no body')
 
 
 def test_a_paused_hand_that_does_not_move_changes_nothing():

@@ -8,15 +8,15 @@ import math
 import numpy as np
 from physsim_ros.model.requests import Configure, Grab, HandRequest, LetGo, MoveHand, Spawn
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Compound, Disc
+from physsim_ros.model.shapes import Compound, Disc
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
+from .driven import SLAB
 from ..building import BOX, DISC, NOWHERE, spawning
 
 PERIOD = 1e9 / 60
 TOPIC = '~/drag/feedback'
-FLOOR = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
 
 
 def use(sim: Simulation, *requests: HandRequest) -> None:
@@ -35,18 +35,15 @@ def holding() -> Simulation:
 
 def drag(sim: Simulation, *, frames: int = 120) -> None:
     """Drag `a/0` along a circle among other bodies, throw it, and go on for as long."""
-    sim.perform(FLOOR)
+    sim.perform(SLAB)
     for number in range(8):
         sim.perform(spawning(f'a/{number}', BOX, (number / 10, 0.5 + number, 0.0)))
+    use(sim, Grab(hand='h', point=(0.0, 0.5)))
     for number in range(frames):
         angle = number / 15
-        point = (2.0 * math.sin(angle), 1.5 - math.cos(angle))
-        sim.requests.submit(
-            MoveHand(hand='h', point=point) if number else Grab(hand='h', point=(0.0, 0.5)),
-            topic=TOPIC,
-        )
+        use(sim, MoveHand(hand='h', point=(2.0 * math.sin(angle), 1.5 - math.cos(angle))))
         sim.advance_frame()
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
+    use(sim, LetGo(hand='h'))
     for _ in range(frames):
         sim.advance_frame()
 
@@ -66,21 +63,16 @@ def test_a_drag_is_one_gesture_to_undo_and_to_redo():
 
 
 def test_only_the_grab_and_its_end_are_answered():
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    frames = []
-    for request in (
-        Grab(hand='h', point=(0.0, 0.0)),
-        *(MoveHand(hand='h', point=(x / 10, 0.0)) for x in range(10)),
-        LetGo(hand='h'),
-    ):
-        use(sim, request)
+    sim = holding()
+    frames = [sim.advance_frame()]
+    for x in range(10):
+        use(sim, MoveHand(hand='h', point=(x / 10, 0.0)))
         frames.append(sim.advance_frame())
+    use(sim, LetGo(hand='h'))
+    frames.append(sim.advance_frame())
 
-    assert [answer.message for frame in frames for answer in frame.answers] == [
-        'grabbed a/0',
-        'let go of a/0',
-    ]
+    told = [answer.message for frame in frames for answer in frame.answers]
+    assert told == ['grabbed a/0', 'let go of a/0']
 
 
 def test_a_thousand_moves_between_two_frames_are_logged_as_one():
@@ -90,19 +82,14 @@ def test_a_thousand_moves_between_two_frames_are_logged_as_one():
     frame = sim.advance_frame()
 
     assert frame.snapshot.grips[0].target == (1.0, 0.0)
-    history = sim.past.tree
-    assert [type(entry.request).__name__ for entry in history.nodes_between(1, 9)] == [
-        'Grab',
-        'MoveHand',
-    ]
+    logged = [type(entry.request) for entry in sim.past.tree.nodes_between(1, 9)]
+    assert logged == [Grab, MoveHand]
 
 
 def test_moves_do_not_pass_what_a_hand_does_in_between():
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
+    sim = holding()
     use(
         sim,
-        Grab(hand='h', point=(0.0, 0.0)),
         MoveHand(hand='h', point=(0.1, 0.0)),
         LetGo(hand='h'),
         Grab(hand='h', point=(0.0, 0.1)),
@@ -155,7 +142,6 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing():
     use(sim, MoveHand(hand='h', point=(7.0, 0.0)), LetGo(hand='h'))
     frame = sim.apply_requests()
 
-    assert frame is not None
     assert [answer.message for answer in frame.answers] == ['h holds no body']
     assert sim.world.digest() == before
     # The hand of the past lets go where its past ends.
@@ -212,7 +198,7 @@ def test_in_a_paused_world_the_body_is_placed_and_turned():
 
 
 def test_placing_is_one_gesture_and_the_same_bits_again():
-    sim = paused(FLOOR, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
+    sim = paused(SLAB, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
     sim.advance_frame()
     before = sim.world.digest()
     use(sim, Grab(hand='h', point=(0.0, 1.5)))
@@ -232,13 +218,10 @@ def test_placing_is_one_gesture_and_the_same_bits_again():
 
 
 def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first():
-    wall = spawning('wall/0', BOX, anchored=True)
-    sim = paused(spawning('a/0', DISC), wall)
+    sim = paused(spawning('a/0', DISC), spawning('wall/0', BOX, anchored=True))
     for number, (hand, point) in enumerate((('g', (0.0, 0.0)), ('h', (0.45, 0.45)))):
-        use(sim, Grab(hand=hand, point=point))
-        sim.requests.submit(
-            MoveHand(hand=hand, point=(point[0] + 3.0, point[1] + number)), topic=TOPIC
-        )
+        to = (point[0] + 3.0, point[1] + number)
+        use(sim, Grab(hand=hand, point=point), MoveHand(hand=hand, point=to))
 
     (frame,) = sim.advance(0)
 

@@ -18,18 +18,24 @@ NAMES = ('Anna', 'Ben')
 
 
 @pytest.fixture
-def past() -> tuple[Simulation, dict[int, str]]:
-    """Return a simulation with two seconds without a checkpoint in them, and its digests."""
+def simulation() -> Simulation:
+    """Return a paused simulation of two seconds and a half without a checkpoint in them."""
     simulation = Simulation(settings=FLOOR)
     for number in range(4):
-        simulation.requests.submit(
-            spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0)), topic=''
-        )
+        disc = spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0))
+        simulation.requests.submit(disc, topic='')
+    return simulation
+
+
+@pytest.fixture
+def digests(simulation: Simulation) -> dict[int, str]:
+    """Have the simulation go on for two seconds and a half; return its digests by step."""
     digests = {}
     for _ in range(150):
         simulation.advance_frame()
         digests[simulation.step] = simulation.world.digest()
-    return simulation, digests
+    simulation.speed = 0.0
+    return digests
 
 
 def ticks_to_a_frame(simulation: Simulation, now: int) -> tuple[int, Frame]:
@@ -41,10 +47,8 @@ def ticks_to_a_frame(simulation: Simulation, now: int) -> tuple[int, Frame]:
     pytest.fail('no frame')
 
 
-def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(past):
-    simulation, digests = past
+def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(simulation, digests):
     simulation.past.frames.drop_from(0)
-    simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 100
@@ -52,9 +56,7 @@ def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(past):
     assert simulation.world.digest() == digests[480]
 
 
-def test_requests_wait_for_the_end_of_a_seek_and_apply_there(past):
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_requests_wait_for_the_end_of_a_seek_and_apply_there(simulation, digests):
     simulation.seek(SECOND)
     simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     _, frame = ticks_to_a_frame(simulation, 0)
@@ -63,8 +65,9 @@ def test_requests_wait_for_the_end_of_a_seek_and_apply_there(past):
 
 
 @pytest.mark.parametrize('speed', [0.0, 1.0])
-def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(past, speed):
-    simulation, _ = past
+def test_a_seek_that_waited_is_made_bit_by_bit_and_others_wait_behind_it(
+    simulation, digests, speed
+):
     simulation.past.frames.drop_from(0)
     simulation.speed = speed
     simulation.requests.submit_seek(2 * SECOND, topic='~/seek')
@@ -84,9 +87,7 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(past, sp
     assert 'late/0' not in frame.snapshot.scene.names
 
 
-def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(past):
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulation, digests):
     simulation.seek(SECOND)
     requests = simulation.requests
     saved: list[WorldState] = []
@@ -111,9 +112,7 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(past):
     assert len(simulation.world) == 5
 
 
-def test_what_a_person_has_added_is_looked_up_after_a_seek(past):
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation, digests):
     simulation.seek(SECOND)
     queue = simulation.requests
     queue.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn', author='Anna')
@@ -131,9 +130,7 @@ def test_what_a_person_has_added_is_looked_up_after_a_seek(past):
     assert len(frame.snapshot.scene.names) == 4
 
 
-def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(past):
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(simulation, digests):
     simulation.seek(2 * SECOND)
     amend = Amend((4,), (spawning('other/0', DISC, (5.0, 1.0, 0.0)),))
     simulation.requests.submit(amend, topic='~/stroke', joined=True)
@@ -145,9 +142,7 @@ def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(past):
     assert frame.snapshot.scene.names == ('disc/0', 'disc/1', 'disc/2', 'other/0')
 
 
-def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(past):
-    simulation, digests = past
-    simulation.speed = 0.0
+def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, digests):
     simulation.seek(2 * SECOND)
     assert not simulation.apply_up_to_seek()
     times = [simulation.playback.queue_frame(), simulation.playback.queue_frame()]
@@ -162,19 +157,15 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(past):
     assert simulation.apply_up_to_seek()
 
 
-def test_another_seek_takes_the_place_of_one_and_of_its_frames(past):
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_another_seek_takes_the_place_of_one_and_of_its_frames(simulation, digests):
     simulation.seek(2 * SECOND)
     simulation.playback.queue_frame()
     simulation.seek(SECOND)
     assert simulation.playback.queue_frame() == round(244 * SECOND / 240)
 
 
-def test_another_seek_takes_the_place_of_one_under_way(past):
-    simulation, digests = past
+def test_another_seek_takes_the_place_of_one_under_way(simulation, digests):
     simulation.past.frames.drop_from(0)
-    simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     for tick in range(50):
         assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
@@ -186,11 +177,7 @@ def test_another_seek_takes_the_place_of_one_under_way(past):
     assert simulation.world.digest() == digests[480]
 
 
-def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_time_stands_still(
-    past,
-):
-    simulation, digests = past
-    simulation.speed = 0.0
+def test_a_cached_frame_is_shown_at_once_and_the_world_follows_it(simulation, digests):
     cursor = simulation.past.cursor
     for number, step in enumerate((480, 240, 360)):
         simulation.seek(step * SECOND // 240)
@@ -220,19 +207,14 @@ def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_
     middle, end = shown[29], shown[-1]
     simulation.seek(middle.snapshot.stamp)
     again = simulation.apply_requests()
-    assert again is not None
     assert again.snapshot.step == middle.snapshot.step
-    assert middle.contacts is not None
-    assert again.contacts is not None
     assert again.contacts.impulses.tolist() == middle.contacts.impulses.tolist() != []
     simulation.seek(end.snapshot.stamp)
     again = simulation.apply_requests()
-    assert again is not None
     assert again.snapshot.scene.names == ('disc/0', 'disc/1')
 
 
-def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(past):
-    simulation, digests = past
+def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(simulation, digests):
     simulation.past.frames.drop_from(0)
     simulation.speed = -1.0
     simulation.apply_requests()

@@ -276,7 +276,6 @@ def test_settle_carries_out_what_was_asked_and_goes_nowhere():
 
     frame = sim.apply_requests()
 
-    assert frame is not None
     assert (frame.moved, frame.snapshot.step) == (False, 0)
     assert [answer.subject for answer in frame.answers] == ['a/0']
     assert sim.apply_requests() is None
