@@ -31,19 +31,6 @@ PROPERTIES: dict[JointKind, dict[str, Any]] = {
 }
 
 
-def joining(
-    kind: JointKind | str, points: list[Point], name: str = 'joint/0', **said: Any
-) -> Join:
-    where = {key: said.pop(key) for key in ('a', 'b', 'frame') if key in said}
-    return Join(
-        name=name,
-        kind=JointKind(kind),
-        points=tuple(points),
-        properties=JointProperties(**said),
-        **where,
-    )
-
-
 def points_of(kind: JointKind) -> list[Point]:
     points: list[Point] = [(0.4, 0.0), (1.4, 0.0)]
     return points[: kind.points]

@@ -6,8 +6,8 @@
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 
-from .jointed import joining, KINDS, pair, PROPERTIES
-from ..building import spawn
+from .jointed import KINDS, pair, PROPERTIES
+from ..building import join, joining, spawn
 
 
 def machine() -> World:
@@ -42,7 +42,7 @@ def test_a_world_goes_on_from_a_checkpoint_to_the_bit():
 def test_scenes_are_the_same_object_until_a_joint_comes_or_goes():
     world = pair()
     before = world.snapshot().scene
-    world.apply(joining('axle', [(0.4, 0.0)]))
+    join(world, 'axle', [(0.4, 0.0)])
     joined = world.snapshot().scene
     world.step(10)
     assert world.snapshot().scene is joined is not before

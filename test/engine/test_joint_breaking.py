@@ -9,8 +9,8 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from .jointed import joining, joints
-from ..building import BOX, command, DISC, DT, G, spawn
+from .jointed import joints
+from ..building import BOX, command, DISC, DT, G, join, joining, spawn
 
 
 def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told():
@@ -26,7 +26,7 @@ def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told():
 def test_a_joint_that_is_strong_enough_does_not_break():
     world = World()
     spawn(world, 'a/0', BOX, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=15.0))
+    join(world, 'axle', [(0.0, 0.0)], break_force=15.0)
     world.step(480)
     assert world.take_broken() == []
     assert len(joints(world)) == 1
@@ -35,7 +35,7 @@ def test_a_joint_that_is_strong_enough_does_not_break():
 def test_a_commanded_velocity_does_not_load_a_joint_by_itself():
     world = World()
     spawn(world, 'a/0', DISC, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=1.01 * G))
+    join(world, 'axle', [(0.0, 0.0)], break_force=1.01 * G)
     world.step(240)
     command(world, 'a/0', twist=(0.0, 0.0, 1.0))
     world.step(1)
@@ -51,7 +51,7 @@ def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height):
         spawn(world, 'a/0', BOX, (0.0, 10.0, 0.0), velocity=(4.0, 0.0))
         spawn(world, 'a/1', BOX, (3.0, height, 0.3))
         ends = [(0.0, 10.0), (3.0, height)]
-        world.apply(joining('rope', ends, length=4.0, break_force=60.0, a='a/0', b='a/1'))
+        join(world, 'rope', ends, length=4.0, break_force=60.0, a='a/0', b='a/1')
         worlds.append(world)
 
     worlds[0].step(480)
@@ -63,14 +63,14 @@ def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height):
 
 
 def come(world: World, number: int) -> None:
-    world.apply(joining('axle', [(50.0, 0.0)], f'far/{number}', a='far/0', b='world'))
+    join(world, 'axle', [(50.0, 0.0)], f'far/{number}', a='far/0', b='world')
 
 
 def expire(world: World, number: int) -> None:
     if number == 0:
         for each in range(1, 4):
             spawn(world, f'brief/{each}', DISC, (50.0, 2.0 * each, 0.0), lifetime=each * DT)
-            world.apply(joining('pin', [(50.0, 2.0 * each)], f'brief/{each}'))
+            join(world, 'pin', [(50.0, 2.0 * each)], f'brief/{each}')
 
 
 @pytest.mark.parametrize('change', [come, expire, lambda world, _: world.renew()])
@@ -78,7 +78,7 @@ def test_joints_that_come_and_go_and_checkpoints_change_no_break(change):
     world = World()
     spawn(world, 'far/0', DISC, (50.0, 0.0, 0.0))
     spawn(world, 'a/0', BOX, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=9.0))
+    join(world, 'axle', [(0.0, 0.0)], break_force=9.0)
     told = []
     for number in range(3):
         change(world, number)
@@ -93,7 +93,7 @@ def test_a_joint_whose_first_step_is_to_come_is_new_in_a_checkpoint_too():
     world = World()
     # In free flight its velocity leads by half a step, which the joint takes back: 14.7 N.
     spawn(world, 'a/0', BOX, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=12.0))
+    join(world, 'axle', [(0.0, 0.0)], break_force=12.0)
     key = world.renew()
     world.step(3)
     digest = world.digest()

@@ -21,14 +21,14 @@ from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 import pytest
 
-from .jointed import joining, joints, KINDS, pair, points_of, PROPERTIES
-from ..building import BOX, DISC, pose, spawn, twist
+from .jointed import joints, KINDS, pair, points_of, PROPERTIES
+from ..building import BOX, DISC, join, joining, pose, spawn, twist
 
 
 @pytest.mark.parametrize('kind', KINDS)
 def test_a_joint_goes_with_its_body(kind):
     world = pair()
-    world.apply(joining(kind, points_of(kind)))
+    join(world, kind, points_of(kind))
     world.apply(Delete(name='a/1'))
     world.step(10)
     assert joints(world) == ()
@@ -36,7 +36,7 @@ def test_a_joint_goes_with_its_body(kind):
 
 def test_clearing_the_world_clears_its_joints():
     world = pair()
-    world.apply(joining('axle', [(0.4, 0.0)]))
+    join(world, 'axle', [(0.4, 0.0)])
     world.apply(DeleteAll())
     assert joints(world) == ()
 
@@ -44,7 +44,7 @@ def test_clearing_the_world_clears_its_joints():
 def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together():
     world = pair()
     for name in ('x/0', 'x/1', 'y/0'):
-        world.apply(joining('axle', [(0.4, 0.0)], name))
+        join(world, 'axle', [(0.4, 0.0)], name)
     world.apply(Unjoin(name='x/0'))
     assert [joint.name for joint in joints(world)] == ['x/1', 'y/0']
     world.apply(UnjoinAll(namespace='x'))
@@ -56,7 +56,7 @@ def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together():
 @pytest.mark.parametrize('kind', KINDS)
 def test_a_body_that_is_changed_in_place_keeps_its_joints(kind):
     world = pair()
-    world.apply(joining(kind, points_of(kind), **PROPERTIES.get(kind, {})))
+    join(world, kind, points_of(kind), **PROPERTIES.get(kind, {}))
     before = joints(world)
     spawn(world, 'a/1', DISC, (0.8, 0.0, -0.2), mass=3.0)
     assert joints(world) == before
@@ -67,7 +67,7 @@ def test_a_body_that_is_changed_in_place_keeps_its_joints(kind):
 @pytest.mark.parametrize('kind', KINDS)
 def test_a_joint_waits_while_both_its_bodies_are_anchored(kind):
     world = pair()
-    world.apply(joining(kind, points_of(kind)))
+    join(world, kind, points_of(kind))
     held = pose(world, 'a/0').tolist(), pose(world, 'a/1').tolist()
     world.apply(Anchor(point=(-0.3, 0.0)))
     world.apply(Anchor(point=(1.2, 0.0)))
@@ -83,7 +83,7 @@ def test_a_command_of_a_yaw_does_not_wind_a_joint_up():
     world = World()
     spawn(world, 'a/0', BOX, spin=20.0)
     spawn(world, 'a/1', BOX, (0.8, 0.0, 0.0))
-    world.apply(joining('pin', [(0.4, 0.0)]))
+    join(world, 'pin', [(0.4, 0.0)])
     world.step(480)
     x, y, yaw = pose(world, 'a/0').tolist()
     world.apply(Command(names=('a/0',), poses=((x, y, math.remainder(yaw, math.tau)),)))
@@ -96,7 +96,7 @@ def test_releasing_a_body_removes_the_pins_and_axles_there():
     world = pair()
     world.apply(Pin(point=(0.4, 0.0)))
     world.apply(Axle(point=(0.4, 0.0)))
-    world.apply(joining('axle', [(1.2, 0.0)], a='a/1', b='world'))
+    join(world, 'axle', [(1.2, 0.0)], a='a/1', b='world')
     world.apply(Release(point=(0.4, 0.0)))
     assert [joint.name for joint in joints(world)] == ['joint/0']
 
@@ -122,7 +122,7 @@ def test_what_is_asked_for_again_where_it_is_changes_nothing(kind):
 
 def test_a_joint_that_is_changed_keeps_what_is_not_said():
     world = pair()
-    world.apply(joining('spring', [(0.4, 0.0), (-0.3, 0.0)], stiffness=7.0, damping=1.0))
-    world.apply(joining('spring', [(0.4, 0.1), (-0.3, 0.0)], stiffness=9.0))
+    join(world, 'spring', [(0.4, 0.0), (-0.3, 0.0)], stiffness=7.0, damping=1.0)
+    join(world, 'spring', [(0.4, 0.1), (-0.3, 0.0)], stiffness=9.0)
     (joint,) = joints(world)
     assert (joint.properties.stiffness, joint.properties.damping) == (9.0, 1.0)

@@ -10,8 +10,8 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Unjoin
 import pytest
 
-from .jointed import joining, pair
-from ..building import BOX, spawn
+from .jointed import pair
+from ..building import BOX, join, spawn
 
 REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     'itself': ({'a': 'a/0', 'b': 'a/0'}, 'bad_property', 'b'),
@@ -53,7 +53,7 @@ def test_what_cannot_be_joined_is_refused_and_changes_nothing(said, code, field)
     before = world.digest()
     values = {'kind': 'axle', 'points': [(0.4, 0.0)]} | said
     with pytest.raises(Refusal) as caught:
-        world.apply(joining(values.pop('kind'), values.pop('points'), **values))
+        join(world, values.pop('kind'), values.pop('points'), **values)
     assert (caught.value.code, caught.value.field) == (code, field)
     assert world.digest() == before
 

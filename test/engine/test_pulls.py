@@ -11,8 +11,8 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
 import pytest
 
-from .jointed import joining, KINDS, PROPERTIES
-from ..building import BOX, spawn
+from .jointed import KINDS, PROPERTIES
+from ..building import BOX, join, spawn
 
 GRAVITY = np.array([3.0, -9.81])
 
@@ -23,7 +23,7 @@ def loaded(kind: JointKind) -> World:
     spawn(world, 'a/0', BOX, (0.0, 0.0, 0.3), anchored=True)
     spawn(world, 'a/1', BOX, (1.6, 0.2, -0.2))
     points = [(0.4, 0.0), (1.4, 0.0)][: kind.points]
-    world.apply(joining(kind, points, a='a/0', b='a/1', **PROPERTIES.get(kind, {})))
+    join(world, kind, points, a='a/0', b='a/1', **PROPERTIES.get(kind, {}))
     world.reports_contacts = True
     return world
 

@@ -4,6 +4,7 @@
 """Requests are checked as far as they alone can tell; the world does not see the others."""
 
 from dataclasses import fields, FrozenInstanceError
+import functools
 import itertools
 import math
 import re
@@ -13,7 +14,7 @@ import numpy as np
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import FARTHEST, FASTEST, HEAVIEST, LONGEST
-from physsim_ros.model.errors import BadProperty, Malformed, Refusal
+from physsim_ros.model.errors import BadProperty, Malformed, Refusal, UnknownProperty
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
@@ -185,6 +186,15 @@ def test_a_velocity_is_at_most_the_fastest_in_any_direction():
             Command(names=('a/0',), twists=(twist,))
 
 
+@pytest.mark.parametrize('velocity', [(math.nan, 0.0, 0.0), (0.0, math.inf, 0.0), (0.0, 1.0)])
+def test_a_command_of_a_robot_is_three_finite_numbers(velocity):
+    with pytest.raises(Malformed) as refused:
+        DriveRobot(name='a/0', velocity=velocity)
+    assert refused.value.field == 'velocity'
+    with pytest.raises(BadProperty):
+        DriveRobot(name='a/0', velocity=(1e6, 0.0, 0.0))
+
+
 def test_a_pose_of_a_spawn_is_finite_and_not_too_far():
     for pose in each_place(-FARTHEST):
         assert Spawn(name='a/0', shape=DISC, pose=pose).pose == pose
@@ -261,11 +271,20 @@ def test_a_command_does_not_change_with_the_arrays_that_it_was_made_of():
         command.poses[0] = 7.0
 
 
-def test_a_command_names_bodies_each_once():
+def test_bodies_are_named_each_once():
+    for names in ((), ('a/0', 'a/0')):
+        for make in (DeleteBodies, functools.partial(MoveBodies, by=(1, 0))):
+            with pytest.raises(Refusal):
+                make(names=names)
     for names in ((), ('a/0', 'a/0'), ('a/0', 'b/0', 'a/0')):
         with pytest.raises(Malformed) as refused:
             Command(names=names)
         assert refused.value.field == 'joint_names'
+
+
+def test_a_property_that_there_is_not_cannot_be_unset():
+    with pytest.raises(UnknownProperty, match="nearest is 'friction'"):
+        ChangeBody(name='a/0', unset=('frictoin',))
 
 
 def test_a_change_of_settings_names_settings():

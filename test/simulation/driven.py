@@ -3,12 +3,14 @@
 
 """A simulation that tests drive by the time of a wall clock, and compare with what it showed."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from physsim_ros.files import load_world, save_world
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import Request, Spawn
+from physsim_ros.model.requests import ChangeBody, Request, Restore, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.model.snapshot import Answer, Frame
@@ -17,7 +19,7 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import spawning
+from ..building import BOX, spawning
 
 # Steps in a frame.
 FRAME = 4
@@ -68,6 +70,13 @@ class Driven:
         np.testing.assert_array_equal(frame.snapshot.forces, before.forces)
 
 
+def dropped(name: str = 'a/0', height: float = 5.0, **options: float) -> Driven:
+    """Return a world in which a box is about to fall from a height [m]."""
+    driven = Driven(**options)
+    driven.ask(spawning(name, BOX, (0.0, height, 0.0)))
+    return driven
+
+
 def told(frames: list[Frame], topic: str) -> list[Answer]:
     return [answer for frame in frames for answer in frame.answers if answer.topic == topic]
 
@@ -106,6 +115,30 @@ def body_request(name: str, x: float = 0.0, shape: Shape | None = None, **said: 
 def put(world: World, name: str, x: float = 0.0, **said: Any) -> None:
     """Spawn a body of `body_request`."""
     world.apply(body_request(name, x, **said))
+
+
+def changing(name: str, **said: Any) -> ChangeBody:
+    """Return the request for other properties of a body."""
+    return ChangeBody(name=name, properties=Properties(**said))
+
+
+def twins(world: World, folder: Path) -> tuple[World, World]:
+    """Return a world that begins with the state of another, and one that begins with its file."""
+    path = save_world(world.save(), 'saved', world_dir=folder, physics_rate=world.physics_rate)
+    one, other = seen_from_above(), seen_from_above()
+    one.apply(Restore(state=world.save()))
+    other.apply(Restore(state=load_world(path, physics_rate=world.physics_rate)))
+    return one, other
+
+
+def refusal_of_file(folder: Path, *bodies: str) -> Refusal:
+    """Return the refusal of a world file with bodies, one line each."""
+    path = folder / 'world.yaml'
+    path.write_text('\n  - '.join(('format: 1\nbodies:', *bodies)))
+    with pytest.raises(Refusal) as caught:
+        load_world(path)
+    assert caught.value.code == 'bad_world_file'
+    return caught.value
 
 
 def assert_refused(world: World, request: Request, refusal: type[Refusal], field: str) -> None:

@@ -15,7 +15,7 @@ from physsim_ros.simulation.past.node import Node
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 import pytest
 
-from .driven import Driven, FLOOR, FRAME, SECOND, told
+from .driven import Driven, dropped, FLOOR, FRAME, SECOND, told
 from ..building import BOX, DISC, spawning
 
 
@@ -50,8 +50,7 @@ IDLE: list[Callable[[Driven], object]] = [
 @pytest.mark.parametrize('idle', IDLE)
 @pytest.mark.parametrize('back', [False, True], ids=['now', 'past'])
 def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(idle, back):
-    driven = Driven()
-    driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
+    driven = dropped('a/0', 0.5)
     driven.simulation.reports_contacts = True
     driven.run(1.0, 2.0)
     if back:
@@ -70,8 +69,7 @@ def test_a_frame_without_a_step_tells_no_contacts_and_drops_none(idle, back):
 
 @pytest.mark.parametrize('steps', [(238, 240), (239, 240), (240, 240), (237, 239)])
 def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps):
-    driven = Driven()
-    driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
+    driven = dropped('a/0', 0.5)
     driven.simulation.reports_contacts = True
     driven.run(1.0, 2.0)
     impulses = []
@@ -86,8 +84,7 @@ def test_a_seek_from_within_a_frame_shows_all_its_contacts(steps):
 
 def test_reset_returns_to_what_was_loaded_longer_ago_than_is_kept():
     driven = Driven(history=5.0)
-    other = Driven()
-    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    other = dropped('b/0')
     driven.simulation.load(other.simulation.save())
     driven.run(4.0, 5.0)
     driven.simulation.reset()
@@ -95,8 +92,7 @@ def test_reset_returns_to_what_was_loaded_longer_ago_than_is_kept():
 
 
 def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest():
-    driven = Driven()
-    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven = dropped()
     driven.record(20.0)
     driven.simulation.seek(2 * SECOND)
     driven.simulation.limit_history(1.0)
@@ -112,8 +108,7 @@ def test_a_moment_that_is_kept_no_more_is_left_for_the_oldest():
 
 @pytest.mark.parametrize('history', [0.0, 1.0])
 def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history):
-    driven = Driven()
-    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven = dropped()
     driven.record(15.0)
     driven.simulation.seek(2 * SECOND)
     driven.simulation.reset()
@@ -125,8 +120,7 @@ def test_what_was_left_is_returned_to_as_far_as_it_is_kept(history):
 
 
 def test_contacts_come_again_that_nobody_asked_for_the_first_time():
-    driven = Driven()
-    driven.ask(spawning('a/0', BOX, (0.0, 0.5, 0.0)))
+    driven = dropped('a/0', 0.5)
     driven.run(1.0, 5.0)
     driven.simulation.reports_contacts = True
     for frame in driven.run(-1.0, 4.0)[1:]:
@@ -214,9 +208,8 @@ def test_saving_in_the_past_drops_nothing(driven):
         driven.assert_same(frame)
     elsewhere = Driven()
     elsewhere.simulation.begin(state)
-    np.testing.assert_array_equal(
-        elsewhere.simulation.world.snapshot().poses, driven.shown[step].snapshot.poses
-    )
+    poses = elsewhere.simulation.world.snapshot().poses
+    np.testing.assert_array_equal(poses, driven.shown[step].snapshot.poses)
 
 
 @pytest.mark.parametrize('speeds', [(1.0,), (0.3,), (4.0,), (0.3, 1.0)])
@@ -233,8 +226,7 @@ def test_checkpoints_come_at_the_same_steps_however_the_steps_were_made(speeds):
 
 
 def test_redo_that_the_history_is_too_short_for_says_so():
-    driven = Driven()
-    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven = dropped()
     driven.run(1.0, 1.0)
     driven.ask(spawning('b/0', BOX, (3.0, 5.0, 0.0)))
     driven.run(1.0, 4.0)
@@ -246,10 +238,8 @@ def test_redo_that_the_history_is_too_short_for_says_so():
     assert driven.simulation.step == oldest > 360
     time = f'{oldest / 240:.3f} s'
     assert message.endswith(time)
-    assert (
-        told([driven.apply_requests()], 'history')[0].message
-        == f'{time} is the oldest that is kept'
-    )
+    (answer,) = told([driven.apply_requests()], 'history')
+    assert answer.message == f'{time} is the oldest that is kept'
 
 
 # Requests at checkpoints
@@ -323,8 +313,7 @@ def test_reset_goes_to_what_was_loaded_since():
     driven = Driven()
     driven.simulation.reset()
     driven.record(0.2)
-    other = Driven()
-    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    other = dropped('b/0')
     driven.simulation.load(other.simulation.save())
     driven.record(0.2)
     driven.simulation.seek(0)

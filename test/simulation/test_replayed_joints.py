@@ -4,12 +4,11 @@
 """Joints in replay: removed, broken, and loaded again."""
 
 from physsim_ros.files import load_world, save_world
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Anchor, Join, Pin, Release, Unjoin, UnjoinAll
+from physsim_ros.model.requests import Anchor, Pin, Release, Unjoin, UnjoinAll
 import pytest
 
-from .driven import Driven, FLOOR, SECOND, told
-from ..building import BOX, spawning
+from .driven import dropped, FLOOR, SECOND, told
+from ..building import joining
 
 
 @pytest.mark.parametrize(
@@ -18,9 +17,8 @@ from ..building import BOX, spawning
     ids=['unjoin', 'unjoin all', 'release'],
 )
 def test_a_joint_that_is_taken_out_is_part_of_history(request_):
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(Join(name='joint/0', kind=JointKind.PIN, points=((0.0, 5.0),), a='b/0', b='world'))
+    driven = dropped('b/0')
+    driven.ask(joining('pin', ((0.0, 5.0),), a='b/0', b='world'))
     driven.record(1.0)
     hung = driven.simulation.world.snapshot().poses
     driven.ask(request_)
@@ -36,8 +34,7 @@ def test_a_joint_that_is_taken_out_is_part_of_history(request_):
 
 
 def test_a_joint_taken_out_in_the_past_begins_a_branch():
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven = dropped('b/0')
     driven.ask(Pin(point=(0.0, 5.0)))
     driven.record(2.0)
     driven.simulation.seek(SECOND)
@@ -49,18 +46,10 @@ def test_a_joint_taken_out_in_the_past_begins_a_branch():
 
 
 def test_a_joint_that_broke_is_told_of_once():
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(
-        Join(
-            name='joint/0',
-            kind=JointKind.SPRING,
-            points=((0.0, 5.0), (0.0, 8.0)),
-            a='b/0',
-            b='world',
-            properties=JointProperties(stiffness=20.0, break_force=5.0),
-        )
-    )
+    driven = dropped('b/0')
+    points = ((0.0, 5.0), (0.0, 8.0))
+    weak = {'stiffness': 20.0, 'break_force': 5.0}
+    driven.ask(joining('spring', points, a='b/0', b='world', **weak))
     frames = driven.run(1.0, 2.0)
     assert len(told(frames, 'joint_broken')) == 1
     driven.simulation.seek(0)
@@ -71,8 +60,7 @@ def test_a_joint_that_broke_is_told_of_once():
 
 
 def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path):
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    driven = dropped('b/0')
     driven.ask(Pin(point=(0.0, 5.0)))
     driven.ask(Anchor(point=(0.0, 5.0)))
     driven.apply_requests()

@@ -9,7 +9,7 @@ from physsim_ros.model.requests import Configure, Delete, DeleteAll
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .driven import Driven, FRAME, SECOND, told
+from .driven import Driven, dropped, FRAME, SECOND, told
 from ..building import BOX, spawning
 
 
@@ -147,8 +147,7 @@ def test_resets_are_undone_and_redone_one_by_one(driven):
 
 
 def test_an_undone_load_is_not_what_reset_returns_to(driven):
-    other = Driven()
-    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    other = dropped('b/0')
     driven.simulation.load(other.simulation.save())
     driven.simulation.undo()
     driven.simulation.reset()
@@ -193,8 +192,7 @@ def test_a_world_that_was_loaded_while_time_ran_is_undone(driven):
 
 
 def test_older_steps_than_are_kept_are_dropped():
-    driven = Driven(history=3.0)
-    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+    driven = dropped(history=3.0)
     driven.record(10.0)
     history = driven.simulation.past.tree
     assert history.head - history.oldest == 3 * 240
