@@ -8,13 +8,12 @@ import tracemalloc
 
 import numpy as np
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import G, MESH, net, spawn, swing
+from ..building import G, join, MESH, net, spawn, swing
 
 
 def stretched(world: World) -> float:
@@ -52,7 +51,7 @@ def wheel(spokes: int) -> World:
     """Return a hub with so many bars welded to it, and as many that hang from these."""
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     spawn(world, 'hub/0', Disc(radius=1.0), mass=1000.0, spin=1.0, group=1)
-    for ring, kind in enumerate((JointKind.PIN, JointKind.AXLE)):
+    for ring, kind in enumerate(('pin', 'axle')):
         for number in range(spokes):
             angle = math.tau * number / spokes
             x, y = math.cos(angle), math.sin(angle)
@@ -60,9 +59,8 @@ def wheel(spokes: int) -> World:
             bar = Box(width=1.0, height=0.01)
             spawn(world, f'bar{ring}/{number}', bar, (far * x, far * y, angle), group=1)
             inner = f'bar{ring - 1}/{number}' if ring else 'hub/0'
-            at = (((far - 0.5) * x, (far - 0.5) * y),)
-            name, outer = f'joint{ring}/{number}', f'bar{ring}/{number}'
-            world.apply(Join(name=name, kind=kind, points=at, a=outer, b=inner))
+            name, at = f'joint{ring}/{number}', ((far - 0.5) * x, (far - 0.5) * y)
+            join(world, kind, [at], name, a=f'bar{ring}/{number}', b=inner)
     return world
 
 
@@ -100,7 +98,7 @@ def test_a_thousand_joints_of_one_body_are_linear_in_memory():
     spawn(world, 'hub/0', Disc(radius=1.0), (0.0, 0.0, 0.0))
     for number in range(1000):
         at = (0.9 * math.cos(number), 0.9 * math.sin(number))
-        world.apply(Join(name=f'axle/{number}', kind=JointKind.AXLE, points=(at,), a='hub/0'))
+        join(world, 'axle', [at], f'axle/{number}', a='hub/0')
 
     tracemalloc.start()
     world.step(24)

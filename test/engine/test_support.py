@@ -7,12 +7,10 @@ from functools import partial
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Command,
     Configure,
     Delete,
-    Join,
     Pin,
     Release,
     Request,
@@ -24,18 +22,17 @@ from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import BOX, G, pose, spawn, stack, twist
+from ..building import BOX, G, join, pose, spawn, stack, twist
 
 
 def hung(world: World) -> Request:
-    world.apply(Join(name='rod/0', kind=JointKind.ROD, points=((0.0, 50.0), (0.0, 53.0)), a='r/0'))
-    return Unjoin(name='rod/0')
+    join(world, 'rod', [(0.0, 50.0), (0.0, 53.0)], a='r/0')
+    return Unjoin(name='joint/0')
 
 
 def sprung(world: World) -> Request:
-    points = (0.0, 50.0), (0.0, 53.0)
-    world.apply(Join(name='spring/0', kind=JointKind.SPRING, points=points, a='r/0'))
-    return Unjoin(name='spring/0')
+    join(world, 'spring', [(0.0, 50.0), (0.0, 53.0)], a='r/0')
+    return Unjoin(name='joint/0')
 
 
 def pinned(world: World) -> Request:

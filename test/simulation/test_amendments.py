@@ -3,11 +3,8 @@
 
 """Requests of the past are replaced or taken back, as if they had never been; time stays."""
 
-from dataclasses import replace
-
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Axle, Configure, Delete, Join, MoveBodies, Request
+from physsim_ros.model.requests import Axle, Configure, Delete, MoveBodies, Request
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.past import amendment
 from physsim_ros.simulation.past.cursor import Cursor
@@ -16,7 +13,7 @@ from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .driven import take_back, world_after
-from ..building import BOX, DISC, spawning
+from ..building import BOX, DISC, joining, spawning
 
 LEFT, RIGHT = (-3.0, 5.0, 0.0), (3.0, 5.0, 0.0)
 
@@ -111,6 +108,7 @@ def test_gestures_that_changed_nothing_are_amended_by_what_is_made_now():
 
 # Taking back
 
+ROD = joining('rod', [(-3.0, 4.0), (0.0, 9.0)], a='a/0')
 ANNA, BEN = (2, 'Anna', spawning('a/0', DISC, LEFT)), (20, 'Ben', spawning('b/0', BOX, RIGHT))
 
 
@@ -135,13 +133,7 @@ def test_redo_brings_it_back():
     assert simulation.world.digest() == before
 
 
-@pytest.mark.parametrize(
-    'use',
-    [
-        MoveBodies(names=('a/0',), by=(0.0, 1.0)),
-        Join(name='j/0', kind=JointKind.ROD, points=((-3.0, 4.0), (0.0, 9.0)), a='a/0'),
-    ],
-)
+@pytest.mark.parametrize('use', [MoveBodies(names=('a/0',), by=(0.0, 1.0)), ROD])
 def test_what_others_have_used_since_is_not_taken_back(use):
     simulation = world_after(ANNA, BEN, (30, 'Ben', use))
     before = simulation.world.digest()
@@ -210,10 +202,9 @@ def test_a_later_moment_of_a_gesture_leaves_the_gestures_between_alone():
 
 
 def test_what_a_person_has_added_and_is_still_there_is_told():
-    rod = Join(name='j/0', kind=JointKind.ROD, points=((-3.0, 4.0), (0.0, 9.0)), a='a/0')
-    simulation = world_after(ANNA, BEN, (30, 'Anna', rod))
+    simulation = world_after(ANNA, BEN, (30, 'Anna', ROD))
 
-    assert simulation.past.added_by('Anna') == (('a/0',), ('j/0',))
+    assert simulation.past.added_by('Anna') == (('a/0',), ('joint/0',))
     assert simulation.past.added_by('Ben') == (('b/0',), ())
     assert simulation.past.added_by('Cleo') == ((), ())
 
@@ -231,23 +222,19 @@ def test_what_a_person_added_is_what_was_added_last_by_them():
 
 
 def test_what_others_change_in_place_stays_theirs_who_added_it():
-    spring = Join(
-        name='j/0', kind=JointKind.SPRING, points=(LEFT[:2], (0.0, 9.0)), a='a/0', b='world'
-    )
-    stiffer = replace(spring, properties=JointProperties(stiffness=50.0))
+    line = [LEFT[:2], (0.0, 9.0)]
+    spring = joining('spring', line, a='a/0', b='world')
+    stiffer = joining('spring', line, a='a/0', b='world', stiffness=50.0)
     simulation = world_after(
         ANNA, (25, 'Anna', spring), (30, 'Ben', stiffer), (31, 'Ben', spawning('a/0', BOX, LEFT))
     )
 
-    assert simulation.past.added_by('Anna') == (('a/0',), ('j/0',))
+    assert simulation.past.added_by('Anna') == (('a/0',), ('joint/0',))
     assert simulation.past.added_by('Ben') == ((), ())
 
 
 def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back():
-    weak = JointProperties(break_force=1.0)
-    hung = Join(
-        name='j/0', kind=JointKind.PIN, points=(RIGHT[:2],), a='b/0', b='world', properties=weak
-    )
+    hung = joining('pin', [RIGHT[:2]], a='b/0', b='world', break_force=1.0)
     move = (5, 'Ben', MoveBodies(names=('a/0',), by=(0.0, 1.0)))
     simulation = world_after(ANNA, move, BEN, (20, 'Ben', hung))
     assert not simulation.world.scene.joints

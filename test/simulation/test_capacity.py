@@ -11,7 +11,6 @@ import numpy as np
 from physsim_ros.engine.overlaps import count_inside, count_overlaps, laid_out
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import WorldFull
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     ChangeBody,
@@ -19,7 +18,6 @@ from physsim_ros.model.requests import (
     Configure,
     Delete,
     DeleteAll,
-    Join,
     MoveBodies,
     Release,
     Request,
@@ -34,7 +32,7 @@ from physsim_ros.simulation.world import capacity, World
 import pytest
 from tools.adversary.scenes import crossing_rods, one_pose, sphere_lists
 
-from ..building import BOX, DISC, ELL, spawn, stack, TRIANGLE
+from ..building import BOX, DISC, ELL, joining, spawn, stack, TRIANGLE
 
 # Of 5 bodies in one place 10 pairs overlap.
 FEW = WorldSettings(max_overlaps=10, gravity=(0.0, 0.0))
@@ -235,7 +233,7 @@ def test_cores_of_one_piece_and_of_many_are_alike():
 def axles(count: int) -> list[Request]:
     """Return requests for axles of one body."""
     return [
-        Join(name=f'axle/{number}', kind=JointKind.AXLE, points=((0.0, 0.1 * number),), a='a/0')
+        joining('axle', [(0.0, 0.1 * number)], f'axle/{number}', a='a/0')
         for number in range(count)
     ]
 

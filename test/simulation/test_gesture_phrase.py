@@ -3,7 +3,6 @@
 
 """Undo and redo name a gesture by a verb and its object."""
 
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Axle,
     ChangeBody,
@@ -13,7 +12,6 @@ from physsim_ros.model.requests import (
     DeleteAll,
     DeleteBodies,
     Grab,
-    Join,
     MoveBodies,
     Pin,
     Restore,
@@ -23,7 +21,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from ..building import BOX, DISC, spawning
+from ..building import BOX, DISC, joining, spawning
 
 
 @pytest.fixture
@@ -32,9 +30,8 @@ def sim() -> Simulation:
     sim = Simulation(speed=0.0)
     for number in range(2):
         sim.perform(spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0)))
-    rod = {'kind': JointKind.ROD, 'points': ((0.0, 0.0), (2.0, 0.0)), 'a': 'a/0', 'b': 'a/1'}
-    for number in range(2):
-        sim.perform(Join(name=f'j/{number}', **rod))
+    for name in ('j/0', 'j/1'):
+        sim.perform(joining('rod', [(0.0, 0.0), (2.0, 0.0)], name, a='a/0', b='a/1'))
     return sim
 
 

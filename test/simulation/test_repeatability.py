@@ -21,7 +21,6 @@ from physsim_ros.model.errors import (
     UnknownFrame,
     WorldFull,
 )
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     ChangeBody,
@@ -30,7 +29,6 @@ from physsim_ros.model.requests import (
     Delete,
     DeleteAll,
     DeleteBodies,
-    Join,
     MoveBodies,
     Release,
     Request,
@@ -43,7 +41,20 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import body_at, BOX, DISC, ELL, names, pose, RED, SHAPES, spawn, spawning, stack
+from ..building import (
+    body_at,
+    BOX,
+    DISC,
+    ELL,
+    join,
+    names,
+    pose,
+    RED,
+    SHAPES,
+    spawn,
+    spawning,
+    stack,
+)
 
 # The same requests, the same bits
 
@@ -66,12 +77,11 @@ def busy_world() -> World:
     for number in range(6):
         place = (1.5 * number, 25.0, 0.0)
         spawn(world, f'hung/{number}', BOX, place, lifetime=0.3)
-        world.apply(Join(name=f'pin/{number}', kind=JointKind.PIN, points=(place[:2],)))
+        join(world, 'pin', [place[:2]], f'pin/{number}')
     ends = ['world', *(f'link/{number}' for number in range(6))]
     for number, (b, a) in enumerate(pairwise(ends)):
         spawn(world, a, DISC, (number - 10.0, 25.0, 0.0))
-        points = ((number - 10.5, 25.0),)
-        world.apply(Join(name=f'axle/{number}', kind=JointKind.AXLE, points=points, a=a, b=b))
+        join(world, 'axle', [(number - 10.5, 25.0)], f'axle/{number}', a=a, b=b)
     # In another order than they were spawned.
     world.apply(Command(names=('mix/3', 'mix/1'), wrenches=((3.0, 1.0, 0.5), (-2.0, 0.0, 0.0))))
     return world

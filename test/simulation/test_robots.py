@@ -5,8 +5,7 @@
 
 import numpy as np
 from physsim_ros.model.errors import BadProperty, Exists, UnknownBody
-from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Anchor, ChangeBody, Delete, DriveRobot, Join
+from physsim_ros.model.requests import Anchor, ChangeBody, Delete, DriveRobot
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
@@ -21,6 +20,7 @@ from .driven import (
     seen_from_above,
     twins,
 )
+from ..building import joining
 
 DRIVE = {'kind': 'differential', 'timeout': 0.5}
 SLIPPING = {'drive': DRIVE, 'odometry': {'slip': [0.02, 0.03]}}
@@ -41,12 +41,10 @@ def test_a_robot_is_not_anchored_by_a_click_and_has_no_joints():
     put(world, 'a/0', robot={'drive': DRIVE})
     assert_refused(world, Anchor(point=(0.0, 0.0)), BadProperty, 'point')
     put(world, 'b/0', x=1.0)
-    points = ((0.0, 0.0), (1.0, 0.0))
-    join = Join(name='rod/0', kind=JointKind.ROD, a='a/0', b='b/0', points=points)
-    assert_refused(world, join, BadProperty, 'a')
+    rod = joining('rod', [(0.0, 0.0), (1.0, 0.0)], a='a/0', b='b/0')
+    assert_refused(world, rod, BadProperty, 'a')
     put(world, 'c/0', x=2.0)
-    points = ((1.0, 0.0), (2.0, 0.0))
-    world.apply(Join(name='rod/0', kind=JointKind.ROD, a='b/0', b='c/0', points=points))
+    world.apply(joining('rod', [(1.0, 0.0), (2.0, 0.0)], a='b/0', b='c/0'))
 
     assert_refused(world, changing('b/0', robot={'drive': DRIVE}), BadProperty, 'robot')
 

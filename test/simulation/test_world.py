@@ -9,7 +9,6 @@ import numpy as np
 from physsim_ros.model import requests
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import UnknownBody, UnknownJoint, WorldFull
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     AtPoint,
     Command,
@@ -18,7 +17,6 @@ from physsim_ros.model.requests import (
     DeleteAll,
     DeleteBodies,
     HandRequest,
-    Join,
     OfNamespace,
     Request,
 )
@@ -35,6 +33,7 @@ from ..building import (
     BOX,
     DISC,
     ELL,
+    join,
     names,
     pose,
     RED,
@@ -154,8 +153,7 @@ def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world):
 def test_bodies_and_joints_are_deleted_together_or_not_at_all(world):
     for number in range(3):
         spawn(world, f'a/{number}', DISC, (3.0 * number, 0.0, 0.0))
-        point = (3.0 * number, 0.0)
-        world.apply(Join(name=f'j/{number}', kind=JointKind.PIN, points=(point,), b='world'))
+        join(world, 'pin', [(3.0 * number, 0.0)], f'j/{number}', b='world')
 
     with pytest.raises(UnknownJoint) as refused:
         world.apply(DeleteBodies(names=('a/0',), joints=('j/1', 'j/9')))

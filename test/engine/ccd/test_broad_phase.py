@@ -9,14 +9,12 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.engine import broad_phase
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import spawn
+from ...building import join, spawn
 
 
 @pytest.mark.parametrize('seed', range(5))
@@ -89,16 +87,8 @@ def test_a_group_whose_bodies_pass_through_each_other_is_not_swept(group, meets)
 def test_what_a_joint_keeps_from_colliding_is_not_swept(collide):
     world = heap()
     for number, (a, b) in enumerate(itertools.combinations(range(20), 2)):
-        world.apply(
-            Join(
-                name=f'joint/{number}',
-                kind=JointKind.SPRING,
-                points=((0.01 * a, 0.0), (0.01 * b, 0.0)),
-                a=f'body/{a}',
-                b=f'body/{b}',
-                properties=JointProperties(collide=collide, stiffness=1.0),
-            )
-        )
+        points, said = [(0.01 * a, 0.0), (0.01 * b, 0.0)], {'collide': collide, 'stiffness': 1.0}
+        join(world, 'spring', points, f'joint/{number}', a=f'body/{a}', b=f'body/{b}', **said)
     world.step(1)
     assert bool(swept(world)) is collide
 

@@ -8,15 +8,14 @@ import math
 import random
 
 import numpy as np
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Join, Request
+from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import BOX, command, DISC, G, pose, spawn, spawning, stack, twist
+from ...building import BOX, command, DISC, G, join, pose, spawn, spawning, stack, twist
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 SECOND = 1_000_000_000
@@ -64,15 +63,7 @@ def test_a_ball_that_rolls_at_a_centimetre_a_second_rolls_on():
 def test_a_pendulum_does_not_sleep_where_it_turns_round():
     world = World(settings=WorldSettings())
     spawn(world, 'bob/0', DISC, (0.02, -2.0, 0.0))
-    seat = Join(
-        name='axle/0',
-        kind=JointKind.AXLE,
-        points=((0.0, 0.0),),
-        a='bob/0',
-        b='world',
-        properties=JointProperties(),
-    )
-    world.apply(seat)
+    join(world, 'axle', [(0.0, 0.0)], a='bob/0', b='world')
     reached = []
     for _ in range(40):
         world.step(60)
@@ -85,17 +76,8 @@ def test_a_pendulum_does_not_sleep_where_it_turns_round():
 def on_spring(mass: float, stiffness: float, stretch: float, damping: float) -> World:
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     spawn(world, 'bob/0', DISC, mass=mass)
-    properties = JointProperties(stiffness=stiffness, rest_length=2.0 - stretch, damping=damping)
-    world.apply(
-        Join(
-            name='spring/0',
-            kind=JointKind.SPRING,
-            points=((0.0, 0.0), (0.0, 2.0)),
-            a='bob/0',
-            b='world',
-            properties=properties,
-        )
-    )
+    said = {'stiffness': stiffness, 'rest_length': 2.0 - stretch, 'damping': damping}
+    join(world, 'spring', [(0.0, 0.0), (0.0, 2.0)], a='bob/0', b='world', **said)
     return world
 
 
