@@ -4,11 +4,13 @@
 """Rewinding: frames as they were shown, and steps that are simulated again in time for them."""
 
 import numpy as np
+from physsim_ros.model.requests import Command
+from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.simulation import CHECKPOINTS
 from physsim_ros.simulation.world import World
 import pytest
 
-from .driven import Driven, FRAME, SECOND, told
+from .driven import Driven, dropped, FRAME, SECOND, told
 from ..building import spawning
 
 
@@ -116,3 +118,51 @@ def test_at_the_oldest_step_time_stops_and_says_so(driven):
     assert len(told(again, 'history')) == 1
     assert not any(frame.moved for frame in again)
     assert driven.run(0.0, 0.5) == []
+
+
+# Contacts
+
+
+def test_contacts_of_the_past_are_those_shown_where_a_request_woke_bodies():
+    driven, shown = Driven(), {}
+    driven.simulation.reports_contacts = True
+    for number in range(6):
+        box, pose = Box(width=0.5, height=0.5), (number * 0.5 - 3.0, 0.25, 0.0)
+        driven.ask(spawning(f'box/{number}', box, pose))
+    driven.ask(spawning('ball/0', Disc(radius=0.3), (3.0, 2.0, 0.0)))
+
+    def compare(speed, seconds):
+        for frame in driven.run(speed, seconds):
+            columns = frame.contacts.pairs, frame.contacts.points, frame.contacts.normals
+            rows = sorted(map(tuple, np.column_stack(columns).round(6).tolist()))
+            if frame.moved:
+                assert shown.setdefault(frame.snapshot.step, rows) == rows
+
+    # The row is asleep, and the request wakes it.
+    compare(1.0, 2.5)
+    driven.ask(Command(names=('box/2',), twists=((0.0, 0.5, 0.0),)))
+    driven.apply_requests()
+    compare(1.0, 1.0)
+    # Nothing that was shown is kept: the past is simulated again.
+    driven.simulation.past.frames.drop_from(0)
+    compare(-1.0, 3.4)
+    assert driven.simulation.step < 40
+
+
+@pytest.mark.parametrize('names', [('speed', 'reports_contacts'), ('reports_contacts', 'speed')])
+def test_a_paused_world_has_the_contacts_of_its_last_steps_once_they_are_reported(names):
+    simulation = dropped(height=0.5).simulation
+    for _ in range(60):
+        assert simulation.advance_frame().contacts is None
+    step, digest = simulation.step, simulation.world.digest()
+
+    for name in names:
+        setattr(simulation, name, {'speed': 0.0, 'reports_contacts': True}[name])
+        frame = simulation.apply_requests()
+
+    assert frame.contacts.steps == simulation.frame_steps
+    assert len(frame.contacts.pairs) == 1
+    assert not frame.moved
+    assert (simulation.step, simulation.world.digest()) == (step, digest)
+    simulation.reports_contacts = False
+    assert simulation.apply_requests() is None

@@ -7,15 +7,7 @@ import math
 
 import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, NothingThere, UnknownBody
-from physsim_ros.model.requests import (
-    Anchor,
-    Command,
-    Configure,
-    Delete,
-    DeleteAll,
-    DriveRobot,
-    join_from,
-)
+from physsim_ros.model.requests import Anchor, Command, Configure, Delete, DeleteAll, DriveRobot
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Polygon
 from physsim_ros.model.snapshot import Answer, Frame
@@ -23,7 +15,7 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import BOX, DISC, NOWHERE, spawn, spawning
+from ..building import BOX, DISC, joining, NOWHERE, spawn, spawning
 
 SECOND = 1_000_000_000
 PERIOD = SECOND / 60
@@ -90,11 +82,13 @@ def test_requests_are_answered_in_order_and_one_each():
     sim = simulation()
     sim.requests.submit(spawning('a/0'), topic='~/spawn')
     sim.requests.submit(Delete(name='a/1'), topic='~/spawn')
+    sim.requests.refuse(Malformed('no number', field='pose'), topic='~/spawn', subject='a/1')
     sim.requests.submit(spawning('a/1', DISC, (5.0, 0.0, 0.0)), topic='~/spawn_array')
     sim.requests.submit(Command(names=('a/1',), twists=((1.0, 0.0, 0.0),)), topic='~/command')
     sim.requests.submit(Anchor(point=(9.0, 9.0)), topic='~/anchor')
     sim.requests.submit(Anchor(point=(0.0, 0.0)), topic='~/anchor')
     sim.requests.submit(DeleteAll(namespace='b'), topic='~/spawn')
+    assert len(sim.world) == 0
 
     frames = periods(sim, 3)
 
@@ -106,6 +100,10 @@ def test_requests_are_answered_in_order_and_one_each():
             message="there is no body 'a/1'; nearest is 'a/0'",
             code='unknown_body',
             field='name',
+        ),
+        # What could not be a request has its answer in its place.
+        Answer(
+            topic='~/spawn', subject='a/1', message='no number', code='malformed', field='pose'
         ),
         Answer(topic='~/spawn_array', subject='a/1', message='spawned a/1'),
         Answer(topic='~/command', subject='a/1', message='set velocity of a/1'),
@@ -119,17 +117,6 @@ def test_requests_are_answered_in_order_and_one_each():
         Answer(topic='~/spawn', message='deleted 0 bodies'),
     ]
     assert frames[0].answers == tuple(answers(frames))
-
-
-def test_what_could_not_be_a_request_is_answered_in_its_place():
-    sim = simulation()
-    sim.requests.submit(spawning('a/0'), topic='~/spawn')
-    sim.requests.refuse(Malformed('no number', field='pose'), topic='~/spawn', subject='a/1')
-    sim.requests.submit(spawning('a/2'), topic='~/spawn')
-
-    told = [(answer.subject, answer.code) for answer in answers(periods(sim, 1))]
-
-    assert told == [('a/0', ''), ('a/1', 'malformed'), ('a/2', '')]
 
 
 @pytest.mark.parametrize(
@@ -148,24 +135,6 @@ def test_a_refusal_names_the_body_that_it_is_about(request_, subject):
     assert answer.code
 
 
-def test_nothing_moves_before_the_next_frame():
-    sim = simulation()
-    sim.requests.submit(spawning('a/0'), topic='~/spawn')
-
-    assert len(sim.world) == 0
-    periods(sim, 1)
-    assert len(sim.world) == 1
-
-
-def test_the_first_frame_shows_the_beginning():
-    sim = simulation()
-
-    (frame,) = sim.advance(0)
-
-    assert (frame.moved, frame.speed, frame.answers) == (False, 1.0, ())
-    assert (frame.snapshot.step, frame.snapshot.stamp) == (0, 0)
-
-
 def test_frames_come_at_multiples_of_the_publish_period():
     sim = simulation()
 
@@ -173,7 +142,8 @@ def test_frames_come_at_multiples_of_the_publish_period():
 
     assert [frame.snapshot.step for frame in frames] == list(range(0, 241, FRAME))
     assert [frame.moved for frame in frames] == [False, *[True] * 60]
-    assert frames[-1].snapshot.stamp == SECOND
+    assert (frames[0].snapshot.stamp, frames[-1].snapshot.stamp) == (0, SECOND)
+    assert (frames[0].speed, answers(frames)) == (1.0, [])
 
 
 def test_a_paused_world_carries_out_requests_and_shows_them():
@@ -182,22 +152,16 @@ def test_a_paused_world_carries_out_requests_and_shows_them():
     assert periods(sim, 60, since=1) == []
 
     sim.requests.submit(spawning('a/0', DISC, velocity=(1.0, 0.0)), topic='~/spawn')
+    sim.requests.submit(Delete(name='a/9'), topic='~/spawn')
     (frame,) = periods(sim, 60, since=61)
 
     assert (frame.moved, frame.speed) == (False, 0.0)
     assert frame.snapshot.step == 0
     assert frame.snapshot.scene.names == ('a/0',)
-    assert [answer.message for answer in frame.answers] == ['spawned a/0']
-
-
-def test_a_refused_request_is_answered_while_paused():
-    sim = simulation(speed=0.0)
-    periods(sim, 1)
-
-    sim.requests.submit(Delete(name='a/0'), topic='~/spawn')
-
-    (frame,) = periods(sim, 5, since=1)
-    assert [answer.code for answer in frame.answers] == ['unknown_body']
+    assert [answer.code for answer in frame.answers] == ['', 'unknown_body']
+    sim.perform(Delete(name='a/0'))
+    (frame,) = periods(sim, 2, since=121)
+    assert (frame.moved, frame.snapshot.scene.names) == (False, ())
 
 
 def test_play_and_pause_go_on_where_they_were():
@@ -215,8 +179,9 @@ def test_play_and_pause_go_on_where_they_were():
     assert sim.playback.clock.late_frames == 0
 
 
-def test_two_frames_a_call_make_up_for_a_hiccup():
+def test_two_frames_a_call_make_up_for_a_hiccup_and_more_are_counted_as_late():
     sim = simulation()
+    sim.requests.submit(spawning('a/0'), topic='~/spawn')
     sim.advance(0)
 
     frames = [sim.advance(round(number * PERIOD)) for number in (4, 5, 6, 7, 8)]
@@ -225,27 +190,12 @@ def test_two_frames_a_call_make_up_for_a_hiccup():
     steps = [frame.snapshot.step for each in frames for frame in each]
     assert steps == list(range(FRAME, 8 * FRAME + 1, FRAME))
     assert sim.playback.clock.late_frames == 0
+    # Answers are told once, with the first frame.
+    assert not any(frame.answers for each in frames for frame in each)
 
-
-def test_late_frames_are_counted_and_no_step_is_skipped():
-    sim = simulation()
-    sim.advance(0)
-
-    frames = [*sim.advance(round(100.2 * PERIOD)), *sim.advance(round(101.2 * PERIOD))]
-
-    assert [frame.snapshot.step for frame in frames] == [FRAME, 2 * FRAME]
+    frames = [*sim.advance(round(108.2 * PERIOD)), *sim.advance(round(109.2 * PERIOD))]
+    assert [frame.snapshot.step for frame in frames] == [9 * FRAME, 10 * FRAME]
     assert sim.playback.clock.late_frames == 99
-
-
-def test_an_answer_is_told_once():
-    sim = simulation()
-    sim.requests.submit(spawning('a/0'), topic='~/spawn')
-    sim.advance(0)
-
-    frames = sim.advance(round(3 * PERIOD))
-
-    assert len(frames) == 2
-    assert answers(list(frames)) == []
 
 
 def test_advance_frame_goes_on_by_a_period_whatever_the_speed():
@@ -320,17 +270,6 @@ def test_what_is_of_another_type_is_refused_and_changes_nothing(wrong):
             Simulation(settings=wrong)
 
     assert sim.world.digest() == before
-
-
-def test_what_was_performed_while_paused_is_shown():
-    sim = simulation(speed=0.0)
-    sim.advance(0)
-
-    sim.perform(spawning('a/0'))
-
-    (frame,) = sim.advance(SECOND)
-    assert frame.snapshot.scene.names == ('a/0',)
-    assert not frame.moved
 
 
 def saved(settings: WorldSettings) -> World:
@@ -460,13 +399,10 @@ def test_a_machine_of_extreme_sizes_stays_within_the_range_of_numbers():
         spawning('a/2', Box(width=1e-3, height=0.1), (-1.0, -1e7, 0.0), mass=1e-3),
     ):
         sim.requests.submit(spawned, topic='~/spawn')
-    pin, slider = {'kind': 'pin', 'a': 'a/0', 'b': 'a/2'}, {'kind': 'slider', 'a': 'a/0'}
-    for name, said, points in (
-        ('j/0', pin, ((-2.0, 1e7),)),
-        ('j/1', slider, ((0.0, 1e7), (0.001, 1e7))),
-    ):
-        request = join_from(said, name=name, points=points, frame='')
-        sim.requests.submit(request, topic='~/join')
+    pin = joining('pin', [(-2.0, 1e7)], 'j/0', a='a/0', b='a/2')
+    slider = joining('slider', [(0.0, 1e7), (0.001, 1e7)], 'j/1', a='a/0')
+    for joined in (pin, slider):
+        sim.requests.submit(joined, topic='~/join')
 
     told = answers(periods(sim, 40))
 
