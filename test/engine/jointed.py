@@ -5,8 +5,7 @@
 
 from typing import Any
 
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Join
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World

@@ -34,14 +34,7 @@ def test_a_joint_goes_with_its_body(kind):
     assert joints(world) == ()
 
 
-def test_clearing_the_world_clears_its_joints():
-    world = pair()
-    join(world, 'axle', [(0.4, 0.0)])
-    world.apply(DeleteAll())
-    assert joints(world) == ()
-
-
-def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together():
+def test_joints_are_deleted_by_name_by_namespace_and_with_all_bodies():
     world = pair()
     for name in ('x/0', 'x/1', 'y/0'):
         join(world, 'axle', [(0.4, 0.0)], name)
@@ -50,6 +43,9 @@ def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together():
     world.apply(UnjoinAll(namespace='x'))
     assert [joint.name for joint in joints(world)] == ['y/0']
     world.apply(UnjoinAll())
+    assert joints(world) == ()
+    join(world, 'axle', [(0.4, 0.0)])
+    world.apply(DeleteAll())
     assert joints(world) == ()
 
 

@@ -22,17 +22,25 @@ from ..building import BOX, DISC, join, joining, NOWHERE, pose, spawn, twist
 # Which bodies
 
 
-def test_the_two_topmost_bodies_under_the_point_are_joined():
+@pytest.mark.parametrize(
+    ('kind', 'points', 'bodies'),
+    [
+        # The two topmost bodies under the point, or the only one and the background.
+        ('axle', [(0.4, 0.0)], ('a/2', 'a/1')),
+        ('axle', [(-0.3, 0.0)], ('a/0', 'world')),
+        # The bodies at the ends of a line, or the only one and what it hangs from.
+        ('spring', [(1.2, 0.0), (-0.3, 0.0)], ('a/1', 'a/0')),
+        ('rod', [(0.0, 5.0), (-0.3, 0.0)], ('a/0', 'world')),
+    ],
+)
+def test_the_topmost_bodies_under_the_points_are_joined(kind, points, bodies):
     world = pair()
     spawn(world, 'a/2', BOX, (0.4, 0.0, 0.0))
-    join(world, 'axle', [(0.4, 0.0)])
-    assert members(world) == ('a/2', 'a/1')
-
-
-def test_the_only_body_under_the_point_is_joined_to_the_background():
-    world = pair()
-    join(world, 'axle', [(-0.3, 0.0)])
-    assert members(world) == ('a/0', 'world')
+    join(world, kind, points)
+    assert members(world) == bodies
+    assert sorted(map(tuple, world.snapshot().ends[0].round(9).tolist())) == sorted(
+        points * (3 - len(points))
+    )
 
 
 def test_what_was_joined_and_what_was_changed_is_said():
@@ -40,19 +48,6 @@ def test_what_was_joined_and_what_was_changed_is_said():
     axle = joining('axle', [(0.4, 0.0)], a='a/0', b='world')
     assert world.apply(axle).message == 'joined a/0 to the background by axle joint/0'
     assert world.apply(axle).message == 'changed axle joint/0 of a/0 and the background'
-
-
-def test_a_line_joins_the_bodies_at_its_ends():
-    world = pair()
-    join(world, 'spring', [(1.2, 0.0), (-0.3, 0.0)])
-    assert members(world) == ('a/1', 'a/0')
-
-
-def test_a_line_from_the_ceiling_hangs_the_body_at_its_end():
-    world = pair()
-    join(world, 'rod', [(0.0, 5.0), (-0.3, 0.0)])
-    assert members(world) == ('a/0', 'world')
-    assert world.snapshot().ends[0].tolist() == pytest.approx(np.array([(-0.3, 0), (0, 5)]))
 
 
 def test_named_bodies_are_joined_wherever_the_points_are():

@@ -68,8 +68,7 @@ def test_walls_are_raised_moved_and_taken_down_while_the_world_runs(world):
     # At x = -1.5 it turned back: 2.5 m there, 1.5 m back.
     assert pose(world, 'a/0')[0] == pytest.approx(0.0, abs=0.05)
     world.apply(Configure(changes={'bounds': None}))
-    memory = world.save().memory
-    assert memory.walls == 0
+    assert world.save().memory.walls == 0
     world.step(480)
     assert pose(world, 'a/0')[0] == pytest.approx(8.0, abs=0.05)
 

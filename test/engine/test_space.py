@@ -84,9 +84,9 @@ def test_a_commanded_pose_is_the_origins_and_a_commanded_twist_the_centres(world
     )
 
 
-def test_a_commanded_pose_keeps_the_motion():
+def test_a_commanded_pose_keeps_the_motion_and_a_commanded_twist_the_pose():
     world = World()
-    spawn(world, 'a/0', DISC, velocity=(1.0, 2.0), spin=3.0)
+    spawn(world, 'a/0', ELL, velocity=(1.0, 2.0), spin=3.0)
     world.step(24)
 
     command(world, 'a/0', pose=(9.0, 9.0, 0.0))
@@ -94,14 +94,9 @@ def test_a_commanded_pose_keeps_the_motion():
     assert twist(world, 'a/0') == pytest.approx((1.0, 2.0 - G / 10, 3.0), abs=ROUNDING_OF_SUMS)
     world.step(24)
     assert twist(world, 'a/0') == pytest.approx((1.0, 2.0 - G / 5, 3.0), abs=ROUNDING_OF_SUMS)
-
-
-def test_a_commanded_twist_keeps_the_pose(world):
-    spawn(world, 'a/0', ELL, (1.0, 2.0, 0.3), velocity=(9.0, 9.0))
-
+    before = pose(world, 'a/0')
     command(world, 'a/0', twist=(1.0, 0.0, 0.0))
-
-    assert pose(world, 'a/0') == pytest.approx((1.0, 2.0, 0.3), abs=1e-12)
+    assert pose(world, 'a/0') == pytest.approx(before, abs=1e-12)
     assert twist(world, 'a/0').tolist() == [1.0, 0.0, 0.0]
 
 
@@ -133,33 +128,21 @@ def test_an_anchored_body_takes_a_pose_only(world):
 def test_a_command_is_carried_out_whole_or_not_at_all(world):
     for number in range(3):
         spawn(world, f'a/{number}', DISC, (5.0 * number, 0.0, 0.0), anchored=number == 2)
-    before = world.snapshot()
+    before = world.digest()
 
+    rows = ((1.0, 1.0, 1.0),) * 3
     with pytest.raises(Anchored):
-        world.apply(
-            Command(
-                names=('a/0', 'a/1', 'a/2'),
-                poses=((1.0, 1.0, 1.0),) * 3,
-                twists=((1.0, 1.0, 1.0),) * 3,
-            )
-        )
+        world.apply(Command(names=('a/0', 'a/1', 'a/2'), poses=rows, twists=rows))
 
-    after = world.snapshot()
-    assert np.array_equal(after.poses, before.poses)
-    assert np.array_equal(after.twists, before.twists)
+    assert world.digest() == before
 
 
 def test_a_command_moves_many_bodies_at_once(world):
     for number in range(3):
         spawn(world, f'a/{number}', DISC)
+    poses, twists = ((1.0, 0.0, 0.0), (2.0, 0.0, 0.0)), ((3.0, 0.0, 0.0), (4.0, 0.0, 0.0))
 
-    answer = world.apply(
-        Command(
-            names=('a/2', 'a/0'),
-            poses=((1.0, 0.0, 0.0), (2.0, 0.0, 0.0)),
-            twists=((3.0, 0.0, 0.0), (4.0, 0.0, 0.0)),
-        )
-    )
+    answer = world.apply(Command(names=('a/2', 'a/0'), poses=poses, twists=twists))
 
     assert answer == Answer(message='set pose and velocity of 2 bodies')
     assert world.snapshot().poses[:, 0].tolist() == [2.0, 0.0, 1.0]
@@ -198,6 +181,8 @@ def test_a_body_that_is_lost_in_the_last_step_of_its_life_goes_once(world):
 
 def test_energy_and_momentum_are_those_of_the_formulas():
     world = World(settings=WorldSettings(gravity=(1.0, -G)))
+    empty = world.snapshot()
+    assert (empty.kinetic_energy, empty.potential_energy) == (0.0, 0.0) == empty.momentum
     spawn(world, 'a/0', ELL, (1.0, 2.0, 0.0), mass=3.0, velocity=(4.0, 5.0), spin=6.0)
     spawn(world, 'a/1', DISC, (9.0, 9.0, 0.0), mass=2.0, velocity=(-1.0, 0.0))
     spawn(world, 'a/2', DISC, (20.0, 9.0, 0.0), mass=2.0, velocity=(7.0, 0.0), kinematic=True)
@@ -216,15 +201,7 @@ def test_energy_and_momentum_are_those_of_the_formulas():
     assert snapshot.momentum == pytest.approx((3.0 * 4.0 - 2.0, 15.0), rel=1e-12)
 
 
-def test_an_empty_world_has_no_energy(world):
-    snapshot = world.snapshot()
-
-    assert (snapshot.kinetic_energy, snapshot.potential_energy) == (0.0, 0.0)
-    assert snapshot.momentum == (0.0, 0.0)
-
-
-def test_a_body_that_is_faster_than_any_number_is_lost():
-    world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
+def test_a_body_that_is_faster_than_any_number_is_lost(world):
     for number in range(3):
         spawn(world, f'a/{number}', BOX, (1.0 * number, 0.0, 0.0))
     world.space.bodies.by_name['a/1'].pm_body.velocity = (1e300, 0.0)
@@ -238,17 +215,17 @@ def test_a_body_that_is_faster_than_any_number_is_lost():
 
 
 def test_a_body_falls_as_exactly_after_steps_in_which_nothing_could_move():
-    worlds = World(settings=YARD), World(settings=YARD)
-    for world, still in zip(worlds, (240, 0), strict=True):
+    fallen = []
+    for still in (240, 0):
+        world = World(settings=YARD)
         spawn(world, 'floor/0', BOX, (5.0, 0.5, 0.0), anchored=True)
         world.step(still)
         spawn(world, 'a/0', ELL, (0.0, 8.0, 0.3), spin=1.0)
         world.step(600)
         assert world.step_count == still + 600
-    first, second = (world.snapshot() for world in worlds)
+        fallen.append((world.snapshot().poses.tobytes(), world.snapshot().twists.tobytes()))
 
-    assert np.array_equal(first.poses, second.poses)
-    assert np.array_equal(first.twists, second.twists)
+    assert fallen[0] == fallen[1]
 
 
 def test_the_contacts_of_the_last_body_that_could_move_end_with_it(world):

@@ -88,13 +88,8 @@ def test_what_keeps_another_support_does_not_stir():
     world = World()
     spawn(world, 'plank/0', Box(width=4.0, height=0.2), (0.0, 2.1, 0.0))
     for number in range(3):
-        spawn(
-            world,
-            f'post/{number}',
-            Box(width=0.5, height=2.0),
-            (number - 1.0, 1.0, 0.0),
-            anchored=True,
-        )
+        post, place = Box(width=0.5, height=2.0), (number - 1.0, 1.0, 0.0)
+        spawn(world, f'post/{number}', post, place, anchored=True)
     world.step(240)
     before = pose(world, 'plank/0')
     world.apply(Delete(name='post/1'))

@@ -44,12 +44,8 @@ def test_a_resting_stack_does_not_stir_where_it_is_renewed():
 def test_without_the_memory_it_would_stir():
     world = settled()
     key = world.renew()
-    nothing = replace(
-        key.memory,
-        pairs=key.memory.pairs[:0],
-        hashes=key.memory.hashes[:0],
-        impulses=key.memory.impulses[:0],
-    )
+    columns = {name: getattr(key.memory, name)[:0] for name in ('pairs', 'hashes', 'impulses')}
+    nothing = replace(key.memory, **columns)
     world.resume(replace(key, memory=nothing))
     world.step(2)
     assert fastest(world) > 1e-2

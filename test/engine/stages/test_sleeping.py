@@ -34,15 +34,10 @@ def at_rest(count: int = 3) -> World:
     return world
 
 
-def test_a_stack_falls_asleep_and_has_no_velocity():
+def test_an_island_sleeps_without_velocity_while_another_one_moves():
     world = at_rest()
-
     assert len(sleepers(world)) == 3
     assert np.abs(world.snapshot().twists).max() == 0.0
-
-
-def test_an_island_sleeps_while_another_one_moves():
-    world = at_rest()
     spawn(world, 'ball/0', DISC, (15.0, 0.5, 0.0), elasticity=1.0, velocity=(0.0, 12.0))
 
     world.step(240)
