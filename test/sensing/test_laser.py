@@ -240,10 +240,11 @@ def test_noise_out_of_range_is_infinite():
 def test_ten_thousand_beams_in_a_ring_of_a_thousand_large_discs():
     # Each covers a third of the view: pairs are met in parts.
     world = plane()
-    for number in range(1000):
-        angle = number * math.tau / 1000
-        place = (10.0 * math.cos(angle), 10.0 * math.sin(angle), 0.0)
-        spawn(world, f'disc/{number}', Disc(radius=8.0), place, anchored=True)
+    angles = np.arange(1000) * math.tau / 1000
+    centers = 10.0 * np.column_stack((np.cos(angles), np.sin(angles)))
+    for number, some in enumerate(np.split(centers, 10)):
+        discs = Compound(element=Disc(radius=8.0), centers=tuple(map(tuple, some.tolist())))
+        spawn(world, f'discs/{number}', discs, anchored=True)
     row = add_robot(world)
 
     ranges = scan(world, row, Laser(beams=10_000, range=(0.0, 20.0)))
