@@ -9,7 +9,7 @@ import numpy as np
 from physsim_ros.model.shapes import Box
 import pytest
 
-from .scenes import floor, run, simulation, spawn, walls
+from .scenes import floor, pyramid, run, simulation, spawn, walls
 from ..slow import slow
 
 ORDERS = {
@@ -68,13 +68,7 @@ def test_a_stack_stands_on_the_walls_of_the_world_too(report):
 def test_a_pyramid_of_105_boxes_stands_still(report, gap, size, tolerance):
     sim = simulation()
     floor(sim)
-    box = Box(width=size, height=size)
-    heights = []
-    for level in range(14):
-        for place in range(14 - level):
-            x = (place - (13 - level) / 2) * size * (1 + gap)
-            heights.append(size * (level + 0.5))
-            spawn(sim, f'box/{len(heights)}', box, (x, heights[-1], 0.0))
+    heights = pyramid(sim, size, gap)
 
     end = run(sim, 10.0)
 
