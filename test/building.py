@@ -3,7 +3,7 @@
 
 """Short words for the tests of the core: a world, what is spawned into it, where it is then."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 import math
 from typing import Any
@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
+from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Command, Configure, Join, Spawn
 from physsim_ros.model.scene import Body
@@ -19,6 +20,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
 from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation.world import World
+import pytest
 
 G = 9.81
 DT = 1.0 / 240.0
@@ -76,6 +78,13 @@ PLAIN_BODY = Body(
     sensor=False,
     expires=None,
 )
+
+
+def refusal(make: Callable[..., object], *given: Any, **said: Any) -> tuple[type[Refusal], str]:
+    """Return the class of the refusal of a call, and the field that it names."""
+    with pytest.raises(Refusal) as caught:
+        make(*given, **said)
+    return type(caught.value), caught.value.field
 
 
 def spawning(

@@ -10,6 +10,8 @@ from physsim_ros.model.declarations import known_mapping
 from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 import pytest
 
+from ..building import refusal
+
 
 def test_numbers_and_pairs_are_told_from_what_only_looks_alike():
     assert number(3, 'n') == 3.0
@@ -25,9 +27,7 @@ def test_numbers_and_pairs_are_told_from_what_only_looks_alike():
 def test_a_count_of_finite_numbers_is_checked():
     check_finite((1.0, 2.0), 2, 'p')
     for values in ((1.0,), (1.0, 2.0, 3.0), (1.0, math.nan), (math.inf, 1.0), ()):
-        with pytest.raises(Malformed) as refused:
-            check_finite(values, 2, 'p')
-        assert refused.value.field == 'p'
+        assert refusal(check_finite, values, 2, 'p') == (Malformed, 'p')
 
 
 def test_a_mapping_has_known_keys_only():
@@ -35,9 +35,7 @@ def test_a_mapping_has_known_keys_only():
     with pytest.raises(UnknownProperty):
         known_mapping({'c': 1}, 'm', ['a', 'b'])
     for value in (None, [], 'a'):
-        with pytest.raises(BadProperty) as refused:
-            known_mapping(value, 'm', ['a', 'b'])
-        assert refused.value.field == 'm'
+        assert refusal(known_mapping, value, 'm', ['a', 'b']) == (BadProperty, 'm')
 
 
 def test_a_list_of_points_is_pairs_of_numbers():

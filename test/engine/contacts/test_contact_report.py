@@ -506,22 +506,6 @@ def test_impulses_say_over_how_many_steps_they_are_summed():
     assert world.contacts(world.snapshot()).steps == 0
 
 
-def test_a_pair_that_begins_to_touch_is_told_once_with_its_time():
-    world = watched()
-    spawn(world, 'gate/0', BOX, (3.0, 0.0, 0.0), anchored=True, sensor=True)
-    spawn(world, 'ball/0', DISC, (0.0, 0.0, 0.0), velocity=(2.4, 0.0))
-    begun = []
-    for number in range(120):
-        contacts = frame(world)
-        pairs = zip(contacts.begun.tolist(), contacts.begun_at.tolist(), strict=True)
-        begun += [(pair, FRAME * number + time) for pair, time in pairs]
-    # At 1 cm a step the rim is at the face once it has gone there.
-    way = 3.0 - BOX.width / 2 - DISC.radius
-    ((pair, time),) = begun
-    assert pair == [0, 1]
-    assert time == pytest.approx(way / (2.4 * DT), abs=0.02)
-
-
 def test_an_impact_is_told_with_its_time():
     world = watched(replace(YARD, gravity=(0.0, -G)))
     spawn(world, 'ball/0', DISC, (0.0, 3.0, 0.0))

@@ -22,6 +22,12 @@ from ...building import ELL, SHAPES
 CORNERS = ((0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (1.0, 1.0), (1.0, 4.0), (0.0, 4.0))
 
 
+def assert_weighs(form, area, centroid, gyration):
+    assert form.area == pytest.approx(area, rel=ROUNDING)
+    assert form.centroid == pytest.approx(centroid, rel=ROUNDING)
+    assert form.gyration == pytest.approx(gyration, rel=ROUNDING)
+
+
 def test_a_disc_is_weighed_by_its_formulas():
     form = Disc(radius=0.3).form
 
@@ -45,10 +51,8 @@ def test_a_box_is_weighed_by_its_formulas():
 def test_a_right_triangle_is_weighed_by_its_formulas():
     form = Polygon(outline=((1.0, 1.0), (4.0, 1.0), (1.0, 5.0))).form
 
-    assert form.area == pytest.approx(6.0, rel=ROUNDING)
-    assert form.centroid == pytest.approx((2.0, 1.0 + 4.0 / 3.0), rel=ROUNDING)
     # Of a triangle about its centroid: the sum of its squared sides by 36.
-    assert form.gyration == pytest.approx((9.0 + 16.0 + 25.0) / 36.0, rel=ROUNDING)
+    assert_weighs(form, 6.0, (2.0, 1.0 + 4.0 / 3.0), (9.0 + 16.0 + 25.0) / 36.0)
     # The far corner is that of the longer leg.
     assert form.outer == pytest.approx(math.hypot(1.0, 4.0 * 2.0 / 3.0), rel=ROUNDING)
     # Half of its height over the longest side, 3 · 4 / 5.
@@ -66,9 +70,7 @@ def test_a_capsule_is_weighed_as_a_bar_with_two_half_discs():
     reach = 4 * radius / (3 * math.pi)
     own = radius**2 / 2 - reach**2
     moment = bar * (length**2 + 4 * radius**2) / 12 + caps * (own + (length / 2 + reach) ** 2)
-    assert form.area == pytest.approx(bar + caps, rel=ROUNDING)
-    assert form.centroid == pytest.approx((1.0, 1.0), rel=ROUNDING)
-    assert form.gyration == pytest.approx(moment / (bar + caps), rel=ROUNDING)
+    assert_weighs(form, bar + caps, (1.0, 1.0), moment / (bar + caps))
     assert form.outer == pytest.approx(length / 2 + radius, rel=ROUNDING)
     assert form.inner == radius
 
@@ -86,9 +88,7 @@ def test_a_chain_is_the_sum_of_its_capsules():
         link.area * (link.gyration + (link.centroid[0] - x) ** 2 + (link.centroid[1] - y) ** 2)
         for link in links
     )
-    assert form.area == pytest.approx(area, rel=ROUNDING)
-    assert form.centroid == pytest.approx((x, y), rel=ROUNDING)
-    assert form.gyration == pytest.approx(moment / area, rel=ROUNDING)
+    assert_weighs(form, area, (x, y), moment / area)
     assert len(form.pieces) == 3
 
 
@@ -103,9 +103,7 @@ def test_an_ell_is_two_boxes_by_parallel_axes(step, first):
     center = 5.0 / 6.0
     moment = 2.0 * (5.0 / 12.0 + (1.0 - center) ** 2 + (0.5 - center) ** 2)
     moment += 1.0 * (2.0 / 12.0 + (0.5 - center) ** 2 + (1.5 - center) ** 2)
-    assert form.area == pytest.approx(3.0, rel=ROUNDING)
-    assert form.centroid == pytest.approx((center, center), rel=ROUNDING)
-    assert form.gyration == pytest.approx(moment / 3.0, rel=ROUNDING)
+    assert_weighs(form, 3.0, (center, center), moment / 3.0)
     assert form.outer == pytest.approx(math.hypot(2.0 - center, center), rel=ROUNDING)
     assert len(form.pieces) == 2
     assert_cover(form.pieces, 3.0)
@@ -115,10 +113,8 @@ def test_an_ell_is_two_boxes_by_parallel_axes(step, first):
 def test_a_compound_is_its_elements_by_parallel_axes(element):
     form = Compound(element=element, centers=((0.0, 0.0), (3.0, 0.0), (0.0, 6.0))).form
 
-    assert form.area == pytest.approx(3 * element.form.area, rel=ROUNDING)
-    assert form.centroid == pytest.approx((1.0, 2.0), rel=ROUNDING)
     shifts = (1.0 + 4.0) + (4.0 + 4.0) + (1.0 + 16.0)
-    assert form.gyration == pytest.approx(element.form.gyration + shifts / 3, rel=ROUNDING)
+    assert_weighs(form, 3 * element.form.area, (1.0, 2.0), element.form.gyration + shifts / 3)
     assert form.inner == element.form.inner
 
 
@@ -127,9 +123,7 @@ def test_triangles_are_summed_and_may_be_given_either_way_round():
         vertices=((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 0.0), (0.0, 1.0), (1.0, 1.0))
     )
 
-    assert square.form.area == pytest.approx(1.0, rel=ROUNDING)
-    assert square.form.centroid == pytest.approx((0.5, 0.5), rel=ROUNDING)
-    assert square.form.gyration == pytest.approx(1.0 / 6.0, rel=ROUNDING)
+    assert_weighs(square.form, 1.0, (0.5, 0.5), 1.0 / 6.0)
     assert_cover(square.form.pieces, 1.0)
 
 

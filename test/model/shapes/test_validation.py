@@ -20,6 +20,7 @@ from physsim_ros.model.shapes import (
 import pytest
 
 from .polygons import assert_cover
+from ...building import refusal
 
 LENGTHS = {
     'nan': (math.nan, Malformed),
@@ -41,9 +42,7 @@ def test_a_length_out_of_range_is_refused_and_named(value, error):
         ('height', lambda: Box(width=1.0, height=value)),
         ('thickness', lambda: Chain(points=segment, thickness=value)),
     ):
-        with pytest.raises(error) as refused:
-            make()
-        assert refused.value.field == field
+        assert refusal(make) == (error, field)
 
 
 @pytest.mark.parametrize('length', [SMALLEST, 1.0, LARGEST])
@@ -70,9 +69,7 @@ FAR = math.nextafter(LARGEST, math.inf)
 def test_points_are_pairs_of_finite_numbers_that_are_not_too_large(kind, points, error):
     others = {Chain: {'thickness': 0.1}, Compound: {'element': Disc(radius=1.0)}}.get(kind, {})
     named = {Polygon: 'outline', Triangles: 'vertices', Compound: 'centers'}.get(kind, 'points')
-    with pytest.raises(error) as refused:
-        kind(**{named: points}, **others)
-    assert refused.value.field == named
+    assert refusal(kind, **{named: points}, **others) == (error, named)
 
 
 OUTLINES = {
@@ -172,9 +169,7 @@ def test_a_sliver_is_left_out_of_the_pieces_but_weighed():
     'points', [(), ((0.0, 0.0),), ((1.0, 2.0),) * 5, ((0.0, 0.0), (1e-7, 0.0))]
 )
 def test_a_chain_without_two_different_points_is_refused(points):
-    with pytest.raises(BadOutline) as refused:
-        Chain(points=points, thickness=0.1)
-    assert refused.value.field == 'points'
+    assert refusal(Chain, points=points, thickness=0.1) == (BadOutline, 'points')
 
 
 @pytest.mark.parametrize('count', [0, 1, 2, 4, 5, 7])
@@ -197,9 +192,7 @@ def test_a_flat_triangle_is_refused_among_others(flat):
 
 
 def test_a_compound_needs_an_element():
-    with pytest.raises(BadOutline) as refused:
-        Compound(element=Disc(radius=1.0), centers=())
-    assert refused.value.field == 'centers'
+    assert refusal(Compound, element=Disc(radius=1.0), centers=()) == (BadOutline, 'centers')
 
 
 def test_as_many_points_as_may_be_are_taken_and_one_more_is_refused():
