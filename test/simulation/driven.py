@@ -60,6 +60,11 @@ class Driven:
         return self.simulation.apply_requests()
 
     @property
+    def moment(self) -> tuple[int, str]:
+        """Return the step and the digest."""
+        return self.simulation.step, self.simulation.world.digest()
+
+    @property
     def names(self) -> tuple[str, ...]:
         return self.simulation.world.snapshot().scene.names
 

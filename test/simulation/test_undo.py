@@ -1,16 +1,30 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Undo, redo and reset: gestures, settings, loaded worlds, and resets one by one."""
+"""Undo, redo and reset: gestures and their names, settings, loaded worlds, resets one by one."""
 
 import numpy as np
 from physsim_ros.model.errors import OutOfHistory
-from physsim_ros.model.requests import Configure, Delete, DeleteAll
+from physsim_ros.model.requests import (
+    Axle,
+    ChangeBody,
+    Configure,
+    Cut,
+    Delete,
+    DeleteAll,
+    DeleteBodies,
+    Grab,
+    MoveBodies,
+    Pin,
+    Restore,
+    Unjoin,
+    UnjoinAll,
+)
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .driven import Driven, dropped, FRAME, SECOND, told
-from ..building import BOX, spawning
+from ..building import BOX, DISC, joining, spawning
 
 
 def test_undo_goes_back_to_the_moment_before(driven):
@@ -23,11 +37,11 @@ def test_undo_goes_back_to_the_moment_before(driven):
 
 
 def test_redo_returns_to_where_undo_was_asked_for(driven):
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    before = driven.moment
     driven.simulation.undo()
     driven.run(1.0, 0.7)
     driven.simulation.redo()
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    assert driven.moment == before
 
 
 def test_redo_shows_the_contacts_of_one_frame(driven):
@@ -79,13 +93,13 @@ def test_settings_are_undone_and_follow_time(driven):
 
 
 def test_reset_is_undone_too(driven):
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
+    before = driven.moment
     driven.simulation.reset()
     assert (driven.simulation.step, driven.names) == (0, ())
     driven.run(1.0, 0.5)
     later = driven.simulation.step
     driven.simulation.undo()
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    assert driven.moment == before
     driven.simulation.redo()
     assert later > 100
     assert (driven.simulation.step, driven.names) == (later, ())
@@ -109,23 +123,17 @@ def test_what_followed_a_reset_comes_back_with_it(driven):
     driven.record(4.0)
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     driven.record(3.0)
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
-    said = [driven.simulation.undo() for _ in range(2)] + [
-        driven.simulation.redo() for _ in range(2)
-    ]
-    assert [each.partition(',')[0] for each in said] == [
-        'undid spawn b/0',
-        'undid reset',
-        'redid reset',
-        'redid spawn b/0',
-    ]
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    before = driven.moment
+    undo, redo = driven.simulation.undo, driven.simulation.redo
+    said = [act().partition(',')[0] for act in (undo, undo, redo, redo)]
+    assert said == ['undid spawn b/0', 'undid reset', 'redid reset', 'redid spawn b/0']
+    assert driven.moment == before
     driven.simulation.seek(SECOND // 2)
-    frames = [driven.simulation.advance_frame() for _ in range(step // FRAME - 30)]
+    frames = [driven.simulation.advance_frame() for _ in range(before[0] // FRAME - 30)]
     for frame in frames:
         driven.assert_same(frame)
     assert told(frames, 'divergence') == []
-    assert driven.simulation.world.digest() == digest
+    assert driven.moment == before
 
 
 def test_resets_are_undone_and_redone_one_by_one(driven):
@@ -134,16 +142,12 @@ def test_resets_are_undone_and_redone_one_by_one(driven):
         driven.simulation.reset()
         driven.run(1.0, seconds)
         moments.append(driven.simulation.step)
-    backward = []
-    for _ in range(2):
-        driven.simulation.undo()
-        backward.append(driven.simulation.step)
-    forward = []
-    for _ in range(2):
-        driven.simulation.redo()
-        forward.append(driven.simulation.step)
-    assert backward == moments[1::-1]
-    assert forward == moments[1:]
+    undo, redo = driven.simulation.undo, driven.simulation.redo
+    passed = []
+    for act in (undo, undo, redo, redo):
+        act()
+        passed.append(driven.simulation.step)
+    assert passed == [*moments[1::-1], *moments[1:]]
 
 
 def test_an_undone_load_is_not_what_reset_returns_to(driven):
@@ -217,3 +221,69 @@ def test_redo_does_not_pass_over_an_undone_line_that_is_no_longer_kept():
     assert simulation.status.redo == ''
     with pytest.raises(OutOfHistory):
         simulation.redo()
+
+
+# Phrases
+
+
+@pytest.fixture
+def sim() -> Simulation:
+    """Return a paused world of two boxes, joined by two rods."""
+    sim = Simulation(speed=0.0)
+    for number in range(2):
+        sim.perform(spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0)))
+    for name in ('j/0', 'j/1'):
+        sim.perform(joining('rod', [(0.0, 0.0), (2.0, 0.0)], name, a='a/0', b='a/1'))
+    return sim
+
+
+@pytest.mark.parametrize(
+    ('request_', 'phrase'),
+    [
+        (ChangeBody(name='a/0', color=(1.0, 0.0, 0.0, 1.0)), 'change a/0'),
+        (Axle(point=(0.0, 0.0)), 'join axle axle/0'),
+        (Configure(changes={'damping': 0.5}), 'change settings'),
+        (Delete(name='a/0'), 'delete a/0'),
+        (DeleteBodies(names=('a/0',)), 'delete a/0'),
+        (DeleteBodies(names=('a/0', 'a/1')), 'delete several bodies'),
+        (DeleteBodies(names=('a/0', 'a/1'), joints=('j/0',)), 'delete several bodies and joints'),
+        (DeleteBodies(names=(), joints=('j/0', 'j/1')), 'delete several joints'),
+        (DeleteBodies(names=(), joints=('j/1',)), 'delete j/1'),
+        (DeleteAll(), 'delete all bodies'),
+        (DeleteAll(namespace='a'), 'delete all bodies of a'),
+        (MoveBodies(names=('a/0', 'a/1'), by=(1.0, 0.0)), 'move several bodies'),
+        (Grab(hand='me', point=(0.0, 0.0)), 'place a/0'),
+        (Cut(pieces=(ChangeBody(name='a/0', shape=DISC), spawning('a/2'))), 'cut a/0'),
+        (Cut(pieces=(), severed=(Unjoin(name='j/0'),)), 'cut j/0'),
+        (Cut(pieces=(), severed=(Unjoin(name='j/0'), Unjoin(name='j/1'))), 'cut several joints'),
+    ],
+)
+def test_a_gesture_is_named_by_verb_and_object(sim, request_, phrase):
+    before = sim.world.digest()
+    sim.perform(request_)
+
+    assert sim.status.undo == f'undo {phrase}'
+    assert sim.undo().startswith(f'undid {phrase}, ')
+    assert sim.world.digest() == before
+    assert sim.status.redo == f'redo {phrase}'
+
+
+def test_a_loaded_world_is_named_as_one(sim):
+    sim.perform(Restore(state=sim.save()))
+    assert sim.status.undo == 'undo load world'
+
+
+def test_the_joints_of_a_namespace_are_named_by_it(sim):
+    sim.perform(Pin(point=(0.0, 0.0)))
+    sim.perform(UnjoinAll(namespace='pin'))
+    assert sim.status.undo == 'undo delete all joints of pin'
+
+
+def test_requests_of_one_gesture_are_counted():
+    sim = Simulation(speed=0.0)
+    for number in range(3):
+        sim.requests.submit(
+            spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0
+        )
+    sim.apply_requests()
+    assert sim.status.undo == 'undo spawn a/0 and 2 more'

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Shapes weigh what they enclose: area, centroid, gyration and extent by their formulas.
+Shapes weigh what they enclose: area, centroid, gyration, extent and lever by their formulas.
 
 Equal shapes share a form, which goes with the last of them.
 """
@@ -12,7 +12,17 @@ from itertools import pairwise
 import math
 from weakref import ref
 
-from physsim_ros.model.shapes import Box, Chain, Circle, Compound, Disc, Polygon, Triangles
+import numpy as np
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Circle,
+    Compound,
+    Disc,
+    lever_of,
+    Polygon,
+    Triangles,
+)
 from physsim_ros.model.shapes.form import MOST_KEPT
 import pytest
 
@@ -200,3 +210,51 @@ def test_of_shapes_that_are_gone_the_last_forms_are_kept_and_no_others():
     alive = [form() is not None for form in forms]
     assert sum(alive) <= MOST_KEPT
     assert all(alive[-MOST_KEPT:])
+
+
+# The lever
+
+
+def _by_points(shape, inside):
+    """Return the mean distance from the centroid of points of a grid that lie in a shape [m]."""
+    form = shape.form
+    span = np.linspace(-form.outer, form.outer, 1201)
+    x, y = np.meshgrid(span + form.centroid[0], span + form.centroid[1])
+    within = inside(x, y)
+    return np.hypot(x - form.centroid[0], y - form.centroid[1])[within].mean()
+
+
+@pytest.mark.parametrize(
+    ('shape', 'exact'),
+    [
+        (Disc(radius=0.3), 0.2),
+        (Box(width=1.0, height=1.0), (math.sqrt(2.0) + math.asinh(1.0)) / 6.0),
+    ],
+)
+def test_the_lever_of_a_disc_and_a_square_is_that_of_the_formula(shape, exact):
+    assert lever_of(shape.form) == pytest.approx(exact, rel=1e-12)
+
+
+THIN_ELL = ((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0))
+DISCS = Compound(element=Disc(radius=0.2), centers=((-0.5, 0.0), (0.5, 0.1)))
+
+
+@pytest.mark.parametrize(
+    ('shape', 'inside'),
+    [
+        (
+            Polygon(outline=THIN_ELL),
+            lambda x, y: (
+                (np.minimum(x, y) >= 0) & (np.maximum(x, y) <= 2) & (np.minimum(x, y) <= 0.5)
+            ),
+        ),
+        (DISCS, lambda x, y: (np.hypot(x + 0.5, y) <= 0.2) | (np.hypot(x - 0.5, y - 0.1) <= 0.2)),
+        (
+            Chain(points=((0.0, 0.0), (1.0, 0.0)), thickness=0.4),
+            lambda x, y: np.hypot(x - np.clip(x, 0.0, 1.0), y) <= 0.2,
+        ),
+    ],
+    ids=['concave', 'discs beside the centroid', 'segment with round ends'],
+)
+def test_the_lever_of_other_shapes_is_that_of_their_points(shape, inside):
+    assert lever_of(shape.form) == pytest.approx(_by_points(shape, inside), rel=5e-3)

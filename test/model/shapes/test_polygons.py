@@ -27,28 +27,16 @@ from .polygons import (
 )
 
 
-@settings(deadline=None, max_examples=60)
-@given(points=stars())
-def test_any_star_shaped_outline_is_a_solid_of_its_area(points):
-    assert_solid(points)
+@pytest.mark.parametrize(
+    ('outlines', 'count'), [(stars, 60), (combs, 40), (polyominoes, 80), (drawn_boxes, 60)]
+)
+def test_any_outline_is_a_solid_of_its_area(outlines, count):
+    @settings(deadline=None, max_examples=count)
+    @given(points=outlines())
+    def check(points):
+        assert_solid(points)
 
-
-@settings(deadline=None, max_examples=40)
-@given(points=combs())
-def test_any_comb_is_a_solid_of_its_area(points):
-    assert_solid(points)
-
-
-@settings(deadline=None, max_examples=80)
-@given(points=polyominoes())
-def test_squares_side_by_side_at_any_angle_are_a_solid_of_their_area(points):
-    assert_solid(points)
-
-
-@settings(deadline=None, max_examples=60)
-@given(points=drawn_boxes())
-def test_a_box_as_a_hand_draws_it_is_a_solid_of_its_area(points):
-    assert_solid(points)
+    check()
 
 
 @pytest.mark.parametrize('yaw', [0.0, 0.17, 0.7, 1.3])
