@@ -154,12 +154,3 @@ def test_a_world_goes_on_from_a_checkpoint_to_the_bit():
     world.resume(key)
     world.step(300)
     assert world.digest() == first
-
-
-def test_scenes_are_the_same_object_until_a_joint_comes_or_goes():
-    world = pair()
-    before = world.snapshot().scene
-    join(world, 'axle', [(0.4, 0.0)])
-    joined = world.snapshot().scene
-    world.step(10)
-    assert world.snapshot().scene is joined is not before

@@ -4,7 +4,6 @@
 """Hundreds of joints that hang together are held as exactly as two, and found out about once."""
 
 import math
-import tracemalloc
 
 import numpy as np
 from physsim_ros.model.joints import JointKind
@@ -100,10 +99,10 @@ def test_a_thousand_joints_of_one_body_are_linear_in_memory():
         at = (0.9 * math.cos(number), 0.9 * math.sin(number))
         join(world, 'axle', [at], f'axle/{number}', a='hub/0')
 
-    tracemalloc.start()
+    process = pytest.importorskip('psutil').Process()
+    before = process.memory_info().rss
     world.step(24)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
 
-    assert peak < 20e6  # 290 MB with all pairs of rows
+    # The memory of a step stays with the world. All pairs of rows would be 290 MB.
+    assert process.memory_info().rss - before < 50e6
     assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)

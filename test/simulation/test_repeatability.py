@@ -8,7 +8,6 @@ from dataclasses import replace
 from itertools import pairwise
 import math
 
-from physsim_ros.engine import body as rigid_body
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import FARTHEST
 from physsim_ros.model.errors import (
@@ -271,19 +270,12 @@ def test_a_refusal_changes_nothing(make, error, field):
 # Saved states
 
 
-def test_a_restored_world_is_built_once_and_is_its_first_checkpoint(monkeypatch):
+def test_a_restored_world_is_its_first_checkpoint():
     world = World()
     stack(world, 8)
-    state, built = replace(world.save(), memory=None), list[str]()
-    build = rigid_body.build
-    monkeypatch.setattr(
-        rigid_body, 'build', lambda body, serial: built.append(body.name) or build(body, serial)
-    )
-
     simulation = Simulation()
-    simulation.begin(state)
+    simulation.begin(replace(world.save(), memory=None))
 
-    assert built == [each.body.name for each in state.bodies]
     digest = simulation.world.digest()
     simulation.advance_frame()
     simulation.seek(0)

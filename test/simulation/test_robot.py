@@ -86,23 +86,6 @@ def test_a_robot_that_meets_a_wall_is_bumped():
     assert not robot.bumped
 
 
-def test_no_frame_is_made_that_nobody_reads(monkeypatch):
-    robot = corridor()
-    made: list[int] = []
-    observe = Simulation._observe_frame  # noqa: SLF001 - it is counted
-
-    def note(simulation: Simulation, *, moved: bool) -> object:
-        made.append(simulation.step)
-        return observe(simulation, moved=moved)
-
-    monkeypatch.setattr(Simulation, '_observe_frame', note)
-    robot.simulation.run(1.0)
-    assert not made
-    for read in (robot.odom, robot.truth, robot.scan, lambda: robot.simulation.frame):
-        read()
-    assert made == [240]
-
-
 @pytest.mark.parametrize('options', [{}, {'history': 0.0}, {'publish_rate': 10.0}])
 def test_an_episode_is_repeated_by_its_seed(options):
     robot = corridor(**options)

@@ -337,5 +337,8 @@ def test_a_scene_is_the_same_object_until_something_changes(world):
     world.apply(Command(names=('a/0',), poses=((1.0, 0.0, 0.0),)))
     assert world.snapshot().scene is scene
 
+    join(world, 'axle', [(1.0, 0.0)])
+    joined = world.snapshot().scene
+    assert joined is not scene
     spawn(world, 'a/0', DISC, (1.0, 0.0, 0.0), color=RED)
-    assert world.snapshot().scene is not scene
+    assert world.snapshot().scene is not joined
