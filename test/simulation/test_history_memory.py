@@ -23,13 +23,13 @@ NAMES = tuple(f'a/{number}' for number in range(100))
 TWISTS = np.random.default_rng(17).uniform(-1.0, 1.0, (64, 100, 3))
 
 
-def crowd(memory: float, count: int = 100) -> Simulation:
+def crowd(memory: float) -> Simulation:
     """Return a hundred discs above a floor."""
     sim = Simulation(speed=0.0, history_memory=memory)
     sim.perform(Configure(changes={'bounds': (-30.0, 0.0, 30.0, 20.0)}))
-    for number in range(count):
+    for number, name in enumerate(NAMES):
         at = (0.5 * (number % 50) - 12.0, 1.0 + number // 50, 0.0)
-        sim.perform(Spawn(name=NAMES[number], shape=Disc(radius=0.2), pose=at))
+        sim.perform(Spawn(name=name, shape=Disc(radius=0.2), pose=at))
     return sim
 
 
@@ -53,6 +53,12 @@ def used(sim: Simulation) -> float:
     return sim.past.budget.used
 
 
+def traced() -> int:
+    """Return the memory that is taken while `tracemalloc` runs [B]."""
+    gc.collect()
+    return tracemalloc.get_traced_memory()[0]
+
+
 @pytest.mark.parametrize('paused', [slow(False), True])
 def test_a_flood_of_commands_takes_no_more_than_the_budget(paused):
     tracemalloc.start()
@@ -61,26 +67,20 @@ def test_a_flood_of_commands_takes_no_more_than_the_budget(paused):
     for _ in range(2):
         sim.advance_frame()
         sim.past.cursor.add_keyframe()
-    gc.collect()
-    before, first = tracemalloc.get_traced_memory()[0], used(sim)
+    before, first = traced(), used(sim)
     digests, events = {}, []
     for number in range(150):
         for part in range(4):
             command(sim, number + part)
-        if paused:
-            frame = sim.apply_requests()
-            events += [each for each in frame.answers if each.code == 'history']
-        else:
-            frame = sim.advance_frame()
-            events += [each for each in frame.answers if each.code == 'history']
-            if frame.snapshot.step % 240 == 0:
-                digests[frame.snapshot.step] = sim.world.digest()
+        frame = sim.apply_requests() if paused else sim.advance_frame()
+        events += [each for each in frame.answers if each.code == 'history']
+        if frame.snapshot.step % 240 == 0:
+            digests[frame.snapshot.step] = sim.world.digest()
         assert used(sim) <= LEAST_MEMORY * MEGABYTE
-    gc.collect()
-    after, _ = tracemalloc.get_traced_memory()
+    taken = traced() - before
     tracemalloc.stop()
 
-    assert 0.5 < (used(sim) - first) / (after - before) < 2.0
+    assert 0.5 < (used(sim) - first) / taken < 2.0
     assert len(events) == 1
     history = sim.past.tree
     assert sim.status.oldest == history.oldest / 240
@@ -144,33 +144,28 @@ def test_the_memory_that_is_told_is_within_a_factor_of_two_of_what_is_taken(act)
     for number in range(2):
         carry_out(sim, number)
     sim.advance_frame()
-    gc.collect()
-    before, _ = tracemalloc.get_traced_memory()
-    first = used(sim)
+    before, first = traced(), used(sim)
     for number in range(2, times + 2):
         carry_out(sim, number)
     sim.advance_frame()
-    gc.collect()
-    after, _ = tracemalloc.get_traced_memory()
+    taken = traced() - before
     tracemalloc.stop()
 
-    assert 0.5 < (used(sim) - first) / (after - before) < 2.0
+    assert 0.5 < (used(sim) - first) / taken < 2.0
 
 
 @pytest.mark.slow
 def test_thousands_of_resets_take_no_more_than_the_budget():
     sim = Simulation(history_memory=LEAST_MEMORY)
     sim.advance_frame()
-    gc.collect()
     tracemalloc.start()
-    before, _ = tracemalloc.get_traced_memory()
+    before = traced()
     for _ in range(2000):
         begin_again(sim)
-    gc.collect()
-    after, _ = tracemalloc.get_traced_memory()
+    taken = traced() - before
     tracemalloc.stop()
 
-    assert after - before < 1.25 * LEAST_MEMORY * MEGABYTE
+    assert taken < 1.25 * LEAST_MEMORY * MEGABYTE
     assert sim.undo() == 'undid reset, back at 0.017 s'
 
 
