@@ -19,7 +19,7 @@ from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape,
 from physsim_ros.simulation.world import World
 import pytest
 
-from .random_history import Choices, request_of
+from .random_history import Choices, JOINTS, request_of
 
 SEEDS = range(int(os.environ.get('HISTORIES', '60')))
 FRAME = 4
@@ -44,13 +44,15 @@ class Wild(Choices):
     def __init__(self, seed: int) -> None:
         super().__init__(seed)
         self.edges_alone = seed % 2 == 0
-        self.begin_request()
+        self.strange: tuple[float, ...] = ()
 
-    def begin_request(self) -> None:
+    def begin_request(self, world: World) -> None:
         """Choose whether the next request has strange numbers and names."""
         junk = not self.edges_alone and self.random() < 0.25
         self.strange = EDGES if self.edges_alone else STRANGE if junk else ()
-        self.names = (*NAMES, *NOBODY) if junk else NAMES
+        # Mostly those that there are.
+        self.names = (*(3 * world.scene.names), *NAMES, *(NOBODY if junk else ()))
+        self.joints = (*[joint.name for joint in world.scene.joints], *JOINTS)
 
     def number(self, most: float = 3.0) -> float:
         strange = self.strange and self.random() < 0.5
@@ -96,7 +98,7 @@ class Wild(Choices):
 
         :raises Refusal: it cannot be
         """
-        self.begin_request()
+        self.begin_request(world)
         at = {'point': self.point(), 'frame': self.choice(('', *self.names))}
         makers = [
             (60, lambda: request_of(self)),
