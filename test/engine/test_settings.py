@@ -10,7 +10,7 @@ from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import DISC, ELL, G, pose, ROUNDING_OF_SUMS, spawn, stack, twist
+from ..building import DISC, ELL, pose, ROUNDING_OF_SUMS, spawn, stack, twist
 
 REST = (0.0, 0.0, 0.0)
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
