@@ -70,6 +70,16 @@ def test_what_overlaps_too_much_is_refused_one_by_one(scene):
     world.step(10)
 
 
+def test_a_world_that_is_full_refuses_until_something_moves():
+    # Large enough that a count takes longer than some requests.
+    world = World(settings=replace(FEW, max_overlaps=900))
+    assert flooded(world, one_pose(45)) == 3
+    for _ in range(2):
+        late = [Spawn(name=f'late/{number}', shape=DISC) for number in range(5)]
+        assert flooded(world, late) == 5
+        world.step(1)
+
+
 def test_what_has_moved_apart_leaves_a_place():
     world = World(settings=FEW)
     assert flooded(world, one_pose(12)) == 7
