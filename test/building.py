@@ -204,3 +204,9 @@ def net(side: int) -> World:
     for knot in (0, side - 1):
         join(world, 'axle', [(MESH * knot, 0.0)], f'nail/{knot}', a=f'knot/{knot}', b='world')
     return world
+
+
+def sleepers(world: World) -> list[str]:
+    """Return the names of the bodies that sleep in the engine."""
+    bodies = world.space.bodies.by_name
+    return [name for name, rigid in bodies.items() if rigid.pm_body.is_sleeping]

@@ -137,7 +137,7 @@ class FrameLoop:
         if self.started:
             self.apply_up_to_seek()
         elif wait is not Wait.NONE:
-            self._simulation.apply_waiting()
+            self._simulation.requests.apply_waiting()
 
     def current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests if they are applied."""
@@ -168,7 +168,7 @@ class FrameLoop:
 
     def _report_answers(self) -> tuple[Answer, ...]:
         """Publish and log the answers that no frame carries, and return them."""
-        answers = self._simulation.take_answers()
+        answers = self._simulation.requests.take_answers()
         self._outputs.report_answers(answers)
         return answers
 

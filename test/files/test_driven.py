@@ -11,7 +11,7 @@ from typing import Any
 from physsim_ros.files.engine_state import state_entry, with_saved_state
 from physsim_ros.model.checkpoint import BodyState
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.robot_states import NEVER, RobotState, SPAWNED
+from physsim_ros.model.states import NEVER, RobotState, SPAWNED
 import pytest
 
 from ..sensing.worlds import add_robot, plane

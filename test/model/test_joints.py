@@ -44,3 +44,9 @@ def test_a_property_of_another_kind_is_unknown(kind):
 @pytest.mark.parametrize('word', ['weld', 'PIN', '', None, 1, ['pin']])
 def test_a_word_that_is_no_kind_is_bad(word):
     assert refusal(kind_from, word) == (BadProperty, 'kind')
+
+
+@pytest.mark.parametrize('kind', [kind for kind in JointKind if kind.schema.along_line])
+def test_a_force_along_a_line_needs_two_points_and_no_axis(kind):
+    assert kind.points == 2
+    assert not kind.schema.has_axis

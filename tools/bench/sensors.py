@@ -57,7 +57,7 @@ def table() -> None:
 def _scan(world: World, robots: int) -> None:
     surroundings = Surroundings(world.snapshot())
     for row in range(robots):
-        read_laser(surroundings, row, LASER, 1)
+        read_laser(surroundings, row, LASER)
 
 
 def _query(world: World, robots: int) -> None:

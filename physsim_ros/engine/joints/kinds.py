@@ -98,11 +98,6 @@ class EngineJoint:
     parts: tuple[Part, ...]
 
     @property
-    def row_count(self) -> int:
-        """Return the count of its rows."""
-        return sum(len(part.rows) for part in self.parts)
-
-    @property
     def constraints(self) -> tuple[pymunk.Constraint, ...]:
         """Return its constraints."""
         return tuple(part.constraint for part in self.parts)

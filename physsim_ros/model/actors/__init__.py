@@ -13,13 +13,9 @@ from __future__ import annotations
 
 from physsim_ros.model.actors.actor import (
     Actor,
-    ActorState,
-    ActorStates,
-    NO_ACTORS,
     Path,
     REPEATS,
     Start,
-    WAITING,
 )
 from physsim_ros.model.actors.pedestrians import Orca, Pedestrian, SocialForce
 from physsim_ros.model.declarations import OfKind
@@ -33,12 +29,8 @@ actor_from = OfKind('actor', ACTORS)
 
 __all__ = [
     'ACTORS',
-    'NO_ACTORS',
     'REPEATS',
-    'WAITING',
     'Actor',
-    'ActorState',
-    'ActorStates',
     'Orca',
     'Path',
     'Pedestrian',

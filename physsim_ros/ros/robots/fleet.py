@@ -241,5 +241,5 @@ def _has_stopped(view: StampedView, number: int) -> bool:
     now, before = view.snapshot, view.before
     if before is None or before.scene is not now.scene:
         return False
-    until = int(now.robots.until[number])
+    until = int(now.robots['until'][number])
     return before.step < until <= now.step

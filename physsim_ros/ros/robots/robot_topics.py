@@ -18,10 +18,10 @@ from typing import Any, NamedTuple
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import BadProperty, Refusal
-from physsim_ros.model.robot_states import SPAWNED
 from physsim_ros.model.robots import Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body
+from physsim_ros.model.states import SPAWNED
 from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.frames import (
     BASE,
@@ -197,13 +197,13 @@ class RobotTopics:
 
     def _transforms(self, kind: type, view: StampedView, _: int, number: int) -> Any:
         """Return the message of the transform that moves."""
-        odometry = tuple(view.snapshot.robots.odometry[number].tolist())
+        odometry = tuple(view.snapshot.robots['odometry'][number].tolist())
         return kind(transforms=[self._frames.moving(view.stamp, odometry)])
 
     def odometry(self, view: StampedView, _: int, number: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
         states = view.snapshot.robots
-        ahead, aside, turn = states.wheels[number].tolist()
+        ahead, aside, turn = states['wheels'][number].tolist()
         way, heading = (deviation**2 for deviation in self.robot.odometry.slip)
         # Drifts are random walks along the path. That of the twist is their mean rate from one
         # message to the next: of the velocity along it, none across.
@@ -213,12 +213,12 @@ class RobotTopics:
         of_turn = heading * (speed + abs(turn)) * rate
         return odometry_message(
             view,
-            tuple(states.odometry[number].tolist()),
+            tuple(states['odometry'][number].tolist()),
             (ahead, aside, turn),
             parent=self._frames.name(ODOM),
             child=self._frames.name(FOOTPRINT),
             covariances=(
-                tuple(states.covariance[number].tolist()),
+                tuple(states['covariance'][number].tolist()),
                 (*along, 0.0, 0.0, of_turn),
             ),
         )

@@ -13,11 +13,12 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from physsim_ros.model.requests import DriveRobot, Spawn
+from physsim_ros.model.requests import DriveRobot, Request, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.robots import Fleet
-from physsim_ros.simulation.request_queue import RequestQueue, TakeBack
+from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.request_queue import TakeBack
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
 import rclpy
@@ -537,16 +538,16 @@ def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: Phys
 
 @pytest.fixture
 def submitted(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """Give a test the times at which drives are submitted [s]."""
+    """Give a test the times at which robots are driven on [s]."""
     times: list[float] = []
-    apply = RequestQueue.apply_now
+    apply = Past.apply_unasked
 
-    def note(queue: RequestQueue, request: Any, *others: Any) -> Any:
+    def note(past: Past, request: Request) -> None:
         if isinstance(request, DriveRobot):
             times.append(flat.time)
-        return apply(queue, request, *others)
+        apply(past, request)
 
-    monkeypatch.setattr(RequestQueue, 'apply_now', note)
+    monkeypatch.setattr(Past, 'apply_unasked', note)
     return times
 
 
@@ -582,10 +583,10 @@ def test_a_drive_counts_again_after_the_command_of_another_node(flat: PhysSim) -
     publisher.publish(other)
     flat.step()
     robots = flat.node.simulation.world.snapshot().robots
-    assert robots.aim[0, 0] == -0.2
+    assert robots['aim'][0, 0] == -0.2
     flat.step()
     robots = flat.node.simulation.world.snapshot().robots
-    assert robots.aim[0, 0] == 0.2
+    assert robots['aim'][0, 0] == 0.2
     node.destroy_node()
 
 
