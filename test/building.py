@@ -3,6 +3,7 @@
 
 """Short words for the tests of the core: a world, what is spawned into it, where it is then."""
 
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 import math
 from typing import Any
@@ -11,13 +12,15 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.colors import Color
-from physsim_ros.model.joints import JointKind
+from physsim_ros.model.errors import Refusal
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Command, Configure, Join, Spawn
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape, Triangles
 from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation.world import World
+import pytest
 
 G = 9.81
 DT = 1.0 / 240.0
@@ -33,9 +36,7 @@ NOWHERE = WorldSettings(gravity=(0.0, 0.0), friction=0.0, elasticity=1.0)
 DISC = Disc(radius=0.5)
 BOX = Box(width=1.0, height=1.0)
 # Off-centre and concave: the centroid lies at (5/6, 5/6).
-ELL = Polygon(
-    outline=((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)),
-)
+ELL = Polygon(outline=((0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0)))
 # Off-centre: the centroid lies at (1, 2/3).
 TRIANGLE = Polygon(outline=((0.0, 0.0), (3.0, 0.0), (0.0, 2.0)))
 SHAPES: dict[str, Shape] = {
@@ -79,6 +80,13 @@ PLAIN_BODY = Body(
 )
 
 
+def refusal(make: Callable[..., object], *given: Any, **said: Any) -> tuple[type[Refusal], str]:
+    """Return the class of the refusal of a call, and the field that it names."""
+    with pytest.raises(Refusal) as caught:
+        make(*given, **said)
+    return type(caught.value), caught.value.field
+
+
 def spawning(
     name: str,
     shape: Shape = DISC,
@@ -104,6 +112,20 @@ def spawning(
 def spawn(world: World, name: str, *arguments: Any, **options: Any) -> None:
     """Spawn a body."""
     world.apply(spawning(name, *arguments, **options))
+
+
+def joining(
+    kind: JointKind | str, points: Sequence[Point], name: str = 'joint/0', **said: Any
+) -> Join:
+    """Return the request of a joint; keywords are its bodies, a frame, and its properties."""
+    where = {key: said.pop(key) for key in ('a', 'b', 'frame') if key in said}
+    kind, properties = JointKind(kind), JointProperties(**said)
+    return Join(name=name, kind=kind, points=tuple(points), properties=properties, **where)
+
+
+def join(world: World, *arguments: Any, **options: Any) -> None:
+    """Join bodies."""
+    world.apply(joining(*arguments, **options))
 
 
 def command(world: World, name: str, **rows: tuple[float, float, float]) -> None:
@@ -163,9 +185,7 @@ def swing(*, link: float, ball: float, radius: float) -> World:
     spawn(world, 'ball/0', Disc(radius=radius), (*(way * length * count), 0.0), mass=ball)
     names = ['world', *(f'link/{number}' for number in range(count)), 'ball/0']
     for number, (b, a) in enumerate(pairwise(names)):
-        point = tuple(way * length * number)
-        axle = Join(name=f'joint/{number}', kind=JointKind.AXLE, points=(point,), a=a, b=b)
-        world.apply(axle)
+        join(world, 'axle', [tuple(way * length * number)], f'joint/{number}', a=a, b=b)
     return world
 
 
@@ -180,12 +200,9 @@ def net(side: int) -> World:
     pairs = [pair for ends in (down, along) for pair in zip(*map(np.ravel, ends), strict=True)]
     for number, (a, b) in enumerate(pairs):
         points = tuple((MESH * (knot % side), -MESH * (knot // side)) for knot in (a, b))
-        rod, knotted = JointKind.ROD, {'a': f'knot/{a}', 'b': f'knot/{b}'}
-        world.apply(Join(name=f'rod/{number}', kind=rod, points=points, **knotted))
+        join(world, 'rod', points, f'rod/{number}', a=f'knot/{a}', b=f'knot/{b}')
     for knot in (0, side - 1):
-        at = ((MESH * knot, 0.0),)
-        axle = JointKind.AXLE
-        world.apply(Join(name=f'nail/{knot}', kind=axle, points=at, a=f'knot/{knot}', b='world'))
+        join(world, 'axle', [(MESH * knot, 0.0)], f'nail/{knot}', a=f'knot/{knot}', b='world')
     return world
 
 

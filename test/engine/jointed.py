@@ -3,14 +3,9 @@
 
 """Short words for the tests of joints: two boxes, and what joins them."""
 
-from __future__ import annotations
-
 from typing import Any
 
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import (
-    Join,
-)
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World
@@ -33,19 +28,6 @@ VALUES: dict[str, float] = {
 PROPERTIES: dict[JointKind, dict[str, Any]] = {
     kind: {name: VALUES[name] for name in kind.schema.own if name in VALUES} for kind in KINDS
 }
-
-
-def joining(
-    kind: JointKind | str, points: list[Point], name: str = 'joint/0', **said: Any
-) -> Join:
-    where = {key: said.pop(key) for key in ('a', 'b', 'frame') if key in said}
-    return Join(
-        name=name,
-        kind=JointKind(kind),
-        points=tuple(points),
-        properties=JointProperties(**said),
-        **where,
-    )
 
 
 def points_of(kind: JointKind) -> list[Point]:

@@ -4,26 +4,13 @@
 """Kinematic bodies, sensors, groups, and material of bodies in the engine."""
 
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.requests import (
-    Anchor,
-)
+from physsim_ros.model.requests import Anchor
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import (
-    BOX,
-    command,
-    DISC,
-    ELL,
-    G,
-    pose,
-    ROUNDING_OF_SUMS,
-    spawn,
-    TRIANGLE,
-    twist,
-)
+from ..building import BOX, command, DISC, ELL, G, pose, ROUNDING_OF_SUMS, spawn, TRIANGLE, twist
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 
@@ -31,7 +18,7 @@ YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 # Kinematic bodies
 
 
-def test_a_kinematic_body_pushes_and_is_not_pushed() -> None:
+def test_a_kinematic_body_pushes_and_is_not_pushed():
     world = World(settings=YARD)
     spawn(world, 'robot/0', BOX, (-3.0, 0.5, 0.0), kinematic=True, velocity=(1.0, 0.0))
     spawn(world, 'crate/0', BOX, (0.0, 0.5, 0.0), mass=1000.0)
@@ -44,7 +31,7 @@ def test_a_kinematic_body_pushes_and_is_not_pushed() -> None:
     assert pose(world, 'crate/0')[0] >= 2.0 - 0.006
 
 
-def test_a_kinematic_body_passes_what_is_anchored(world: World) -> None:
+def test_a_kinematic_body_passes_what_is_anchored(world):
     spawn(world, 'wall/0', Box(width=0.5, height=9.0), anchored=True)
     spawn(world, 'robot/0', BOX, (-2.0, 0.0, 0.0), kinematic=True, velocity=(1.0, 0.0), spin=0.5)
 
@@ -53,7 +40,7 @@ def test_a_kinematic_body_passes_what_is_anchored(world: World) -> None:
     assert pose(world, 'robot/0') == pytest.approx((2.0, 0.0, 2.0), abs=ROUNDING_OF_SUMS)
 
 
-def test_a_kinematic_body_takes_pose_and_twist_and_no_wrench(world: World) -> None:
+def test_a_kinematic_body_takes_pose_and_twist_and_no_wrench(world):
     spawn(world, 'robot/0', ELL, kinematic=True)
 
     command(world, 'robot/0', pose=(1.0, 2.0, 0.3), twist=(0.0, 1.0, 0.0))
@@ -64,7 +51,7 @@ def test_a_kinematic_body_takes_pose_and_twist_and_no_wrench(world: World) -> No
         command(world, 'robot/0', wrench=(1.0, 0.0, 0.0))
 
 
-def test_a_kinematic_body_can_be_anchored_and_let_go_as_it_was(world: World) -> None:
+def test_a_kinematic_body_can_be_anchored_and_let_go_as_it_was(world):
     spawn(world, 'robot/0', BOX, kinematic=True, velocity=(1.0, 0.0))
 
     world.apply(Anchor(point=(0.0, 0.0)))
@@ -80,7 +67,7 @@ def test_a_kinematic_body_can_be_anchored_and_let_go_as_it_was(world: World) -> 
 # Sensors and groups
 
 
-def test_a_sensor_reports_what_it_overlaps_and_pushes_nothing(world: World) -> None:
+def test_a_sensor_reports_what_it_overlaps_and_pushes_nothing(world):
     spawn(world, 'gate/0', Box(width=1.0, height=4.0), (2.0, 0.0, 0.0), sensor=True, anchored=True)
     spawn(world, 'a/0', DISC, velocity=(5.0, 1.0))
     world.reports_contacts = True
@@ -101,7 +88,7 @@ def test_a_sensor_reports_what_it_overlaps_and_pushes_nothing(world: World) -> N
     assert all(pairs == [[0, 1]] for pairs in seen[begun:])
 
 
-def test_a_loose_sensor_falls_through_everything() -> None:
+def test_a_loose_sensor_falls_through_everything():
     world = World(settings=YARD)
     spawn(world, 'floor/0', BOX, (0.0, 5.0, 0.0), anchored=True)
     spawn(world, 'ghost/0', DISC, (0.0, 8.0, 0.0), sensor=True)
@@ -118,9 +105,7 @@ def test_a_loose_sensor_falls_through_everything() -> None:
      ((-(2**31), 0), False)],
 )  # fmt: skip
 @pytest.mark.parametrize('speed', [2.0, 200.0], ids=['slow', 'fast'])
-def test_bodies_of_one_group_pass_through_each_other(
-    *, groups: tuple[int, int], through: bool, speed: float, world: World
-) -> None:
+def test_bodies_of_one_group_pass_through_each_other(groups, through, speed, world):
     spawn(world, 'a/0', DISC, (-2.0, 0.0, 0.0), velocity=(speed, 0.0), group=groups[0])
     spawn(world, 'a/1', DISC, (2.0, 0.0, 0.0), velocity=(-speed, 0.0), group=groups[1])
 
@@ -130,7 +115,7 @@ def test_bodies_of_one_group_pass_through_each_other(
     assert bool(left > right) is through
 
 
-def test_a_group_is_kept_where_the_body_is_changed(world: World) -> None:
+def test_a_group_is_kept_where_the_body_is_changed(world):
     for number in range(2):
         spawn(world, f'a/{number}', DISC, (-1.0 + 2.0 * number, 0.0, 0.0), group=-5)
 
@@ -144,7 +129,7 @@ def test_a_group_is_kept_where_the_body_is_changed(world: World) -> None:
 
 
 @pytest.mark.parametrize('mass', [1.0, 250.0])
-def test_a_mass_is_the_mass_whatever_the_shape(mass: float, world: World) -> None:
+def test_a_mass_is_the_mass_whatever_the_shape(mass, world):
     spawn(world, 'a/0', TRIANGLE, mass=mass)
 
     command(world, 'a/0', wrench=(mass, 0.0, 0.0))

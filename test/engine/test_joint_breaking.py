@@ -3,21 +3,17 @@
 
 """Joints break under their own load, in the step in which it comes, and that is told."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
-
 import numpy as np
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from .jointed import joining, joints
-from ..building import BOX, command, DISC, DT, G, spawn
+from .jointed import joints
+from ..building import BOX, command, DISC, DT, G, join, joining, spawn
 
 
-def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told() -> None:
+def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told():
     sim = Simulation()
     spawn(sim.world, 'a/0', BOX, mass=1.0)
     sim.perform(joining('axle', [(0.0, 0.0)], break_force=5.0))
@@ -27,19 +23,19 @@ def test_a_joint_breaks_where_it_is_loaded_too_much_and_that_is_told() -> None:
     assert joints(sim.world) == ()
 
 
-def test_a_joint_that_is_strong_enough_does_not_break() -> None:
+def test_a_joint_that_is_strong_enough_does_not_break():
     world = World()
     spawn(world, 'a/0', BOX, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=15.0))
+    join(world, 'axle', [(0.0, 0.0)], break_force=15.0)
     world.step(480)
     assert world.take_broken() == []
     assert len(joints(world)) == 1
 
 
-def test_a_commanded_velocity_does_not_load_a_joint_by_itself() -> None:
+def test_a_commanded_velocity_does_not_load_a_joint_by_itself():
     world = World()
     spawn(world, 'a/0', DISC, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=1.01 * G))
+    join(world, 'axle', [(0.0, 0.0)], break_force=1.01 * G)
     world.step(240)
     command(world, 'a/0', twist=(0.0, 0.0, 1.0))
     world.step(1)
@@ -48,14 +44,14 @@ def test_a_commanded_velocity_does_not_load_a_joint_by_itself() -> None:
 
 
 @pytest.mark.parametrize('height', [0.3, 5.1])
-def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height: float) -> None:
+def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height):
     worlds = []
     for _ in range(2):
         world = World(settings=WorldSettings(bounds=(-40.0, 0.0, 40.0, 90.0)))
         spawn(world, 'a/0', BOX, (0.0, 10.0, 0.0), velocity=(4.0, 0.0))
         spawn(world, 'a/1', BOX, (3.0, height, 0.3))
         ends = [(0.0, 10.0), (3.0, height)]
-        world.apply(joining('rope', ends, length=4.0, break_force=60.0, a='a/0', b='a/1'))
+        join(world, 'rope', ends, length=4.0, break_force=60.0, a='a/0', b='a/1')
         worlds.append(world)
 
     worlds[0].step(480)
@@ -67,24 +63,22 @@ def test_what_breaks_lets_go_alike_however_steps_are_counted_out(height: float) 
 
 
 def come(world: World, number: int) -> None:
-    world.apply(joining('axle', [(50.0, 0.0)], f'far/{number}', a='far/0', b='world'))
+    join(world, 'axle', [(50.0, 0.0)], f'far/{number}', a='far/0', b='world')
 
 
 def expire(world: World, number: int) -> None:
     if number == 0:
         for each in range(1, 4):
             spawn(world, f'brief/{each}', DISC, (50.0, 2.0 * each, 0.0), lifetime=each * DT)
-            world.apply(joining('pin', [(50.0, 2.0 * each)], f'brief/{each}'))
+            join(world, 'pin', [(50.0, 2.0 * each)], f'brief/{each}')
 
 
 @pytest.mark.parametrize('change', [come, expire, lambda world, _: world.renew()])
-def test_joints_that_come_and_go_and_checkpoints_change_no_break(
-    change: Callable[[World, int], object],
-) -> None:
+def test_joints_that_come_and_go_and_checkpoints_change_no_break(change):
     world = World()
     spawn(world, 'far/0', DISC, (50.0, 0.0, 0.0))
     spawn(world, 'a/0', BOX, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=9.0))
+    join(world, 'axle', [(0.0, 0.0)], break_force=9.0)
     told = []
     for number in range(3):
         change(world, number)
@@ -95,11 +89,11 @@ def test_joints_that_come_and_go_and_checkpoints_change_no_break(
     assert told == [(1, 'joint/0')]
 
 
-def test_a_joint_whose_first_step_is_to_come_is_new_in_a_checkpoint_too() -> None:
+def test_a_joint_whose_first_step_is_to_come_is_new_in_a_checkpoint_too():
     world = World()
     # In free flight its velocity leads by half a step, which the joint takes back: 14.7 N.
     spawn(world, 'a/0', BOX, mass=1.0)
-    world.apply(joining('axle', [(0.0, 0.0)], break_force=12.0))
+    join(world, 'axle', [(0.0, 0.0)], break_force=12.0)
     key = world.renew()
     world.step(3)
     digest = world.digest()

@@ -3,12 +3,9 @@
 
 """Joints that are removed, changed, or wait, with their bodies and by name."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     Axle,
@@ -24,42 +21,38 @@ from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 import pytest
 
-from .jointed import joining, joints, KINDS, pair, points_of, PROPERTIES
-from ..building import BOX, DISC, pose, spawn, twist
+from .jointed import joints, KINDS, pair, points_of, PROPERTIES
+from ..building import BOX, DISC, join, joining, pose, spawn, twist
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_a_joint_goes_with_its_body(kind: JointKind) -> None:
+def test_a_joint_goes_with_its_body(kind):
     world = pair()
-    world.apply(joining(kind, points_of(kind)))
+    join(world, kind, points_of(kind))
     world.apply(Delete(name='a/1'))
     world.step(10)
     assert joints(world) == ()
 
 
-def test_clearing_the_world_clears_its_joints() -> None:
-    world = pair()
-    world.apply(joining('axle', [(0.4, 0.0)]))
-    world.apply(DeleteAll())
-    assert joints(world) == ()
-
-
-def test_a_joint_is_deleted_by_its_name_and_all_of_a_namespace_together() -> None:
+def test_joints_are_deleted_by_name_by_namespace_and_with_all_bodies():
     world = pair()
     for name in ('x/0', 'x/1', 'y/0'):
-        world.apply(joining('axle', [(0.4, 0.0)], name))
+        join(world, 'axle', [(0.4, 0.0)], name)
     world.apply(Unjoin(name='x/0'))
     assert [joint.name for joint in joints(world)] == ['x/1', 'y/0']
     world.apply(UnjoinAll(namespace='x'))
     assert [joint.name for joint in joints(world)] == ['y/0']
     world.apply(UnjoinAll())
     assert joints(world) == ()
+    join(world, 'axle', [(0.4, 0.0)])
+    world.apply(DeleteAll())
+    assert joints(world) == ()
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_a_body_that_is_changed_in_place_keeps_its_joints(kind: JointKind) -> None:
+def test_a_body_that_is_changed_in_place_keeps_its_joints(kind):
     world = pair()
-    world.apply(joining(kind, points_of(kind), **PROPERTIES.get(kind, {})))
+    join(world, kind, points_of(kind), **PROPERTIES.get(kind, {}))
     before = joints(world)
     spawn(world, 'a/1', DISC, (0.8, 0.0, -0.2), mass=3.0)
     assert joints(world) == before
@@ -68,9 +61,9 @@ def test_a_body_that_is_changed_in_place_keeps_its_joints(kind: JointKind) -> No
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_a_joint_waits_while_both_its_bodies_are_anchored(kind: JointKind) -> None:
+def test_a_joint_waits_while_both_its_bodies_are_anchored(kind):
     world = pair()
-    world.apply(joining(kind, points_of(kind)))
+    join(world, kind, points_of(kind))
     held = pose(world, 'a/0').tolist(), pose(world, 'a/1').tolist()
     world.apply(Anchor(point=(-0.3, 0.0)))
     world.apply(Anchor(point=(1.2, 0.0)))
@@ -82,11 +75,11 @@ def test_a_joint_waits_while_both_its_bodies_are_anchored(kind: JointKind) -> No
     assert len(joints(world)) == 1
 
 
-def test_a_command_of_a_yaw_does_not_wind_a_joint_up() -> None:
+def test_a_command_of_a_yaw_does_not_wind_a_joint_up():
     world = World()
     spawn(world, 'a/0', BOX, spin=20.0)
     spawn(world, 'a/1', BOX, (0.8, 0.0, 0.0))
-    world.apply(joining('pin', [(0.4, 0.0)]))
+    join(world, 'pin', [(0.4, 0.0)])
     world.step(480)
     x, y, yaw = pose(world, 'a/0').tolist()
     world.apply(Command(names=('a/0',), poses=((x, y, math.remainder(yaw, math.tau)),)))
@@ -95,16 +88,16 @@ def test_a_command_of_a_yaw_does_not_wind_a_joint_up() -> None:
     assert twist(world, 'a/0')[2] == pytest.approx(spin, abs=1e-3)
 
 
-def test_releasing_a_body_removes_the_pins_and_axles_there() -> None:
+def test_releasing_a_body_removes_the_pins_and_axles_there():
     world = pair()
     world.apply(Pin(point=(0.4, 0.0)))
     world.apply(Axle(point=(0.4, 0.0)))
-    world.apply(joining('axle', [(1.2, 0.0)], a='a/1', b='world'))
+    join(world, 'axle', [(1.2, 0.0)], a='a/1', b='world')
     world.apply(Release(point=(0.4, 0.0)))
     assert [joint.name for joint in joints(world)] == ['joint/0']
 
 
-def test_releasing_a_long_body_leaves_the_axles_farther_along_it() -> None:
+def test_releasing_a_long_body_leaves_the_axles_farther_along_it():
     world = World()
     spawn(world, 'plank/0', Box(width=20.0, height=1.0))
     for x in (0.1, 2.4):
@@ -114,7 +107,7 @@ def test_releasing_a_long_body_leaves_the_axles_farther_along_it() -> None:
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_what_is_asked_for_again_where_it_is_changes_nothing(kind: JointKind) -> None:
+def test_what_is_asked_for_again_where_it_is_changes_nothing(kind):
     world = pair()
     request = joining(kind, points_of(kind), a='a/0', b='a/1', **PROPERTIES.get(kind, {}))
     world.apply(request)
@@ -123,9 +116,41 @@ def test_what_is_asked_for_again_where_it_is_changes_nothing(kind: JointKind) ->
     assert world.digest() == before
 
 
-def test_a_joint_that_is_changed_keeps_what_is_not_said() -> None:
+def test_a_joint_that_is_changed_keeps_what_is_not_said():
     world = pair()
-    world.apply(joining('spring', [(0.4, 0.0), (-0.3, 0.0)], stiffness=7.0, damping=1.0))
-    world.apply(joining('spring', [(0.4, 0.1), (-0.3, 0.0)], stiffness=9.0))
+    join(world, 'spring', [(0.4, 0.0), (-0.3, 0.0)], stiffness=7.0, damping=1.0)
+    join(world, 'spring', [(0.4, 0.1), (-0.3, 0.0)], stiffness=9.0)
     (joint,) = joints(world)
     assert (joint.properties.stiffness, joint.properties.damping) == (9.0, 1.0)
+
+
+# To the bit
+
+
+def machine() -> World:
+    world = World()
+    for number in range(6):
+        spawn(world, f'a/{number}', Box(width=1.0, height=0.3), (number * 0.9, 3.0, 0.1 * number))
+    spawn(world, 'ground/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
+    for number, kind in enumerate(KINDS):
+        request = joining(
+            kind,
+            [(number * 0.6, 3.0), (number * 0.6 + 0.9, 3.0)][: kind.points],
+            f'joint/{number}',
+            a=f'a/{number % 6}',
+            b='world' if number % 3 == 0 else f'a/{(number + 1) % 6}',
+            **PROPERTIES.get(kind, {}),
+        )
+        world.apply(request)
+    return world
+
+
+def test_a_world_goes_on_from_a_checkpoint_to_the_bit():
+    world = machine()
+    world.step(200)
+    key = world.renew()
+    world.step(300)
+    first = world.digest()
+    world.resume(key)
+    world.step(300)
+    assert world.digest() == first

@@ -3,19 +3,15 @@
 
 """Joints that are refused, and change nothing."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import (
-    Unjoin,
-)
+from physsim_ros.model.requests import Unjoin
 import pytest
 
-from .jointed import joining, pair
-from ..building import BOX, spawn
+from .jointed import pair
+from ..building import BOX, join, spawn
 
 REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     'itself': ({'a': 'a/0', 'b': 'a/0'}, 'bad_property', 'b'),
@@ -50,21 +46,19 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
 
 
 @pytest.mark.parametrize(('said', 'code', 'field'), REFUSED.values(), ids=REFUSED.keys())
-def test_what_cannot_be_joined_is_refused_and_changes_nothing(
-    said: dict[str, Any], code: str, field: str
-) -> None:
+def test_what_cannot_be_joined_is_refused_and_changes_nothing(said, code, field):
     world = pair()
     spawn(world, 'fix/0', BOX, (20.0, 0.0, 0.0), anchored=True)
     spawn(world, 'fix/1', BOX, (21.0, 0.0, 0.0), anchored=True)
     before = world.digest()
     values = {'kind': 'axle', 'points': [(0.4, 0.0)]} | said
     with pytest.raises(Refusal) as caught:
-        world.apply(joining(values.pop('kind'), values.pop('points'), **values))
+        join(world, values.pop('kind'), values.pop('points'), **values)
     assert (caught.value.code, caught.value.field) == (code, field)
     assert world.digest() == before
 
 
-def test_an_unknown_joint_cannot_be_deleted() -> None:
+def test_an_unknown_joint_cannot_be_deleted():
     world = pair()
     before = world.digest()
     with pytest.raises(Refusal) as caught:

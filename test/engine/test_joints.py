@@ -3,82 +3,65 @@
 
 """Joints: the bodies they join, the gaps they close, their forces, and springs."""
 
-from __future__ import annotations
-
-from dataclasses import replace
 import math
 from typing import Any
 
 import numpy as np
 from physsim_ros.model.errors import UnknownProperty
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import (
-    Axle,
-    Command,
-    Configure,
-    join_from,
-    Pin,
-    Unjoin,
-)
+from physsim_ros.model.requests import Axle, Command, Configure, join_from, Pin, Unjoin
 from physsim_ros.model.shapes import Disc
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World
 import pytest
 
-from .jointed import joining, KINDS, members, pair, points_of
-from ..building import BOX, DISC, NOWHERE, pose, spawn, twist
+from .jointed import members, pair, points_of
+from ..building import BOX, DISC, join, joining, NOWHERE, pose, spawn, twist
 
 # Which bodies
 
 
-def test_the_two_topmost_bodies_under_the_point_are_joined() -> None:
+@pytest.mark.parametrize(
+    ('kind', 'points', 'bodies', 'ends'),
+    [
+        # The two topmost bodies under the point, or the only one and the background.
+        ('axle', [(0.4, 0.0)], ('a/2', 'a/1'), [(0.4, 0.0), (0.4, 0.0)]),
+        ('axle', [(-0.3, 0.0)], ('a/0', 'world'), [(-0.3, 0.0), (-0.3, 0.0)]),
+        # The bodies at the ends of a line, or the only one and what it hangs from.
+        ('spring', [(1.2, 0.0), (-0.3, 0.0)], ('a/1', 'a/0'), [(1.2, 0.0), (-0.3, 0.0)]),
+        ('rod', [(0.0, 5.0), (-0.3, 0.0)], ('a/0', 'world'), [(-0.3, 0.0), (0.0, 5.0)]),
+    ],
+)
+def test_the_topmost_bodies_under_the_points_are_joined(kind, points, bodies, ends):
     world = pair()
     spawn(world, 'a/2', BOX, (0.4, 0.0, 0.0))
-    world.apply(joining('axle', [(0.4, 0.0)]))
-    assert members(world) == ('a/2', 'a/1')
+    join(world, kind, points)
+    assert members(world) == bodies
+    assert world.snapshot().ends[0] == pytest.approx(np.array(ends))
 
 
-def test_the_only_body_under_the_point_is_joined_to_the_background() -> None:
-    world = pair()
-    world.apply(joining('axle', [(-0.3, 0.0)]))
-    assert members(world) == ('a/0', 'world')
-
-
-def test_what_was_joined_and_what_was_changed_is_said() -> None:
+def test_what_was_joined_and_what_was_changed_is_said():
     world = pair()
     axle = joining('axle', [(0.4, 0.0)], a='a/0', b='world')
     assert world.apply(axle).message == 'joined a/0 to the background by axle joint/0'
     assert world.apply(axle).message == 'changed axle joint/0 of a/0 and the background'
 
 
-def test_a_line_joins_the_bodies_at_its_ends() -> None:
+def test_named_bodies_are_joined_wherever_the_points_are():
     world = pair()
-    world.apply(joining('spring', [(1.2, 0.0), (-0.3, 0.0)]))
-    assert members(world) == ('a/1', 'a/0')
-
-
-def test_a_line_from_the_ceiling_hangs_the_body_at_its_end() -> None:
-    world = pair()
-    world.apply(joining('rod', [(0.0, 5.0), (-0.3, 0.0)]))
-    assert members(world) == ('a/0', 'world')
-    assert world.snapshot().ends[0].tolist() == pytest.approx(np.array([(-0.3, 0), (0, 5)]))
-
-
-def test_named_bodies_are_joined_wherever_the_points_are() -> None:
-    world = pair()
-    world.apply(joining('axle', [(7.0, 7.0)], a='a/0', b='a/1'))
+    join(world, 'axle', [(7.0, 7.0)], a='a/0', b='a/1')
     assert members(world) == ('a/0', 'a/1')
 
 
-def test_points_may_be_given_in_the_frame_of_a_body() -> None:
+def test_points_may_be_given_in_the_frame_of_a_body():
     world = pair()
-    world.apply(joining('axle', [(-0.4, 0.0)], a='a/0', b='world', frame='a/0'))
+    join(world, 'axle', [(-0.4, 0.0)], a='a/0', b='world', frame='a/0')
     x, y = world.snapshot().ends[0, 0]
     assert (x, y) == pytest.approx((-0.4 * math.cos(0.3), -0.4 * math.sin(0.3)))
 
 
 @pytest.mark.parametrize(('request_', 'kind'), [(Pin, 'pin'), (Axle, 'axle')])
-def test_a_click_gives_the_joint_the_lowest_free_name(request_: Any, kind: str) -> None:
+def test_a_click_gives_the_joint_the_lowest_free_name(request_, kind):
     world = pair()
     names = [world.apply(request_(point=(0.4, 0.0))).subject for _ in range(3)]
     world.apply(Unjoin(name=f'{kind}/1'))
@@ -89,43 +72,41 @@ def test_a_click_gives_the_joint_the_lowest_free_name(request_: Any, kind: str) 
 # Constraints
 
 
-@pytest.mark.parametrize('kind', [kind for kind in KINDS if kind.points == 1])
-def test_a_joint_at_a_point_keeps_it_closed(kind: JointKind) -> None:
+@pytest.mark.parametrize('kind', ['pin', 'axle', 'motor'])
+def test_a_joint_at_a_point_keeps_it_closed(kind):
     world = pair()
-    world.apply(joining(kind, points_of(kind)))
-    if kind is JointKind.GEAR:
-        return
+    join(world, kind, [(0.4, 0.0)])
     world.step(480)
     gap = world.snapshot().ends[0, 0] - world.snapshot().ends[0, 1]
     assert np.hypot(*gap) < 1e-4
 
 
-def test_a_pin_keeps_bodies_from_turning_against_each_other() -> None:
+def test_a_pin_keeps_bodies_from_turning_against_each_other():
     world = pair()
-    world.apply(joining('pin', [(0.4, 0.0)]))
+    join(world, 'pin', [(0.4, 0.0)])
     world.apply(Command(names=('a/0',), twists=((0.0, 0.0, 5.0),)))
     world.step(480)
     assert pose(world, 'a/0')[2] - pose(world, 'a/1')[2] == pytest.approx(0.5, abs=1e-6)
 
 
-def test_joined_bodies_pass_through_each_other_unless_they_collide() -> None:
+def test_joined_bodies_pass_through_each_other_unless_they_collide():
     apart = []
     for collide in (False, True):
         world = World()
         spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0), anchored=True)
         spawn(world, 'a/1', DISC, (0.0, 2.0, 0.0))
-        world.apply(joining('rope', [(0.0, 2.0), (0.0, 0.0)], length=5.0, collide=collide))
+        join(world, 'rope', [(0.0, 2.0), (0.0, 0.0)], length=5.0, collide=collide)
         world.step(480)
         apart.append(float(pose(world, 'a/1')[1]))
     assert apart[0] < 0.0
     assert apart[1] == pytest.approx(1.0, abs=0.01)
 
 
-def test_a_joint_to_the_background_does_not_open_the_walls() -> None:
+def test_a_joint_to_the_background_does_not_open_the_walls():
     world = World()
     world.apply(Configure(changes={'bounds': (-5.0, 0.0, 5.0, 10.0)}))
     spawn(world, 'a/0', DISC, (0.0, 1.0, 0.0))
-    world.apply(joining('rope', [(0.0, 1.0), (0.0, 9.0)], a='a/0', b='world', length=20.0))
+    join(world, 'rope', [(0.0, 1.0), (0.0, 9.0)], a='a/0', b='world', length=20.0)
     world.step(480)
     assert pose(world, 'a/0')[1] > 0.48
 
@@ -134,19 +115,17 @@ def test_a_joint_to_the_background_does_not_open_the_walls() -> None:
     ('said', 'least', 'most'),
     [({'lower': 0.0, 'upper': 0.0}, -1e-3, 1e-3), ({'lower': 1e4}, 1.0, 1e4)],
 )
-def test_a_slider_may_have_limits_that_leave_no_way(
-    said: dict[str, float], least: float, most: float
-) -> None:
+def test_a_slider_may_have_limits_that_leave_no_way(said, least, most):
     world = pair()
     points = points_of(JointKind.SLIDER)
-    world.apply(joining(JointKind.SLIDER, points, a='a/0', b='world', **said))
+    join(world, JointKind.SLIDER, points, a='a/0', b='world', **said)
     before = pose(world, 'a/0')
     world.step(240)
     x, *_ = np.subtract(pose(world, 'a/0'), before)
     assert least < x < most
 
 
-def test_a_property_that_is_null_has_its_default_again() -> None:
+def test_a_property_that_is_null_has_its_default_again():
     world = World()
     spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0))
     drawn: dict[str, Any] = {'name': 'axle/0', 'points': ((0.0, 0.0),)}
@@ -159,31 +138,23 @@ def test_a_property_that_is_null_has_its_default_again() -> None:
         join_from(terms | {'stiffness': None}, **drawn)
 
 
-def test_a_joint_gives_no_more_than_its_greatest_force() -> None:
+def test_a_joint_gives_no_more_than_its_greatest_force():
     world = World()
     spawn(world, 'a/0', BOX, mass=1.0)
-    world.apply(joining('pin', [(0.0, 0.0)], max_force=4.0))
+    join(world, 'pin', [(0.0, 0.0)], max_force=4.0)
     world.step(240)
     assert -twist(world, 'a/0')[1] == pytest.approx(9.81 - 4.0, rel=0.02)
 
 
-def test_the_torque_of_a_motor_leaves_the_force_of_its_axle_unreached() -> None:
+def test_the_torque_of_a_motor_leaves_the_force_of_its_axle_unreached():
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', DISC, mass=1000.0)
     said = {'rate': 100.0, 'max_torque': 1000.0, 'max_force': 50.0}
-    world.apply(joining('motor', [(0.0, 0.0)], a='a/0', b='world', **said))
+    join(world, 'motor', [(0.0, 0.0)], a='a/0', b='world', **said)
     world.apply(Command(names=('a/0',), poses=((0.1, 0.0, 0.0),)))
     world.step(10)
     assert world.snapshot().forces == pytest.approx([1000.0])
     assert pose(world, 'a/0')[:2] == pytest.approx((0.0, 0.0), abs=1e-4)
-
-
-def test_the_force_of_a_joint_is_the_weight_that_hangs_on_it() -> None:
-    world = World()
-    spawn(world, 'a/0', BOX, mass=2.0)
-    world.apply(joining('axle', [(0.0, 0.4)], a='a/0', b='world'))
-    world.step(240)
-    assert world.snapshot().forces.tolist() == pytest.approx([2.0 * 9.81], rel=1e-3)
 
 
 def energies(world: World, steps: int) -> list[float]:
@@ -208,12 +179,10 @@ def energies(world: World, steps: int) -> list[float]:
     ],
 )
 @pytest.mark.filterwarnings('error')
-def test_the_energy_of_a_spring_is_that_of_the_one_which_the_engine_has(
-    said: dict[str, Any], least: float, most: float
-) -> None:
+def test_the_energy_of_a_spring_is_that_of_the_one_which_the_engine_has(said, least, most):
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', DISC, mass=1.0)
-    world.apply(joining('spring', [(0.0, 0.0), (2.0, 0.0)], a='a/0', b='world', **said))
+    join(world, 'spring', [(0.0, 0.0), (2.0, 0.0)], a='a/0', b='world', **said)
     assert least <= world.snapshot().elastic_energy <= most
 
     found = energies(world, 240)
@@ -222,13 +191,13 @@ def test_the_energy_of_a_spring_is_that_of_the_one_which_the_engine_has(
     assert max(found) <= most
 
 
-def test_the_energy_of_springs_is_the_same_where_the_past_is_shown() -> None:
+def test_the_energy_of_springs_is_the_same_where_the_past_is_shown():
     world = World(settings=NOWHERE)
     spawn(world, 'a/0', DISC)
     for number, stiffness in enumerate((1e4, 20.0)):
         line: list[Point] = [(0.0, 0.0), (0.0, 2.0)]
         said = {'stiffness': stiffness, 'rest_length': 1.9, 'a': 'a/0', 'b': 'world'}
-        world.apply(joining('spring', line, f'spring/{number}', **said))
+        join(world, 'spring', line, f'spring/{number}', **said)
     world.step(48)
     shown = world.snapshot()
 
@@ -242,12 +211,12 @@ def test_the_energy_of_springs_is_the_same_where_the_past_is_shown() -> None:
 
 @pytest.mark.parametrize('mass', [1e-3, 1.0])
 @pytest.mark.parametrize('stiffness', [1e5, 1e7, 1e12])
-def test_no_spring_is_too_stiff(stiffness: float, mass: float) -> None:
+def test_no_spring_is_too_stiff(stiffness, mass):
     world = World()
     spawn(world, 'a/0', Disc(radius=0.1), (0.0, 0.0, 0.0), mass=mass)
     for number in range(2):
         line = [(0.0, 0.0), (0.0, 1.0)]
-        world.apply(joining('spring', line, f'spring/{number}', stiffness=stiffness))
+        join(world, 'spring', line, f'spring/{number}', stiffness=stiffness)
     before = energies(world, 1)[0]
 
     found = energies(world, 480)
@@ -257,27 +226,13 @@ def test_no_spring_is_too_stiff(stiffness: float, mass: float) -> None:
     assert world.snapshot().poses[0, 1] == pytest.approx(-sag, abs=2.0 * sag + 1e-9)
 
 
-@pytest.mark.parametrize('damping', [1.0, 20.0, 100.0, 1000.0, 1e5])
-def test_what_sinks_on_a_damper_is_as_fast_as_the_damper_carries_it(damping: float) -> None:
-    world = World(settings=replace(NOWHERE, gravity=(0.0, -2.0)))
-    spawn(world, 'a/0', Disc(radius=0.1), (0.0, 0.0, 0.0), mass=1.0)
-    line = [(0.0, 0.0), (0.0, 100.0)]
-    world.apply(joining('spring', line, stiffness=0.0, damping=damping))
-
-    world.step(2400)
-
-    assert world.snapshot().twists[0, 1] == pytest.approx(-2.0 / damping, rel=1e-3)
-
-
 # Push and pull
 
 
 @pytest.mark.parametrize('gravity', [-9.81, 9.81], ids=['hanging', 'standing'])
 @pytest.mark.parametrize('kind', ['rod', 'spring'])
 @pytest.mark.parametrize('reverse', [False, True], ids=['from above', 'from below'])
-def test_a_rod_or_spring_under_a_weight_pushes_and_over_one_it_pulls(
-    kind: str, gravity: float, *, reverse: bool
-) -> None:
+def test_a_rod_or_spring_under_a_weight_pushes_and_over_one_it_pulls(kind, gravity, reverse):
     world = World()
     world.apply(Configure(changes={'gravity': (0.0, gravity)}))
     spawn(world, 'a/0', DISC, (0.0, 0.0, 0.0))
@@ -287,7 +242,7 @@ def test_a_rod_or_spring_under_a_weight_pushes_and_over_one_it_pulls(
     if reverse:
         points, names = points[::-1], {'a': 'a/0', 'b': 'a/1'}
     said = {'stiffness': 200.0, 'damping': 5.0} if kind == 'spring' else {}
-    world.apply(joining(kind, points, **names, **said))
+    join(world, kind, points, **names, **said)
     world.step(240)
     snapshot = world.snapshot()
     assert snapshot.forces == pytest.approx([DISC.form.area * abs(gravity)], rel=0.2)
@@ -295,12 +250,12 @@ def test_a_rod_or_spring_under_a_weight_pushes_and_over_one_it_pulls(
     assert snapshot.compressed.tolist() == [gravity > 0]
 
 
-def test_a_point_just_inside_a_body_is_in_it_after_its_joints_have_moved_it() -> None:
+def test_a_point_just_inside_a_body_is_in_it_after_its_joints_have_moved_it():
     world = World()
     spawn(world, 'a/0', BOX)
     spawn(world, 'a/1', BOX, (0.5, 0.0, 0.0), density=40.0)
-    world.apply(joining('axle', [(-0.2, 0.0)], name='j/0', a='a/0', b='world'))
-    world.apply(joining('axle', [(0.2, 0.0)], name='j/1', a='a/0', b='a/1'))
+    join(world, 'axle', [(-0.2, 0.0)], name='j/0', a='a/0', b='world')
+    join(world, 'axle', [(0.2, 0.0)], name='j/1', a='a/0', b='a/1')
     inside = 0.5 - 1e-7
     for _ in range(60):
         world.step(1)

@@ -7,9 +7,6 @@ Machines at random: no number leaves the range, nothing raises, and no energy co
 `PHYSSIM_MACHINES` sets how many; a few hundred take some minutes.
 """
 
-from __future__ import annotations
-
-from dataclasses import replace
 import math
 import os
 import random
@@ -18,16 +15,13 @@ from typing import Any
 from hypothesis import given, Phase, settings, strategies
 import numpy as np
 from physsim_ros.model.errors import Anchored, BadProperty
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.names import WORLD
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Anchor,
     Command,
     Configure,
-    Join,
     Pin,
     Release,
-    Request,
     Spawn,
     Unjoin,
     UnjoinAll,
@@ -38,7 +32,7 @@ from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import BOX, G, spawn
+from ..building import BOX, G, join, spawn
 
 COUNT = int(os.environ.get('PHYSSIM_MACHINES', '12'))
 # Share of all the energy that the bodies can fall through which may be added in ten seconds.
@@ -92,16 +86,8 @@ def machine(pick: random.Random, *, sensors: bool) -> World:
         near = (float(here[0]) + pick.uniform(-0.3, 0.3), float(here[1]) + pick.uniform(-0.3, 0.3))
         points = (near, (pick.uniform(-3.0, 3.0), pick.uniform(0.0, 5.0)))
         try:
-            world.apply(
-                Join(
-                    name=f'joint/{number}',
-                    kind=kind,
-                    points=points[: kind.points],
-                    a=a,
-                    b=b,
-                    properties=JointProperties(**properties(pick, kind)),
-                )
-            )
+            said = {'a': a, 'b': b, **properties(pick, kind)}
+            join(world, kind, points[: kind.points], f'joint/{number}', **said)
         except (Anchored, BadProperty):
             # Both anchored, or a spring that is too stiff for what is on it already.
             continue
@@ -112,7 +98,7 @@ def machine(pick: random.Random, *, sensors: bool) -> World:
 @pytest.mark.slow
 @settings(max_examples=COUNT, deadline=None, derandomize=True, phases=[Phase.generate])
 @given(seed=strategies.integers(0, 2**32), sensors=strategies.booleans())
-def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:
+def test_any_machine_runs_for_ten_seconds(seed, sensors):
     world = machine(random.Random(seed), sensors=sensors)
     before = world.snapshot()
     began = energy(before)
@@ -128,14 +114,13 @@ def test_any_machine_runs_for_ten_seconds(seed: int, sensors: bool) -> None:
 
 
 @pytest.mark.parametrize('kind', [JointKind.AXLE, JointKind.ROD])
-def test_a_joint_against_a_contact_moves_no_free_machine(kind: JointKind) -> None:
+def test_a_joint_against_a_contact_moves_no_free_machine(kind):
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     # Drawn into each other, and yet to collide.
     spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0), velocity=(1.0, 0.0))
     spawn(world, 'a/1', BOX, (0.98, 0.3, 0.0), velocity=(1.0, 0.0))
     points = ((0.5, 0.15),) if kind is JointKind.AXLE else ((0.0, 0.0), (0.98, 0.3))
-    said = JointProperties(collide=True)
-    world.apply(Join(name='j/0', kind=kind, points=points, a='a/0', b='a/1', properties=said))
+    join(world, kind, points, a='a/0', b='a/1', collide=True)
     before = world.snapshot().momentum
     world.step(480)
     assert world.snapshot().momentum == pytest.approx(before, abs=1e-9)
@@ -146,30 +131,27 @@ def hanging() -> World:
     world = World()
     for number in range(2):
         spawn(world, f'bar/{number}', Box(width=1.0, height=0.2), (0.5 + number, 5.0, 0.0))
-        axle = JointKind.AXLE
         other = f'bar/{number - 1}' if number else 'world'
-        at = ((float(number), 5.0),)
-        world.apply(Join(name=f'axle/{number}', kind=axle, points=at, a=f'bar/{number}', b=other))
+        join(world, 'axle', [(number, 5.0)], f'axle/{number}', a=f'bar/{number}', b=other)
     spawn(world, 'disc/0', pose=(9.0, 9.0, 0.0))
     world.step(100)
     return world
 
 
-def test_what_joints_gave_stays_where_others_come_and_go() -> None:
+def test_what_joints_gave_stays_where_others_come_and_go():
     world = hanging()
     forces = world.snapshot().forces
     assert (forces > 1.0).all()
     spawn(world, 'disc/0', pose=(9.0, 9.0, 0.0), color=(1.0, 0.0, 0.0, 1.0))
     assert world.snapshot().forces.tolist() == forces.tolist()
-    rod = Join(name='rod/0', kind=JointKind.ROD, points=((9.0, 9.0), (9.0, 12.0)), a='disc/0')
-    world.apply(rod)
+    join(world, 'rod', [(9.0, 9.0), (9.0, 12.0)], 'rod/0', a='disc/0')
     assert world.snapshot().forces.tolist() == [*forces.tolist(), 0.0]
     world.renew()
     world.apply(Unjoin(name='axle/0'))
     assert world.snapshot().forces.tolist() == [forces[1], 0.0]
 
 
-def test_joints_come_and_go_in_a_world_that_stands() -> None:
+def test_joints_come_and_go_in_a_world_that_stands():
     world = hanging()
     x, y, _ = world.snapshot().poses[2].tolist()
     for _ in range(3):
@@ -190,15 +172,14 @@ def weighted(
     world = World(physics_rate=physics_rate)
     spawn(world, 'weight/0', Disc(radius=0.1), (0.0, -stretched, 0.0), mass=mass)
     ends = ((0.0, -stretched), (0.0, 1.0 + G / stiffness))
-    said = JointProperties(stiffness=stiffness, rest_length=1.0)
-    spring = Join(name='spring/0', kind=JointKind.SPRING, points=ends, a='weight/0', b=WORLD)
-    world.apply(replace(spring, properties=said))
+    said = {'stiffness': stiffness, 'rest_length': 1.0}
+    join(world, 'spring', ends, a='weight/0', b='world', **said)
     return world
 
 
 @pytest.mark.parametrize('physics_rate', [60.0, 240.0])
 @pytest.mark.parametrize('stiffness', [4.0, 40.0])
-def test_a_weight_at_balance_on_its_spring_stays(stiffness: float, physics_rate: float) -> None:
+def test_a_weight_at_balance_on_its_spring_stays(stiffness, physics_rate):
     world = weighted(stiffness, physics_rate=physics_rate)
     for _ in range(240):
         world.step(10)
@@ -216,7 +197,7 @@ def test_a_weight_at_balance_on_its_spring_stays(stiffness: float, physics_rate:
     ],
     ids=['released', 'stopped', 'put', 'gravity', 'changed'],
 )
-def test_it_stays_where_it_is_let_go_again(again: tuple[Request, ...]) -> None:
+def test_it_stays_where_it_is_let_go_again(again):
     world = weighted(10.0)
     world.step(60)
     for request in again:
@@ -225,17 +206,16 @@ def test_it_stays_where_it_is_let_go_again(again: tuple[Request, ...]) -> None:
     assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-9)
 
 
-def test_what_hangs_on_a_weight_by_a_rod_stays_with_it() -> None:
+def test_what_hangs_on_a_weight_by_a_rod_stays_with_it():
     world = weighted(20.0, mass=0.5)
     spawn(world, 'weight/1', Disc(radius=0.1), (0.0, -1.0, 0.0), mass=0.5)
-    below = ((0.0, 0.0), (0.0, -1.0))
-    world.apply(Join(name='rod/0', kind=JointKind.ROD, points=below, a='weight/0', b='weight/1'))
+    join(world, 'rod', [(0.0, 0.0), (0.0, -1.0)], 'rod/0', a='weight/0', b='weight/1')
     for _ in range(24):
         world.step(10)
         assert np.abs(world.snapshot().twists).max() < 1e-3
 
 
-def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled() -> None:
+def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled():
     world = weighted(10.0, stretched=0.2)
     omega, start = math.sqrt(10.0), world.snapshot()
     for _ in range(480):
@@ -247,12 +227,11 @@ def test_a_weight_on_a_stretched_spring_swings_as_far_as_it_was_pulled() -> None
         assert energy(now) == pytest.approx(energy(start), abs=0.01 * 0.2)
 
 
-def test_two_bodies_that_a_spring_joins_fly_together_exactly() -> None:
+def test_two_bodies_that_a_spring_joins_fly_together_exactly():
     world = World()
     for number in range(2):
         spawn(world, f'weight/{number}', Disc(radius=0.1), (float(number), 0.0, 0.0))
-    said = JointProperties(stiffness=10.0, rest_length=0.8)
-    ends = {'points': ((0.0, 0.0), (1.0, 0.0)), 'a': 'weight/0', 'b': 'weight/1'}
-    world.apply(Join(name='spring/0', kind=JointKind.SPRING, properties=said, **ends))
+    said = {'a': 'weight/0', 'b': 'weight/1', 'stiffness': 10.0, 'rest_length': 0.8}
+    join(world, 'spring', [(0.0, 0.0), (1.0, 0.0)], **said)
     world.step(480)
     assert world.snapshot().poses[:, 1] == pytest.approx(-2.0 * G, abs=1e-9)

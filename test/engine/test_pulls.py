@@ -3,8 +3,6 @@
 
 """The forces of joints as vectors: with weight they are what changes the momentum of a body."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -13,8 +11,8 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
 import pytest
 
-from .jointed import joining, KINDS, PROPERTIES
-from ..building import BOX, spawn
+from .jointed import KINDS, PROPERTIES
+from ..building import BOX, join, spawn
 
 GRAVITY = np.array([3.0, -9.81])
 
@@ -25,13 +23,13 @@ def loaded(kind: JointKind) -> World:
     spawn(world, 'a/0', BOX, (0.0, 0.0, 0.3), anchored=True)
     spawn(world, 'a/1', BOX, (1.6, 0.2, -0.2))
     points = [(0.4, 0.0), (1.4, 0.0)][: kind.points]
-    world.apply(joining(kind, points, a='a/0', b='a/1', **PROPERTIES.get(kind, {})))
+    join(world, kind, points, a='a/0', b='a/1', **PROPERTIES.get(kind, {}))
     world.reports_contacts = True
     return world
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_weight_and_joint_are_what_changes_the_momentum(kind: JointKind) -> None:
+def test_weight_and_joint_are_what_changes_the_momentum(kind):
     world = loaded(kind)
     (joint,) = world.snapshot().scene.joints
     sign = 1.0 if joint.b == 'a/1' else -1.0
@@ -50,7 +48,7 @@ def test_weight_and_joint_are_what_changes_the_momentum(kind: JointKind) -> None
         assert changed == pytest.approx(expected, abs=0.5 * slack + 1e-4)
 
 
-def test_joints_have_no_vectors_where_nobody_watches() -> None:
+def test_joints_have_no_vectors_where_nobody_watches():
     world = loaded(JointKind.ROD)
     world.reports_contacts = False
     world.step(4)

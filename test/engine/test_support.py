@@ -3,17 +3,14 @@
 
 """Bodies that lose what they rest or hang on fall exactly; those that keep it do not stir."""
 
-from collections.abc import Callable
 from functools import partial
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import (
     Command,
     Configure,
     Delete,
-    Join,
     Pin,
     Release,
     Request,
@@ -25,25 +22,17 @@ from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import (
-    BOX,
-    G,
-    pose,
-    spawn,
-    stack,
-    twist,
-)
+from ..building import BOX, G, join, pose, spawn, stack, twist
 
 
 def hung(world: World) -> Request:
-    world.apply(Join(name='rod/0', kind=JointKind.ROD, points=((0.0, 50.0), (0.0, 53.0)), a='r/0'))
-    return Unjoin(name='rod/0')
+    join(world, 'rod', [(0.0, 50.0), (0.0, 53.0)], a='r/0')
+    return Unjoin(name='joint/0')
 
 
 def sprung(world: World) -> Request:
-    points = (0.0, 50.0), (0.0, 53.0)
-    world.apply(Join(name='spring/0', kind=JointKind.SPRING, points=points, a='r/0'))
-    return Unjoin(name='spring/0')
+    join(world, 'spring', [(0.0, 50.0), (0.0, 53.0)], a='r/0')
+    return Unjoin(name='joint/0')
 
 
 def pinned(world: World) -> Request:
@@ -80,7 +69,7 @@ def walled(world: World) -> Request:
     ],
     ids=['rod', 'spring', 'pin', 'wall', 'deleted', 'moved', 'sensor'],
 )
-def test_what_is_let_go_falls_exactly(held: Callable[[World], Request]) -> None:
+def test_what_is_let_go_falls_exactly(held):
     world = World()
     spawn(world, 'r/0', BOX, (0.0, 50.0, 0.0))
     let_go = held(world)
@@ -95,17 +84,12 @@ def test_what_is_let_go_falls_exactly(held: Callable[[World], Request]) -> None:
     assert twist(world, 'r/0')[1] == pytest.approx(vy - 2.0 * G, abs=1e-9)
 
 
-def test_what_keeps_another_support_does_not_stir() -> None:
+def test_what_keeps_another_support_does_not_stir():
     world = World()
     spawn(world, 'plank/0', Box(width=4.0, height=0.2), (0.0, 2.1, 0.0))
     for number in range(3):
-        spawn(
-            world,
-            f'post/{number}',
-            Box(width=0.5, height=2.0),
-            (number - 1.0, 1.0, 0.0),
-            anchored=True,
-        )
+        post, place = Box(width=0.5, height=2.0), (number - 1.0, 1.0, 0.0)
+        spawn(world, f'post/{number}', post, place, anchored=True)
     world.step(240)
     before = pose(world, 'plank/0')
     world.apply(Delete(name='post/1'))
@@ -132,9 +116,7 @@ def standing(count: int) -> World:
     ],
     ids=['floor deleted', 'floor moved', 'weightless', 'upward'],
 )
-def test_a_stack_that_loses_its_footing_falls_as_one(
-    request_: Request, gravity: tuple[float, float]
-) -> None:
+def test_a_stack_that_loses_its_footing_falls_as_one(request_, gravity):
     world = standing(10)
     before = world.snapshot()
 
@@ -147,7 +129,7 @@ def test_a_stack_that_loses_its_footing_falls_as_one(
     assert now.poses[-10:, 1] == pytest.approx(before.poses[-10:, 1] + after / 2, abs=1e-4)
 
 
-def test_what_stood_on_a_box_that_is_deleted_falls_as_one_and_the_rest_stands() -> None:
+def test_what_stood_on_a_box_that_is_deleted_falls_as_one_and_the_rest_stands():
     world = standing(8)
 
     world.apply(Delete(name='stack/3'))
@@ -158,7 +140,7 @@ def test_what_stood_on_a_box_that_is_deleted_falls_as_one_and_the_rest_stands() 
     assert vy[:3] == pytest.approx(0.0, abs=0.02)
 
 
-def test_a_floor_laid_at_once_holds_the_stack() -> None:
+def test_a_floor_laid_at_once_holds_the_stack():
     world = standing(6)
 
     world.apply(Delete(name='floor/0'))
@@ -169,7 +151,7 @@ def test_a_floor_laid_at_once_holds_the_stack() -> None:
 
 
 @pytest.mark.parametrize('gravity', [(0.0, -9.7), (0.0, -5.0), (0.0, -0.1)])
-def test_a_stack_does_not_stir_where_gravity_is_less(gravity: tuple[float, float]) -> None:
+def test_a_stack_does_not_stir_where_gravity_is_less(gravity):
     world = standing(10)
 
     world.apply(Configure(changes={'gravity': gravity}))
@@ -179,7 +161,7 @@ def test_a_stack_does_not_stir_where_gravity_is_less(gravity: tuple[float, float
         assert np.abs(world.snapshot().twists).max() < 1e-3
 
 
-def test_gravity_that_comes_back_finds_what_it_left() -> None:
+def test_gravity_that_comes_back_finds_what_it_left():
     world = standing(3)
 
     for gravity in ((1e-310, 0.0), (G, -G), (0.0, 0.0), (0.0, -G)):
@@ -189,7 +171,7 @@ def test_gravity_that_comes_back_finds_what_it_left() -> None:
     assert np.abs(world.snapshot().twists).max() < 1e-3
 
 
-def test_looking_at_what_is_let_go_changes_nothing() -> None:
+def test_looking_at_what_is_let_go_changes_nothing():
     one, other = standing(4), standing(4)
 
     for world in (one, other):

@@ -3,8 +3,6 @@
 
 """A world renewed from its own state goes on as if nothing had been, and always alike."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -29,7 +27,7 @@ def fastest(world: World) -> float:
     return float(np.abs(world.snapshot().twists).max())
 
 
-def test_a_resting_stack_does_not_stir_where_it_is_renewed() -> None:
+def test_a_resting_stack_does_not_stir_where_it_is_renewed():
     world = settled()
     before = world.snapshot()
     stirred = []
@@ -43,21 +41,17 @@ def test_a_resting_stack_does_not_stir_where_it_is_renewed() -> None:
     np.testing.assert_allclose(world.snapshot().poses, before.poses, atol=1e-4)
 
 
-def test_without_the_memory_it_would_stir() -> None:
+def test_without_the_memory_it_would_stir():
     world = settled()
     key = world.renew()
-    nothing = replace(
-        key.memory,
-        pairs=key.memory.pairs[:0],
-        hashes=key.memory.hashes[:0],
-        impulses=key.memory.impulses[:0],
-    )
+    columns = {name: getattr(key.memory, name)[:0] for name in ('pairs', 'hashes', 'impulses')}
+    nothing = replace(key.memory, **columns)
     world.resume(replace(key, memory=nothing))
     world.step(2)
     assert fastest(world) > 1e-2
 
 
-def test_renewing_changes_nothing_that_is_seen() -> None:
+def test_renewing_changes_nothing_that_is_seen():
     world = settled(3)
     before, digest = world.snapshot(), world.digest()
     world.renew()
@@ -68,7 +62,7 @@ def test_renewing_changes_nothing_that_is_seen() -> None:
     np.testing.assert_array_equal(after.twists, before.twists)
 
 
-def test_who_resumes_at_a_letting_go_goes_on_alike() -> None:
+def test_who_resumes_at_a_letting_go_goes_on_alike():
     world, saved, resumed = settled(6), World(), World()
     world.apply(Delete(name='stack/2'))
     before, digest = world.snapshot(), world.digest()
@@ -83,7 +77,7 @@ def test_who_resumes_at_a_letting_go_goes_on_alike() -> None:
     np.testing.assert_array_equal(saved.snapshot().poses, world.snapshot().poses)
 
 
-def test_bodies_of_the_space_before_last_are_as_good_as_new() -> None:
+def test_bodies_of_the_space_before_last_are_as_good_as_new():
     one, other = settled(5), settled(5)
     for _ in range(4):
         one.step(100)
@@ -94,7 +88,7 @@ def test_bodies_of_the_space_before_last_are_as_good_as_new() -> None:
         assert one.digest() == other.digest()
 
 
-def test_what_has_changed_since_is_not_taken_from_before() -> None:
+def test_what_has_changed_since_is_not_taken_from_before():
     one, other = settled(4), settled(4)
     for world in (one, other):
         world.renew()
@@ -109,7 +103,7 @@ def test_what_has_changed_since_is_not_taken_from_before() -> None:
     assert one.digest() == other.digest()
 
 
-def test_a_wrench_and_a_lifetime_go_on() -> None:
+def test_a_wrench_and_a_lifetime_go_on():
     world = World(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=1.0))
     spawn(world, 'a/0', BOX, lifetime=2.0)
     world.apply(Command(names=('a/0',), wrenches=((1.0, 0.0, 0.0),)))
@@ -121,7 +115,7 @@ def test_a_wrench_and_a_lifetime_go_on() -> None:
     assert len(world) == 0
 
 
-def test_impulses_of_the_frame_are_taken_over() -> None:
+def test_impulses_of_the_frame_are_taken_over():
     one, other = settled(2), settled(2)
     for world in (one, other):
         world.reports_contacts = True

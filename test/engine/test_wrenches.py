@@ -3,10 +3,9 @@
 
 """Wrenches: accelerations, timeouts, and their beginning and end without a jump of velocity."""
 
-from physsim_ros.model.requests import (
-    Command,
-    Configure,
-)
+import math
+
+from physsim_ros.model.requests import Command, Configure
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
@@ -27,7 +26,7 @@ from ..building import (
 REST = (0.0, 0.0, 0.0)
 
 
-def test_a_torque_gives_its_angular_acceleration_exactly(world: World) -> None:
+def test_a_torque_gives_its_angular_acceleration_exactly(world):
     unlimit_wrenches(world)
     spawn(world, 'a/0', Disc(radius=0.5), REST, mass=4.0, spin=1.0)
 
@@ -39,7 +38,7 @@ def test_a_torque_gives_its_angular_acceleration_exactly(world: World) -> None:
     assert twist(world, 'a/0') == pytest.approx((0.0, 0.0, 4.0), abs=ROUNDING_OF_SUMS)
 
 
-def test_a_force_acts_in_world_axes_whichever_way_the_body_turns(world: World) -> None:
+def test_a_force_acts_in_world_axes_whichever_way_the_body_turns(world):
     unlimit_wrenches(world)
     spawn(world, 'a/0', BOX, (0.0, 0.0, 1.0), mass=1.0, spin=7.0)
 
@@ -49,14 +48,17 @@ def test_a_force_acts_in_world_axes_whichever_way_the_body_turns(world: World) -
     assert twist(world, 'a/0') == pytest.approx((1.0, 0.0, 7.0), abs=ROUNDING_OF_SUMS)
 
 
-@pytest.mark.parametrize(('timeout', 'steps'), [(0.5, 120), (0.1, 24), (1e-6, 1), (0.0101, 3)])
-def test_a_wrench_acts_for_the_timeout_of_simulation_time(timeout: float, steps: int) -> None:
+# A timeout of 0 is no limit.
+@pytest.mark.parametrize(
+    ('timeout', 'steps'), [(0.5, 120), (0.1, 24), (1e-6, 1), (0.0101, 3), (0.0, math.inf)]
+)
+def test_a_wrench_acts_for_the_timeout_of_simulation_time(timeout, steps):
     world = World(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=timeout))
     spawn(world, 'a/0', DISC, mass=1.0)
     world.step(5)
 
     command(world, 'a/0', wrench=(240.0, 0.0, 0.0))
-    for step in range(1, steps + 10):
+    for step in range(1, 140):
         world.step(1)
         assert twist(world, 'a/0')[0] == pytest.approx(min(step, steps), abs=1e-9)
 
@@ -64,9 +66,7 @@ def test_a_wrench_acts_for_the_timeout_of_simulation_time(timeout: float, steps:
 @pytest.mark.parametrize(
     ('before', 'after', 'steps'), [(0.0, 0.1, 24), (2.0, 0.1, 24), (0.5, 2.0, 110)]
 )
-def test_another_timeout_holds_for_a_wrench_that_acts(
-    before: float, after: float, steps: int
-) -> None:
+def test_another_timeout_holds_for_a_wrench_that_acts(before, after, steps):
     world = World(settings=WorldSettings(gravity=(0.0, 0.0), command_timeout=before))
     spawn(world, 'a/0', DISC, mass=1.0)
     command(world, 'a/0', wrench=(240.0, 0.0, 0.0))
@@ -77,17 +77,7 @@ def test_another_timeout_holds_for_a_wrench_that_acts(
     assert twist(world, 'a/0')[0] == pytest.approx(10 + steps, abs=1e-9)
 
 
-def test_a_timeout_of_0_is_no_limit(world: World) -> None:
-    unlimit_wrenches(world)
-    spawn(world, 'a/0', DISC, mass=1.0)
-
-    command(world, 'a/0', wrench=(1.0, 0.0, 0.0))
-    world.step(2400)
-
-    assert twist(world, 'a/0')[0] == pytest.approx(10.0, abs=1e-8)
-
-
-def test_a_wrench_acts_until_the_next_one(world: World) -> None:
+def test_a_wrench_acts_until_the_next_one(world):
     spawn(world, 'a/0', DISC, mass=1.0)
     command(world, 'a/0', wrench=(1.0, 0.0, 0.0))
     world.step(60)
@@ -104,7 +94,7 @@ def test_a_wrench_acts_until_the_next_one(world: World) -> None:
     assert twist(world, 'a/0') == pytest.approx((0.25, 1.0, 0.0), abs=ROUNDING_OF_SUMS)
 
 
-def test_a_wrench_begins_and_ends_without_a_jump_of_velocity(world: World) -> None:
+def test_a_wrench_begins_and_ends_without_a_jump_of_velocity(world):
     spawn(world, 'a/0', DISC, mass=1.0, velocity=(1.0, 0.0))
 
     command(world, 'a/0', wrench=(100.0, 0.0, 10.0))
@@ -115,7 +105,7 @@ def test_a_wrench_begins_and_ends_without_a_jump_of_velocity(world: World) -> No
     assert twist(world, 'a/0')[0] == pytest.approx(51.0, abs=1e-9)
 
 
-def test_a_wrench_that_only_one_of_two_is_given_moves_only_that(world: World) -> None:
+def test_a_wrench_that_only_one_of_two_is_given_moves_only_that(world):
     for number in range(2):
         spawn(world, f'a/{number}', DISC, (5.0 * number, 0.0, 0.0), mass=1.0)
 

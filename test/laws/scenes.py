@@ -105,6 +105,18 @@ def chain(sim, count, link):
         join(sim, f'joint/{number}', 'axle', points, a=f'link/{number}', b=other)
 
 
+def pyramid(sim, size, gap):
+    """Pile up 14 levels of boxes, apart by a share of their size; return their heights [m]."""
+    heights = []
+    for level in range(14):
+        for place in range(14 - level):
+            x = (place - (13 - level) / 2) * size * (1 + gap)
+            pose = (x, size * (level + 0.5), 0.0)
+            spawn(sim, f'box/{len(heights)}', Box(width=size, height=size), pose)
+            heights.append(pose[1])
+    return heights
+
+
 def bar_among_discs(spin):
     """Return a world with a bar of 4 m that spins among 40 discs, and their rows."""
     sim = simulation(gravity=NOWHERE, friction=0.0)

@@ -8,13 +8,12 @@ import math
 import numpy as np
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import ChangeBody, Command, Join
+from physsim_ros.model.requests import ChangeBody, Command
 from physsim_ros.model.shapes import Box, Disc, Polygon
 from physsim_ros.model.transform import local_to_world
 import pytest
 
-from .scenes import DT, floor, G, simulation, spawn, steps
+from .scenes import DT, floor, G, join, simulation, spawn, steps
 
 L_SHAPE = Polygon(outline=((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0)))
 
@@ -37,14 +36,8 @@ def test_a_constant_force_gives_acceleration_force_by_mass(report, shape):
         report.check(54, 'v = F t/m, for 2 s', off / np.hypot(*a * t), 0.0, 1e-12, '-')
         off = math.dist(snapshot.centers[0], start + a * t * t / 2)
         report.check(54, 'x = F t²/2m, for 2 s', off / np.hypot(*a * t * t / 2), 0.0, 1e-11, '-')
-        report.check(
-            54,
-            'no spin by a force at the centre of mass',
-            snapshot.twists[0, 2],
-            0.0,
-            1e-15,
-            'rad/s',
-        )
+        what = 'no spin by a force at the centre of mass'
+        report.check(54, what, snapshot.twists[0, 2], 0.0, 1e-15, 'rad/s')
 
 
 def test_a_thruster_at_an_arm_turns_by_torque_over_moment(report):
@@ -55,9 +48,8 @@ def test_a_thruster_at_an_arm_turns_by_torque_over_moment(report):
 
     for snapshot in steps(sim, 480):
         t = snapshot.step * DT
-        report.check(
-            54, 'ω = F r t/J', snapshot.twists[0, 2] / (0.5 * 2.0 / moment * t), 1.0, 1e-12, '-'
-        )
+        turned = snapshot.twists[0, 2] / (0.5 * 2.0 / moment * t)
+        report.check(54, 'ω = F r t/J', turned, 1.0, 1e-12, '-')
         yaw = 0.5 * 2.0 / moment * t * t / 2
         report.check(54, 'yaw of a thruster for 2 s', snapshot.poses[0, 2], yaw, 1e-9, 'rad')
 
@@ -106,21 +98,12 @@ def test_friction_holds_a_block_up_to_its_limit(report, pull, acceleration):
 def test_a_pendulum_hangs_along_the_sum_of_weight_and_pull(report):
     sim = simulation(damping=0.9)
     spawn(sim, 'bob/0', Disc(radius=0.1), (0.0, -1.0, 0.0), mass=1.0, forces=[{'force': [G, 0.0]}])
-    sim.perform(
-        Join(name='rod/0', kind=JointKind.ROD, points=((0.0, -1.0), (0.0, 0.0)), b='world')
-    )
+    join(sim, 'rod/0', 'rod', [(0.0, -1.0), (0.0, 0.0)], b='world')
 
     *_, last = steps(sim, 6000)
 
     x, y = last.poses[0, :2]
-    report.check(
-        54,
-        'pendulum pulled by its weight',
-        math.atan2(x, -y),
-        math.pi / 4,
-        1e-3,
-        'rad',
-    )
+    report.check(54, 'pendulum pulled by its weight', math.atan2(x, -y), math.pi / 4, 1e-3, 'rad')
 
 
 def test_switching_a_force_off_and_on_leaves_the_velocity_of_that_moment(report):
@@ -139,13 +122,8 @@ def test_switching_a_force_off_and_on_leaves_the_velocity_of_that_moment(report)
 
 def test_wrenches_add_to_applied_forces(report):
     sim = simulation(gravity=(0.0, 0.0), command_timeout=0.0)
-    spawn(
-        sim,
-        'body/0',
-        Disc(radius=0.5),
-        mass=1.0,
-        forces=[{'force': [2.0, 0.0]}, {'force': [0.0, 1.0]}],
-    )
+    forces = [{'force': [2.0, 0.0]}, {'force': [0.0, 1.0]}]
+    spawn(sim, 'body/0', Disc(radius=0.5), mass=1.0, forces=forces)
     sim.perform(Command(names=('body/0',), wrenches=[(1.0, 0.0, 0.0)]))
 
     *_, last = steps(sim, 240)

@@ -56,22 +56,10 @@ def test_bodies_that_meet_head_on_keep_momentum_and_energy(
     center = (speeds[0] + 3.0 * speeds[1]) / 4.0
     approach = speeds[0] - speeds[1]
     what = f'head-on, 1 : 3 kg, e = {elasticity:g}'
-    report.check(
-        3,
-        f'{what}, lighter body',
-        end.twists[0, :2] @ along,
-        center - elasticity * approach * 3.0 / 4.0,
-        1e-6,
-        'm/s',
-    )
-    report.check(
-        3,
-        f'{what}, heavier body',
-        end.twists[1, :2] @ along,
-        center + elasticity * approach / 4.0,
-        1e-6,
-        'm/s',
-    )
+    lighter, heavier = end.twists[:, :2] @ along
+    exact = center - elasticity * approach * 3.0 / 4.0, center + elasticity * approach / 4.0
+    report.check(3, f'{what}, lighter body', lighter, exact[0], 1e-6, 'm/s')
+    report.check(3, f'{what}, heavier body', heavier, exact[1], 1e-6, 'm/s')
     off = math.dist(end.momentum, start.momentum)
     report.check(3, f'{what}, momentum', off, 0.0, 1e-6, 'kg m/s')
     lost = (1 - elasticity**2) * approach**2 * (3.0 / 4.0) / 2
@@ -138,14 +126,8 @@ def test_a_disc_keeps_its_tangential_speed_at_a_wall(report, angle, elasticity, 
     outwards, along = turned((1.0, 0.0), side), turned((0.0, 1.0), side)
     spawn(sim, 'wall/0', Box(width=1.0, height=40.0), (*(-0.5 * outwards), side), anchored=True)
     normal, tangential = 2.0 * math.cos(math.radians(angle)), 2.0 * math.sin(math.radians(angle))
-    disc = spawn(
-        sim,
-        'disc/0',
-        Disc(radius=0.3),
-        (*(outwards * 1.0), 0.0),
-        velocity=tuple(tangential * along - normal * outwards),
-        spin=1.0,
-    )
+    pose, velocity = (*outwards, 0.0), tuple(tangential * along - normal * outwards)
+    disc = spawn(sim, 'disc/0', Disc(radius=0.3), pose, velocity=velocity, spin=1.0)
 
     end = run(sim, 4.0)
 
@@ -165,14 +147,8 @@ def test_a_corner_on_a_wall_gets_the_impulse_of_the_formula(report, size, tilt, 
     outwards = turned((1.0, 0.0), side)
     spawn(sim, 'wall/0', Box(width=1.0, height=40.0), (*(-0.5 * outwards), side), anchored=True)
     square = Box(width=size, height=size)
-    row = spawn(
-        sim,
-        'box/0',
-        square,
-        (*(outwards * 1.0), side + math.radians(tilt)),
-        velocity=tuple(-outwards),
-        mass=2.0,
-    )
+    pose = (*outwards, side + math.radians(tilt))
+    row = spawn(sim, 'box/0', square, pose, velocity=tuple(-outwards), mass=2.0)
 
     before, after = until_velocity_changes(sim, row)
 
@@ -240,25 +216,16 @@ def test_boxes_that_meet_obliquely_get_the_impulse_of_the_formula(
 ):
     couplings = []
     for offset, tilt, slip in OBLIQUE:
-        sim = simulation(
-            gravity=NOWHERE, elasticity=elasticity, friction=friction, iterations=iterations
-        )
+        material = {'elasticity': elasticity, 'friction': friction}
+        sim = simulation(gravity=NOWHERE, iterations=iterations, **material)
         along, across = turned((1.0, 0.0), heading), turned((0.0, 1.0), heading)
         comer, stander = Box(width=0.6, height=0.6), Box(width=0.8, height=1.4)
         tilted = [turned(point, math.radians(tilt)) for point in comer.corners()]
         # It arrives at the end of the 12th step, and so to the nanometre where it touches.
         gap = np.array([-0.4 - 12 * DT + 1e-9, offset - slip * 12 * DT])
-        a = spawn(
-            sim,
-            'comer/0',
-            comer,
-            (
-                *turned(gap - max(tilted, key=lambda point: point[0]), heading),
-                heading + math.radians(tilt),
-            ),
-            velocity=tuple(along + slip * across),
-            mass=0.5,
-        )
+        place = turned(gap - max(tilted, key=lambda point: point[0]), heading)
+        pose, velocity = (*place, heading + math.radians(tilt)), tuple(along + slip * across)
+        a = spawn(sim, 'comer/0', comer, pose, velocity=velocity, mass=0.5)
         b = spawn(sim, 'stander/0', stander, (0.0, 0.0, heading), mass=2.0)
         start = sim.world.snapshot()
 
@@ -267,9 +234,7 @@ def test_boxes_that_meet_obliquely_get_the_impulse_of_the_formula(
         point = max(corners(comer, after.poses[a]), key=lambda each: each @ along)
         arms = [point - after.poses[row, :2] for row in (a, b)]
         masses = after.scene.inertia
-        impulse, coupling = _impulse(
-            before.twists[a, :2], masses, arms, along, elasticity, friction
-        )
+        impulse, coupling = _impulse(before.twists[a, :2], masses, arms, along, **material)
         couplings.append(coupling)
         what, tolerance = f'oblique boxes, μ = {friction:g}, e = {elasticity:g}', 1e-4
         if iterations == 20:
@@ -328,14 +293,8 @@ def test_a_disc_thrown_at_a_loose_box_never_enters_it(report, elasticity, side, 
     outwards = turned((1.0, 0.0), math.radians(side))
     sim = simulation(gravity=NOWHERE, elasticity=elasticity)
     spawn(sim, 'box/0', box, mass=1.0)
-    disc = spawn(
-        sim,
-        'disc/0',
-        Disc(radius=0.1),
-        (*(2.0 * outwards), 0.0),
-        velocity=tuple(-speed * outwards),
-        mass=1.0,
-    )
+    pose, velocity = (*(2.0 * outwards), 0.0), tuple(-speed * outwards)
+    disc = spawn(sim, 'disc/0', Disc(radius=0.1), pose, velocity=velocity, mass=1.0)
 
     deepest = 0.0
     for snapshot in steps(sim, math.ceil(1.0 / DT)):
@@ -360,13 +319,8 @@ def test_a_disc_bounces_off_the_side_of_a_wall_that_it_came_from(report, wall, s
     spawn(sim, 'wall/0', wall, (0.0, 0.0, side), anchored=True)
     half = 0.05 if isinstance(wall, Box) else 0.01
     normal = speed * math.cos(math.radians(angle))
-    disc = spawn(
-        sim,
-        'disc/0',
-        Disc(radius=0.1),
-        (*(0.5 * outwards), 0.0),
-        velocity=tuple(-normal * outwards + speed * math.sin(math.radians(angle)) * along),
-    )
+    velocity = tuple(-normal * outwards + speed * math.sin(math.radians(angle)) * along)
+    disc = spawn(sim, 'disc/0', Disc(radius=0.1), (*(0.5 * outwards), 0.0), velocity=velocity)
 
     deepest = 0.0
     for snapshot in steps(sim, math.ceil(1.2 / normal / DT)):
@@ -382,14 +336,8 @@ def test_a_pair_has_the_geometric_mean_of_the_elasticities(report, elasticities,
     sim = simulation(gravity=NOWHERE)
     along = turned((1.0, 0.0), heading)
     for number, (elasticity, sign) in enumerate(zip(elasticities, (-1, 1), strict=True)):
-        spawn(
-            sim,
-            f'disc/{number}',
-            Disc(radius=0.5),
-            (*(along * sign), 0.0),
-            velocity=tuple(-along * sign),
-            elasticity=elasticity,
-        )
+        pose, said = (*(along * sign), 0.0), {'velocity': tuple(-along * sign)}
+        spawn(sim, f'disc/{number}', Disc(radius=0.5), pose, elasticity=elasticity, **said)
 
     end = run(sim, 2.0)
 

@@ -15,7 +15,7 @@ from ..building import sleepers
 
 # Of all floors here.
 MU = 0.5
-BURGER = Disc(radius=0.105)
+BURGER, BOX = Disc(radius=0.105), Box(width=0.2, height=0.2)
 DRIVE = {'kind': 'differential', 'track': 0.16, 'max_turn': 3.0, 'traction': 0.8, 'timeout': 0.0}
 FULL_TURN = math.tau
 
@@ -34,6 +34,16 @@ def _drive(sim, *velocity, name='robot/0'):
     sim.perform(DriveRobot(name=name, velocity=velocity))
 
 
+def _fleet(sim, count, *velocity, namespace='robot', **changes):
+    """Add robots beside each other, and drive all at a velocity."""
+    names = [f'{namespace}/{number}' for number in range(count)]
+    for number, name in enumerate(names):
+        _robot(sim, name, (0.0, float(number), 0.0), **changes)
+    # Once all are there, so that their table is made once.
+    for name in names:
+        _drive(sim, *velocity, name=name)
+
+
 def _after(sim, seconds):
     """Return the snapshot after a time [s]."""
     sim.world.step(round(seconds / DT))
@@ -47,13 +57,8 @@ def _arc(start, speed, turn, seconds):
         dx, dy = turned((speed * seconds, 0.0), yaw)
         return np.array([x + dx, y + dy, yaw])
     end = yaw + turn * seconds
-    return np.array(
-        [
-            x + speed / turn * (math.sin(end) - math.sin(yaw)),
-            y - speed / turn * (math.cos(end) - math.cos(yaw)),
-            end,
-        ]
-    )
+    dx, dy = math.sin(end) - math.sin(yaw), math.cos(yaw) - math.cos(end)
+    return np.array([x + speed / turn * dx, y + speed / turn * dy, end])
 
 
 @pytest.mark.parametrize('speed', [0.05, 0.5, 2.0, 10.0])
@@ -237,9 +242,8 @@ def test_a_robot_at_a_wall_pushes_with_the_force_of_its_traction(report, speed):
 
     force = abs(sim.world.contacts(last).impulses[0, 0])
     report.check(39, 'force of a robot at a wall', force, 0.8 * 1.5 * G, 1e-6, 'N')
-    report.check(
-        39, 'way of a robot at a wall, 1 s', last.poses[row, 0], pressed.poses[row, 0], 1e-9, 'm'
-    )
+    before, after = pressed.poses[row, 0], last.poses[row, 0]
+    report.check(39, 'way of a robot at a wall, 1 s', after, before, 1e-9, 'm')
     # Its wheels slip, and so does its odometry.
     wheels = last.robots['odometry'][0, 0] - pressed.robots['odometry'][0, 0]
     report.check(39, 'way of wheels that slip, 1 s', wheels, speed, 1e-9, 'm')
@@ -268,9 +272,8 @@ def test_two_robots_head_on_stand_still(report):
 
     last = _after(sim, 10.0)
 
-    report.check(
-        39, 'two robots head on: way, 10 s', abs(last.poses - met.poses).max(), 0, 1e-9, 'm'
-    )
+    way = abs(last.poses - met.poses).max()
+    report.check(39, 'two robots head on: way, 10 s', way, 0, 1e-9, 'm')
 
 
 def test_the_heavier_of_two_robots_head_on_wins():
@@ -288,8 +291,8 @@ def test_the_heavier_of_two_robots_head_on_wins():
 @pytest.mark.parametrize('mass', [0.3, 1.0, 1.5])
 def test_a_robot_pushes_a_box_at_its_own_speed(report, mass):
     sim = _floor()
-    _robot(sim, shape=Box(width=0.2, height=0.2))
-    spawn(sim, 'box/0', Box(width=0.2, height=0.2), (0.4, 0.0, 0.0), mass=mass)
+    _robot(sim, shape=BOX)
+    spawn(sim, 'box/0', BOX, (0.4, 0.0, 0.0), mass=mass)
     _drive(sim, 0.2, 0.0, 0.0)
     start = _after(sim, 4.0)
 
@@ -304,8 +307,8 @@ def test_a_robot_pushes_a_box_at_its_own_speed(report, mass):
 def test_a_robot_does_not_push_what_is_heavier_than_its_traction(report):
     # The limit is 0.8 / 0.5 of its own mass.
     sim = _floor()
-    _robot(sim, shape=Box(width=0.2, height=0.2))
-    spawn(sim, 'box/0', Box(width=0.2, height=0.2), (0.4, 0.0, 0.0), mass=1.7)
+    _robot(sim, shape=BOX)
+    spawn(sim, 'box/0', BOX, (0.4, 0.0, 0.0), mass=1.7)
     _drive(sim, 0.2, 0.0, 0.0)
     start = _after(sim, 5.0)
 
@@ -316,8 +319,8 @@ def test_a_robot_does_not_push_what_is_heavier_than_its_traction(report):
 
 def test_a_pushed_box_stops_when_the_robot_does(report):
     sim = _floor()
-    _robot(sim, shape=Box(width=0.2, height=0.2), drive={'acceleration': 100.0})
-    spawn(sim, 'box/0', Box(width=0.2, height=0.2), (0.4, 0.0, 0.0), elasticity=0.0)
+    _robot(sim, shape=BOX, drive={'acceleration': 100.0})
+    spawn(sim, 'box/0', BOX, (0.4, 0.0, 0.0), elasticity=0.0)
     _drive(sim, 0.3, 0.0, 0.0)
     start = _after(sim, 3.0).poses[1, 0]
     _drive(sim, 0.0, 0.0, 0.0)
@@ -329,13 +332,16 @@ def test_a_pushed_box_stops_when_the_robot_does(report):
     assert not last.twists.any()
 
 
+def _belt(sim, length, speed, yaw=0.0):
+    """Add a conveyor about the origin."""
+    said = {'anchored': True, 'sensor': True, 'surface_velocity': (speed, 0.0)}
+    spawn(sim, 'belt/0', Box(width=length, height=1.0), (0.0, 0.0, yaw), **said)
+
+
 def test_a_conveyor_carries_at_its_speed(report):
     sim = _floor()
-    belt = Box(width=6.0, height=1.0)
-    spawn(
-        sim, 'belt/0', belt, (0.0, 0.0, 0.3), anchored=True, sensor=True, surface_velocity=(0.4, 0)
-    )
-    row = spawn(sim, 'box/0', Box(width=0.2, height=0.2), (0.0, 0.0, 0.0))
+    _belt(sim, 6.0, 0.4, yaw=0.3)
+    row = spawn(sim, 'box/0', BOX, (0.0, 0.0, 0.0))
     start = _after(sim, 1.0).poses[row]
 
     last = _after(sim, 2.0)
@@ -347,9 +353,8 @@ def test_a_conveyor_carries_at_its_speed(report):
 
 def test_what_leaves_a_conveyor_slides_to_a_stop(report):
     sim = _floor()
-    belt = Box(width=2.0, height=1.0)
-    spawn(sim, 'belt/0', belt, anchored=True, sensor=True, surface_velocity=(1.0, 0.0))
-    row = spawn(sim, 'box/0', Box(width=0.2, height=0.2))
+    _belt(sim, 2.0, 1.0)
+    row = spawn(sim, 'box/0', BOX)
 
     last = _after(sim, 10.0)
 
@@ -366,11 +371,8 @@ def test_odometry_without_slip_is_the_way(report):
     off = 0.0
     starts = sim.world.snapshot().poses
     for number in range(40):
-        command = (
-            0.3 * math.sin(number),
-            0.2 * math.cos(2.3 * number),
-            2.0 * math.sin(0.7 * number),
-        )
+        forward, aside = 0.3 * math.sin(number), 0.2 * math.cos(2.3 * number)
+        command = forward, aside, 2.0 * math.sin(0.7 * number)
         for name in ('robot/0', 'omni/0'):
             _drive(sim, *command, name=name)
         last = _after(sim, 0.25)
@@ -384,28 +386,16 @@ def test_odometry_without_slip_is_the_way(report):
 def test_the_drift_of_odometry_is_as_large_as_it_says(report):
     slip, way = (0.05, 0.04), 4.0
     sim = _floor(seed=7)
-    for number in range(200):
-        odometry = {'slip': slip}
-        _robot(sim, f'robot/{number}', (0.0, float(number), 0.0), odometry=odometry)
-        _drive(sim, 0.4, 0.0, 0.0, name=f'robot/{number}')
+    _fleet(sim, 200, 0.4, 0.0, 0.0, odometry={'slip': slip})
 
     last = _after(sim, way / 0.4)
 
     ways, headings = last.robots['odometry'][:, 0], last.robots['odometry'][:, 2]
     driven = last.poses[0, 0]
     # Headings make the way along x shorter too; both by chance, of 200 within a fifth.
-    report.check(
-        41,
-        'drift of the heading',
-        headings.std() / math.sqrt(driven),
-        slip[1],
-        0.2,
-        'rad/√m',
-        relative=True,
-    )
-    report.check(
-        41, 'drift of the way', ways.std() / math.sqrt(driven), slip[0], 0.2, 'm/√m', relative=True
-    )
+    turned, gone = headings.std() / math.sqrt(driven), ways.std() / math.sqrt(driven)
+    report.check(41, 'drift of the heading', turned, slip[1], 0.2, 'rad/√m', relative=True)
+    report.check(41, 'drift of the way', gone, slip[0], 0.2, 'm/√m', relative=True)
 
 
 def test_the_covariance_of_odometry_is_that_of_its_errors(report):
@@ -419,10 +409,8 @@ def test_the_covariance_of_odometry_is_that_of_its_errors(report):
         )
     ):
         sim = _floor(seed=number)
-        for each in range(count):
-            drive, odometry = {'kind': kind}, {'slip': slip}
-            _robot(sim, f'r/{each}', (0.0, each, 0.3), drive=drive, odometry=odometry)
-            _drive(sim, *velocity, name=f'r/{each}')
+        said = {'drive': {'kind': kind}, 'odometry': {'slip': slip}}
+        _fleet(sim, count, *velocity, namespace='r', **said)
 
         states = _after(sim, 6.0).robots
 
@@ -440,11 +428,7 @@ def test_noise_is_another_one_of_another_seed_and_another_robot():
     drifts = []
     for seed in (0, 0, 1):
         sim = _floor(seed=seed)
-        for number in range(2):
-            _robot(
-                sim, f'robot/{number}', (0.0, float(number), 0.0), odometry={'slip': (0.05, 0.05)}
-            )
-            _drive(sim, 0.4, 0.0, 0.0, name=f'robot/{number}')
+        _fleet(sim, 2, 0.4, 0.0, 0.0, odometry={'slip': (0.05, 0.05)})
         drifts.append(_after(sim, 1.0).robots['odometry'])
 
     assert np.array_equal(drifts[0], drifts[1])

@@ -148,9 +148,8 @@ ROOMS = [
 def test_a_ball_between_walls_goes_the_way_of_its_reported_velocity(report, gap, speed):
     radius, seconds = 0.05, 5.0
     sim = walled(gap + 2 * radius)
-    ball = spawn(
-        sim, 'ball/0', Disc(radius=radius), (radius + gap / 2, 0, 0), mass=1.0, velocity=(speed, 0)
-    )
+    disc, place = Disc(radius=radius), (radius + gap / 2, 0.0, 0.0)
+    ball = spawn(sim, 'ball/0', disc, place, mass=1.0, velocity=(speed, 0.0))
 
     impulse = 0.0
     for _ in range(round(seconds * 60)):
@@ -161,9 +160,8 @@ def test_a_ball_between_walls_goes_the_way_of_its_reported_velocity(report, gap,
 
     # From the impacts, where it is and where it heads, follows which way it has gone.
     impacts = round(impulse / (2 * speed))
-    report.check(
-        46, 'ball between walls, impulse', impulse, 2 * speed * impacts, 1e-6, '–', relative=True
-    )
+    exact = 2 * speed * impacts
+    report.check(46, 'ball between walls, impulse', impulse, exact, 1e-6, '–', relative=True)
     place = now.poses[ball, 0] - radius
     assert (now.twists[ball, 0] > 0) == (impacts % 2 == 0)
     way = impacts * gap + (place if impacts % 2 == 0 else gap - place) - gap / 2
@@ -180,15 +178,9 @@ def test_the_pressure_of_a_gas_is_that_of_its_speeds(report, length):
     for number in range(count):
         speed, place = pick.uniform(5.0, 60.0), pick.uniform(0.0, free)
         # Discs of one group pass through each other: an ideal gas.
-        spawn(
-            sim,
-            f'disc/{number}',
-            Disc(radius=radius),
-            (radius + place, 0.3 * (number - count / 2), 0.0),
-            mass=mass,
-            velocity=(speed, 0.0),
-            group=1,
-        )
+        pose = (radius + place, 0.3 * (number - count / 2), 0.0)
+        said = {'mass': mass, 'velocity': (speed, 0.0), 'group': 1}
+        spawn(sim, f'disc/{number}', Disc(radius=radius), pose, **said)
         exact += 2 * mass * speed * math.floor((place + speed * seconds) / free)
 
     impulse = 0.0

@@ -114,16 +114,8 @@ def test_two_bodies_that_are_joined_in_space_keep_energy_and_angular_momentum(re
 def test_a_mass_on_a_spring_swings(report):
     sim = simulation(gravity=(0.0, 0.0))
     spawn(sim, 'mass/0', Box(width=0.2, height=0.2), (1.5, 0.0, 0.0), mass=2.0)
-    join(
-        sim,
-        'joint/0',
-        'spring',
-        [(1.5, 0.0), (0.0, 0.0)],
-        a='mass/0',
-        b='world',
-        stiffness=40.0,
-        rest_length=1.0,
-    )
+    said = {'a': 'mass/0', 'b': 'world', 'stiffness': 40.0, 'rest_length': 1.0}
+    join(sim, 'joint/0', 'spring', [(1.5, 0.0), (0.0, 0.0)], **said)
     before = energy(sim.world.snapshot())
 
     seen = list(steps(sim, 2400))

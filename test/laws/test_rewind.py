@@ -26,7 +26,7 @@ from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .scenes import floor, G, NOWHERE, run, spawn, turned, walls
+from .scenes import floor, G, NOWHERE, pyramid, run, spawn, turned, walls
 from ..outside import run_python
 from ..slow import slow
 
@@ -65,15 +65,8 @@ def _meetings():
     for number, elasticity in enumerate((1.0, 0.5, 0.0)):
         for side, shape, mass in ((-1, Disc(radius=0.5), 1.0), (1, Box(width=1, height=1), 3.0)):
             pose = (side * (1.5 + number), 4.0 * number + 0.1 * side, 0.3 * number)
-            spawn(
-                sim,
-                f'pair/{2 * number + (side > 0)}',
-                shape,
-                pose,
-                mass=mass,
-                velocity=(-1.0 * side, 0.05),
-                elasticity=elasticity,
-            )
+            said = {'mass': mass, 'velocity': (-1.0 * side, 0.05), 'elasticity': elasticity}
+            spawn(sim, f'pair/{2 * number + (side > 0)}', shape, pose, **said)
     return sim, {}
 
 
@@ -133,12 +126,7 @@ def _pyramid():
     """Law 19: 105 boxes, one of which is shot at in the middle of it."""
     sim = _simulation()
     floor(sim)
-    number = 0
-    for level in range(14):
-        for place in range(14 - level):
-            x = (place - (13 - level) / 2) * 0.55
-            spawn(sim, f'box/{number}', Box(width=0.5, height=0.5), (x, 0.5 * level + 0.25, 0.0))
-            number += 1
+    pyramid(sim, 0.5, 0.1)
     ball = Spawn(name='ball/0', shape=Disc(radius=0.3), pose=(-8.0, 2.0, 0.0))
     return sim, {350: [ball, Command(names=('ball/0',), twists=((20.0, 2.0, 0.0),))]}
 
@@ -166,19 +154,14 @@ def _anchored():
         velocity = (20.0, 1.0)
         spawn(sim, f'hit/{number}', Disc(radius=0.3), at, mass=100.0, velocity=velocity)
     hold = Command(names=('held/0',), poses=((0.0, 3.0, 0.0),))
-    return sim, {
-        150: [Release(point=(0.1, 2.0))],
-        450: [hold, Anchor(point=(0.0, 3.0))],
-    }
+    return sim, {150: [Release(point=(0.1, 2.0))], 450: [hold, Anchor(point=(0.0, 3.0))]}
 
 
 def _robots():
     """Laws 37 to 41: robots drive, push and stall on a floor with a conveyor."""
     sim = _simulation(gravity=NOWHERE, floor_friction=0.3, seed=26)
-    belt = Box(width=1.0, height=0.5)
-    spawn(
-        sim, 'belt/0', belt, (0.5, 1.0, 0.3), anchored=True, sensor=True, surface_velocity=(0.3, 0)
-    )
+    belt = {'anchored': True, 'sensor': True, 'surface_velocity': (0.3, 0.0)}
+    spawn(sim, 'belt/0', Box(width=1.0, height=0.5), (0.5, 1.0, 0.3), **belt)
     spawn(sim, 'wall/0', Box(width=0.2, height=2.0), (1.5, 0.0, 0.0), anchored=True)
     later = {}
     for number, kind in enumerate(('differential', 'omni', 'car')):
@@ -212,9 +195,8 @@ def _actors():
     for number, start in enumerate(starts):
         pose = (0.3 * number, 2.0 + 0.4 * number, 0.0)
         made = {'kinematic': number % 2 == 0, 'actor': {**path, 'start': start}}
-        spawn(
-            sim, f'cart/{number}', ELL if number == 3 else Box(width=0.2, height=0.3), pose, **made
-        )
+        shape = ELL if number == 3 else Box(width=0.2, height=0.3)
+        spawn(sim, f'cart/{number}', shape, pose, **made)
     robot = {
         'drive': {'kind': 'differential', 'max_speed': 1.0},
         'odometry': {'slip': [0.02, 0.03]},
@@ -394,7 +376,7 @@ def hashes(sim):
     return result
 
 
-def load_and_go_on(*paths):
+def go_on(*paths):
     """Print the hashes of saved worlds, a line each; that is what another process does."""
     for path in paths:
         print(*hashes(_loaded(path)))
@@ -409,10 +391,7 @@ def _loaded(path):
 
 def _elsewhere(paths):
     """Return the digests of saved worlds that go on in another process."""
-    program = (
-        'import sys; from test.laws.test_rewind import load_and_go_on; '
-        'load_and_go_on(*sys.argv[1:])'
-    )
+    program = 'import sys; from test.laws.test_rewind import go_on; go_on(*sys.argv[1:])'
     return [line.split() for line in run_python('-c', program, *paths).splitlines()]
 
 

@@ -37,10 +37,7 @@ def test_walls_of_a_grid_are_its_rectangles_in_the_world():
     long, short = walls_of(grid, 'walls', 10)
 
     assert (long.name, short.name) == ('walls/0', 'walls/1')
-    assert (long.shape, short.shape) == (
-        Box(width=1.5, height=0.5),
-        Box(width=0.5, height=0.5),
-    )
+    assert (long.shape, short.shape) == (Box(width=1.5, height=0.5), Box(width=0.5, height=0.5))
     # Along the grid's own axes: x is up, y to the left.
     assert long.pose == pytest.approx((0.75, 2.75, math.pi / 2))
     assert short.pose == pytest.approx((0.25, 2.25, math.pi / 2))

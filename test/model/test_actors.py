@@ -3,10 +3,6 @@
 
 """Actors as values: their mappings are read and written, and wrong ones refused."""
 
-from __future__ import annotations
-
-from typing import Any
-
 from physsim_ros.model.actors import actor_from
 from physsim_ros.model.errors import Refusal
 import pytest
@@ -26,13 +22,13 @@ ORCA = {'kind': 'orca', 'points': SQUARE}
         {**ORCA, 'horizon': 3, 'start': {'near': 'tb3/0', 'distance': 2}},
     ],
 )
-def test_an_actor_is_what_its_entry_says(entry: dict[str, Any]) -> None:
+def test_an_actor_is_what_its_entry_says(entry):
     actor = actor_from(entry, 'actor')
     assert actor_from(actor.entry(), 'actor') == actor
     assert actor.entry()['kind'] == entry['kind']
 
 
-def test_a_loop_at_one_speed_comes_back_to_its_first_point() -> None:
+def test_a_loop_at_one_speed_comes_back_to_its_first_point():
     loop = actor_from({**PATH, 'repeat': 'loop'}, 'actor')
     assert loop.track == [
         (0.0, 0.0, 0.0, 0.0),
@@ -43,7 +39,7 @@ def test_a_loop_at_one_speed_comes_back_to_its_first_point() -> None:
     ]
 
 
-def test_a_loop_turns_back_the_shorter_way() -> None:
+def test_a_loop_turns_back_the_shorter_way():
     points = [[0, 0, 0], [1, 0, 3], [1, 1, 6]]
     loop = actor_from({'kind': 'path', 'points': points, 'speed': 1, 'repeat': 'loop'}, 'actor')
     assert loop.track[-1][3] == pytest.approx(6.283185307179586)
@@ -82,7 +78,7 @@ def test_a_loop_turns_back_the_shorter_way() -> None:
         ({**ORCA, 'sight': 1}, 'unknown_property', 'sight'),
     ],
 )
-def test_an_actor_that_cannot_be_is_refused(wrong: Any, code: str, field: str) -> None:
+def test_an_actor_that_cannot_be_is_refused(wrong, code, field):
     with pytest.raises(Refusal) as caught:
         actor_from(wrong, 'actor')
     assert (caught.value.code, caught.value.field) == (code, field)

@@ -34,18 +34,18 @@ class Caster(Wheel):
     trail: Annotated[float, Within(0.0, 1.0, 'm'), 'behind its axis'] = 0.02
 
 
-def test_a_value_out_of_its_declared_range_is_refused() -> None:
+def test_a_value_out_of_its_declared_range_is_refused():
     with pytest.raises(BadProperty, match='radius is 0; it must lie between 0'):
         Wheel(radius=0)
     with pytest.raises(BadProperty, match="tyre must be one of solid, air; nearest is 'air'"):
         Wheel(radius=1, tyre='aira')
 
 
-def test_none_is_not_checked_where_it_is_the_default() -> None:
+def test_none_is_not_checked_where_it_is_the_default():
     assert Wheel(radius=1).tyre is None
 
 
-def test_the_docstring_has_sentence_and_range_of_each_field_before_what_is_raised() -> None:
+def test_the_docstring_has_sentence_and_range_of_each_field_before_what_is_raised():
     lines = [line.strip() for line in (Wheel.__doc__ or '').strip().splitlines()]
 
     assert lines == [
@@ -58,7 +58,7 @@ def test_the_docstring_has_sentence_and_range_of_each_field_before_what_is_raise
     ]
 
 
-def test_a_class_below_has_all_fields_with_its_own_defaults() -> None:
+def test_a_class_below_has_all_fields_with_its_own_defaults():
     fields = Caster.FIELDS
 
     assert [*fields] == ['radius', 'tyre', 'slip', 'trail']
@@ -70,19 +70,19 @@ def test_a_class_below_has_all_fields_with_its_own_defaults() -> None:
         Caster(radius=-1)
 
 
-def test_a_key_that_is_no_field_is_refused_with_the_nearest() -> None:
+def test_a_key_that_is_no_field_is_refused_with_the_nearest():
     with pytest.raises(UnknownProperty, match="no property 'radios'; nearest is 'radius'"):
         Wheel.from_mapping({'radios': 1})
 
 
-def test_a_field_without_a_sentence_is_a_mistake_of_its_class() -> None:
+def test_a_field_without_a_sentence_is_a_mistake_of_its_class():
     with pytest.raises(TypeError, match='size needs a check or none, and a sentence'):
 
         class Bad(Checked):
             size: Annotated[float, None, 'of it']
 
 
-def test_declarations_as_texts_are_a_mistake_of_their_class() -> None:
+def test_declarations_as_texts_are_a_mistake_of_their_class():
     with pytest.raises(TypeError, match='declares fields as texts'):
 
         class Bad(Checked):

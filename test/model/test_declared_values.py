@@ -48,7 +48,7 @@ def refused(declared: Declaration, value: object, kind: type[Refusal] = BadPrope
 
 
 @every(Within)
-def test_a_number_lies_in_its_range(declared: Declaration) -> None:
+def test_a_number_lies_in_its_range(declared):
     check: Any = declared.check
     for value in (check.low, check.high):
         kept = check(value, declared.name)
@@ -62,7 +62,7 @@ def test_a_number_lies_in_its_range(declared: Declaration) -> None:
 
 
 @every(Whole)
-def test_a_whole_number_lies_in_its_range(declared: Declaration) -> None:
+def test_a_whole_number_lies_in_its_range(declared):
     check: Any = declared.check
     assert [check(value, 'n') for value in (check.low, check.high)] == [check.low, check.high]
     for value in (check.low - 1, check.high + 1, 5.0, '5', None, True, math.nan, [5]):
@@ -70,7 +70,7 @@ def test_a_whole_number_lies_in_its_range(declared: Declaration) -> None:
 
 
 @every(Vector)
-def test_a_vector_is_two_numbers_of_at_most_a_length(declared: Declaration) -> None:
+def test_a_vector_is_two_numbers_of_at_most_a_length(declared):
     check: Any = declared.check
     most = check.longest
     assert check([3, -4], 'v') == (3.0, -4.0)
@@ -92,7 +92,7 @@ def test_a_vector_is_two_numbers_of_at_most_a_length(declared: Declaration) -> N
 
 
 @every(OneOf)
-def test_a_word_is_one_of_its_words(declared: Declaration) -> None:
+def test_a_word_is_one_of_its_words(declared):
     check: Any = declared.check
     assert [check(word, 'w') for word in check.words] == [*check.words]
     for other in (f'{check.words[0]}x', '', None, 1, [check.words[0]]):
@@ -103,14 +103,14 @@ FLAGS = {name: each for name, each in DECLARED.items() if each.check is flag}
 
 
 @pytest.mark.parametrize('declared', FLAGS.values(), ids=FLAGS.keys())
-def test_a_flag_is_true_or_false_and_nothing_else(declared: Declaration) -> None:
+def test_a_flag_is_true_or_false_and_nothing_else(declared):
     assert [flag(value, 'f') for value in (True, False)] == [True, False]
     for other in (0, 1, 'true', 'yes', 1.0, [], [True], None):
         refused(declared, other)
 
 
 @pytest.mark.parametrize('name', DECLARED)
-def test_a_message_is_short_whatever_was_given(name: str) -> None:
+def test_a_message_is_short_whatever_was_given(name):
     nested: object = [1, 2, 3]
     for _ in range(40):
         nested = [nested] * 9

@@ -3,8 +3,6 @@
 
 """Refusals pass the boundary; other errors are logged once, counted and answered."""
 
-from __future__ import annotations
-
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadSize, Failed, PhysSimError, StepFailed
 import pytest
@@ -16,7 +14,7 @@ def fail(text: str = '', depth: int = 0) -> None:
     raise KeyError(text)
 
 
-def test_an_error_is_logged_with_its_traceback_and_answered_with_its_number() -> None:
+def test_an_error_is_logged_with_its_traceback_and_answered_with_its_number():
     log: list[str] = []
     boundary = ErrorBoundary(log.append)
     with pytest.raises(Failed, match='failure 1 in the log') as refused, boundary.message('~/it'):
@@ -29,7 +27,7 @@ def test_an_error_is_logged_with_its_traceback_and_answered_with_its_number() ->
     assert text.endswith("KeyError: 'why'")
 
 
-def test_the_errors_of_a_place_are_counted_and_logged_once() -> None:
+def test_the_errors_of_a_place_are_counted_and_logged_once():
     log: list[str] = []
     boundary = ErrorBoundary(log.append)
     messages = set()
@@ -45,14 +43,14 @@ def test_the_errors_of_a_place_are_counted_and_logged_once() -> None:
 
 
 @pytest.mark.parametrize('error', [BadSize('no'), PhysSimError('no'), StepFailed(), SystemExit()])
-def test_what_is_expected_passes(error: BaseException) -> None:
+def test_what_is_expected_passes(error):
     boundary = ErrorBoundary(pytest.fail)
     with pytest.raises(type(error)), boundary.message('~/it'):
         raise error
     assert boundary.failures == 0
 
 
-def test_an_output_that_fails_is_an_event_once() -> None:
+def test_an_output_that_fails_is_an_event_once():
     boundary = ErrorBoundary(lambda _: None)
     for _ in range(3):
         with boundary.output('~/poses'):
@@ -63,19 +61,19 @@ def test_an_output_that_fails_is_an_event_once() -> None:
     assert boundary.failures == 3
 
 
-def test_an_error_inside_of_a_step_passes_an_output_too() -> None:
+def test_an_error_inside_of_a_step_passes_an_output_too():
     boundary = ErrorBoundary(pytest.fail)
     with pytest.raises(StepFailed), boundary.output('~/poses'):
         raise StepFailed
 
 
-def test_without_a_log_errors_pass() -> None:
+def test_without_a_log_errors_pass():
     for door in (ErrorBoundary().message, ErrorBoundary().reading, ErrorBoundary().output):
         with pytest.raises(KeyError), door('~/it'):
             fail()
 
 
-def test_a_log_shows_no_control_character_of_a_stranger() -> None:
+def test_a_log_shows_no_control_character_of_a_stranger():
     log: list[str] = []
     with ErrorBoundary(log.append).output('~/it'):
         raise ValueError('\x1b[2J' + 'x' * 10_000)
@@ -83,7 +81,7 @@ def test_a_log_shows_no_control_character_of_a_stranger() -> None:
     assert len(log[0]) < 2000
 
 
-def test_the_message_that_took_the_longest_is_known() -> None:
+def test_the_message_that_took_the_longest_is_known():
     times = iter([0.0, 1.0, 1.0, 4.0, 4.0, 6.0, 6.0, 6.5])
     boundary = ErrorBoundary(pytest.fail, lambda: next(times))
     for name in ('~/spawn', '~/stroke', '~/join'):

@@ -29,7 +29,7 @@ CODES = {
 
 
 @pytest.mark.parametrize(('name', 'code'), CODES.items())
-def test_a_refusal_carries_its_stable_code(name: str, code: str) -> None:
+def test_a_refusal_carries_its_stable_code(name, code):
     refusal = getattr(errors, name)('it is so', field='friction')
 
     assert isinstance(refusal, Refusal)
@@ -37,11 +37,11 @@ def test_a_refusal_carries_its_stable_code(name: str, code: str) -> None:
     assert (refusal.code, refusal.field, str(refusal)) == (code, 'friction', 'it is so')
 
 
-def test_no_two_refusals_share_a_code() -> None:
+def test_no_two_refusals_share_a_code():
     codes = [each.code for each in Refusal.__subclasses__()]
 
     assert len(set(codes)) == len(codes)
 
 
-def test_a_refusal_of_the_whole_names_no_field() -> None:
+def test_a_refusal_of_the_whole_names_no_field():
     assert errors.Malformed('no').field == ''

@@ -3,14 +3,10 @@
 
 """Refusals that tell the property which an everyday word means."""
 
-from __future__ import annotations
-
 from dataclasses import fields
-from typing import Any
 
 from physsim_ros.model.actors import actor_from
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.declarations import OfKind
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.joints import JointKind, JointProperties, kind_from
 from physsim_ros.model.robots.drives import drive_from
@@ -31,7 +27,7 @@ KEYS = {each.name for kind in (Properties, JointProperties) for each in fields(k
      ('is-trigger', 'sensor'),
      ('layer', 'group'), ('caption', 'label'), ('thruster', 'forces')],
 )  # fmt: skip
-def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, name: str) -> None:
+def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word, name):
     with pytest.raises(UnknownProperty) as refused:
         Properties.from_mapping({word: 1})
 
@@ -44,7 +40,7 @@ def test_an_everyday_word_for_a_property_of_a_body_is_told_its_name(word: str, n
     [('speed', 'rate'), ('rpm', 'rate'), ('k', 'stiffness'), ('min', 'lower'), ('max', 'upper'),
      ('torque', 'max_torque'), ('natural_length', 'rest_length'), ('breakable', 'break_force')],
 )  # fmt: skip
-def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word: str, name: str) -> None:
+def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word, name):
     with pytest.raises(UnknownProperty, match=f"; use '{name}'$"):
         JointProperties.from_mapping({word: 1})
 
@@ -54,7 +50,7 @@ def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word: str, 
     [('weld', "use 'pin'"), ('Hinge', "use 'axle'"), ('prismatic', "use 'slider'"),
      ('sprng', "nearest is 'spring'"), ('Motr', "nearest is 'motor'"), ('xyz', 'there are pin')],
 )  # fmt: skip
-def test_a_word_for_a_kind_of_joint_is_told_its_name(word: str, hint: str) -> None:
+def test_a_word_for_a_kind_of_joint_is_told_its_name(word, hint):
     with pytest.raises(BadProperty, match=f"^there is no kind of joint '{word}'; {hint}"):
         kind_from(word)
 
@@ -66,22 +62,20 @@ def test_a_word_for_a_kind_of_joint_is_told_its_name(word: str, hint: str) -> No
      (drive_from, 'ackermann', "use 'car'"), (drive_from, 'xyz', 'there are differential'),
      (actor_from, 'pedestrian', "use 'social_force'"), (actor_from, 'rvo2', "use 'orca'")],
 )  # fmt: skip
-def test_a_word_for_a_kind_of_sensor_drive_or_actor_is_told_its_name(
-    check: OfKind[Any], word: str, hint: str
-) -> None:
+def test_a_word_for_a_kind_of_sensor_drive_or_actor_is_told_its_name(check, word, hint):
     with pytest.raises(BadProperty, match=f"^there is no kind of {check.noun} '{word}'; {hint}"):
         check({'kind': word}, check.noun)
 
 
 @pytest.mark.parametrize('check', [sensor_from, drive_from, actor_from])
-def test_the_everyday_words_of_kinds_are_no_kinds(check: OfKind[Any]) -> None:
+def test_the_everyday_words_of_kinds_are_no_kinds(check):
     words = [word for each in check.everyday.values() for word in each]
     assert check.everyday.keys() == check.kinds.keys()
     assert not {*words} & check.kinds.keys()
     assert len({*words}) == len(words)
 
 
-def test_a_key_of_another_kind_is_refused_with_those_of_this_one() -> None:
+def test_a_key_of_another_kind_is_refused_with_those_of_this_one():
     with pytest.raises(UnknownProperty) as refused:
         drive_from({'kind': 'omni', 'wheelbase': 0.3}, 'drive')
 
@@ -92,12 +86,12 @@ def test_a_key_of_another_kind_is_refused_with_those_of_this_one() -> None:
     assert refused.value.field == 'wheelbase'
 
 
-def test_every_property_has_everyday_words_and_none_of_them_is_a_property() -> None:
+def test_every_property_has_everyday_words_and_none_of_them_is_a_property():
     assert set(EVERYDAY_WORDS) == KEYS
     assert not {word for words in EVERYDAY_WORDS.values() for word in words} & KEYS
 
 
-def test_every_kind_of_joint_has_everyday_words_and_none_of_them_is_a_kind() -> None:
+def test_every_kind_of_joint_has_everyday_words_and_none_of_them_is_a_kind():
     for kind in JointKind:
         assert kind.schema.words
         assert not {*JointKind}.intersection(kind.schema.words)

@@ -3,8 +3,6 @@
 
 """Texts that others wrote are repeated abbreviated and printable."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from physsim_ros.model.errors import BadWorldFile, Malformed, PhysSimError
@@ -33,14 +31,14 @@ NASTY = [
 
 @pytest.mark.parametrize('text', NASTY)
 @pytest.mark.parametrize('kind', [PhysSimError, Malformed, BadWorldFile])
-def test_a_message_is_printable_and_encodable(kind: type[PhysSimError], text: str) -> None:
+def test_a_message_is_printable_and_encodable(kind, text):
     message = str(kind(f'there is no {text}'))
     assert is_printable(message)
     message.encode()
     assert message.startswith('there is no ')
 
 
-def test_an_ordinary_text_is_repeated_to_the_letter() -> None:
+def test_an_ordinary_text_is_repeated_to_the_letter():
     for text in ("there is no body 'x/0'", '👩\u200d🚀', 'क्\u200dष', ''):
         assert str(PhysSimError(text)) == text
         assert abbreviated(text) == text
@@ -49,7 +47,7 @@ def test_an_ordinary_text_is_repeated_to_the_letter() -> None:
     assert shown_name(name) == name
 
 
-def test_a_megabyte_is_cut_and_the_reason_remains() -> None:
+def test_a_megabyte_is_cut_and_the_reason_remains():
     for name in ('a' * 1_000_000, 'a b ' * 250_000, '\x1b' * 1_000_000):
         refusal = Malformed(f'{name!r} is not a name', field=name)
         assert str(refusal).endswith('is not a name')
@@ -60,13 +58,13 @@ def test_a_megabyte_is_cut_and_the_reason_remains() -> None:
         assert is_printable(answer.subject + answer.field)
 
 
-def test_a_misspelt_name_is_answered_with_the_nearest() -> None:
+def test_a_misspelt_name_is_answered_with_the_nearest():
     assert nearest_name('ramp0', ['box/0', 'ramp/0']) == "; nearest is 'ramp/0'"
     assert nearest_name('ramp0', ['box/0', 'ball/0']) == ''
     assert nearest_name('', []) == ''
 
 
-def test_a_word_is_answered_with_the_names_that_have_it_not_with_another_word() -> None:
+def test_a_word_is_answered_with_the_names_that_have_it_not_with_another_word():
     known = ['trace', 'physics_rate', 'publish_rate', 'friction']
     assert nearest_name('rate', known) == "; nearest are 'physics_rate', 'publish_rate'"
     assert nearest_name('ball', ['box/0', 'ball/0']) == "; nearest is 'ball/0'"
@@ -74,7 +72,7 @@ def test_a_word_is_answered_with_the_names_that_have_it_not_with_another_word() 
     assert nearest_name('p', known) == ''
 
 
-def test_the_time_for_the_nearest_name_is_bounded() -> None:
+def test_the_time_for_the_nearest_name_is_bounded():
     def names() -> Iterator[str]:
         yield from (f'box/{number}' for number in range(1000))
         pytest.fail('all names were compared')

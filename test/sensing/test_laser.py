@@ -1,14 +1,14 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Laser scans: exact against the engine's rays, by REP 117, the same bits in any company."""
+"""Lasers and range finders: exact against the engine's rays, by REP 117, alike in any company."""
 
 import math
 
 import numpy as np
-from physsim_ros.model.robots.sensors import Laser
+from physsim_ros.model.robots.sensors import Laser, RangeFinder
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
-from physsim_ros.sensing import read_laser, Surroundings
+from physsim_ros.sensing import read_laser, read_range, Surroundings
 import pytest
 
 from .worlds import add_robot, engine_rays, plane, PRECISION, random_world, seen
@@ -240,13 +240,62 @@ def test_noise_out_of_range_is_infinite():
 def test_ten_thousand_beams_in_a_ring_of_a_thousand_large_discs():
     # Each covers a third of the view: pairs are met in parts.
     world = plane()
-    for number in range(1000):
-        angle = number * math.tau / 1000
-        place = (10.0 * math.cos(angle), 10.0 * math.sin(angle), 0.0)
-        spawn(world, f'disc/{number}', Disc(radius=8.0), place, anchored=True)
+    angles = np.arange(1000) * math.tau / 1000
+    centers = 10.0 * np.column_stack((np.cos(angles), np.sin(angles)))
+    for number, some in enumerate(np.split(centers, 10)):
+        discs = Compound(element=Disc(radius=8.0), centers=tuple(map(tuple, some.tolist())))
+        spawn(world, f'discs/{number}', discs, anchored=True)
     row = add_robot(world)
 
     ranges = scan(world, row, Laser(beams=10_000, range=(0.0, 20.0)))
 
     assert ranges.min() == pytest.approx(2.0, abs=1e-12)
     assert ranges.max() < 2.001
+
+
+# Range finders
+
+
+def nearest(world, row, finder, seed=1):
+    return read_range(Surroundings(seen(world, seed)), row, finder)
+
+
+def test_the_nearest_in_the_cone_counts():
+    world = plane()
+    spawn(world, 'ahead/0', Box(width=0.2, height=4.0), (2.1, 0.0, 0.0))
+    spawn(world, 'aside/0', Disc(radius=0.1), (1.0, 0.35, 0.0))
+    row = add_robot(world)
+
+    narrow = nearest(world, row, RangeFinder(cone=0.2, range=(0.1, 5.0)))
+    wide = nearest(world, row, RangeFinder(cone=1.0, rays=101, range=(0.1, 5.0)))
+
+    assert narrow == pytest.approx(2.0, abs=1e-12)
+    assert wide == pytest.approx(math.hypot(1.0, 0.35) - 0.1, abs=1e-3)
+
+
+@pytest.mark.parametrize('finder', [RangeFinder(rays=1), RangeFinder(cone=0.0)])
+def test_a_cone_without_width_is_a_ray_ahead(finder):
+    world = plane()
+    spawn(world, 'ahead/0', Disc(radius=0.5), (1.0, 0.0, 0.0))
+
+    assert nearest(world, add_robot(world), finder) == pytest.approx(0.5)
+
+
+def test_out_of_range_is_infinite():
+    world = plane()
+    spawn(world, 'ahead/0', Disc(radius=0.5), (1.0, 0.0, 0.0))
+    row = add_robot(world)
+
+    assert nearest(world, row, RangeFinder(range=(0.1, 0.4))) == math.inf
+    assert nearest(world, row, RangeFinder(range=(0.6, 2.0))) == -math.inf
+
+
+def test_noise_of_a_range_finder_is_that_of_the_seed():
+    world = plane()
+    spawn(world, 'ahead/0', Disc(radius=0.5), (1.0, 0.0, 0.0))
+    row = add_robot(world)
+    finder = RangeFinder(noise=0.01)
+
+    assert nearest(world, row, finder, 1) == nearest(world, row, finder, 1)
+    assert nearest(world, row, finder, 1) != nearest(world, row, finder, 2)
+    assert nearest(world, row, finder, 1) == pytest.approx(0.5, abs=0.06)

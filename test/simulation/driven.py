@@ -3,26 +3,29 @@
 
 """A simulation that tests drive by the time of a wall clock, and compare with what it showed."""
 
-from __future__ import annotations
-
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from physsim_ros.files import load_world, save_world
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import Request, Spawn
+from physsim_ros.model.requests import ChangeBody, Request, Restore, Spawn
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Disc, Shape
+from physsim_ros.model.shapes import Box, Disc, Shape
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import TakeBack
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
+from ..building import BOX, spawning
+
 # Steps in a frame.
 FRAME = 4
 SECOND = 10**9
 FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
+SLAB = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
 
 
 class Driven:
@@ -54,9 +57,12 @@ class Driven:
         self.simulation.requests.submit(request, topic='~/test', joined=joined)
 
     def apply_requests(self) -> Frame:
-        frame = self.simulation.apply_requests()
-        assert frame is not None
-        return frame
+        return self.simulation.apply_requests()
+
+    @property
+    def moment(self) -> tuple[int, str]:
+        """Return the step and the digest."""
+        return self.simulation.step, self.simulation.world.digest()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -67,6 +73,13 @@ class Driven:
         np.testing.assert_array_equal(frame.snapshot.poses, before.poses)
         np.testing.assert_array_equal(frame.snapshot.twists, before.twists)
         np.testing.assert_array_equal(frame.snapshot.forces, before.forces)
+
+
+def dropped(name: str = 'a/0', height: float = 5.0, **options: float) -> Driven:
+    """Return a world in which a box is about to fall from a height [m]."""
+    driven = Driven(**options)
+    driven.ask(spawning(name, BOX, (0.0, height, 0.0)))
+    return driven
 
 
 def told(frames: list[Frame], topic: str) -> list[Answer]:
@@ -107,6 +120,30 @@ def body_request(name: str, x: float = 0.0, shape: Shape | None = None, **said: 
 def put(world: World, name: str, x: float = 0.0, **said: Any) -> None:
     """Spawn a body of `body_request`."""
     world.apply(body_request(name, x, **said))
+
+
+def changing(name: str, **said: Any) -> ChangeBody:
+    """Return the request for other properties of a body."""
+    return ChangeBody(name=name, properties=Properties(**said))
+
+
+def twins(world: World, folder: Path) -> tuple[World, World]:
+    """Return a world that begins with the state of another, and one that begins with its file."""
+    path = save_world(world.save(), 'saved', world_dir=folder, physics_rate=world.physics_rate)
+    one, other = seen_from_above(), seen_from_above()
+    one.apply(Restore(state=world.save()))
+    other.apply(Restore(state=load_world(path, physics_rate=world.physics_rate)))
+    return one, other
+
+
+def refusal_of_file(folder: Path, *bodies: str) -> Refusal:
+    """Return the refusal of a world file with bodies, one line each."""
+    path = folder / 'world.yaml'
+    path.write_text('\n  - '.join(('format: 1\nbodies:', *bodies)))
+    with pytest.raises(Refusal) as caught:
+        load_world(path)
+    assert caught.value.code == 'bad_world_file'
+    return caught.value
 
 
 def assert_refused(world: World, request: Request, refusal: type[Refusal], field: str) -> None:

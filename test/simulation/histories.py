@@ -16,8 +16,6 @@ time and forward only. That is what each frame must have shown, however its mome
 A history that differs is shrunk, and printed as a program.
 """
 
-from __future__ import annotations
-
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace

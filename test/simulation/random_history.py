@@ -9,8 +9,6 @@ saved worlds. Each is the name of a method of `histories.Player` with its argume
 so that requests meet. Some histories begin with a shipped world, and are about its bodies.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 import functools
@@ -18,35 +16,15 @@ import random
 from typing import Any
 
 from physsim_ros.files import load_world, shipped_worlds, worlds_in
+from physsim_ros.model import requests
 from physsim_ros.model.actors import actor_from
 from physsim_ros.model.applied_forces import forces_from
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import (
-    Anchor,
-    Axle,
-    ChangeBody,
-    Command,
-    Configure,
-    Cut,
-    Delete,
-    DeleteAll,
-    DeleteBodies,
-    DriveRobot,
-    Join,
-    MoveBodies,
-    Pin,
-    Rejoin,
-    Release,
-    Request,
-    Spawn,
-    Unjoin,
-    UnjoinAll,
-)
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape
 
 # A call of `Player`: the name of a method and its arguments.
 Operation = tuple[Any, ...]
@@ -123,6 +101,23 @@ class Choices(random.Random):
         self.names = (*NAMES[:2], *self.some([each.body.name for each in world.bodies], 6))
         self.joints = (*JOINTS[:1], *self.some([each.name for each in world.joints], 3))
 
+    def number(self, most: float = 3.0) -> float:
+        """Choose a number of at most that size, which is short in a program."""
+        return round(self.uniform(-most, most), 2)
+
+    def point(self) -> tuple[float, float]:
+        """Choose a point in the upper half of the bounds [m]."""
+        return self.number(), round(self.number() + 3.0, 2)
+
+    def shape(self) -> Shape:
+        """Choose one of a few shapes."""
+        return self.choice(SHAPES)
+
+    def made(self, makers: Sequence[tuple[int, Callable[[], Any]]]) -> Any:
+        """Choose one of some functions by their weights, and return what it makes."""
+        weights, functions = zip(*makers, strict=True)
+        return self.choices(functions, weights)[0]()
+
     def some(self, those: Sequence[str], most: int) -> list[str]:
         """Choose some, each once."""
         return self.sample(those, min(most, len(those)))
@@ -175,29 +170,20 @@ def operation_of(rng: Choices) -> Operation:
         (2, lambda: ('save',)),
         (1, lambda: ('load',)),
         (1, lambda: ('report_contacts', rng.random() < 0.5)),
-        (2, lambda: ('drag', rng.choice(rng.names), point_of(rng), rng.randint(1, 10),
+        (2, lambda: ('drag', rng.choice(rng.names), rng.point(), rng.randint(1, 10),
                      rng.random() < 0.5)),
     ]  # fmt: skip
-    weights = [weight for weight, _ in makers]
-    return rng.choices([make for _, make in makers], weights)[0]()
+    return rng.made(makers)
 
 
-def number_of(rng: Choices, most: float = 3.0) -> float:
-    return round(rng.uniform(-most, most), 2)
-
-
-def point_of(rng: Choices) -> tuple[float, float]:
-    return number_of(rng), round(number_of(rng) + 3.0, 2)
-
-
-def spawn_of(rng: Choices) -> Spawn:
+def spawn_of(rng: Choices) -> requests.Spawn:
     anchored = rng.random() < 0.2
     wild = rng.random() < 0.1
     speed = 300.0 if wild else 3.0
     said: dict[str, Any] = {'anchored': anchored or None}
     if not anchored and rng.random() < 0.5:
-        said |= {'velocity': (number_of(rng, speed), number_of(rng, speed))}
-        said |= {'spin': number_of(rng, speed)}
+        said |= {'velocity': (rng.number(speed), rng.number(speed))}
+        said |= {'spin': rng.number(speed)}
     match rng.randint(0, 9):
         case 0:
             said['mass'] = rng.choice((0.1, 1.0, 1e3 if wild else 3.0))
@@ -212,13 +198,13 @@ def spawn_of(rng: Choices) -> Spawn:
         case 5 if not anchored:
             said |= {'robot': rng.choice(ROBOTS)}
         case 6:
-            said |= {'sensor': True, 'surface_velocity': (number_of(rng), number_of(rng))}
+            said |= {'sensor': True, 'surface_velocity': (rng.number(), rng.number())}
         case 7 if not anchored:
             said |= {'actor': rng.choice(ACTORS), 'kinematic': rng.random() < 0.5}
-    return Spawn(
+    return requests.Spawn(
         name=rng.choice(rng.names),
-        shape=rng.choice(SHAPES),
-        pose=(*point_of(rng), number_of(rng)),
+        shape=rng.shape(),
+        pose=(*rng.point(), rng.number()),
         frame=frame_of(rng),
         lifetime=rng.choice((0.0,) * 8 + (0.013, 0.4)),
         color=rng.choice((None, None, (0.1, 0.2, 0.3, 0.4))),
@@ -226,19 +212,21 @@ def spawn_of(rng: Choices) -> Spawn:
     )
 
 
-def robots_of(rng: Choices) -> Iterator[Request]:
+def robots_of(rng: Choices) -> Iterator[requests.Request]:
     """Yield the requests for two robots in a world that is seen from above."""
-    yield Configure(changes={'gravity': (0.0, 0.0), 'floor_friction': 0.4})
+    yield requests.Configure(changes={'gravity': (0.0, 0.0), 'floor_friction': 0.4})
     for name in NAMES[:2]:
-        spawn = Spawn(name=name, shape=Disc(radius=0.2), pose=(*point_of(rng), number_of(rng)))
+        spawn = requests.Spawn(
+            name=name, shape=Disc(radius=0.2), pose=(*rng.point(), rng.number())
+        )
         yield replace(spawn, properties=Properties(robot=rng.choice(ROBOTS)))
-        yield DriveRobot(name=name, velocity=(1.0, number_of(rng), number_of(rng)))
+        yield requests.DriveRobot(name=name, velocity=(1.0, rng.number(), rng.number()))
 
 
 def change_of(rng: Choices) -> dict[str, Any]:
     return rng.choice(
         [
-            {'gravity': (number_of(rng), number_of(rng, 10.0))},
+            {'gravity': (rng.number(), rng.number(10.0))},
             {'damping': rng.choice((0.0, 0.2, 0.9))},
             {'iterations': rng.choice((1, 3, 25))},
             {'bounds': rng.choice((None, (-4.0, 0.0, 4.0, 9.0)))},
@@ -252,31 +240,31 @@ def change_of(rng: Choices) -> dict[str, Any]:
     )
 
 
-def command_of(rng: Choices) -> Command:
+def command_of(rng: Choices) -> requests.Command:
     names = tuple(rng.some(rng.names, rng.choice((1, 1, 2, 4))))
     rows = {
-        key: tuple((number_of(rng), number_of(rng), number_of(rng)) for _ in names)
+        key: tuple((rng.number(), rng.number(), rng.number()) for _ in names)
         for key in rng.sample(('poses', 'twists', 'wrenches'), rng.randint(1, 2))
     }
-    return Command(names=names, frame=frame_of(rng), **rows)
+    return requests.Command(names=names, frame=frame_of(rng), **rows)
 
 
 def frame_of(rng: Choices) -> str:
     return rng.choice(rng.names) if rng.random() < 0.1 else ''
 
 
-def drive_of(rng: Choices) -> DriveRobot:
-    velocity = (number_of(rng), number_of(rng), number_of(rng))
-    return DriveRobot(name=rng.choice(rng.names), velocity=velocity)
+def drive_of(rng: Choices) -> requests.DriveRobot:
+    velocity = (rng.number(), rng.number(), rng.number())
+    return requests.DriveRobot(name=rng.choice(rng.names), velocity=velocity)
 
 
-def join_of(rng: Choices) -> Join:
+def join_of(rng: Choices) -> requests.Join:
     kind = rng.choice(list(JointKind))
     first, second = rng.sample(rng.names, 2)
-    return Join(
+    return requests.Join(
         name=rng.choice(rng.joints),
         kind=kind,
-        points=tuple(point_of(rng) for _ in range(kind.points)),
+        points=tuple(rng.point() for _ in range(kind.points)),
         frame=frame_of(rng),
         a=first,
         b=rng.choice((second, 'world')),
@@ -288,14 +276,14 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
     said = {
         'lower': -rng.random(),
         'upper': rng.random(),
-        'rate': number_of(rng, 20.0),
+        'rate': rng.number(20.0),
         'max_torque': rng.choice((0.0, 1.0, 1000.0)),
         'stiffness': rng.choice((0.0, 20.0, 3000.0)),
         'damping': rng.choice((0.5, 100.0)),
         'rest_length': rng.random(),
         'length': 2.0 * rng.random(),
         'ratio': rng.choice((-1.0, 0.5, 3.0)),
-        'phase': number_of(rng),
+        'phase': rng.number(),
         'max_force': rng.choice((0.0, 5.0, 500.0)),
         'break_force': 30.0,
         'collide': rng.random() < 0.5,
@@ -304,18 +292,20 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
     return JointProperties(**{name: said[name] for name in names})
 
 
-def cut_of(rng: Choices) -> Cut:
+def cut_of(rng: Choices) -> requests.Cut:
     """Return a cut; a part of it may be refused after others."""
     first, second = rng.sample(rng.names, 2)
-    largest = ChangeBody(name=rng.choice(rng.names), shape=rng.choice(SHAPES))
-    return Cut(
+    largest = requests.ChangeBody(name=rng.choice(rng.names), shape=rng.shape())
+    return requests.Cut(
         pieces=(largest, spawn_of(rng)),
-        joints=(Rejoin(name=rng.choice(rng.joints), a=first, b=rng.choice((second, 'world'))),),
-        severed=(Unjoin(name=rng.choice(rng.joints)),),
+        joints=(
+            requests.Rejoin(name=rng.choice(rng.joints), a=first, b=rng.choice((second, 'world'))),
+        ),
+        severed=(requests.Unjoin(name=rng.choice(rng.joints)),),
     )
 
 
-def request_of(rng: Choices) -> Request:
+def request_of(rng: Choices) -> requests.Request:
     """Return a request of any kind; names are few, so that requests meet."""
     properties = rng.choice(
         (
@@ -336,41 +326,44 @@ def request_of(rng: Choices) -> Request:
             {'forces': rng.choice(FORCES)},
         )
     )
-    makers: list[tuple[int, Callable[[], Request]]] = [
+    makers: list[tuple[int, Callable[[], requests.Request]]] = [
         (16, lambda: spawn_of(rng)),
         (12, lambda: command_of(rng)),
-        (6, lambda: Configure(changes=change_of(rng))),
+        (6, lambda: requests.Configure(changes=change_of(rng))),
         (8, lambda: join_of(rng)),
         (6, lambda: drive_of(rng)),
-        (2, lambda: Delete(name=rng.choice(rng.names))),
-        (1, lambda: DeleteBodies(names=tuple(rng.sample(rng.names, 2)))),
+        (2, lambda: requests.Delete(name=rng.choice(rng.names))),
+        (1, lambda: requests.DeleteBodies(names=tuple(rng.sample(rng.names, 2)))),
         (1, lambda: cut_of(rng)),
-        (1, UnjoinAll),
-        (1, DeleteAll),
-        (1, lambda: Anchor(point=(0.0, 0.0), frame=rng.choice(rng.names))),
-        (2, lambda: Release(point=(0.0, 0.0), frame=rng.choice(rng.names))),
-        (2, lambda: Pin(point=(0.0, 0.0), frame=rng.choice(rng.names))),
-        (2, lambda: Axle(point=(0.0, 0.0), frame=rng.choice(rng.names))),
-        (2, lambda: Unjoin(name=rng.choice(rng.joints))),
-        (6, lambda: ChangeBody(name=rng.choice(rng.names), properties=Properties(**properties))),
+        (1, requests.UnjoinAll),
+        (1, requests.DeleteAll),
+        (1, lambda: requests.Anchor(point=(0.0, 0.0), frame=rng.choice(rng.names))),
+        (2, lambda: requests.Release(point=(0.0, 0.0), frame=rng.choice(rng.names))),
+        (2, lambda: requests.Pin(point=(0.0, 0.0), frame=rng.choice(rng.names))),
+        (2, lambda: requests.Axle(point=(0.0, 0.0), frame=rng.choice(rng.names))),
+        (2, lambda: requests.Unjoin(name=rng.choice(rng.joints))),
+        (
+            6,
+            lambda: requests.ChangeBody(
+                name=rng.choice(rng.names), properties=Properties(**properties)
+            ),
+        ),
         (
             2,
-            lambda: ChangeBody(
+            lambda: requests.ChangeBody(
                 name=rng.choice(rng.names),
                 shape=rng.choice((None, *SHAPES)),
                 color=(0.9, 0.5, 0.1, 1.0),
-                pose=(*point_of(rng), number_of(rng)),
+                pose=(*rng.point(), rng.number()),
                 frame=frame_of(rng),
             ),
         ),
         (
             2,
-            lambda: ChangeBody(
-                name=rng.choice(rng.names),
-                unset=tuple(rng.some(list(Properties.FIELDS), 3)),
+            lambda: requests.ChangeBody(
+                name=rng.choice(rng.names), unset=tuple(rng.some(list(Properties.FIELDS), 3))
             ),
         ),
-        (3, lambda: MoveBodies(names=(rng.choice(rng.names),), by=(number_of(rng), 1.0))),
+        (3, lambda: requests.MoveBodies(names=(rng.choice(rng.names),), by=(rng.number(), 1.0))),
     ]
-    weights = [weight for weight, _ in makers]
-    return rng.choices([make for _, make in makers], weights)[0]()
+    return rng.made(makers)

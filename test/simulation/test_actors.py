@@ -3,16 +3,21 @@
 
 """Actors in a world: what is refused, and what world files keep of them."""
 
-from physsim_ros.files import load_world, save_world
-from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import BadProperty, Refusal, UnknownBody
-from physsim_ros.model.requests import Anchor, ChangeBody, Delete, Restore, Spawn
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.errors import BadProperty, UnknownBody
+from physsim_ros.model.requests import Anchor, ChangeBody, Delete, Spawn
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 import yaml
 
-from .driven import assert_refused, body_request, put, seen_from_above
+from .driven import (
+    assert_refused,
+    body_request,
+    changing,
+    put,
+    refusal_of_file,
+    seen_from_above,
+    twins,
+)
 
 PATH = {'kind': 'path', 'points': [[0, 0], [2, 0]], 'speed': 1.0, 'repeat': 'to_and_fro'}
 
@@ -22,12 +27,7 @@ def test_an_actor_is_not_anchored():
     spawn = body_request('a/0', actor=PATH, anchored=True)
     assert_refused(world, spawn, BadProperty, 'anchored')
     put(world, 'a/0', actor=PATH)
-    assert_refused(
-        world,
-        ChangeBody(name='a/0', properties=Properties(anchored=True)),
-        BadProperty,
-        'anchored',
-    )
+    assert_refused(world, changing('a/0', anchored=True), BadProperty, 'anchored')
     assert_refused(world, Anchor(point=(0.0, 0.0)), BadProperty, 'point')
 
 
@@ -36,9 +36,7 @@ def test_a_pedestrian_is_no_sensor_and_a_door_may_be():
     walks = {'kind': 'orca', 'points': [[3, 0]]}
     assert_refused(world, body_request('a/0', actor=walks, sensor=True), BadProperty, 'sensor')
     put(world, 'a/0', actor=walks)
-    assert_refused(
-        world, ChangeBody(name='a/0', properties=Properties(sensor=True)), BadProperty, 'sensor'
-    )
+    assert_refused(world, changing('a/0', sensor=True), BadProperty, 'sensor')
     put(world, 'b/0', actor=PATH, sensor=True, kinematic=True)
     world.step(240)
     assert world.snapshot().poses[1, 0] == pytest.approx(1.0)
@@ -56,19 +54,12 @@ def test_an_actor_does_not_wait_for_a_body_that_there_is_not(tmp_path, start, fi
     world = seen_from_above()
     put(world, 'a/0')
     waits = {**PATH, 'start': start}
-    assert_refused(
-        world, ChangeBody(name='a/0', properties=Properties(actor=waits)), UnknownBody, field
-    )
-    spawn = Spawn(name='b/0', shape=Disc(radius=0.1), properties=Properties(actor=waits))
-    assert_refused(world, spawn, UnknownBody, field)
-    path = tmp_path / 'world.yaml'
-    first = '{name: a/0, circle: {radius: 0.1}}'
-    path.write_text(
-        f'format: 1\nbodies: [{first}, {{name: b/0, circle: {{radius: 1}}, actor: {waits}}}]'
-    )
-    with pytest.raises(Refusal, match='there is no body') as caught:
-        load_world(path, settings=WorldSettings(), physics_rate=240.0)
-    assert (caught.value.code, caught.value.field) == ('bad_world_file', field)
+    assert_refused(world, changing('a/0', actor=waits), UnknownBody, field)
+    assert_refused(world, body_request('b/0', actor=waits), UnknownBody, field)
+    second = f'{{name: b/0, circle: {{radius: 1}}, actor: {waits}}}'
+    refusal = refusal_of_file(tmp_path, '{name: a/0, circle: {radius: 0.1}}', second)
+    assert refusal.field == field
+    assert 'there is no body' in str(refusal)
 
 
 def test_actors_under_way_are_saved_and_loaded_to_the_bit(tmp_path):
@@ -87,12 +78,7 @@ def test_actors_under_way_are_saved_and_loaded_to_the_bit(tmp_path):
     # It is in no file then, and the actor waits for ever.
     world.apply(Delete(name='gate/0'))
 
-    path = save_world(world.save(), 'actors', world_dir=tmp_path, physics_rate=240.0)
-    loaded = load_world(path, settings=WorldSettings(), physics_rate=240.0)
-    one, other = seen_from_above(), seen_from_above()
-    one.apply(Restore(state=world.save()))
-    other.apply(Restore(state=loaded))
-
+    one, other = twins(world, tmp_path)
     for _ in range(8):
         assert one.digest() == other.digest()
         one.step(120)
@@ -101,40 +87,21 @@ def test_actors_under_way_are_saved_and_loaded_to_the_bit(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ('body', 'code', 'field'),
+    ('said', 'code', 'field'),
     [
-        ('{name: b/0, circle: {radius: 1}, acting: {}}', 'bad_property', 'acting'),
-        ('{name: b/0, circle: {radius: 1}, actor: PATH, acting: [1]}', 'bad_property', 'acting'),
-        (
-            '{name: b/0, circle: {radius: 1}, actor: PATH, acting: {seconds: a}}',
-            'bad_property',
-            'seconds',
-        ),
-        (
-            '{name: b/0, circle: {radius: 1}, actor: PATH, acting: {reached: -1}}',
-            'bad_property',
-            'reached',
-        ),
-        (
-            '{name: b/0, circle: {radius: 1}, actor: PATH, acting: {begun: 1}}',
-            'unknown_property',
-            'begun',
-        ),
-        ('{name: b/0, circle: {radius: 1}, actor: {kind: walk}}', 'bad_property', 'kind'),
-        (
-            '{name: b/0, circle: {radius: 1}, actor: PATH, anchored: true}',
-            'bad_property',
-            'anchored',
-        ),
+        ('acting: {}', 'bad_property', 'acting'),
+        ('actor: PATH, acting: [1]', 'bad_property', 'acting'),
+        ('actor: PATH, acting: {seconds: a}', 'bad_property', 'seconds'),
+        ('actor: PATH, acting: {reached: -1}', 'bad_property', 'reached'),
+        ('actor: PATH, acting: {begun: 1}', 'unknown_property', 'begun'),
+        ('actor: {kind: walk}', 'bad_property', 'kind'),
+        ('actor: PATH, anchored: true', 'bad_property', 'anchored'),
     ],
 )
-def test_a_file_with_an_actor_that_cannot_be_is_refused(tmp_path, body, code, field):
-    path = tmp_path / 'world.yaml'
-    path.write_text(f'format: 1\nbodies:\n  - {body.replace("PATH", str(PATH))}\n')
-    with pytest.raises(Refusal) as caught:
-        load_world(path, settings=WorldSettings(), physics_rate=240.0)
-    assert caught.value.code == 'bad_world_file'
-    assert (caught.value.cause, caught.value.field) == (code, field)
+def test_a_file_with_an_actor_that_cannot_be_is_refused(tmp_path, said, code, field):
+    said = said.replace('PATH', str(PATH))
+    refusal = refusal_of_file(tmp_path, f'{{name: b/0, circle: {{radius: 1}}, {said}}}')
+    assert (refusal.cause, refusal.field) == (code, field)
 
 
 @pytest.mark.parametrize('kinematic', [True, False])
@@ -154,11 +121,10 @@ def test_a_body_that_is_no_actor_any_more_goes_on_by_itself(tmp_path, actor, kin
     twin.step(60)
     way = world.snapshot().poses - before.poses
     assert way == pytest.approx(twin.snapshot().poses, abs=1e-9)
-    path = save_world(world.save(), 'w', world_dir=tmp_path, physics_rate=240.0)
-    assert not {'actor', 'acting'} & {*yaml.safe_load(path.read_text())['bodies'][0]}
-    again = seen_from_above()
-    again.apply(Restore(state=load_world(path)))
+    _, again = twins(world, tmp_path)
     assert again.scene.key == world.scene.key
+    (path,) = tmp_path.glob('*.yaml')
+    assert not {'actor', 'acting'} & {*yaml.safe_load(path.read_text())['bodies'][0]}
     # Only now may it be anchored.
     world.apply(Anchor(point=world.snapshot().poses[0, :2].tolist()))
 
@@ -171,7 +137,7 @@ def test_an_actor_that_is_unset_by_a_spawn_may_be_one_again_and_starts_anew():
     world.apply(spawn)
     assert (world.scene.bodies[0].actor, world.scene.bodies[0].kinematic) == (None, False)
 
-    world.apply(ChangeBody(name='a/0', properties=Properties(actor=PATH, kinematic=True)))
+    world.apply(changing('a/0', actor=PATH, kinematic=True))
 
     world.step(240)
     assert world.snapshot().poses[0, 0] == pytest.approx(1.0)

@@ -3,13 +3,8 @@
 
 """Requests of the past are replaced or taken back, as if they had never been; time stays."""
 
-from __future__ import annotations
-
-from dataclasses import replace
-
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Axle, Configure, Delete, Join, MoveBodies, Request
+from physsim_ros.model.requests import Axle, Configure, Delete, MoveBodies, Request
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.past import amendment
 from physsim_ros.simulation.past.cursor import Cursor
@@ -18,7 +13,7 @@ from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .driven import take_back, world_after
-from ..building import BOX, DISC, spawning
+from ..building import BOX, DISC, joining, spawning
 
 LEFT, RIGHT = (-3.0, 5.0, 0.0), (3.0, 5.0, 0.0)
 
@@ -33,12 +28,10 @@ def begun() -> Simulation:
 def amend(simulation: Simulation, gestures: list[int], requests: list[Request]) -> Frame:
     """Replace the requests of gestures, and return the frame that shows it."""
     simulation.requests.submit(Amend(tuple(gestures), tuple(requests)), topic='t', joined=True)
-    frame = simulation.apply_requests()
-    assert frame is not None
-    return frame
+    return simulation.apply_requests()
 
 
-def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> None:
+def test_an_amended_world_is_where_it_would_have_come_with_those_requests():
     wall, ball = spawning('t/0', BOX, (0.0, 1.0, 0.0), anchored=True), spawning('t/1', DISC)
     later = spawning('t/2', DISC, (0.1, 3.0, 0.0))
     straight = world_after((2, '', ball), (30, '', later), frames=90)
@@ -55,7 +48,7 @@ def test_an_amended_world_is_where_it_would_have_come_with_those_requests() -> N
     assert other.world.digest() == straight.world.digest()
 
 
-def test_the_amended_gesture_is_undone_as_one() -> None:
+def test_the_amended_gesture_is_undone_as_one():
     simulation = begun()
     gesture = simulation.requests.gesture
     simulation.advance_frame()
@@ -66,7 +59,7 @@ def test_the_amended_gesture_is_undone_as_one() -> None:
     assert simulation.world.snapshot().scene.names == ()
 
 
-def test_what_the_amended_past_refuses_later_is_dropped() -> None:
+def test_what_the_amended_past_refuses_later_is_dropped():
     simulation = begun()
     gesture = simulation.requests.gesture
     simulation.requests.submit(Delete(name='t/0'), topic='t')
@@ -79,7 +72,7 @@ def test_what_the_amended_past_refuses_later_is_dropped() -> None:
     assert simulation.settings.damping == 0.5
 
 
-def test_a_refused_request_is_answered_and_the_others_hold() -> None:
+def test_a_refused_request_is_answered_and_the_others_hold():
     simulation = begun()
 
     requests = [Delete(name='no/1'), spawning('t/1', DISC)]
@@ -89,7 +82,7 @@ def test_a_refused_request_is_answered_and_the_others_hold() -> None:
     assert simulation.world.snapshot().scene.names == ('t/1',)
 
 
-def test_several_gestures_become_one() -> None:
+def test_several_gestures_become_one():
     simulation = begun()
     first = simulation.requests.gesture
     simulation.requests.submit(spawning('t/1', BOX, (3.0, 5.0, 0.0)), topic='t')
@@ -103,7 +96,7 @@ def test_several_gestures_become_one() -> None:
     assert simulation.world.snapshot().scene.names == ()
 
 
-def test_gestures_that_changed_nothing_are_amended_by_what_is_made_now() -> None:
+def test_gestures_that_changed_nothing_are_amended_by_what_is_made_now():
     simulation = begun()
     step = simulation.step
 
@@ -115,10 +108,11 @@ def test_gestures_that_changed_nothing_are_amended_by_what_is_made_now() -> None
 
 # Taking back
 
+ROD = joining('rod', [(-3.0, 4.0), (0.0, 9.0)], a='a/0')
 ANNA, BEN = (2, 'Anna', spawning('a/0', DISC, LEFT)), (20, 'Ben', spawning('b/0', BOX, RIGHT))
 
 
-def test_what_is_taken_back_has_never_been_and_what_others_did_stays() -> None:
+def test_what_is_taken_back_has_never_been_and_what_others_did_stays():
     simulation, without = world_after(ANNA, BEN), world_after(BEN)
 
     take_back(simulation, 'Anna')
@@ -129,7 +123,7 @@ def test_what_is_taken_back_has_never_been_and_what_others_did_stays() -> None:
     assert (answer.code, answer.message) == ('out_of_history', 'there is nothing by Anna to undo')
 
 
-def test_redo_brings_it_back() -> None:
+def test_redo_brings_it_back():
     simulation = world_after(ANNA, BEN)
     before = simulation.world.digest()
 
@@ -139,14 +133,8 @@ def test_redo_brings_it_back() -> None:
     assert simulation.world.digest() == before
 
 
-@pytest.mark.parametrize(
-    'use',
-    [
-        MoveBodies(names=('a/0',), by=(0.0, 1.0)),
-        Join(name='j/0', kind=JointKind.ROD, points=((-3.0, 4.0), (0.0, 9.0)), a='a/0'),
-    ],
-)
-def test_what_others_have_used_since_is_not_taken_back(use: Request) -> None:
+@pytest.mark.parametrize('use', [MoveBodies(names=('a/0',), by=(0.0, 1.0)), ROD])
+def test_what_others_have_used_since_is_not_taken_back(use):
     simulation = world_after(ANNA, BEN, (30, 'Ben', use))
     before = simulation.world.digest()
 
@@ -160,9 +148,7 @@ def test_what_others_have_used_since_is_not_taken_back(use: Request) -> None:
     assert simulation.world.scene.names == ('b/0',)
 
 
-def test_it_is_refused_in_the_past_and_where_it_would_take_long(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_it_is_refused_in_the_past_and_where_it_would_take_long(monkeypatch):
     simulation = world_after(ANNA, BEN)
     end = simulation.world.stamp
     simulation.seek(500_000_000)
@@ -175,7 +161,7 @@ def test_it_is_refused_in_the_past_and_where_it_would_take_long(
     assert simulation.world.scene.names == ('a/0', 'b/0')
 
 
-def test_a_reading_that_would_take_long_to_replace_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_reading_that_would_take_long_to_replace_stays(monkeypatch):
     simulation = begun()
     gesture, before = simulation.requests.gesture, simulation.world.digest()
     monkeypatch.setattr(amendment, 'LONGEST_AGAIN', 0.01)
@@ -186,7 +172,7 @@ def test_a_reading_that_would_take_long_to_replace_stays(monkeypatch: pytest.Mon
     assert simulation.world.digest() == before
 
 
-def test_commands_that_joined_a_gesture_are_not_taken_back_with_it() -> None:
+def test_commands_that_joined_a_gesture_are_not_taken_back_with_it():
     simulation = world_after(ANNA)
     simulation.requests.submit(spawning('c/0', BOX, (0.0, 3.0, 0.0)), topic='t', author='Anna')
     # As commands of robots do.
@@ -199,7 +185,7 @@ def test_commands_that_joined_a_gesture_are_not_taken_back_with_it() -> None:
     assert simulation.world.scene.names == ('a/0', 'd/0')
 
 
-def test_a_later_moment_of_a_gesture_leaves_the_gestures_between_alone() -> None:
+def test_a_later_moment_of_a_gesture_leaves_the_gestures_between_alone():
     simulation = world_after(ANNA)
     gesture = simulation.requests.gesture
     queue = simulation.requests
@@ -215,16 +201,15 @@ def test_a_later_moment_of_a_gesture_leaves_the_gestures_between_alone() -> None
     assert simulation.world.scene.names == ('b/0',)
 
 
-def test_what_a_person_has_added_and_is_still_there_is_told() -> None:
-    rod = Join(name='j/0', kind=JointKind.ROD, points=((-3.0, 4.0), (0.0, 9.0)), a='a/0')
-    simulation = world_after(ANNA, BEN, (30, 'Anna', rod))
+def test_what_a_person_has_added_and_is_still_there_is_told():
+    simulation = world_after(ANNA, BEN, (30, 'Anna', ROD))
 
-    assert simulation.past.added_by('Anna') == (('a/0',), ('j/0',))
+    assert simulation.past.added_by('Anna') == (('a/0',), ('joint/0',))
     assert simulation.past.added_by('Ben') == (('b/0',), ())
     assert simulation.past.added_by('Cleo') == ((), ())
 
 
-def test_what_a_person_added_is_what_was_added_last_by_them() -> None:
+def test_what_a_person_added_is_what_was_added_last_by_them():
     again = (30, 'Ben', spawning('a/0', DISC, LEFT))
     simulation = world_after(ANNA, BEN, (25, 'Anna', Delete(name='a/0')), again)
     simulation.requests.submit(Axle(point=LEFT[:2]), topic='t', author='Anna')
@@ -236,27 +221,20 @@ def test_what_a_person_added_is_what_was_added_last_by_them() -> None:
     assert joints == tuple(joint.name for joint in simulation.world.scene.joints)
 
 
-def test_what_others_change_in_place_stays_theirs_who_added_it() -> None:
-    spring = Join(
-        name='j/0', kind=JointKind.SPRING, points=(LEFT[:2], (0.0, 9.0)), a='a/0', b='world'
-    )
-    stiffer = replace(spring, properties=JointProperties(stiffness=50.0))
+def test_what_others_change_in_place_stays_theirs_who_added_it():
+    line = [LEFT[:2], (0.0, 9.0)]
+    spring = joining('spring', line, a='a/0', b='world')
+    stiffer = joining('spring', line, a='a/0', b='world', stiffness=50.0)
     simulation = world_after(
-        ANNA,
-        (25, 'Anna', spring),
-        (30, 'Ben', stiffer),
-        (31, 'Ben', spawning('a/0', BOX, LEFT)),
+        ANNA, (25, 'Anna', spring), (30, 'Ben', stiffer), (31, 'Ben', spawning('a/0', BOX, LEFT))
     )
 
-    assert simulation.past.added_by('Anna') == (('a/0',), ('j/0',))
+    assert simulation.past.added_by('Anna') == (('a/0',), ('joint/0',))
     assert simulation.past.added_by('Ben') == ((), ())
 
 
-def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back() -> None:
-    weak = JointProperties(break_force=1.0)
-    hung = Join(
-        name='j/0', kind=JointKind.PIN, points=(RIGHT[:2],), a='b/0', b='world', properties=weak
-    )
+def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back():
+    hung = joining('pin', [RIGHT[:2]], a='b/0', b='world', break_force=1.0)
     move = (5, 'Ben', MoveBodies(names=('a/0',), by=(0.0, 1.0)))
     simulation = world_after(ANNA, move, BEN, (20, 'Ben', hung))
     assert not simulation.world.scene.joints
@@ -268,8 +246,8 @@ def test_what_broke_is_not_told_again_where_a_gesture_is_not_taken_back() -> Non
 
 @pytest.mark.parametrize('change', [TakeBack(), Amend((2,), (spawning('c/0', DISC),))])
 def test_an_unexpected_error_on_the_way_leaves_the_world_and_its_past_as_they_were(
-    change: TakeBack | Amend, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    change, monkeypatch
+):
     simulation = world_after(ANNA, BEN)
     simulation.past.boundary = ErrorBoundary(lambda _: None)
     before, users = simulation.world.digest(), simulation.past.tree.tip.users
@@ -284,7 +262,6 @@ def test_an_unexpected_error_on_the_way_leaves_the_world_and_its_past_as_they_we
         simulation.requests.submit(change, topic='t', author='Anna')
         frame = simulation.apply_requests()
 
-    assert frame is not None
     assert [each.code for each in frame.answers] == ['failed']
     assert simulation.world.digest() == before
     assert simulation.past.tree.tip.users == users

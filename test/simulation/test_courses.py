@@ -3,29 +3,26 @@
 
 """A course that was left is kept, shown as a ghost, and returned to, to the same bits."""
 
-from __future__ import annotations
-
 import numpy as np
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, OutOfHistory
 from physsim_ros.model.requests import Command, Delete, Request
-from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.tree import MOST_COURSES
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
+from .driven import SLAB
 from ..building import BOX, spawning
 
 SECOND = 10**9
-FLOOR = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
 
 
 def simulation(checkpoints: float = 0.5) -> Simulation:
     """Return a pile of boxes that falls."""
     sim = Simulation(checkpoints=checkpoints)
-    sim.perform(FLOOR)
+    sim.perform(SLAB)
     for number in range(6):
         sim.perform(spawning(f'a/{number}', BOX, (number / 4, 0.5 + 1.2 * number, number)))
     return sim
@@ -78,7 +75,7 @@ def numbers(sim: Simulation) -> list[int]:
     return [course.number for course in sim.status.courses]
 
 
-def test_a_course_that_was_left_is_returned_to_and_back_to_the_same_bits() -> None:
+def test_a_course_that_was_left_is_returned_to_and_back_to_the_same_bits():
     sim = simulation()
     first = run(sim, 2.0)
     second = branch(sim, 1.0, 5.0)
@@ -94,7 +91,7 @@ def test_a_course_that_was_left_is_returned_to_and_back_to_the_same_bits() -> No
     assert sim.world.digest() == last
 
 
-def test_courses_of_courses_are_reached_by_their_branches() -> None:
+def test_courses_of_courses_are_reached_by_their_branches():
     sim = simulation()
     shown = {1: run(sim, 2.0)}
     # 2 parts from 1 at 1 s, 3 from 2 at 1.5 s, 4 from 3 at 0.5 s, 5 from 4 at 1.5 s.
@@ -111,7 +108,7 @@ def test_courses_of_courses_are_reached_by_their_branches() -> None:
         follow(sim, shown[number], 40)
 
 
-def test_time_stays_where_both_courses_have_it() -> None:
+def test_time_stays_where_both_courses_have_it():
     sim = simulation()
     run(sim, 2.0)
     branch(sim, 1.0, 5.0)
@@ -123,7 +120,7 @@ def test_time_stays_where_both_courses_have_it() -> None:
     assert sim.world.digest() == before
 
 
-def test_a_branch_at_one_step_is_a_course_too() -> None:
+def test_a_branch_at_one_step_is_a_course_too():
     sim = simulation()
     run(sim, 0.5)
     act(sim, 1.0)
@@ -131,19 +128,17 @@ def test_a_branch_at_one_step_is_a_course_too() -> None:
     sim.seek(SECOND // 2)
     act(sim, 2.0)
     frame = sim.apply_requests()
-    assert frame is not None
     assert [each.topic for each in frame.answers] == ['branch']
     assert numbers(sim) == [1]
 
 
-def test_a_ghost_is_what_the_course_has_shown() -> None:
+def test_a_ghost_is_what_the_course_has_shown():
     sim = simulation()
     first = run(sim, 2.0)
     branch(sim, 1.0, 5.0)
 
     for step in (244, 400, 480):
         ghost = sim.past.ghost(1, step / 240)
-        assert ghost is not None
         assert np.array_equal(ghost.poses, first[step])
     assert sim.past.ghost(1, 0.5) is None
     assert sim.past.ghost(7, 1.5) is None
@@ -152,7 +147,7 @@ def test_a_ghost_is_what_the_course_has_shown() -> None:
     assert sim.past.ghost(2, 1.5) is not None
 
 
-def test_undo_and_redo_go_along_a_course() -> None:
+def test_undo_and_redo_go_along_a_course():
     sim = simulation()
     run(sim, 2.0)
     first = sim.world.digest()
@@ -171,7 +166,7 @@ def test_undo_and_redo_go_along_a_course() -> None:
     assert sim.world.digest() == first
 
 
-def test_a_course_loses_nothing_by_an_undo_in_another() -> None:
+def test_a_course_loses_nothing_by_an_undo_in_another():
     sim = undone_branch()
     assert (sim.step, numbers(sim)) == (120, [1])
     sim.redo()
@@ -186,7 +181,7 @@ def test_a_course_loses_nothing_by_an_undo_in_another() -> None:
     assert numbers(sim) == [1, 2]
 
 
-def test_a_course_that_parts_in_what_was_undone_is_returned_to() -> None:
+def test_a_course_that_parts_in_what_was_undone_is_returned_to():
     sim = simulation()
     run(sim, 0.5)
     act(sim, 1.0)
@@ -204,7 +199,7 @@ def test_a_course_that_parts_in_what_was_undone_is_returned_to() -> None:
     follow(sim, undone, 124)
 
 
-def test_a_course_has_all_its_bodies_whatever_is_undone_in_those_that_branch_off() -> None:
+def test_a_course_has_all_its_bodies_whatever_is_undone_in_those_that_branch_off():
     sim = Simulation()
     sim.perform(spawning('a/0', BOX, anchored=True))
     run(sim, 1.0)
@@ -223,7 +218,7 @@ def test_a_course_has_all_its_bodies_whatever_is_undone_in_those_that_branch_off
     assert (sim.status.now, sim.world.snapshot().scene.names) == (0.2, ('a/0',))
 
 
-def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_there() -> None:
+def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_there():
     sim = Simulation()
     assert sim.apply_requests() is not None
     sim.requests.submit(spawning('a/0', BOX, anchored=True), topic='')
@@ -241,7 +236,7 @@ def test_a_step_is_shown_without_a_request_that_a_running_world_has_applied_ther
     assert frames[-1].snapshot.scene.names == ()
 
 
-def test_as_many_courses_are_kept_as_are_said() -> None:
+def test_as_many_courses_are_kept_as_are_said():
     sim = simulation()
     run(sim, 0.5)
     for number in range(MOST_COURSES + 3):
@@ -253,7 +248,7 @@ def test_as_many_courses_are_kept_as_are_said() -> None:
         sim.return_to_course(1)
 
 
-def test_what_parts_before_the_oldest_checkpoint_is_dropped() -> None:
+def test_what_parts_before_the_oldest_checkpoint_is_dropped():
     sim = simulation()
     run(sim, 1.0)
     branch(sim, 0.75, 5.0)
@@ -268,7 +263,7 @@ def test_what_parts_before_the_oldest_checkpoint_is_dropped() -> None:
     assert sim.world.digest() == before
 
 
-def test_the_status_tells_time_state_and_words() -> None:
+def test_the_status_tells_time_state_and_words():
     sim = Simulation(speed=0.0)
     status = sim.status
     assert (status.state, status.now, status.newest, status.course) == ('paused', 0.0, 0.0, 1)
@@ -297,7 +292,7 @@ def test_the_status_tells_time_state_and_words() -> None:
     assert (sim.status.course, sim.status.redo) == (1, 'redo reset')
 
 
-def test_a_request_that_fails_in_the_past_keeps_no_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_request_that_fails_in_the_past_keeps_no_line(monkeypatch):
     sim = Simulation(boundary=ErrorBoundary(lambda _: None))
     sim.perform(spawning('a/0', BOX, (0.0, 1.0, 0.0)))
     run(sim, 1.0)

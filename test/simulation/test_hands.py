@@ -3,36 +3,25 @@
 
 """Hands grab bodies, drag, throw and let go."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
 from physsim_ros.model.errors import Malformed, Refusal, WorldFull
-from physsim_ros.model.requests import (
-    Anchor,
-    Delete,
-    DeleteAll,
-    Grab,
-    LetGo,
-    MoveHand,
-    Restore,
-    Spawn,
-)
+from physsim_ros.model.requests import Anchor, Delete, DeleteAll, Grab, LetGo, MoveHand, Restore
 from physsim_ros.model.settings import MOST_HANDS, WorldSettings
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.transform import Point
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
+from .driven import SLAB
 from ..building import BOX, DISC, DT, NOWHERE, spawn, spawning, twist
 
 TOPIC = '~/drag/feedback'
 # A rod, and the arm of a grip near its end [m].
 ROD, ARM = Box(width=2.0, height=0.1), 0.9
-FLOOR = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
 
 
 def dragged(world: World, to: Point, steps: int, hand: str = 'h') -> list[np.ndarray]:
@@ -47,10 +36,7 @@ def dragged(world: World, to: Point, steps: int, hand: str = 'h') -> list[np.nda
 
 @pytest.mark.parametrize('mass', [1e-3, 1.0, 1e6])
 @pytest.mark.parametrize(('shape', 'arm'), [(DISC, 0.0), (ROD, ARM)])
-def test_a_body_follows_its_hand_without_oscillation_at_any_mass_and_arm(
-    mass: float, shape: Disc | Box, arm: float
-) -> None:
-    world = World(settings=NOWHERE)
+def test_a_body_follows_its_hand_without_oscillation_at_any_mass_and_arm(mass, shape, arm, world):
     spawn(world, 'a/0', shape, mass=mass)
     world.apply(Grab(hand='h', point=(arm, 0.0)))
     world.apply(MoveHand(hand='h', point=(arm + 0.05, 0.0)))
@@ -70,9 +56,7 @@ def test_a_body_follows_its_hand_without_oscillation_at_any_mass_and_arm(
 
 @pytest.mark.parametrize('gravity', [(0.0, -9.81), (0.0, -1.62), (0.0, 0.0)])
 @pytest.mark.parametrize('factor', [2.0, 10.0])
-def test_the_force_of_a_hand_is_bounded_in_weights_of_its_body(
-    gravity: Point, factor: float
-) -> None:
+def test_the_force_of_a_hand_is_bounded_in_weights_of_its_body(gravity, factor):
     world = World(settings=WorldSettings(gravity=gravity, drag_force=factor))
     spawn(world, 'a/0', DISC, mass=3.0)
     world.apply(Grab(hand='h', point=(0.0, 0.0)))
@@ -87,7 +71,7 @@ def test_the_force_of_a_hand_is_bounded_in_weights_of_its_body(
     assert sizes[0] == pytest.approx(most)
 
 
-def test_a_body_that_is_let_go_flies_on_with_its_velocity() -> None:
+def test_a_body_that_is_let_go_flies_on_with_its_velocity():
     world = World()
     spawn(world, 'a/0', DISC, (0.0, 5.0, 0.0))
     world.apply(Grab(hand='h', point=(0.1, 5.0)))
@@ -103,7 +87,7 @@ def test_a_body_that_is_let_go_flies_on_with_its_velocity() -> None:
     assert world.snapshot().centers[0] == pytest.approx(flown, abs=1e-9)
 
 
-def test_two_hands_hold_one_body_and_share_its_weight() -> None:
+def test_two_hands_hold_one_body_and_share_its_weight():
     world = World()
     spawn(world, 'a/0', ROD)
     for number, x in enumerate((-ARM, ARM)):
@@ -121,7 +105,7 @@ def test_two_hands_hold_one_body_and_share_its_weight() -> None:
 
 
 @pytest.mark.parametrize('iterations', [1, 10])
-def test_as_many_hands_on_one_body_as_there_may_be_do_not_shake_it(iterations: int) -> None:
+def test_as_many_hands_on_one_body_as_there_may_be_do_not_shake_it(iterations):
     world = World(settings=WorldSettings(iterations=iterations))
     spawn(world, 'a/0', ROD)
     for number in range(MOST_HANDS):
@@ -132,25 +116,19 @@ def test_as_many_hands_on_one_body_as_there_may_be_do_not_shake_it(iterations: i
     assert np.abs(twist(world, 'a/0')).max() < 1e-3
 
 
-def test_the_topmost_movable_body_is_grabbed() -> None:
-    world = World(settings=NOWHERE)
-    spawn(world, 'a/0', DISC, group=1)
-    spawn(world, 'a/1', BOX, group=1)
-    spawn(world, 'a/2', BOX, group=1, anchored=True)
-    spawn(world, 'a/3', BOX, group=1, kinematic=True)
+def test_the_topmost_movable_body_is_grabbed(world):
+    for number, said in enumerate(({}, {}, {'anchored': True}, {'kinematic': True})):
+        spawn(world, f'a/{number}', BOX if number else DISC, group=1, **said)
 
-    assert world.apply(Grab(hand='h', point=(0.0, 0.0))) == Answer(
-        subject='a/1', message='grabbed a/1'
-    )
+    answer = world.apply(Grab(hand='h', point=(0.0, 0.0)))
+    assert answer == Answer(subject='a/1', message='grabbed a/1')
     assert world.apply(Grab(hand='h', point=(0.1, 0.0), frame='a/0')).subject == 'a/1'
 
 
 @pytest.mark.parametrize('point', [(9.0, 9.0), (0.0, -0.5)])
-def test_a_hand_that_finds_no_movable_body_is_refused_and_keeps_what_it_holds(
-    point: Point,
-) -> None:
+def test_a_hand_that_finds_no_movable_body_is_refused_and_keeps_what_it_holds(point):
     world = World()
-    world.apply(FLOOR)
+    world.apply(SLAB)
     spawn(world, 'a/0', DISC, (0.0, 3.0, 0.0))
     world.apply(Grab(hand='h', point=(0.0, 3.0)))
     before = world.digest()
@@ -162,8 +140,7 @@ def test_a_hand_that_finds_no_movable_body_is_refused_and_keeps_what_it_holds(
     assert world.digest() == before
 
 
-def test_a_hand_beyond_as_many_as_there_may_be_is_refused_until_another_lets_go() -> None:
-    world = World(settings=NOWHERE)
+def test_a_hand_beyond_as_many_as_there_may_be_is_refused_until_another_lets_go(world):
     spawn(world, 'a/0', DISC)
     for number in range(MOST_HANDS):
         world.apply(Grab(hand=str(number), point=(0.0, 0.0)))
@@ -180,7 +157,7 @@ def test_a_hand_beyond_as_many_as_there_may_be_is_refused_until_another_lets_go(
     assert len(world.grips) == MOST_HANDS
 
 
-def test_hands_whose_bodies_are_gone_are_dropped_when_another_grabs() -> None:
+def test_hands_whose_bodies_are_gone_are_dropped_when_another_grabs():
     sim = Simulation(settings=NOWHERE, speed=0.0)
     # In a paused world no hand lets go since it is silent.
     for hand in ('h', 'k'):
@@ -199,14 +176,14 @@ def test_hands_whose_bodies_are_gone_are_dropped_when_another_grabs() -> None:
 
 
 @pytest.mark.parametrize('hand', ['', 'x' * 1001, 'a\nb'])
-def test_the_name_of_a_hand_can_be_printed(hand: str) -> None:
+def test_the_name_of_a_hand_can_be_printed(hand):
     with pytest.raises(Malformed):
         LetGo(hand=hand)
 
 
-def test_a_sleeping_body_wakes_and_the_hand_keeps_it_awake() -> None:
+def test_a_sleeping_body_wakes_and_the_hand_keeps_it_awake():
     world = World()
-    world.apply(FLOOR)
+    world.apply(SLAB)
     spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0))
     world.step(480)
     world.apply(Grab(hand='h', point=(0.0, 0.5)))
@@ -229,7 +206,7 @@ def test_a_sleeping_body_wakes_and_the_hand_keeps_it_awake() -> None:
     ],
     ids=lambda request: type(request).__name__,
 )
-def test_a_hand_loses_a_body_that_it_can_move_no_more(request_: Spawn) -> None:
+def test_a_hand_loses_a_body_that_it_can_move_no_more(request_):
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
     sim.requests.submit(Grab(hand='h', point=(0.0, 0.0)), topic=TOPIC)
@@ -242,8 +219,7 @@ def test_a_hand_loses_a_body_that_it_can_move_no_more(request_: Spawn) -> None:
     assert sim.advance_frame().answers == (Answer(topic=TOPIC, message='h holds no body'),)
 
 
-def test_a_body_keeps_its_hand_when_its_shape_changes() -> None:
-    world = World(settings=NOWHERE)
+def test_a_body_keeps_its_hand_when_its_shape_changes(world):
     spawn(world, 'a/0', DISC)
     world.apply(Grab(hand='h', point=(0.2, 0.0)))
     spawn(world, 'a/0', BOX)
@@ -252,7 +228,7 @@ def test_a_body_keeps_its_hand_when_its_shape_changes() -> None:
     assert world.snapshot().poses[0, 0] == pytest.approx(2.0, abs=1e-3)
 
 
-def test_a_hand_that_grabs_another_body_lets_go_of_the_first() -> None:
+def test_a_hand_that_grabs_another_body_lets_go_of_the_first():
     worlds = World(), World()
     for world in worlds:
         spawn(world, 'a/0', DISC)
@@ -268,27 +244,25 @@ def test_a_hand_that_grabs_another_body_lets_go_of_the_first() -> None:
     assert worlds[1].digest() == worlds[0].digest()
 
 
-def test_a_paused_hand_places_an_anchored_body_and_does_not_pull_it_while_time_runs() -> None:
+def test_a_paused_hand_places_an_anchored_body_and_does_not_pull_it_while_time_runs():
     world = World()
     spawn(world, 'a/0', BOX, anchored=True)
     # Without a body that moves, no step is made.
     spawn(world, 'b/0', DISC, (9.0, 0.0, 0.0))
     world.apply(Grab(hand='h', point=(0.2, 0.0), paused=True))
 
-    assert world.apply(MoveHand(hand='h', point=(1.2, 0.0), paused=True)) == Answer(
-        subject='a/0', message='placed a/0'
-    )
+    answer = world.apply(MoveHand(hand='h', point=(1.2, 0.0), paused=True))
+    assert answer == Answer(subject='a/0', message='placed a/0')
     world.apply(MoveHand(hand='h', point=(3.0, 0.0)))
     world.step(60)
 
     assert world.snapshot().poses[0].tolist() == [1.0, 0.0, 0.0]
     world.apply(Delete(name='a/0'))
-    assert world.apply(MoveHand(hand='h', point=(2.0, 0.0), paused=True)) == Answer(
-        message='h holds no body'
-    )
+    answer = world.apply(MoveHand(hand='h', point=(2.0, 0.0), paused=True))
+    assert answer == Answer(message='h holds no body')
 
 
-def test_a_paused_hand_that_does_not_move_changes_nothing() -> None:
+def test_a_paused_hand_that_does_not_move_changes_nothing():
     world = World()
     spawn(world, 'a/0', BOX)
     world.apply(Grab(hand='h', point=(0.2, 0.0), paused=True))

@@ -3,29 +3,20 @@
 
 """Hands in the time of a world: its past, its pause, its other courses."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-from physsim_ros.model.requests import (
-    Configure,
-    Grab,
-    HandRequest,
-    LetGo,
-    MoveHand,
-    Spawn,
-)
+from physsim_ros.model.requests import Configure, Grab, HandRequest, LetGo, MoveHand, Spawn
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Compound, Disc
+from physsim_ros.model.shapes import Compound, Disc
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
+from .driven import SLAB
 from ..building import BOX, DISC, NOWHERE, spawning
 
 PERIOD = 1e9 / 60
 TOPIC = '~/drag/feedback'
-FLOOR = spawning('floor/0', Box(width=40.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
 
 
 def use(sim: Simulation, *requests: HandRequest) -> None:
@@ -44,23 +35,20 @@ def holding() -> Simulation:
 
 def drag(sim: Simulation, *, frames: int = 120) -> None:
     """Drag `a/0` along a circle among other bodies, throw it, and go on for as long."""
-    sim.perform(FLOOR)
+    sim.perform(SLAB)
     for number in range(8):
         sim.perform(spawning(f'a/{number}', BOX, (number / 10, 0.5 + number, 0.0)))
+    use(sim, Grab(hand='h', point=(0.0, 0.5)))
     for number in range(frames):
         angle = number / 15
-        point = (2.0 * math.sin(angle), 1.5 - math.cos(angle))
-        sim.requests.submit(
-            MoveHand(hand='h', point=point) if number else Grab(hand='h', point=(0.0, 0.5)),
-            topic=TOPIC,
-        )
+        use(sim, MoveHand(hand='h', point=(2.0 * math.sin(angle), 1.5 - math.cos(angle))))
         sim.advance_frame()
-    sim.requests.submit(LetGo(hand='h'), topic=TOPIC)
+    use(sim, LetGo(hand='h'))
     for _ in range(frames):
         sim.advance_frame()
 
 
-def test_a_drag_is_one_gesture_to_undo_and_to_redo() -> None:
+def test_a_drag_is_one_gesture_to_undo_and_to_redo():
     sim = Simulation()
     drag(sim, frames=20)
     last = sim.world.digest()
@@ -74,44 +62,34 @@ def test_a_drag_is_one_gesture_to_undo_and_to_redo() -> None:
     assert sim.world.digest() == last
 
 
-def test_only_the_grab_and_its_end_are_answered() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
-    frames = []
-    for request in (
-        Grab(hand='h', point=(0.0, 0.0)),
-        *(MoveHand(hand='h', point=(x / 10, 0.0)) for x in range(10)),
-        LetGo(hand='h'),
-    ):
-        use(sim, request)
+def test_only_the_grab_and_its_end_are_answered():
+    sim = holding()
+    frames = [sim.advance_frame()]
+    for x in range(10):
+        use(sim, MoveHand(hand='h', point=(x / 10, 0.0)))
         frames.append(sim.advance_frame())
+    use(sim, LetGo(hand='h'))
+    frames.append(sim.advance_frame())
 
-    assert [answer.message for frame in frames for answer in frame.answers] == [
-        'grabbed a/0',
-        'let go of a/0',
-    ]
+    told = [answer.message for frame in frames for answer in frame.answers]
+    assert told == ['grabbed a/0', 'let go of a/0']
 
 
-def test_a_thousand_moves_between_two_frames_are_logged_as_one() -> None:
+def test_a_thousand_moves_between_two_frames_are_logged_as_one():
     sim = holding()
     for number in range(1001):
         use(sim, MoveHand(hand='h', point=(number / 1000, 0.0)))
     frame = sim.advance_frame()
 
     assert frame.snapshot.grips[0].target == (1.0, 0.0)
-    history = sim.past.tree
-    assert [type(entry.request).__name__ for entry in history.nodes_between(1, 9)] == [
-        'Grab',
-        'MoveHand',
-    ]
+    logged = [type(entry.request) for entry in sim.past.tree.nodes_between(1, 9)]
+    assert logged == [Grab, MoveHand]
 
 
-def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
-    sim = Simulation(settings=NOWHERE)
-    sim.perform(spawning('a/0', DISC))
+def test_moves_do_not_pass_what_a_hand_does_in_between():
+    sim = holding()
     use(
         sim,
-        Grab(hand='h', point=(0.0, 0.0)),
         MoveHand(hand='h', point=(0.1, 0.0)),
         LetGo(hand='h'),
         Grab(hand='h', point=(0.0, 0.1)),
@@ -122,7 +100,7 @@ def test_moves_do_not_pass_what_a_hand_does_in_between() -> None:
     assert (grip.anchor, grip.target) == ((0.0, 0.1), (0.0, 0.2))
 
 
-def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
+def test_a_silent_hand_lets_go_after_five_seconds_of_running_time():
     sim = holding()
     answers = []
     for number in range(400):
@@ -139,7 +117,7 @@ def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
     assert (sim.step, sim.world.grips) == (0, ())
 
 
-def test_the_release_of_a_silent_hand_is_undone_with_the_gesture_before_which_is_redone() -> None:
+def test_the_release_of_a_silent_hand_is_undone_with_the_gesture_before_which_is_redone():
     sim = holding()
     sim.advance_frame()
     sim.perform(spawning('b/0', DISC, (5.0, 0.0, 0.0)))
@@ -158,7 +136,7 @@ def test_the_release_of_a_silent_hand_is_undone_with_the_gesture_before_which_is
     assert sim.world.scene.names == ('a/0', 'b/0')
 
 
-def test_a_pause_is_no_silence() -> None:
+def test_a_pause_is_no_silence():
     sim = holding()
     sim.advance(0)
     sim.speed = 0.0
@@ -169,7 +147,7 @@ def test_a_pause_is_no_silence() -> None:
     assert sim.advance_frame().snapshot.grips
 
 
-def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
+def test_a_hand_that_grabbed_at_another_time_changes_nothing():
     sim = Simulation(settings=NOWHERE)
     sim.perform(spawning('a/0', DISC))
     sim.advance_frame()
@@ -183,7 +161,6 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
     use(sim, MoveHand(hand='h', point=(7.0, 0.0)), LetGo(hand='h'))
     frame = sim.apply_requests()
 
-    assert frame is not None
     assert [answer.message for answer in frame.answers] == ['h holds no body']
     assert sim.world.digest() == before
     # The hand of the past lets go where its past ends.
@@ -192,7 +169,7 @@ def test_a_hand_that_grabbed_at_another_time_changes_nothing() -> None:
     assert not sim.advance_frame().snapshot.grips
 
 
-def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
+def test_a_branch_has_no_hands_of_the_course_that_it_left():
     sim = holding()
     for _ in range(60):
         sim.advance_frame()
@@ -203,7 +180,7 @@ def test_a_branch_has_no_hands_of_the_course_that_it_left() -> None:
 
 
 @pytest.mark.parametrize('action', ['reset', 'undo'])
-def test_a_hand_lives_through_a_change_of_course(action: str) -> None:
+def test_a_hand_lives_through_a_change_of_course(action):
     sim = holding()
     sim.advance_frame()
     getattr(sim, action)()
@@ -225,7 +202,7 @@ def paused(*spawns: Spawn) -> Simulation:
     return sim
 
 
-def test_in_a_paused_world_the_body_is_placed_and_turned() -> None:
+def test_in_a_paused_world_the_body_is_placed_and_turned():
     sim = paused(spawning('a/0', BOX, (0.0, 3.0, 0.0), velocity=(1.0, 2.0)))
     use(sim, Grab(hand='h', point=(0.4, 3.0)), MoveHand(hand='h', point=(5.4, 4.0)))
     (frame,) = sim.advance(0)
@@ -239,8 +216,8 @@ def test_in_a_paused_world_the_body_is_placed_and_turned() -> None:
     assert frame.snapshot.step == 0
 
 
-def test_placing_is_one_gesture_and_the_same_bits_again() -> None:
-    sim = paused(FLOOR, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
+def test_placing_is_one_gesture_and_the_same_bits_again():
+    sim = paused(SLAB, spawning('a/0', BOX, (0.0, 0.5, 0.0)), spawning('a/1', BOX, (0, 1.5, 0)))
     sim.advance_frame()
     before = sim.world.digest()
     use(sim, Grab(hand='h', point=(0.0, 1.5)))
@@ -259,21 +236,18 @@ def test_placing_is_one_gesture_and_the_same_bits_again() -> None:
     assert sim.world.digest() == before
 
 
-def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first() -> None:
-    wall = spawning('wall/0', BOX, anchored=True)
-    sim = paused(spawning('a/0', DISC), wall)
+def test_in_a_paused_world_a_wall_can_be_placed_but_what_moves_comes_first():
+    sim = paused(spawning('a/0', DISC), spawning('wall/0', BOX, anchored=True))
     for number, (hand, point) in enumerate((('g', (0.0, 0.0)), ('h', (0.45, 0.45)))):
-        use(sim, Grab(hand=hand, point=point))
-        sim.requests.submit(
-            MoveHand(hand=hand, point=(point[0] + 3.0, point[1] + number)), topic=TOPIC
-        )
+        to = (point[0] + 3.0, point[1] + number)
+        use(sim, Grab(hand=hand, point=point), MoveHand(hand=hand, point=to))
 
     (frame,) = sim.advance(0)
 
     assert frame.snapshot.poses[:, :2] == pytest.approx(np.array([[3.0, 0.0], [3.0, 1.0]]))
 
 
-def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None:
+def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on():
     sim = paused(spawning('a/0', DISC, (0.0, 3.0, 0.0)))
     use(sim, Grab(hand='h', point=(0.0, 3.0)))
     sim.advance(0)
@@ -287,7 +261,7 @@ def test_a_body_grabbed_in_a_paused_world_is_dragged_when_time_goes_on() -> None
     assert sim.world.snapshot().poses[0, :2] == pytest.approx([1.0, 3.0], abs=0.02)
 
 
-def test_a_body_is_not_placed_where_too_much_would_overlap() -> None:
+def test_a_body_is_not_placed_where_too_much_would_overlap():
     heap = Compound(element=Disc(radius=1.0), centers=((0.0, 0.0),) * 8)
     sim = Simulation(speed=0.0, settings=WorldSettings(max_overlaps=60))
     for number in range(2):

@@ -7,8 +7,6 @@ After any requests in any order, every step of the past is as it was, by any way
 HISTORIES says how many histories are played, 20 where it does not; `histories` has the oracle.
 """
 
-from __future__ import annotations
-
 import os
 
 from physsim_ros.model.body_properties import Properties
@@ -25,13 +23,11 @@ SEEDS = range(int(os.environ.get('HISTORIES', '20')))
 
 
 @pytest.mark.parametrize('seed', SEEDS)
-def test_a_history_shows_what_its_requests_show_when_they_are_played_from_nothing(
-    seed: int,
-) -> None:
+def test_a_history_shows_what_its_requests_show_when_they_are_played_from_nothing(seed):
     check(seed)
 
 
-def test_a_world_is_loaded_as_it_was_saved_where_a_first_touch_has_moved_a_body() -> None:
+def test_a_world_is_loaded_as_it_was_saved_where_a_first_touch_has_moved_a_body():
     # Found by seed 200290: the contact is over, and its impulses are in the cache.
     box, polygon = SHAPES[2:4]
     fast = Properties(mass=0.1, velocity=(117.26, -157.1), spin=-100.0)
@@ -52,15 +48,13 @@ def test_a_world_is_loaded_as_it_was_saved_where_a_first_touch_has_moved_a_body(
 
 
 @pytest.mark.slow
-def test_a_history_shows_the_same_in_another_process() -> None:
+def test_a_history_shows_the_same_in_another_process():
     words = ('-m', 'test.simulation.histories', '17', '--digest')
     assert run_python(*words, PYTHONHASHSEED='7').strip() == play(history_of(17)).digest()
 
 
 @pytest.mark.slow
-def test_a_replay_that_leaves_out_requests_is_found_and_shrunk_to_a_short_program(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_replay_that_leaves_out_requests_is_found_and_shrunk_to_a_short_program(monkeypatch):
     replay = World.replay
 
     def forgetful(world: World, request: Request) -> None:

@@ -9,7 +9,7 @@ import math
 import tracemalloc
 
 import numpy as np
-from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory, Refusal
+from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
 from physsim_ros.simulation.past.budget import LEAST_MEMORY, MEGABYTE
@@ -23,13 +23,13 @@ NAMES = tuple(f'a/{number}' for number in range(100))
 TWISTS = np.random.default_rng(17).uniform(-1.0, 1.0, (64, 100, 3))
 
 
-def crowd(memory: float, count: int = 100) -> Simulation:
+def crowd(memory: float) -> Simulation:
     """Return a hundred discs above a floor."""
     sim = Simulation(speed=0.0, history_memory=memory)
     sim.perform(Configure(changes={'bounds': (-30.0, 0.0, 30.0, 20.0)}))
-    for number in range(count):
+    for number, name in enumerate(NAMES):
         at = (0.5 * (number % 50) - 12.0, 1.0 + number // 50, 0.0)
-        sim.perform(Spawn(name=NAMES[number], shape=Disc(radius=0.2), pose=at))
+        sim.perform(Spawn(name=name, shape=Disc(radius=0.2), pose=at))
     return sim
 
 
@@ -53,35 +53,34 @@ def used(sim: Simulation) -> float:
     return sim.past.budget.used
 
 
+def traced() -> int:
+    """Return the memory that is taken while `tracemalloc` runs [B]."""
+    gc.collect()
+    return tracemalloc.get_traced_memory()[0]
+
+
 @pytest.mark.parametrize('paused', [slow(False), True])
-def test_a_flood_of_commands_takes_no_more_than_the_budget(paused: bool) -> None:
+def test_a_flood_of_commands_takes_no_more_than_the_budget(paused):
     tracemalloc.start()
     sim = crowd(LEAST_MEMORY)
     # The world and the space before it, of which the bodies are used again, are not the past.
     for _ in range(2):
         sim.advance_frame()
         sim.past.cursor.add_keyframe()
-    gc.collect()
-    before, first = tracemalloc.get_traced_memory()[0], used(sim)
+    before, first = traced(), used(sim)
     digests, events = {}, []
     for number in range(150):
         for part in range(4):
             command(sim, number + part)
-        if paused:
-            frame = sim.apply_requests()
-            assert frame is not None
-            events += [each for each in frame.answers if each.code == 'history']
-        else:
-            frame = sim.advance_frame()
-            events += [each for each in frame.answers if each.code == 'history']
-            if frame.snapshot.step % 240 == 0:
-                digests[frame.snapshot.step] = sim.world.digest()
+        frame = sim.apply_requests() if paused else sim.advance_frame()
+        events += [each for each in frame.answers if each.code == 'history']
+        if frame.snapshot.step % 240 == 0:
+            digests[frame.snapshot.step] = sim.world.digest()
         assert used(sim) <= LEAST_MEMORY * MEGABYTE
-    gc.collect()
-    after, _ = tracemalloc.get_traced_memory()
+    taken = traced() - before
     tracemalloc.stop()
 
-    assert 0.5 < (used(sim) - first) / (after - before) < 2.0
+    assert 0.5 < (used(sim) - first) / taken < 2.0
     assert len(events) == 1
     history = sim.past.tree
     assert sim.status.oldest == history.oldest / 240
@@ -128,10 +127,7 @@ ACTS: dict[str, tuple[int, Callable[[Simulation, int], object]]] = {
     'boxes': (300, lambda sim, n: spawn_again(sim, Box(width=0.2 + 1e-6 * n, height=0.2))),
     'polygons': (300, lambda sim, n: spawn_again(sim, Polygon(outline=corners(1 + 1e-6 * n)))),
     'frames': (300, lambda sim, _: sim.advance_frame()),
-    'checkpoints': (
-        100,
-        lambda sim, _: (sim.advance_frame(), sim.past.cursor.add_keyframe()),
-    ),
+    'checkpoints': (100, lambda sim, _: (sim.advance_frame(), sim.past.cursor.add_keyframe())),
     'branches': (10, throw),
     'resets': (300, lambda sim, _: begin_again(sim)),
 }
@@ -139,7 +135,7 @@ QUICK = ('commands', 'frames', 'resets')
 
 
 @pytest.mark.parametrize('act', [name if name in QUICK else slow(name) for name in ACTS])
-def test_the_memory_that_is_told_is_within_a_factor_of_two_of_what_is_taken(act: str) -> None:
+def test_the_memory_that_is_told_is_within_a_factor_of_two_of_what_is_taken(act):
     times, carry_out = ACTS[act]
     sim = crowd(100.0)
     sim.advance_frame()
@@ -148,37 +144,32 @@ def test_the_memory_that_is_told_is_within_a_factor_of_two_of_what_is_taken(act:
     for number in range(2):
         carry_out(sim, number)
     sim.advance_frame()
-    gc.collect()
-    before, _ = tracemalloc.get_traced_memory()
-    first = used(sim)
+    before, first = traced(), used(sim)
     for number in range(2, times + 2):
         carry_out(sim, number)
     sim.advance_frame()
-    gc.collect()
-    after, _ = tracemalloc.get_traced_memory()
+    taken = traced() - before
     tracemalloc.stop()
 
-    assert 0.5 < (used(sim) - first) / (after - before) < 2.0
+    assert 0.5 < (used(sim) - first) / taken < 2.0
 
 
 @pytest.mark.slow
-def test_thousands_of_resets_take_no_more_than_the_budget() -> None:
+def test_thousands_of_resets_take_no_more_than_the_budget():
     sim = Simulation(history_memory=LEAST_MEMORY)
     sim.advance_frame()
-    gc.collect()
     tracemalloc.start()
-    before, _ = tracemalloc.get_traced_memory()
+    before = traced()
     for _ in range(2000):
         begin_again(sim)
-    gc.collect()
-    after, _ = tracemalloc.get_traced_memory()
+    taken = traced() - before
     tracemalloc.stop()
 
-    assert after - before < 1.25 * LEAST_MEMORY * MEGABYTE
+    assert taken < 1.25 * LEAST_MEMORY * MEGABYTE
     assert sim.undo() == 'undid reset, back at 0.017 s'
 
 
-def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last() -> None:
+def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last():
     sim = crowd(100.0)
     told(sim, 240)
     for number in range(3):
@@ -211,7 +202,7 @@ def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last() 
     assert sim.status.oldest > 0.0
 
 
-def test_what_is_shown_of_the_past_stays_though_the_budget_shrinks() -> None:
+def test_what_is_shown_of_the_past_stays_though_the_budget_shrinks():
     sim = crowd(100.0)
     told(sim, 60)
     early = sim.world.digest()
@@ -230,7 +221,7 @@ def test_what_is_shown_of_the_past_stays_though_the_budget_shrinks() -> None:
     assert sim.status.oldest > 1.0
 
 
-def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
+def test_a_gesture_is_undone_as_a_whole_or_not_at_all():
     sim = crowd(LEAST_MEMORY)
     # One gesture, of which the log has the last part only.
     for number in range(600):
@@ -251,7 +242,7 @@ def test_a_gesture_is_undone_as_a_whole_or_not_at_all() -> None:
     assert sim.world.digest() == before
 
 
-def test_undone_requests_and_resets_are_of_the_budget() -> None:
+def test_undone_requests_and_resets_are_of_the_budget():
     sim = crowd(2.0)
     for number in range(300):
         command(sim, number)
@@ -278,7 +269,7 @@ def test_undone_requests_and_resets_are_of_the_budget() -> None:
         (np.nan, Malformed),
     ],
 )
-def test_a_budget_that_is_none_is_refused(value: float, refusal: type[Refusal]) -> None:
+def test_a_budget_that_is_none_is_refused(value, refusal):
     sim = Simulation()
     with pytest.raises(refusal):
         Simulation(history_memory=value)

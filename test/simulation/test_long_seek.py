@@ -3,8 +3,6 @@
 
 """A long way through the past is made bit by bit, and leads to the same bits."""
 
-from __future__ import annotations
-
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.requests import DeleteAll, DeleteBodies, MoveBodies
 from physsim_ros.model.snapshot import Answer, Frame
@@ -20,18 +18,24 @@ NAMES = ('Anna', 'Ben')
 
 
 @pytest.fixture
-def past() -> tuple[Simulation, dict[int, str]]:
-    """Return a simulation with two seconds without a checkpoint in them, and its digests."""
+def simulation() -> Simulation:
+    """Return a paused simulation of two seconds and a half without a checkpoint in them."""
     simulation = Simulation(settings=FLOOR)
     for number in range(4):
-        simulation.requests.submit(
-            spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0)), topic=''
-        )
+        disc = spawning(f'disc/{number}', DISC, (0.3 * number, 3.0 * number + 1.0, 0.0))
+        simulation.requests.submit(disc, topic='')
+    return simulation
+
+
+@pytest.fixture
+def digests(simulation: Simulation) -> dict[int, str]:
+    """Have the simulation go on for two seconds and a half; return its digests by step."""
     digests = {}
     for _ in range(150):
         simulation.advance_frame()
         digests[simulation.step] = simulation.world.digest()
-    return simulation, digests
+    simulation.speed = 0.0
+    return digests
 
 
 def ticks_to_a_frame(simulation: Simulation, now: int) -> tuple[int, Frame]:
@@ -43,12 +47,8 @@ def ticks_to_a_frame(simulation: Simulation, now: int) -> tuple[int, Frame]:
     pytest.fail('no frame')
 
 
-def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, digests = past
+def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(simulation, digests):
     simulation.past.frames.drop_from(0)
-    simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 100
@@ -56,11 +56,7 @@ def test_a_seek_is_made_bit_by_bit_and_reaches_the_same_bits(
     assert simulation.world.digest() == digests[480]
 
 
-def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_requests_wait_for_the_end_of_a_seek_and_apply_there(simulation, digests):
     simulation.seek(SECOND)
     simulation.requests.submit(spawning('late/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn')
     _, frame = ticks_to_a_frame(simulation, 0)
@@ -69,10 +65,9 @@ def test_requests_wait_for_the_end_of_a_seek_and_apply_there(
 
 
 @pytest.mark.parametrize('speed', [0.0, 1.0])
-def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(
-    past: tuple[Simulation, dict[int, str]], speed: float
-) -> None:
-    simulation, _ = past
+def test_a_seek_that_waited_is_made_bit_by_bit_and_others_wait_behind_it(
+    simulation, digests, speed
+):
     simulation.past.frames.drop_from(0)
     simulation.speed = speed
     simulation.requests.submit_seek(2 * SECOND, topic='~/seek')
@@ -92,11 +87,7 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(
     assert 'late/0' not in frame.snapshot.scene.names
 
 
-def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(simulation, digests):
     simulation.seek(SECOND)
     requests = simulation.requests
     saved: list[WorldState] = []
@@ -121,11 +112,7 @@ def test_a_call_waits_for_the_end_of_a_seek_in_its_turn_among_requests(
     assert len(simulation.world) == 5
 
 
-def test_what_a_person_has_added_is_looked_up_after_a_seek(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_what_a_person_has_added_is_looked_up_after_a_seek(simulation, digests):
     simulation.seek(SECOND)
     queue = simulation.requests
     queue.submit(spawning('early/0', DISC, (5.0, 1.0, 0.0)), topic='~/spawn', author='Anna')
@@ -143,11 +130,7 @@ def test_what_a_person_has_added_is_looked_up_after_a_seek(
     assert len(frame.snapshot.scene.names) == 4
 
 
-def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(simulation, digests):
     simulation.seek(2 * SECOND)
     amend = Amend((4,), (spawning('other/0', DISC, (5.0, 1.0, 0.0)),))
     simulation.requests.submit(amend, topic='~/stroke', joined=True)
@@ -159,11 +142,7 @@ def test_a_change_of_earlier_gestures_waits_for_the_end_of_a_seek(
     assert frame.snapshot.scene.names == ('disc/0', 'disc/1', 'disc/2', 'other/0')
 
 
-def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, digests = past
-    simulation.speed = 0.0
+def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(simulation, digests):
     simulation.seek(2 * SECOND)
     assert not simulation.apply_up_to_seek()
     times = [simulation.playback.queue_frame(), simulation.playback.queue_frame()]
@@ -178,23 +157,15 @@ def test_single_frames_are_made_one_by_one_after_the_end_of_a_seek(
     assert simulation.apply_up_to_seek()
 
 
-def test_another_seek_takes_the_place_of_one_and_of_its_frames(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, _ = past
-    simulation.speed = 0.0
+def test_another_seek_takes_the_place_of_one_and_of_its_frames(simulation, digests):
     simulation.seek(2 * SECOND)
     simulation.playback.queue_frame()
     simulation.seek(SECOND)
     assert simulation.playback.queue_frame() == round(244 * SECOND / 240)
 
 
-def test_another_seek_takes_the_place_of_one_under_way(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, digests = past
+def test_another_seek_takes_the_place_of_one_under_way(simulation, digests):
     simulation.past.frames.drop_from(0)
-    simulation.speed = 0.0
     simulation.seek(2 * SECOND)
     for tick in range(50):
         assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
@@ -206,11 +177,7 @@ def test_another_seek_takes_the_place_of_one_under_way(
     assert simulation.world.digest() == digests[480]
 
 
-def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_time_stands_still(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, digests = past
-    simulation.speed = 0.0
+def test_a_cached_frame_is_shown_at_once_and_the_world_follows_it(simulation, digests):
     cursor = simulation.past.cursor
     for number, step in enumerate((480, 240, 360)):
         simulation.seek(step * SECOND // 240)
@@ -230,7 +197,7 @@ def test_a_frame_that_is_cached_is_shown_at_once_and_the_world_follows_while_tim
     assert simulation.world.digest() == digests[364]
 
 
-def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_step() -> None:
+def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_step():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     simulation.reports_contacts = True
     simulation.requests.submit(spawning('disc/0', DISC, (0.0, DISC.radius, 0.0)), topic='')
@@ -240,21 +207,14 @@ def test_a_cached_frame_that_is_sought_has_its_contacts_and_all_requests_of_its_
     middle, end = shown[29], shown[-1]
     simulation.seek(middle.snapshot.stamp)
     again = simulation.apply_requests()
-    assert again is not None
     assert again.snapshot.step == middle.snapshot.step
-    assert middle.contacts is not None
-    assert again.contacts is not None
     assert again.contacts.impulses.tolist() == middle.contacts.impulses.tolist() != []
     simulation.seek(end.snapshot.stamp)
     again = simulation.apply_requests()
-    assert again is not None
     assert again.snapshot.scene.names == ('disc/0', 'disc/1')
 
 
-def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
-    past: tuple[Simulation, dict[int, str]],
-) -> None:
-    simulation, digests = past
+def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(simulation, digests):
     simulation.past.frames.drop_from(0)
     simulation.speed = -1.0
     simulation.apply_requests()
@@ -265,7 +225,7 @@ def test_a_rewind_beyond_its_frames_is_made_bit_by_bit(
     assert simulation.world.digest() == digests[first]
 
 
-def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit() -> None:
+def test_requests_that_are_replayed_at_one_step_are_replayed_bit_by_bit():
     simulation = Simulation(settings=FLOOR, speed=0.0)
     for number in range(40):
         simulation.requests.submit(
@@ -304,9 +264,7 @@ def steps(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return made
 
 
-def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were_done(
-    steps: list[int],
-) -> None:
+def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were_done(steps):
     simulation, other = of_anna_and_ben(seconds=8), of_anna_and_ben(seconds=8)
     take_back(other, 'Anna')
     step = simulation.step
@@ -330,7 +288,7 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
     assert simulation.world.digest() == other.world.digest()
 
 
-def test_a_refused_amendment_goes_back_bit_by_bit(steps: list[int]) -> None:
+def test_a_refused_amendment_goes_back_bit_by_bit(steps):
     simulation = of_anna_and_ben(seconds=2)
     simulation.perform(MoveBodies(names=('Anna/0',), by=(1.0, 0.0)))
     simulation.run(2.0)
@@ -347,7 +305,7 @@ def test_a_refused_amendment_goes_back_bit_by_bit(steps: list[int]) -> None:
 
 
 @pytest.mark.parametrize('way', ['seek', 'undo', 'queued', 'contacts', 'begin', 'reader'])
-def test_an_amendment_under_way_is_finished_before_anything_else_moves(way: str) -> None:
+def test_an_amendment_under_way_is_finished_before_anything_else_moves(way):
     simulation = of_anna_and_ben(seconds=2)
     simulation.requests.submit(TakeBack(), topic='~/undo', author='Anna')
     for tick in range(20):

@@ -3,25 +3,12 @@
 
 """Joints in replay: removed, broken, and loaded again."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 from physsim_ros.files import load_world, save_world
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import (
-    Anchor,
-    Join,
-    Pin,
-    Release,
-    Request,
-    Unjoin,
-    UnjoinAll,
-)
+from physsim_ros.model.requests import Anchor, Pin, Release, Unjoin, UnjoinAll
 import pytest
 
-from .driven import Driven, FLOOR, SECOND, told
-from ..building import BOX, spawning
+from .driven import dropped, FLOOR, SECOND, told
+from ..building import joining
 
 
 @pytest.mark.parametrize(
@@ -29,10 +16,9 @@ from ..building import BOX, spawning
     [Unjoin(name='joint/0'), UnjoinAll(), Release(point=(0.0, 5.0))],
     ids=['unjoin', 'unjoin all', 'release'],
 )
-def test_a_joint_that_is_taken_out_is_part_of_history(request_: Request) -> None:
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(Join(name='joint/0', kind=JointKind.PIN, points=((0.0, 5.0),), a='b/0', b='world'))
+def test_a_joint_that_is_taken_out_is_part_of_history(request_):
+    driven = dropped('b/0')
+    driven.ask(joining('pin', ((0.0, 5.0),), a='b/0', b='world'))
     driven.record(1.0)
     hung = driven.simulation.world.snapshot().poses
     driven.ask(request_)
@@ -47,9 +33,8 @@ def test_a_joint_that_is_taken_out_is_part_of_history(request_: Request) -> None
     assert len(driven.simulation.world.snapshot().scene.joints) == 1
 
 
-def test_a_joint_taken_out_in_the_past_begins_a_branch() -> None:
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+def test_a_joint_taken_out_in_the_past_begins_a_branch():
+    driven = dropped('b/0')
     driven.ask(Pin(point=(0.0, 5.0)))
     driven.record(2.0)
     driven.simulation.seek(SECOND)
@@ -60,19 +45,11 @@ def test_a_joint_taken_out_in_the_past_begins_a_branch() -> None:
     assert driven.simulation.world.snapshot().scene.joints == ()
 
 
-def test_a_joint_that_broke_is_told_of_once() -> None:
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
-    driven.ask(
-        Join(
-            name='joint/0',
-            kind=JointKind.SPRING,
-            points=((0.0, 5.0), (0.0, 8.0)),
-            a='b/0',
-            b='world',
-            properties=JointProperties(stiffness=20.0, break_force=5.0),
-        )
-    )
+def test_a_joint_that_broke_is_told_of_once():
+    driven = dropped('b/0')
+    points = ((0.0, 5.0), (0.0, 8.0))
+    weak = {'stiffness': 20.0, 'break_force': 5.0}
+    driven.ask(joining('spring', points, a='b/0', b='world', **weak))
     frames = driven.run(1.0, 2.0)
     assert len(told(frames, 'joint_broken')) == 1
     driven.simulation.seek(0)
@@ -82,9 +59,8 @@ def test_a_joint_that_broke_is_told_of_once() -> None:
     assert told(frames, 'joint_broken') == []
 
 
-def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path: Path) -> None:
-    driven = Driven()
-    driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+def test_a_joint_whose_bodies_were_anchored_later_loads_again(tmp_path):
+    driven = dropped('b/0')
     driven.ask(Pin(point=(0.0, 5.0)))
     driven.ask(Anchor(point=(0.0, 5.0)))
     driven.apply_requests()

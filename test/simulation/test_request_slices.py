@@ -3,8 +3,6 @@
 
 """Thousands of requests are applied in slices: time goes on between them, but in no gesture."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from physsim_ros.model.errors import Refusal
@@ -42,7 +40,7 @@ def tick(simulation: Simulation, number: int) -> int:
     return len(simulation.advance(number * FRAME, is_spent=spent_after(SLICE)))
 
 
-def test_time_goes_on_between_requests() -> None:
+def test_time_goes_on_between_requests():
     simulation = Simulation(settings=NOWHERE)
     tick(simulation, 0)
     submit(simulation, joined=False)
@@ -52,7 +50,7 @@ def test_time_goes_on_between_requests() -> None:
     assert simulation.step == 4 * COUNT // SLICE
 
 
-def test_time_stands_within_a_gesture() -> None:
+def test_time_stands_within_a_gesture():
     simulation = Simulation(settings=NOWHERE)
     tick(simulation, 0)
     step = simulation.step
@@ -68,7 +66,7 @@ def test_time_stands_within_a_gesture() -> None:
     assert len(simulation.world) == 0
 
 
-def test_each_request_of_a_slice_is_answered_once_and_in_order() -> None:
+def test_each_request_of_a_slice_is_answered_once_and_in_order():
     simulation = Simulation(settings=NOWHERE)
     submit(simulation, joined=True)
     answers: list[Answer] = []
@@ -79,7 +77,7 @@ def test_each_request_of_a_slice_is_answered_once_and_in_order() -> None:
     assert [answer.subject for answer in answers] == [f'a/{each}' for each in range(COUNT)]
 
 
-def test_commands_of_robots_do_not_stop_time() -> None:
+def test_commands_of_robots_do_not_stop_time():
     """They join the gesture before them, so that an undo takes them back with it."""
     simulation = Simulation(settings=NOWHERE)
     tick(simulation, 0)
@@ -89,7 +87,7 @@ def test_commands_of_robots_do_not_stop_time() -> None:
     assert tick(simulation, 1) == 1
 
 
-def test_a_call_behind_requests_waits_for_them() -> None:
+def test_a_call_behind_requests_waits_for_them():
     simulation = Simulation(settings=NOWHERE)
     submit(simulation, joined=True)
     seen: list[int] = []
@@ -108,7 +106,7 @@ def test_a_call_behind_requests_waits_for_them() -> None:
     assert seen == [SLICE, COUNT]
 
 
-def test_a_single_frame_of_a_paused_world_waits_for_all_requests() -> None:
+def test_a_single_frame_of_a_paused_world_waits_for_all_requests():
     simulation = Simulation(settings=NOWHERE, speed=0.0)
     tick(simulation, 0)
     submit(simulation, joined=False)
@@ -120,7 +118,7 @@ def test_a_single_frame_of_a_paused_world_waits_for_all_requests() -> None:
     assert len(frame.snapshot.scene.bodies) == COUNT
 
 
-def test_a_refused_request_is_no_hold() -> None:
+def test_a_refused_request_is_no_hold():
     simulation = Simulation(settings=NOWHERE)
     tick(simulation, 0)
     for _ in range(COUNT):

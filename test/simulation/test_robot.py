@@ -3,9 +3,6 @@
 
 """Robots of a simulation without ROS: driven, read, reset, and continued from a saved moment."""
 
-from __future__ import annotations
-
-from collections.abc import Callable
 from copy import copy
 import math
 import pickle
@@ -51,7 +48,7 @@ def wander(robot: Robot, periods: int) -> list[object]:
     return readings
 
 
-def test_a_robot_drives_until_told_otherwise() -> None:
+def test_a_robot_drives_until_told_otherwise():
     robot = corridor()
     robot.drive(0.2)
     robot.simulation.run(3.0)
@@ -63,7 +60,7 @@ def test_a_robot_drives_until_told_otherwise() -> None:
     assert robot.odom().pose != robot.truth().pose
 
 
-def test_a_scan_measures_the_wall_ahead() -> None:
+def test_a_scan_measures_the_wall_ahead():
     robot = corridor()
     robot.place(0.0, 0.0, math.pi)
     scan = robot.scan()
@@ -74,7 +71,7 @@ def test_a_scan_measures_the_wall_ahead() -> None:
     assert np.array_equal(robot.scan('scan'), scan)
 
 
-def test_a_robot_that_meets_a_wall_is_bumped() -> None:
+def test_a_robot_that_meets_a_wall_is_bumped():
     robot = corridor()
     robot.place(0.0, 0.0, math.pi)
     robot.drive(0.2)
@@ -89,25 +86,8 @@ def test_a_robot_that_meets_a_wall_is_bumped() -> None:
     assert not robot.bumped
 
 
-def test_no_frame_is_made_that_nobody_reads(monkeypatch: pytest.MonkeyPatch) -> None:
-    robot = corridor()
-    made: list[int] = []
-    observe = Simulation._observe_frame  # noqa: SLF001 - it is counted
-
-    def note(simulation: Simulation, *, moved: bool) -> object:
-        made.append(simulation.step)
-        return observe(simulation, moved=moved)
-
-    monkeypatch.setattr(Simulation, '_observe_frame', note)
-    robot.simulation.run(1.0)
-    assert not made
-    for read in (robot.odom, robot.truth, robot.scan, lambda: robot.simulation.frame):
-        read()
-    assert made == [240]
-
-
 @pytest.mark.parametrize('options', [{}, {'history': 0.0}, {'publish_rate': 10.0}])
-def test_an_episode_is_repeated_by_its_seed(options: dict[str, float]) -> None:
+def test_an_episode_is_repeated_by_its_seed(options):
     robot = corridor(**options)
     simulation = robot.simulation
     episodes = []
@@ -120,7 +100,7 @@ def test_an_episode_is_repeated_by_its_seed(options: dict[str, float]) -> None:
     assert episodes[0] != episodes[1]
 
 
-def test_a_reset_without_a_seed_has_the_noise_of_the_world() -> None:
+def test_a_reset_without_a_seed_has_the_noise_of_the_world():
     robot = corridor()
     first = wander(robot, 5)
     robot.simulation.reset()
@@ -131,7 +111,7 @@ def test_a_reset_without_a_seed_has_the_noise_of_the_world() -> None:
     assert robot.simulation.settings.seed == 7
 
 
-def test_without_a_past_the_bits_are_the_same_and_no_frame_is_kept() -> None:
+def test_without_a_past_the_bits_are_the_same_and_no_frame_is_kept():
     kept, forgotten = corridor(), corridor(history=0.0)
     assert wander(kept, 60) == wander(forgotten, 60)
     assert kept.simulation.world.digest() == forgotten.simulation.world.digest()
@@ -149,9 +129,7 @@ def pickled(saved: SavedMoment) -> SavedMoment:
 
 
 @pytest.mark.parametrize('copied', [copy, pickled])
-def test_a_saved_moment_is_continued_to_the_bit(
-    copied: Callable[[SavedMoment], SavedMoment],
-) -> None:
+def test_a_saved_moment_is_continued_to_the_bit(copied):
     robot = corridor()
     simulation = robot.simulation
     # Against a wall, and with a box that it pushes.
@@ -176,7 +154,7 @@ def test_a_saved_moment_is_continued_to_the_bit(
         assert another.world.digest() == digest
 
 
-def test_a_saved_moment_has_the_requests_that_waited_and_no_hand() -> None:
+def test_a_saved_moment_has_the_requests_that_waited_and_no_hand():
     simulation, another = Simulation(), Simulation()
     simulation.perform(Spawn(name='ball/0', shape=Disc(radius=0.2)))
     simulation.perform(Grab(hand='h', point=(0.0, 0.0)))
@@ -191,7 +169,7 @@ def test_a_saved_moment_has_the_requests_that_waited_and_no_hand() -> None:
     assert simulation.world.digest() == another.world.digest()
 
 
-def test_a_restored_simulation_has_a_past_of_its_own_and_is_reset_as_the_first() -> None:
+def test_a_restored_simulation_has_a_past_of_its_own_and_is_reset_as_the_first():
     robot = corridor()
     wander(robot, 20)
     saved = robot.simulation.checkpoint()
@@ -214,7 +192,7 @@ def test_a_restored_simulation_has_a_past_of_its_own_and_is_reset_as_the_first()
     assert Robot(simulation, 'robot/0').truth().pose == (0.0, 0.0, 0.0)
 
 
-def test_a_checkpoint_in_a_running_history_can_be_rewound_over() -> None:
+def test_a_checkpoint_in_a_running_history_can_be_rewound_over():
     robot = corridor()
     digests = {}
     for _ in range(10):
@@ -227,7 +205,7 @@ def test_a_checkpoint_in_a_running_history_can_be_rewound_over() -> None:
     assert not [answer for answer in robot.simulation.frame.answers if answer.code]
 
 
-def test_a_robot_that_is_gone_is_not_driven_on() -> None:
+def test_a_robot_that_is_gone_is_not_driven_on():
     robot = corridor()
     robot.drive(0.2)
     robot.simulation.perform(Delete(name='robot/0'))
@@ -236,7 +214,7 @@ def test_a_robot_that_is_gone_is_not_driven_on() -> None:
         robot.truth()
 
 
-def test_a_robot_that_drives_on_after_an_undo_leaves_what_there_is_to_redo() -> None:
+def test_a_robot_that_drives_on_after_an_undo_leaves_what_there_is_to_redo():
     robot = corridor()
     robot.drive(0.2)
     robot.simulation.run(0.5)
@@ -251,7 +229,7 @@ def test_a_robot_that_drives_on_after_an_undo_leaves_what_there_is_to_redo() -> 
     assert 'b/0' in robot.simulation.world
 
 
-def test_another_world_and_a_seek_end_what_a_robot_is_held_to() -> None:
+def test_another_world_and_a_seek_end_what_a_robot_is_held_to():
     robot = corridor()
     robot.drive(0.2)
     robot.simulation.run(1.0)
@@ -262,7 +240,7 @@ def test_another_world_and_a_seek_end_what_a_robot_is_held_to() -> None:
     assert not robot.simulation.driving
 
 
-def test_what_is_no_robot_or_has_no_such_sensor_is_refused() -> None:
+def test_what_is_no_robot_or_has_no_such_sensor_is_refused():
     robot = corridor()
     simulation = robot.simulation
     with pytest.raises(BadProperty, match='not a robot'):

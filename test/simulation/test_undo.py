@@ -1,27 +1,35 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Undo, redo and reset: gestures, settings, loaded worlds, and resets one by one."""
-
-from __future__ import annotations
+"""Undo, redo and reset: gestures and their names, settings, loaded worlds, resets one by one."""
 
 import math
 
 import numpy as np
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import (
+    Axle,
+    ChangeBody,
     Configure,
+    Cut,
     Delete,
     DeleteAll,
+    DeleteBodies,
+    Grab,
+    MoveBodies,
+    Pin,
+    Restore,
+    Unjoin,
+    UnjoinAll,
 )
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
-from .driven import Driven, FRAME, SECOND, told
-from ..building import BOX, spawning
+from .driven import Driven, dropped, FRAME, SECOND, told
+from ..building import BOX, DISC, joining, spawning
 
 
-def test_undo_goes_back_to_the_moment_before(driven: Driven) -> None:
+def test_undo_goes_back_to_the_moment_before(driven):
     message = driven.simulation.undo()
     assert driven.simulation.step == pytest.approx(3 * 240, abs=FRAME)
     assert 'late/0' in message
@@ -30,15 +38,15 @@ def test_undo_goes_back_to_the_moment_before(driven: Driven) -> None:
     np.testing.assert_array_equal(shown.poses, driven.shown[shown.step].snapshot.poses[:5])
 
 
-def test_redo_returns_to_where_undo_was_asked_for(driven: Driven) -> None:
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
+def test_redo_returns_to_where_undo_was_asked_for(driven):
+    before = driven.moment
     driven.simulation.undo()
     driven.run(1.0, 0.7)
     driven.simulation.redo()
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    assert driven.moment == before
 
 
-def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
+def test_redo_shows_the_contacts_of_one_frame(driven):
     driven.simulation.reports_contacts = True
     before = driven.run(1.0, 1.0)[-1].contacts
     driven.ask(spawning('more/0', BOX, (8.0, 18.0, 0.0)))
@@ -46,13 +54,11 @@ def test_redo_shows_the_contacts_of_one_frame(driven: Driven) -> None:
     driven.simulation.undo()
     driven.simulation.redo()
     again = driven.apply_requests().contacts
-    assert before is not None
-    assert again is not None
     assert again.pairs.tolist() == before.pairs.tolist()
     np.testing.assert_allclose(again.impulses, before.impulses, rtol=1e-9, atol=1e-12)
 
 
-def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
+def test_what_belongs_together_is_undone_together(driven):
     driven.ask(spawning('b/0', BOX, (5.0, 5.0, 0.0)))
     driven.ask(spawning('b/1', BOX, (5.0, 8.0, 0.0)), joined=True)
     driven.apply_requests()
@@ -60,7 +66,7 @@ def test_what_belongs_together_is_undone_together(driven: Driven) -> None:
     assert not {'b/0', 'b/1'} & set(driven.names)
 
 
-def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
+def test_a_new_request_leaves_nothing_to_redo(driven):
     driven.simulation.undo()
     driven.ask(DeleteAll())
     driven.apply_requests()
@@ -68,7 +74,7 @@ def test_a_new_request_leaves_nothing_to_redo(driven: Driven) -> None:
         driven.simulation.redo()
 
 
-def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
+def test_a_refused_request_leaves_what_there_is_to_redo(driven):
     driven.simulation.undo()
     driven.ask(Delete(name='nobody/0'))
     driven.apply_requests()
@@ -77,7 +83,7 @@ def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
 
 
 @pytest.mark.parametrize('turns', [0, 1, -3])
-def test_a_marker_that_is_published_back_leaves_what_there_is_to_redo(*, turns: int) -> None:
+def test_a_marker_that_is_published_back_leaves_what_there_is_to_redo(turns):
     simulation = Simulation(speed=0.0)
     yaw = 0.1 + turns * math.tau
     simulation.perform(spawning('a/0', BOX, (0.3, 0.2, yaw)))
@@ -94,7 +100,7 @@ def test_a_marker_that_is_published_back_leaves_what_there_is_to_redo(*, turns: 
     assert simulation.status.redo == 'redo spawn b/0'
 
 
-def test_settings_are_undone_and_follow_time(driven: Driven) -> None:
+def test_settings_are_undone_and_follow_time(driven):
     driven.ask(Configure(changes={'gravity': (0.0, 0.0)}))
     driven.record(1.0)
     assert driven.simulation.settings.gravity == (0.0, 0.0)
@@ -106,20 +112,20 @@ def test_settings_are_undone_and_follow_time(driven: Driven) -> None:
     assert driven.simulation.settings.gravity == (0.0, -9.81)
 
 
-def test_reset_is_undone_too(driven: Driven) -> None:
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
+def test_reset_is_undone_too(driven):
+    before = driven.moment
     driven.simulation.reset()
     assert (driven.simulation.step, driven.names) == (0, ())
     driven.run(1.0, 0.5)
     later = driven.simulation.step
     driven.simulation.undo()
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    assert driven.moment == before
     driven.simulation.redo()
     assert later > 100
     assert (driven.simulation.step, driven.names) == (later, ())
 
 
-def test_a_reset_in_the_past_is_undone_to_there_and_to_what_lay_ahead(driven: Driven) -> None:
+def test_a_reset_in_the_past_is_undone_to_there_and_to_what_lay_ahead(driven):
     end, last = driven.simulation.step, driven.simulation.world.digest()
     driven.simulation.seek(2 * SECOND)
     asked = driven.simulation.world.digest()
@@ -132,51 +138,40 @@ def test_a_reset_in_the_past_is_undone_to_there_and_to_what_lay_ahead(driven: Dr
     assert driven.simulation.world.digest() == last
 
 
-def test_what_followed_a_reset_comes_back_with_it(driven: Driven) -> None:
+def test_what_followed_a_reset_comes_back_with_it(driven):
     driven.simulation.reset()
     driven.record(4.0)
     driven.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
     driven.record(3.0)
-    step, digest = driven.simulation.step, driven.simulation.world.digest()
-    said = [driven.simulation.undo() for _ in range(2)] + [
-        driven.simulation.redo() for _ in range(2)
-    ]
-    assert [each.partition(',')[0] for each in said] == [
-        'undid spawn b/0',
-        'undid reset',
-        'redid reset',
-        'redid spawn b/0',
-    ]
-    assert (driven.simulation.step, driven.simulation.world.digest()) == (step, digest)
+    before = driven.moment
+    undo, redo = driven.simulation.undo, driven.simulation.redo
+    said = [act().partition(',')[0] for act in (undo, undo, redo, redo)]
+    assert said == ['undid spawn b/0', 'undid reset', 'redid reset', 'redid spawn b/0']
+    assert driven.moment == before
     driven.simulation.seek(SECOND // 2)
-    frames = [driven.simulation.advance_frame() for _ in range(step // FRAME - 30)]
+    frames = [driven.simulation.advance_frame() for _ in range(before[0] // FRAME - 30)]
     for frame in frames:
         driven.assert_same(frame)
     assert told(frames, 'divergence') == []
-    assert driven.simulation.world.digest() == digest
+    assert driven.moment == before
 
 
-def test_resets_are_undone_and_redone_one_by_one(driven: Driven) -> None:
+def test_resets_are_undone_and_redone_one_by_one(driven):
     moments = [driven.simulation.step]
     for seconds in (1.0, 2.0):
         driven.simulation.reset()
         driven.run(1.0, seconds)
         moments.append(driven.simulation.step)
-    backward = []
-    for _ in range(2):
-        driven.simulation.undo()
-        backward.append(driven.simulation.step)
-    forward = []
-    for _ in range(2):
-        driven.simulation.redo()
-        forward.append(driven.simulation.step)
-    assert backward == moments[1::-1]
-    assert forward == moments[1:]
+    undo, redo = driven.simulation.undo, driven.simulation.redo
+    passed = []
+    for act in (undo, undo, redo, redo):
+        act()
+        passed.append(driven.simulation.step)
+    assert passed == [*moments[1::-1], *moments[1:]]
 
 
-def test_an_undone_load_is_not_what_reset_returns_to(driven: Driven) -> None:
-    other = Driven()
-    other.ask(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+def test_an_undone_load_is_not_what_reset_returns_to(driven):
+    other = dropped('b/0')
     driven.simulation.load(other.simulation.save())
     driven.simulation.undo()
     driven.simulation.reset()
@@ -184,7 +179,7 @@ def test_an_undone_load_is_not_what_reset_returns_to(driven: Driven) -> None:
 
 
 @pytest.mark.parametrize('more', [True, False])
-def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
+def test_undo_passes_over_nothing_that_is_kept_no_more(more):
     sim = Simulation(history=1.0)
     sim.perform(spawning('ball/0', BOX, anchored=True))
     sim.advance_frame()
@@ -200,7 +195,7 @@ def test_undo_passes_over_nothing_that_is_kept_no_more(*, more: bool) -> None:
     assert 'ball/0' not in sim.world
 
 
-def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
+def test_what_was_loaded_at_the_beginning_cannot_be_undone():
     first = Driven()
     first.ask(spawning('a/0'))
     first.apply_requests()
@@ -211,7 +206,7 @@ def test_what_was_loaded_at_the_beginning_cannot_be_undone() -> None:
     assert second.names == ('a/0',)
 
 
-def test_a_world_that_was_loaded_while_time_ran_is_undone(driven: Driven) -> None:
+def test_a_world_that_was_loaded_while_time_ran_is_undone(driven):
     names = driven.names
     driven.simulation.load(Driven().simulation.save())
     assert driven.names == ()
@@ -220,9 +215,8 @@ def test_a_world_that_was_loaded_while_time_ran_is_undone(driven: Driven) -> Non
     assert driven.names == names
 
 
-def test_older_steps_than_are_kept_are_dropped() -> None:
-    driven = Driven(history=3.0)
-    driven.ask(spawning('a/0', BOX, (0.0, 5.0, 0.0)))
+def test_older_steps_than_are_kept_are_dropped():
+    driven = dropped(history=3.0)
     driven.record(10.0)
     history = driven.simulation.past.tree
     assert history.head - history.oldest == 3 * 240
@@ -234,7 +228,7 @@ def test_older_steps_than_are_kept_are_dropped() -> None:
         driven.simulation.undo()
 
 
-def test_redo_does_not_pass_over_an_undone_line_that_is_no_longer_kept() -> None:
+def test_redo_does_not_pass_over_an_undone_line_that_is_no_longer_kept():
     simulation = Simulation()
     simulation.perform(spawning('a/0', BOX))
     simulation.reset()
@@ -247,3 +241,69 @@ def test_redo_does_not_pass_over_an_undone_line_that_is_no_longer_kept() -> None
     assert simulation.status.redo == ''
     with pytest.raises(OutOfHistory):
         simulation.redo()
+
+
+# Phrases
+
+
+@pytest.fixture
+def sim() -> Simulation:
+    """Return a paused world of two boxes, joined by two rods."""
+    sim = Simulation(speed=0.0)
+    for number in range(2):
+        sim.perform(spawning(f'a/{number}', BOX, (2.0 * number, 0.0, 0.0)))
+    for name in ('j/0', 'j/1'):
+        sim.perform(joining('rod', [(0.0, 0.0), (2.0, 0.0)], name, a='a/0', b='a/1'))
+    return sim
+
+
+@pytest.mark.parametrize(
+    ('request_', 'phrase'),
+    [
+        (ChangeBody(name='a/0', color=(1.0, 0.0, 0.0, 1.0)), 'change a/0'),
+        (Axle(point=(0.0, 0.0)), 'join axle axle/0'),
+        (Configure(changes={'damping': 0.5}), 'change settings'),
+        (Delete(name='a/0'), 'delete a/0'),
+        (DeleteBodies(names=('a/0',)), 'delete a/0'),
+        (DeleteBodies(names=('a/0', 'a/1')), 'delete several bodies'),
+        (DeleteBodies(names=('a/0', 'a/1'), joints=('j/0',)), 'delete several bodies and joints'),
+        (DeleteBodies(names=(), joints=('j/0', 'j/1')), 'delete several joints'),
+        (DeleteBodies(names=(), joints=('j/1',)), 'delete j/1'),
+        (DeleteAll(), 'delete all bodies'),
+        (DeleteAll(namespace='a'), 'delete all bodies of a'),
+        (MoveBodies(names=('a/0', 'a/1'), by=(1.0, 0.0)), 'move several bodies'),
+        (Grab(hand='me', point=(0.0, 0.0)), 'place a/0'),
+        (Cut(pieces=(ChangeBody(name='a/0', shape=DISC), spawning('a/2'))), 'cut a/0'),
+        (Cut(pieces=(), severed=(Unjoin(name='j/0'),)), 'cut j/0'),
+        (Cut(pieces=(), severed=(Unjoin(name='j/0'), Unjoin(name='j/1'))), 'cut several joints'),
+    ],
+)
+def test_a_gesture_is_named_by_verb_and_object(sim, request_, phrase):
+    before = sim.world.digest()
+    sim.perform(request_)
+
+    assert sim.status.undo == f'undo {phrase}'
+    assert sim.undo().startswith(f'undid {phrase}, ')
+    assert sim.world.digest() == before
+    assert sim.status.redo == f'redo {phrase}'
+
+
+def test_a_loaded_world_is_named_as_one(sim):
+    sim.perform(Restore(state=sim.save()))
+    assert sim.status.undo == 'undo load world'
+
+
+def test_the_joints_of_a_namespace_are_named_by_it(sim):
+    sim.perform(Pin(point=(0.0, 0.0)))
+    sim.perform(UnjoinAll(namespace='pin'))
+    assert sim.status.undo == 'undo delete all joints of pin'
+
+
+def test_requests_of_one_gesture_are_counted():
+    sim = Simulation(speed=0.0)
+    for number in range(3):
+        sim.requests.submit(
+            spawning(f'a/{number}', BOX, (2.0 * number, 0, 0)), topic='', joined=number > 0
+        )
+    sim.apply_requests()
+    assert sim.status.undo == 'undo spawn a/0 and 2 more'

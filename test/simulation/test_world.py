@@ -8,12 +8,7 @@ import math
 import numpy as np
 from physsim_ros.model import requests
 from physsim_ros.model.colors import color_of
-from physsim_ros.model.errors import (
-    UnknownBody,
-    UnknownJoint,
-    WorldFull,
-)
-from physsim_ros.model.joints import JointKind
+from physsim_ros.model.errors import UnknownBody, UnknownJoint, WorldFull
 from physsim_ros.model.requests import (
     AtPoint,
     Command,
@@ -22,13 +17,12 @@ from physsim_ros.model.requests import (
     DeleteAll,
     DeleteBodies,
     HandRequest,
-    Join,
     OfNamespace,
     Request,
 )
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Shape
+from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.world import World
 from physsim_ros.simulation.world.world import HANDLERS
@@ -39,6 +33,7 @@ from ..building import (
     BOX,
     DISC,
     ELL,
+    join,
     names,
     pose,
     RED,
@@ -53,7 +48,7 @@ from ..building import (
 # Dispatch
 
 
-def test_every_request_has_a_handler() -> None:
+def test_every_request_has_a_handler():
     kinds = {each for each in vars(requests).values() if isinstance(each, type)}
     bases = {Request, AtPoint, HandRequest, OfNamespace}
     assert {each for each in kinds if issubclass(each, Request)} - bases == HANDLERS.keys()
@@ -62,7 +57,7 @@ def test_every_request_has_a_handler() -> None:
 # Spawn
 
 
-def test_a_spawned_body_is_what_was_said_and_where(world: World) -> None:
+def test_a_spawned_body_is_what_was_said_and_where(world):
     answer = world.apply(
         spawning(
             'box/3', Box(width=2.0, height=1.0), (1.0, -2.0, 0.3), color=RED, lifetime=1.0,
@@ -84,7 +79,7 @@ def test_a_spawned_body_is_what_was_said_and_where(world: World) -> None:
     assert 'box/4' not in world
 
 
-def test_what_is_not_said_comes_from_the_settings() -> None:
+def test_what_is_not_said_comes_from_the_settings():
     world = World(settings=WorldSettings(density=3.0, friction=0.1, elasticity=0.2))
 
     spawn(world, 'a/7')
@@ -98,13 +93,13 @@ def test_what_is_not_said_comes_from_the_settings() -> None:
 
 @pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())
 @pytest.mark.parametrize('anchored', [False, True])
-def test_the_pose_of_any_shape_is_its_origins(shape: Shape, anchored: bool, world: World) -> None:
+def test_the_pose_of_any_shape_is_its_origins(shape, anchored, world):
     spawn(world, 'a/0', shape, (3.0, -4.0, 2.5), anchored=anchored)
 
     assert pose(world, 'a/0') == pytest.approx((3.0, -4.0, 2.5), abs=ROUNDING)
 
 
-def test_bodies_are_listed_in_the_order_of_their_spawning(world: World) -> None:
+def test_bodies_are_listed_in_the_order_of_their_spawning(world):
     order = ('b/1', 'a/9', 'c/0', 'a/2')
     for place, name in enumerate(order):
         spawn(world, name, DISC, (3.0 * place, 0.0, 0.0), anchored=place % 2 == 0)
@@ -118,32 +113,24 @@ def test_bodies_are_listed_in_the_order_of_their_spawning(world: World) -> None:
 # Delete
 
 
-def test_a_deleted_body_is_gone(world: World) -> None:
-    for name in ('a/0', 'a/1', 'a/2'):
-        spawn(world, name, DISC)
-
-    answer = world.apply(Delete(name='a/1'))
-
-    assert answer == Answer(subject='a/1', message='deleted a/1')
-    assert names(world) == ('a/0', 'a/2')
-    assert 'a/1' not in world
-    with pytest.raises(UnknownBody):
-        world.apply(Delete(name='a/1'))
-
-
-def test_a_name_can_be_used_again_and_comes_last(world: World) -> None:
+def test_a_deleted_body_is_gone_and_its_name_can_be_used_again_and_comes_last(world):
     spawn(world, 'a/0', DISC, mass=3.0, velocity=(1.0, 0.0))
     spawn(world, 'a/1', DISC)
-    world.apply(Delete(name='a/0'))
 
+    answer = world.apply(Delete(name='a/0'))
+
+    assert answer == Answer(subject='a/0', message='deleted a/0')
+    assert names(world) == ('a/1',)
+    assert 'a/0' not in world
+    with pytest.raises(UnknownBody):
+        world.apply(Delete(name='a/0'))
     spawn(world, 'a/0', DISC)
-
     assert names(world) == ('a/1', 'a/0')
     assert body(world, 'a/0').mass is None
     assert twist(world, 'a/0').tolist() == [0.0, 0.0, 0.0]
 
 
-def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world: World) -> None:
+def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world):
     for name in ('a/0', 'b/0', 'a/1', 'ab/0', 'a/b/0'):
         spawn(world, name, DISC)
 
@@ -155,11 +142,10 @@ def test_all_bodies_of_a_namespace_are_deleted_and_no_others(world: World) -> No
     assert world.apply(DeleteAll(namespace='nobody')) == Answer(message='deleted 0 bodies')
 
 
-def test_bodies_and_joints_are_deleted_together_or_not_at_all(world: World) -> None:
+def test_bodies_and_joints_are_deleted_together_or_not_at_all(world):
     for number in range(3):
         spawn(world, f'a/{number}', DISC, (3.0 * number, 0.0, 0.0))
-        point = (3.0 * number, 0.0)
-        world.apply(Join(name=f'j/{number}', kind=JointKind.PIN, points=(point,), b='world'))
+        join(world, 'pin', [(3.0 * number, 0.0)], f'j/{number}', b='world')
 
     with pytest.raises(UnknownJoint) as refused:
         world.apply(DeleteBodies(names=('a/0',), joints=('j/1', 'j/9')))
@@ -171,7 +157,7 @@ def test_bodies_and_joints_are_deleted_together_or_not_at_all(world: World) -> N
     assert world.apply(DeleteBodies(names=(), joints=('j/2',))).message == 'deleted 1 joint'
 
 
-def test_everything_is_deleted_and_the_world_goes_on(world: World) -> None:
+def test_everything_is_deleted_and_the_world_goes_on(world):
     for number in range(5):
         spawn(world, f'a/{number}', DISC, anchored=number % 2 == 0)
     world.step(2)
@@ -196,7 +182,7 @@ def test_everything_is_deleted_and_the_world_goes_on(world: World) -> None:
     [(240.0, 0.1, 24), (240.0, 1e-9, 1), (240.0, 1 / 240, 1), (240.0, 1.5 / 240, 2),
      (1000.0, 0.7, 700), (60.0, 0.05, 3), (10000.0, 30673452 / 10000.0, 30673452)],
 )  # fmt: skip
-def test_a_lifetime_ends_at_its_step(rate: float, lifetime: float, steps: int) -> None:
+def test_a_lifetime_ends_at_its_step(rate, lifetime, steps):
     world = World(physics_rate=rate)
     spawn(world, 'a/0', DISC)
     world.step(7)
@@ -211,7 +197,7 @@ def test_a_lifetime_ends_at_its_step(rate: float, lifetime: float, steps: int) -
         assert 'a/0' not in world
 
 
-def test_lifetimes_end_within_many_steps_as_one_by_one(world: World) -> None:
+def test_lifetimes_end_within_many_steps(world):
     for number in range(5):
         spawn(world, f'a/{number}', DISC, (3.0 * number, 0.0, 0.0), lifetime=(5 - number) / 240)
 
@@ -220,7 +206,7 @@ def test_lifetimes_end_within_many_steps_as_one_by_one(world: World) -> None:
     assert names(world) == ('a/0', 'a/1')
 
 
-def test_a_lifetime_is_kept_until_another_is_said(world: World) -> None:
+def test_a_lifetime_is_kept_until_another_is_said(world):
     spawn(world, 'a/0', DISC, lifetime=10 / 240)
     world.step(5)
 
@@ -230,7 +216,7 @@ def test_a_lifetime_is_kept_until_another_is_said(world: World) -> None:
     assert body(world, 'a/0').expires == 15
 
 
-def test_who_dies_under_another_leaves_it_falling() -> None:
+def test_who_dies_under_another_leaves_it_falling():
     world = World()
     spawn(world, 'floor/0', BOX, (0.0, -0.5, 0.0), anchored=True, lifetime=0.5)
     spawn(world, 'a/0', BOX, (0.0, 0.5, 0.0))
@@ -246,7 +232,7 @@ def test_who_dies_under_another_leaves_it_falling() -> None:
 # A full world
 
 
-def test_a_full_world_takes_no_more_but_changes_what_it_has() -> None:
+def test_a_full_world_takes_no_more_but_changes_what_it_has():
     world = World(settings=WorldSettings(max_bodies=2))
     spawn(world, 'a/0')
     spawn(world, 'a/1')
@@ -260,7 +246,7 @@ def test_a_full_world_takes_no_more_but_changes_what_it_has() -> None:
     assert names(world) == ('a/1', 'a/2')
 
 
-def test_a_world_made_smaller_keeps_its_bodies() -> None:
+def test_a_world_made_smaller_keeps_its_bodies():
     world = World()
     for number in range(3):
         spawn(world, f'a/{number}')
@@ -277,9 +263,7 @@ def test_a_world_made_smaller_keeps_its_bodies() -> None:
 
 @pytest.mark.parametrize('shape', [DISC, ELL], ids=['centred', 'off-centre'])
 @pytest.mark.parametrize('anchored', [False, True])
-def test_a_pose_may_be_relative_to_a_turned_body(
-    shape: Shape, anchored: bool, world: World
-) -> None:
+def test_a_pose_may_be_relative_to_a_turned_body(shape, anchored, world):
     spawn(world, 'table/0', shape, (2.0, 1.0, math.pi / 2), anchored=anchored)
 
     spawn(world, 'cup/0', DISC, (3.0, 1.0, 0.2), frame='table/0')
@@ -288,7 +272,7 @@ def test_a_pose_may_be_relative_to_a_turned_body(
     assert pose(world, 'cup/0') == pytest.approx((1.0, 4.0, math.pi / 2 + 0.2), abs=1e-12)
 
 
-def test_a_frame_is_where_the_body_is_by_then(world: World) -> None:
+def test_a_frame_is_where_the_body_is_by_then(world):
     spawn(world, 'table/0', DISC, velocity=(1.0, 0.0), spin=math.pi / 2)
     world.step(240)
 
@@ -299,7 +283,7 @@ def test_a_frame_is_where_the_body_is_by_then(world: World) -> None:
     assert twist(world, 'cup/0').tolist() == [0.0, 0.0, 0.0]
 
 
-def test_a_body_can_be_moved_relative_to_itself(world: World) -> None:
+def test_a_body_can_be_moved_relative_to_itself(world):
     spawn(world, 'a/0', DISC, (1.0, 1.0, math.pi))
 
     spawn(world, 'a/0', DISC, (2.0, 0.0, 0.0), frame='a/0')
@@ -307,7 +291,7 @@ def test_a_body_can_be_moved_relative_to_itself(world: World) -> None:
     assert pose(world, 'a/0') == pytest.approx((-1.0, 1.0, math.pi), abs=1e-12)
 
 
-def test_commanded_poses_may_be_relative_to_a_body_that_is_moved_too(world: World) -> None:
+def test_commanded_poses_may_be_relative_to_a_body_that_is_moved_too(world):
     spawn(world, 'a/0', DISC, (1.0, 0.0, math.pi / 2))
     spawn(world, 'a/1', DISC)
 
@@ -322,7 +306,7 @@ def test_commanded_poses_may_be_relative_to_a_body_that_is_moved_too(world: Worl
 # Time
 
 
-def test_time_is_the_steps_and_never_a_running_sum() -> None:
+def test_time_is_the_steps_and_never_a_running_sum():
     world = World(physics_rate=300.0)
 
     world.step(7)
@@ -331,7 +315,7 @@ def test_time_is_the_steps_and_never_a_running_sum() -> None:
     assert world.stamp == world.snapshot().stamp == 23_333_333
 
 
-def test_a_snapshot_is_not_changed_by_what_follows(world: World) -> None:
+def test_a_snapshot_is_not_changed_by_what_follows(world):
     spawn(world, 'a/0', TRIANGLE, velocity=(1.0, 0.0))
     snapshot = world.snapshot()
     poses, twists = snapshot.poses.copy(), snapshot.twists.copy()
@@ -345,7 +329,7 @@ def test_a_snapshot_is_not_changed_by_what_follows(world: World) -> None:
     assert snapshot.scene.names == ('a/0',)
 
 
-def test_a_scene_is_the_same_object_until_something_changes(world: World) -> None:
+def test_a_scene_is_the_same_object_until_something_changes(world):
     spawn(world, 'a/0', DISC)
     scene = world.snapshot().scene
 
@@ -353,5 +337,8 @@ def test_a_scene_is_the_same_object_until_something_changes(world: World) -> Non
     world.apply(Command(names=('a/0',), poses=((1.0, 0.0, 0.0),)))
     assert world.snapshot().scene is scene
 
+    join(world, 'axle', [(1.0, 0.0)])
+    joined = world.snapshot().scene
+    assert joined is not scene
     spawn(world, 'a/0', DISC, (1.0, 0.0, 0.0), color=RED)
-    assert world.snapshot().scene is not scene
+    assert world.snapshot().scene is not joined

@@ -3,6 +3,7 @@
 
 """A shipped world by its name, and its frames over some seconds, for the tests of worlds."""
 
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -62,6 +63,12 @@ class Film:
         """Return the mass of all bodies of these namespaces together [kg]."""
         bodies = self.frames[0].scene.bodies
         return sum(body.total_mass for body in bodies if body.name.partition('/')[0] in namespaces)
+
+
+@cache
+def film(name, seconds):
+    """Return the film of a world of the package, which is made once."""
+    return Film(simulation(name), seconds)
 
 
 def at(seconds):

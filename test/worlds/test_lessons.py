@@ -4,7 +4,6 @@
 """The figure of each lesson is that of the law, and is measured in its world."""
 
 from math import pi, radians, sin, sqrt
-from pathlib import Path
 
 import numpy as np
 from physsim_ros.files import load_world, save_world, shipped_lessons, worlds_in
@@ -116,7 +115,7 @@ LAWS = {
 }
 
 
-def test_every_lesson_has_a_law_and_they_are_numbered_from_one() -> None:
+def test_every_lesson_has_a_law_and_they_are_numbered_from_one():
     assert set(LESSONS) == set(LAWS)
     numbers = sorted(state_of(name).lesson.number for name in LESSONS)
     assert numbers == list(range(1, len(LESSONS) + 1))
@@ -124,7 +123,7 @@ def test_every_lesson_has_a_law_and_they_are_numbered_from_one() -> None:
 
 
 @pytest.mark.parametrize('name', [slow(name) if name == 'lever' else name for name in LESSONS])
-def test_what_a_lesson_claims_is_the_law_and_what_its_world_does(name: str) -> None:
+def test_what_a_lesson_claims_is_the_law_and_what_its_world_does(name):
     lesson = state_of(name).lesson
     law, measured = LAWS[name]
     value = measured()
@@ -137,9 +136,7 @@ def test_what_a_lesson_claims_is_the_law_and_what_its_world_does(name: str) -> N
 
 
 @pytest.mark.parametrize('name', LESSONS)
-def test_a_lesson_stays_with_its_world_in_files_and_through_time(
-    name: str, tmp_path: Path
-) -> None:
+def test_a_lesson_stays_with_its_world_in_files_and_through_time(name, tmp_path):
     state = state_of(name)
     sim = simulation(name)
     for _ in range(5):
@@ -156,7 +153,7 @@ def test_a_lesson_stays_with_its_world_in_files_and_through_time(
 
 
 @pytest.mark.parametrize('name', LESSONS)
-def test_no_setting_of_the_world_before_reaches_into_a_lesson(name: str) -> None:
+def test_no_setting_of_the_world_before_reaches_into_a_lesson(name):
     before = WorldSettings(
         gravity=(3.0, 0.0),
         damping=0.9,

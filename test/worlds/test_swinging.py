@@ -9,7 +9,7 @@ import numpy as np
 from numpy.testing import assert_allclose
 import pytest
 
-from .film import at, Film, FRAMES, G, simulation
+from .film import at, film, FRAMES, G
 
 pytestmark = pytest.mark.slow
 
@@ -33,18 +33,9 @@ def periods(speeds):
     return np.diff(turns + speeds[turns] / (speeds[turns] - speeds[turns + 1])) / FRAMES
 
 
-@pytest.fixture(scope='module')
-def cradles():
-    return Film(simulation('newtons_cradle'), 3.2)
-
-
-@pytest.fixture(scope='module')
-def pendulums():
-    return Film(simulation('pendulums'), CYCLE)
-
-
 @pytest.mark.parametrize(('cradle', 'count'), [('one', 1), ('two', 2), ('three', 3)])
-def test_as_many_balls_leave_as_came(cradles, cradle, count):
+def test_as_many_balls_leave_as_came(cradle, count):
+    cradles = film('newtons_cradle', 3.2)
     top_speed = math.sqrt(2 * G * LENGTH * (1 - math.cos(AMPLITUDE)))
     quarter = period(LENGTH, AMPLITUDE) / 4
     speeds = np.array(
@@ -64,7 +55,8 @@ def test_as_many_balls_leave_as_came(cradles, cradle, count):
 
 
 @pytest.mark.parametrize(('cradle', 'count'), [('one', 1), ('two', 2), ('three', 3)])
-def test_they_swing_as_high_as_they_came_from(cradles, cradle, count):
+def test_they_swing_as_high_as_they_came_from(cradle, count):
+    cradles = film('newtons_cradle', 3.2)
     heights = cradles.poses[:, :, 1]
     leaving = cradles.names.index(f'{cradle}/4')
 
@@ -74,7 +66,8 @@ def test_they_swing_as_high_as_they_came_from(cradles, cradle, count):
     assert_allclose(risen, LENGTH * (1 - math.cos(AMPLITUDE)), rtol=0.04)
 
 
-def test_a_pendulum_keeps_time(pendulums):
+def test_a_pendulum_keeps_time():
+    pendulums = film('pendulums', CYCLE)
     amplitude = math.radians(30)
 
     measured = periods(pendulums.twist('simple/0')[:, 0])
@@ -82,7 +75,8 @@ def test_a_pendulum_keeps_time(pendulums):
     assert_allclose(measured, period(2.2, amplitude), rtol=1e-3)
 
 
-def test_a_bar_swings_as_two_thirds_of_its_length(pendulums):
+def test_a_bar_swings_as_two_thirds_of_its_length():
+    pendulums = film('pendulums', CYCLE)
     length, width = 2.4, 0.2
     # Not exactly two thirds, since it is not thin.
     reduced = (length**2 / 3 + width**2 / 12) / (length / 2)
@@ -93,7 +87,8 @@ def test_a_bar_swings_as_two_thirds_of_its_length(pendulums):
     assert_allclose(measured, period(reduced, math.radians(40)), rtol=1e-3)
 
 
-def test_the_row_comes_apart_and_together_again(pendulums):
+def test_the_row_comes_apart_and_together_again():
+    pendulums = film('pendulums', CYCLE)
     middle, end = at(CYCLE / 2), at(CYCLE)
     for swings in range(7, 18):
         ball = f'row/{swings}'
@@ -105,7 +100,8 @@ def test_the_row_comes_apart_and_together_again(pendulums):
         assert_allclose(aside[end], aside[0], rtol=1e-3)
 
 
-def test_even_the_chaotic_one_keeps_its_energy(pendulums):
+def test_even_the_chaotic_one_keeps_its_energy():
+    pendulums = film('pendulums', CYCLE)
     energies = np.array([f.kinetic_energy + f.potential_energy for f in pendulums.frames])
 
     moving = max(frame.kinetic_energy for frame in pendulums.frames)

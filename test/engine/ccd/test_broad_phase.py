@@ -3,31 +3,25 @@
 
 """The broad phase finds every pair of boxes that overlap; only what could meet is advanced."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from typing import Any
 
 import numpy as np
 from physsim_ros.engine import broad_phase
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Join
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import spawn
+from ...building import join, spawn
 
 
 @pytest.mark.parametrize('seed', range(5))
 @pytest.mark.parametrize('few', [(0, 0), (0, 10**9), (10**9, 0)])
 @pytest.mark.parametrize('far', [0.0, 1e11])
 @pytest.mark.parametrize('most', [None, 100])
-def test_every_pair_of_boxes_that_overlap_is_found_once(
-    monkeypatch: pytest.MonkeyPatch, seed: int, few: tuple[int, int], far: float, most: int | None
-) -> None:
+def test_every_pair_of_boxes_that_overlap_is_found_once(monkeypatch, seed, few, far, most):
     monkeypatch.setattr(broad_phase, '_FEW_PAIRS', few[0])
     monkeypatch.setattr(broad_phase, '_FEW_BESIDE', few[1])
     pick = np.random.default_rng(seed)
@@ -55,7 +49,7 @@ def swept(world: World) -> int:
     return world.space.core.swept
 
 
-def test_of_a_crowd_that_falls_nobody_is_swept_before_the_ground() -> None:
+def test_of_a_crowd_that_falls_nobody_is_swept_before_the_ground():
     world = World(settings=WorldSettings(bounds=(-10.0, 0.0, 10.0, 30.0)))
     for number in range(100):
         row, column = divmod(number, 20)
@@ -83,33 +77,23 @@ def heap(**properties: Any) -> World:
 
 
 @pytest.mark.parametrize(('group', 'meets'), [(0, True), (1, False), (-1, False)])
-def test_a_group_whose_bodies_pass_through_each_other_is_not_swept(
-    group: int, *, meets: bool
-) -> None:
+def test_a_group_whose_bodies_pass_through_each_other_is_not_swept(group, meets):
     world = heap(group=group)
     world.step(1)
     assert bool(swept(world)) is meets
 
 
 @pytest.mark.parametrize('collide', [True, False])
-def test_what_a_joint_keeps_from_colliding_is_not_swept(*, collide: bool) -> None:
+def test_what_a_joint_keeps_from_colliding_is_not_swept(collide):
     world = heap()
     for number, (a, b) in enumerate(itertools.combinations(range(20), 2)):
-        world.apply(
-            Join(
-                name=f'joint/{number}',
-                kind=JointKind.SPRING,
-                points=((0.01 * a, 0.0), (0.01 * b, 0.0)),
-                a=f'body/{a}',
-                b=f'body/{b}',
-                properties=JointProperties(collide=collide, stiffness=1.0),
-            )
-        )
+        points, said = [(0.01 * a, 0.0), (0.01 * b, 0.0)], {'collide': collide, 'stiffness': 1.0}
+        join(world, 'spring', points, f'joint/{number}', a=f'body/{a}', b=f'body/{b}', **said)
     world.step(1)
     assert bool(swept(world)) is collide
 
 
-def test_who_passes_through_sensors_alone_is_not_swept() -> None:
+def test_who_passes_through_sensors_alone_is_not_swept():
     world = heap(sensor=True)
     world.step(1)
     assert swept(world) == 0

@@ -81,14 +81,8 @@ def test_a_fast_body_stays_on_its_side_of_a_wall(shape, wall, speed, angle, spin
     spawn(sim, 'wall/0', wall, anchored=True)
     heading = math.radians(180 + angle)
     # The wall is not in its frame: every 0.4 of a step of its way it begins elsewhere.
-    row = spawn(
-        sim,
-        'body/0',
-        shape,
-        (2.0, 0.4, 0.7),
-        velocity=(speed * math.cos(heading), speed * math.sin(heading)),
-        spin=spin,
-    )
+    velocity = (speed * math.cos(heading), speed * math.sin(heading))
+    row = spawn(sim, 'body/0', shape, (2.0, 0.4, 0.7), velocity=velocity, spin=spin)
 
     count = max(8, math.ceil(5.0 / (speed * math.cos(math.radians(angle))) / DT))
     nearest = min(snapshot.centers[row, 0] for snapshot in steps(sim, count))
@@ -102,9 +96,8 @@ def test_a_fast_body_stays_on_its_side_of_a_wall(shape, wall, speed, angle, spin
 def test_a_rod_that_turns_fast_does_not_pass_through_a_disc(spin, place):
     sim = simulation(gravity=NOWHERE, friction=0.0)
     rod = spawn(sim, 'rod/0', SHAPES['rod'], spin=spin, mass=100.0)
-    disc = spawn(
-        sim, 'disc/0', Disc(radius=0.03), (place * math.cos(1.0), place * math.sin(1.0), 0)
-    )
+    at = (place * math.cos(1.0), place * math.sin(1.0), 0.0)
+    disc = spawn(sim, 'disc/0', Disc(radius=0.03), at)
     overlaps = Overlaps(sim.world.snapshot().scene)
 
     side = None
@@ -327,9 +320,8 @@ def test_a_body_that_grazes_a_corner_flies_on():
     sim = simulation(gravity=NOWHERE)
     spawn(sim, 'wall/0', Chain(points=((0.0, -1.0), (0.0, 0.0)), thickness=0.4), anchored=True)
     # Past the round end, where a rectangle around it would be in the way.
-    row = spawn(
-        sim, 'body/0', Box(width=0.1, height=0.1), (-2.0, 0.2, 0), velocity=(60.0, 60 * 0.04)
-    )
+    square = Box(width=0.1, height=0.1)
+    row = spawn(sim, 'body/0', square, (-2.0, 0.2, 0.0), velocity=(60.0, 60 * 0.04))
 
     last = run(sim, 0.1)
 
@@ -355,9 +347,7 @@ def test_what_rests_is_not_swept():
     ('speed', 'radius'), [(5.0, 0.005), (10.0, 0.02), (20.0, 0.05), (29.0, 0.1)]
 )
 @pytest.mark.parametrize('anchored', [False, True])
-def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(
-    speed: float, radius: float, height: float, *, anchored: bool
-) -> None:
+def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(speed, radius, height, anchored):
     sim = simulation(gravity=NOWHERE)
     large = Compound(element=Box(width=1.0, height=1.0), centers=((0.0, -0.5), (0.0, 0.5)))
     spawn(sim, 'large/0', large, (-1.0 - 0.75 * speed * DT, 0.0, 0.0), velocity=(speed, 0.0))
@@ -367,9 +357,7 @@ def test_what_is_small_does_not_pass_between_the_pieces_of_a_body(
     assert small_x > large_x + 0.5 - radius
 
 
-def test_sticks_that_spin_through_each_other_end_each_step_after_a_bounded_number_of_impacts() -> (
-    None
-):
+def test_sticks_that_spin_through_each_other_have_a_bounded_number_of_impacts():
     sim = simulation(gravity=NOWHERE)
     for number in range(12):
         place = (0.51 * (number % 4), 0.51 * (number // 4), 0.0)

@@ -3,8 +3,6 @@
 
 """Which contacts of elastic bodies are deferred, whatever the order in which they are listed."""
 
-from __future__ import annotations
-
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Chain, Polygon

@@ -75,10 +75,7 @@ def test_a_ball_rolls_in_a_bowl_of_pieces_as_in_one_of_segments():
     around = np.column_stack((np.sin(angles), -np.cos(angles)))
     inner, outer = (tuple(map(tuple, (around * radius).tolist())) for radius in (2.0, 2.2))
     heights = []
-    for bowl in (
-        Polygon(outline=inner + outer[::-1]),
-        Chain(points=inner, thickness=0.001),
-    ):
+    for bowl in (Polygon(outline=inner + outer[::-1]), Chain(points=inner, thickness=0.001)):
         sim = simulation(friction=0.0, elasticity=0.0)
         spawn(sim, 'bowl/0', bowl, anchored=True)
         way = 2.0 - 0.15

@@ -8,15 +8,14 @@ import math
 import random
 
 import numpy as np
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Join, Request
+from physsim_ros.model.requests import Command, Configure, Delete, DriveRobot, Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Polygon
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import BOX, command, DISC, G, pose, sleepers, spawn, spawning, stack, twist
+from ...building import BOX, command, DISC, G, join, pose, sleepers, spawn, spawning, stack, twist
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 SECOND = 1_000_000_000
@@ -29,15 +28,10 @@ def at_rest(count: int = 3) -> World:
     return world
 
 
-def test_a_stack_falls_asleep_and_has_no_velocity() -> None:
+def test_an_island_sleeps_without_velocity_while_another_one_moves():
     world = at_rest()
-
     assert len(sleepers(world)) == 3
     assert np.abs(world.snapshot().twists).max() == 0.0
-
-
-def test_an_island_sleeps_while_another_one_moves() -> None:
-    world = at_rest()
     spawn(world, 'ball/0', DISC, (15.0, 0.5, 0.0), elasticity=1.0, velocity=(0.0, 12.0))
 
     world.step(240)
@@ -46,7 +40,7 @@ def test_an_island_sleeps_while_another_one_moves() -> None:
     assert 'ball/0' not in sleepers(world)
 
 
-def test_a_ball_that_rolls_at_a_centimetre_a_second_rolls_on() -> None:
+def test_a_ball_that_rolls_at_a_centimetre_a_second_rolls_on():
     world = World(settings=YARD)
     spawn(world, 'ball/0', DISC, (0.0, 0.5, 0.0), velocity=(0.01, 0.0), spin=-0.02)
     world.step(2400)
@@ -55,18 +49,10 @@ def test_a_ball_that_rolls_at_a_centimetre_a_second_rolls_on() -> None:
     assert pose(world, 'ball/0')[0] == pytest.approx(0.1, abs=1e-3)
 
 
-def test_a_pendulum_does_not_sleep_where_it_turns_round() -> None:
+def test_a_pendulum_does_not_sleep_where_it_turns_round():
     world = World(settings=WorldSettings())
     spawn(world, 'bob/0', DISC, (0.02, -2.0, 0.0))
-    seat = Join(
-        name='axle/0',
-        kind=JointKind.AXLE,
-        points=((0.0, 0.0),),
-        a='bob/0',
-        b='world',
-        properties=JointProperties(),
-    )
-    world.apply(seat)
+    join(world, 'axle', [(0.0, 0.0)], a='bob/0', b='world')
     reached = []
     for _ in range(40):
         world.step(60)
@@ -79,21 +65,12 @@ def test_a_pendulum_does_not_sleep_where_it_turns_round() -> None:
 def on_spring(mass: float, stiffness: float, stretch: float, damping: float) -> World:
     world = World(settings=WorldSettings(gravity=(0.0, 0.0)))
     spawn(world, 'bob/0', DISC, mass=mass)
-    properties = JointProperties(stiffness=stiffness, rest_length=2.0 - stretch, damping=damping)
-    world.apply(
-        Join(
-            name='spring/0',
-            kind=JointKind.SPRING,
-            points=((0.0, 0.0), (0.0, 2.0)),
-            a='bob/0',
-            b='world',
-            properties=properties,
-        )
-    )
+    said = {'stiffness': stiffness, 'rest_length': 2.0 - stretch, 'damping': damping}
+    join(world, 'spring', [(0.0, 0.0), (0.0, 2.0)], a='bob/0', b='world', **said)
     return world
 
 
-def test_a_slow_swing_on_a_spring_does_not_sleep_where_it_turns_round() -> None:
+def test_a_slow_swing_on_a_spring_does_not_sleep_where_it_turns_round():
     # Never faster than 3.2 cm/s, with a period of 19.9 s.
     world = on_spring(10.0, 1.0, 0.1, 0.0)
 
@@ -103,7 +80,7 @@ def test_a_slow_swing_on_a_spring_does_not_sleep_where_it_turns_round() -> None:
         assert pose(world, 'bob/0')[1] == pytest.approx(exact, abs=1e-3)
 
 
-def test_what_comes_to_rest_on_a_damped_spring_sleeps_there() -> None:
+def test_what_comes_to_rest_on_a_damped_spring_sleeps_there():
     world = on_spring(1.0, 100.0, 0.05, 6.0)
 
     world.step(2400)
@@ -113,7 +90,7 @@ def test_what_comes_to_rest_on_a_damped_spring_sleeps_there() -> None:
 
 
 @pytest.mark.slow
-def test_a_pile_sleeps_though_a_contact_that_bears_nothing_is_lost_now_and_then() -> None:
+def test_a_pile_sleeps_though_a_contact_that_bears_nothing_is_lost_now_and_then():
     chance = random.Random(4)
     world = World(settings=WorldSettings(bounds=(-3.0, 0.0, 3.0, 30.0), elasticity=0.0))
     wedge = Polygon(outline=((0.0, 0.0), (0.5, 0.0), (0.4, 0.4)))
@@ -141,7 +118,7 @@ WAKING: dict[str, Callable[[], Request]] = {
 
 
 @pytest.mark.parametrize('request_of', WAKING.values(), ids=WAKING)
-def test_a_sleeping_stack_wakes(request_of: Callable[[], Request]) -> None:
+def test_a_sleeping_stack_wakes(request_of):
     world = at_rest()
     before = pose(world, 'stack/2').copy()
 
@@ -151,7 +128,7 @@ def test_a_sleeping_stack_wakes(request_of: Callable[[], Request]) -> None:
     assert np.abs(pose(world, 'stack/2') - before).max() > 1e-3
 
 
-def test_a_stack_on_an_anchored_floor_wakes_when_the_floor_is_moved() -> None:
+def test_a_stack_on_an_anchored_floor_wakes_when_the_floor_is_moved():
     world = World(settings=WorldSettings())
     spawn(world, 'floor/0', Box(width=10.0, height=1.0), (0.0, -0.5, 0.0), anchored=True)
     stack(world, 2)
@@ -175,7 +152,7 @@ def weights(world: World, seconds: float) -> list[float]:
     return found
 
 
-def test_sleeping_bodies_stay_in_the_contacts_with_their_weight() -> None:
+def test_sleeping_bodies_stay_in_the_contacts_with_their_weight():
     world = World(settings=YARD)
     world.reports_contacts = True
     stack(world, 3)
@@ -187,7 +164,7 @@ def test_sleeping_bodies_stay_in_the_contacts_with_their_weight() -> None:
     assert found == pytest.approx([3.0 * G / 60.0] * len(found), rel=0.01)
 
 
-def test_who_begins_to_watch_sees_the_contacts_of_sleeping_bodies() -> None:
+def test_who_begins_to_watch_sees_the_contacts_of_sleeping_bodies():
     world = at_rest()
     assert len(sleepers(world)) == 3
 
@@ -198,7 +175,7 @@ def test_who_begins_to_watch_sees_the_contacts_of_sleeping_bodies() -> None:
     assert found == pytest.approx([3.0 * G / 60.0] * len(found), rel=0.01)
 
 
-def test_a_contact_that_wakes_is_reported_once() -> None:
+def test_a_contact_that_wakes_is_reported_once():
     world = at_rest()
     world.reports_contacts = True
     weights(world, 0.5)
@@ -216,7 +193,7 @@ def course(sim: Simulation, until: int) -> list[str]:
     return digests
 
 
-def test_rewinding_through_falling_asleep_and_waking_gives_the_same_bits() -> None:
+def test_rewinding_through_falling_asleep_and_waking_gives_the_same_bits():
     sim = Simulation(settings=YARD)
     for number in range(3):
         pose_of = (0.0, 0.5 + number, 0.0)
@@ -234,7 +211,7 @@ def test_rewinding_through_falling_asleep_and_waking_gives_the_same_bits() -> No
         assert again == (asleep + awake)[first:]
 
 
-def test_a_save_wakes_nothing() -> None:
+def test_a_save_wakes_nothing():
     one, other = at_rest(), at_rest()
 
     one.save()
@@ -245,7 +222,7 @@ def test_a_save_wakes_nothing() -> None:
     assert one.digest() == other.digest()
 
 
-def test_a_body_that_is_spawned_where_one_sleeps_is_pushed_out() -> None:
+def test_a_body_that_is_spawned_where_one_sleeps_is_pushed_out():
     world = at_rest(1)
     spawn(world, 'late/0', BOX, (0.3, 0.6, 0.0))
     world.step(480)
@@ -266,7 +243,7 @@ def on_a_floor() -> World:
     return world
 
 
-def test_who_looks_at_a_body_that_sleeps_does_not_change_how_it_wakes() -> None:
+def test_who_looks_at_a_body_that_sleeps_does_not_change_how_it_wakes():
     seen, unseen = on_a_floor(), on_a_floor()
     for world in (seen, unseen):
         command(world, 'a/0', wrench=(8.0, 0.0, 0.0))
@@ -278,7 +255,7 @@ def test_who_looks_at_a_body_that_sleeps_does_not_change_how_it_wakes() -> None:
     assert twist(seen, 'a/0')[0] > 0.0
 
 
-def test_a_robot_that_sleeps_starts_alike_whatever_else_is_asked_in_its_step() -> None:
+def test_a_robot_that_sleeps_starts_alike_whatever_else_is_asked_in_its_step():
     alone, beside = on_a_floor(), on_a_floor()
     command(beside, 'b/0', wrench=(8.0, 0.0, 0.0))
     for world in (alone, beside):

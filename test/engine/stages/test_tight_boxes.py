@@ -3,8 +3,6 @@
 
 """Fast bodies take no more memory of the engine's broad phase than slow ones."""
 
-from __future__ import annotations
-
 from physsim_ros.engine.core import lib, sub_step_of
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Disc
@@ -18,7 +16,7 @@ psutil = pytest.importorskip('psutil')
 NOWHERE = WorldSettings(gravity=(0.0, 0.0))
 
 
-def test_a_crowd_of_fast_bodies_is_not_paired_with_all_of_itself() -> None:
+def test_a_crowd_of_fast_bodies_is_not_paired_with_all_of_itself():
     world = World(settings=NOWHERE)
     process = psutil.Process()
     before = process.memory_info().rss
@@ -32,12 +30,11 @@ def test_a_crowd_of_fast_bodies_is_not_paired_with_all_of_itself() -> None:
     assert process.memory_info().rss - before < 50e6
 
 
-def test_what_is_indexed_ahead_moves_to_the_bit_as_if_it_were_not() -> None:
+def test_what_is_indexed_ahead_moves_to_the_bit_as_if_it_were_not():
     world = World(settings=NOWHERE)
     spawn(world, 'body/0', Disc(radius=0.1), (0.1, 0.2, 0.3), velocity=(1e3, 333.3), spin=7.7)
     world.step(1)
     state = world.save().bodies[0].motion
-    assert state is not None
     pose = [0.1, 0.2, 0.3]
     for _ in range(lib.SUB_STEPS):
         way = (each * sub_step_of(world.physics_rate) for each in (1e3, 333.3, 7.7))

@@ -9,6 +9,8 @@ from physsim_ros.model.errors import BadProperty, Malformed, UnknownProperty
 from physsim_ros.model.robots import Car, Differential, Odometry, Omni, Robot
 import pytest
 
+from ...building import refusal
+
 DRIVE = {'kind': 'differential', 'track': 0.16, 'max_speed': 0.22, 'max_turn': 2.84}
 
 
@@ -35,7 +37,7 @@ def test_its_namespace_is_by_the_name_of_its_body_unless_it_says_one():
 
 
 @pytest.mark.parametrize(
-    ('said', 'refusal', 'field'),
+    ('said', 'error', 'field'),
     [
         ('turtlebot3_burger', BadProperty, 'robot'),
         ({}, BadProperty, 'drive'),
@@ -64,16 +66,8 @@ def test_its_namespace_is_by_the_name_of_its_body_unless_it_says_one():
         ({'drive': DRIVE, 'namespace': 'a' * 200}, BadProperty, 'namespace'),
     ],
 )
-def test_a_mapping_that_is_no_robot_is_refused_by_the_name_of_the_field(said, refusal, field):
-    with pytest.raises(refusal) as caught:
-        Robot.from_value(said, 'robot')
-
-    assert caught.value.field == field
-
-
-def test_a_misspelt_key_is_told_with_the_nearest_one():
-    with pytest.raises(UnknownProperty, match='track'):
-        Robot.from_mapping({'drive': {**DRIVE, 'trak': 0.1}})
+def test_a_mapping_that_is_no_robot_is_refused_by_the_name_of_the_field(said, error, field):
+    assert refusal(Robot.from_value, said, 'robot') == (error, field)
 
 
 @pytest.mark.parametrize(

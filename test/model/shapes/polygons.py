@@ -10,11 +10,7 @@ from hypothesis import assume
 from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.model.errors import BadSize
-from physsim_ros.model.shapes import (
-    Convex,
-    Piece,
-    Polygon,
-)
+from physsim_ros.model.shapes import Convex, Piece, Polygon
 import pytest
 
 Points = list[tuple[float, float]]

@@ -3,8 +3,6 @@
 
 """A point lies in a shape up to its edge, and within a slack beyond it."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
@@ -37,7 +35,7 @@ EDGES: dict[str, list[tuple[Point, Point]]] = {
 
 
 @pytest.mark.parametrize('kind', SHAPES)
-def test_a_shape_ends_at_its_edge_or_a_slack_beyond(kind: str) -> None:
+def test_a_shape_ends_at_its_edge_or_a_slack_beyond(kind):
     pieces = SHAPES[kind].form.pieces
     assert contains(pieces, *INSIDE[kind])
     for (x, y), way in EDGES[kind]:
@@ -52,7 +50,7 @@ def test_a_shape_ends_at_its_edge_or_a_slack_beyond(kind: str) -> None:
             assert not contains(pieces, x + far * out_x, y + far * out_y, slack)
 
 
-def test_a_point_on_the_seam_of_two_pieces_is_inside() -> None:
+def test_a_point_on_the_seam_of_two_pieces_is_inside():
     # The diagonal of two triangles, and any way from the inner corner of an ell to its outer ones.
     shares = np.linspace(0.01, 0.99, 21)
     assert contains(SHAPES['triangles'].form.pieces, shares, 1.0 - shares).all()
@@ -61,7 +59,7 @@ def test_a_point_on_the_seam_of_two_pieces_is_inside() -> None:
         assert contains(SHAPES['ell'].form.pieces, *ways).all()
 
 
-def test_beyond_a_corner_the_slack_is_round() -> None:
+def test_beyond_a_corner_the_slack_is_round():
     pieces = Box(width=2.0, height=2.0).form.pieces
     assert contains(pieces, 1.0 + 0.7 * 0.1, 1.0 + 0.7 * 0.1, 0.1)
     assert not contains(pieces, 1.0 + 0.71 * 0.1, 1.0 + 0.71 * 0.1, 0.1)
@@ -69,7 +67,7 @@ def test_beyond_a_corner_the_slack_is_round() -> None:
 
 @pytest.mark.parametrize('slack', [0.0, 0.05])
 @pytest.mark.parametrize('kind', SHAPES)
-def test_arrays_have_the_points_that_numbers_have(kind: str, slack: float) -> None:
+def test_arrays_have_the_points_that_numbers_have(kind, slack):
     pieces = SHAPES[kind].form.pieces
     points = np.random.default_rng(3).uniform(-1.5, 2.5, (500, 2))
     one_by_one = [contains(pieces, *point, slack) for point in points.tolist()]
@@ -78,7 +76,7 @@ def test_arrays_have_the_points_that_numbers_have(kind: str, slack: float) -> No
 
 
 @pytest.mark.parametrize('slack', [0.0, 0.05])
-def test_many_forms_have_the_points_that_each_of_them_has(slack: float) -> None:
+def test_many_forms_have_the_points_that_each_of_them_has(slack):
     long = Chain(
         points=tuple((0.01 * each, 0.1 * (each % 2)) for each in range(200)), thickness=0.02
     )
@@ -94,7 +92,7 @@ def test_many_forms_have_the_points_that_each_of_them_has(slack: float) -> None:
 
 
 @pytest.mark.parametrize('kind', SHAPES)
-def test_a_form_has_the_points_that_its_pieces_have(kind: str) -> None:
+def test_a_form_has_the_points_that_its_pieces_have(kind):
     form = SHAPES[kind].form
     points = np.random.default_rng(3).uniform(-1.5, 2.5, (500, 2))
     assert contains_each(form, *points.T).tolist() == contains(form.pieces, *points.T).tolist()

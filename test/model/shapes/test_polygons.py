@@ -10,14 +10,7 @@ from hypothesis import strategies as st
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.errors import BadSize
-from physsim_ros.model.shapes import (
-    Capsule,
-    Chain,
-    Convex,
-    MOST_POINTS,
-    Piece,
-    Polygon,
-)
+from physsim_ros.model.shapes import Capsule, Chain, Convex, MOST_POINTS, Piece, Polygon
 import pytest
 
 from .polygons import (
@@ -27,7 +20,6 @@ from .polygons import (
     assert_solid,
     combs,
     drawn_boxes,
-    Points,
     polyominoes,
     ROUNDING,
     stars,
@@ -35,33 +27,21 @@ from .polygons import (
 )
 
 
-@settings(deadline=None, max_examples=60)
-@given(points=stars())
-def test_any_star_shaped_outline_is_a_solid_of_its_area(points: Points) -> None:
-    assert_solid(points)
+@pytest.mark.parametrize(
+    ('outlines', 'count'), [(stars, 60), (combs, 40), (polyominoes, 80), (drawn_boxes, 60)]
+)
+def test_any_outline_is_a_solid_of_its_area(outlines, count):
+    @settings(deadline=None, max_examples=count)
+    @given(points=outlines())
+    def check(points):
+        assert_solid(points)
 
-
-@settings(deadline=None, max_examples=40)
-@given(points=combs())
-def test_any_comb_is_a_solid_of_its_area(points: Points) -> None:
-    assert_solid(points)
-
-
-@settings(deadline=None, max_examples=80)
-@given(points=polyominoes())
-def test_squares_side_by_side_at_any_angle_are_a_solid_of_their_area(points: Points) -> None:
-    assert_solid(points)
-
-
-@settings(deadline=None, max_examples=60)
-@given(points=drawn_boxes())
-def test_a_box_as_a_hand_draws_it_is_a_solid_of_its_area(points: Points) -> None:
-    assert_solid(points)
+    check()
 
 
 @pytest.mark.parametrize('yaw', [0.0, 0.17, 0.7, 1.3])
 @pytest.mark.parametrize('size', [0.1, 22.6, 1000.0])
-def test_a_plus_sign_at_any_angle_is_split(yaw: float, size: float) -> None:
+def test_a_plus_sign_at_any_angle_is_split(yaw, size):
     # The engine's own split recursed on it until the interpreter crashed.
     arm = [(size, -size), (3.0 * size, -size), (3.0 * size, size)]
     points = [point for k in range(4) for point in turned(arm, math.pi / 2 * k)]
@@ -76,7 +56,7 @@ def test_a_plus_sign_at_any_angle_is_split(yaw: float, size: float) -> None:
 
 
 @pytest.mark.parametrize('gap', [1e-7, 1e-12, 1e-160, 5e-324])
-def test_a_corner_that_is_there_twice_counts_once(gap: float) -> None:
+def test_a_corner_that_is_there_twice_counts_once(gap):
     # The engine's own split took the interpreter down at some of these.
     outline = (
         (-1.0, -1.0),
@@ -95,7 +75,7 @@ def test_a_corner_that_is_there_twice_counts_once(gap: float) -> None:
     assert polygon.form.area == pytest.approx(3.0, rel=1e-6)
 
 
-def test_corners_that_repeat_are_dropped_and_the_rest_is_kept() -> None:
+def test_corners_that_repeat_are_dropped_and_the_rest_is_kept():
     square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
     doubled = tuple(point for point in square for _ in range(3))
 
@@ -104,14 +84,14 @@ def test_corners_that_repeat_are_dropped_and_the_rest_is_kept() -> None:
     assert Polygon(outline=square).outline == square
 
 
-def test_corners_on_a_straight_side_change_nothing() -> None:
+def test_corners_on_a_straight_side_change_nothing():
     square = Polygon(outline=((0.0, 0.0), (0.5, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)))
 
     assert len(square.form.pieces) == 1
     assert square.form.area == pytest.approx(1.0, rel=ROUNDING)
 
 
-def test_the_most_corners_that_an_outline_may_have_are_split() -> None:
+def test_the_most_corners_that_an_outline_may_have_are_split():
     points = [
         (radius * math.cos(angle), radius * math.sin(angle))
         for radius, angle in (
@@ -124,7 +104,7 @@ def test_the_most_corners_that_an_outline_may_have_are_split() -> None:
     assert_cover(form.pieces, area_of(points), share=1.1e-3)
 
 
-def test_a_chain_has_a_capsule_for_every_link() -> None:
+def test_a_chain_has_a_capsule_for_every_link():
     chain = Chain(points=((0.0, 0.0), (1.0, 0.0), (1.0, 0.0), (1.0, 2.0)), thickness=0.1)
 
     assert chain.form.pieces == (
@@ -133,7 +113,7 @@ def test_a_chain_has_a_capsule_for_every_link() -> None:
     )
 
 
-def test_a_chain_may_be_closed_and_may_cross_itself() -> None:
+def test_a_chain_may_be_closed_and_may_cross_itself():
     square = Chain(
         points=((0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0), (0.0, 0.0)), thickness=0.1
     )
@@ -149,7 +129,7 @@ def corners_of(form_pieces: tuple[Piece, ...]) -> NDArray[np.float64]:
 
 @settings(deadline=None, max_examples=40)
 @given(points=st.one_of(stars(), polyominoes()))
-def test_pieces_have_no_corners_but_the_outlines(points: Points) -> None:
+def test_pieces_have_no_corners_but_the_outlines(points):
     try:
         polygon = Polygon(outline=tuple(points))
     except BadSize:

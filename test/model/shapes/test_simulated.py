@@ -9,16 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import (
-    Box,
-    Chain,
-    Compound,
-    Disc,
-    LARGEST,
-    Polygon,
-    Shape,
-    SMALLEST,
-)
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, LARGEST, Polygon, Shape, SMALLEST
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -64,7 +55,7 @@ def assert_it_can_be_simulated(shape: Shape, *, haste: float = 1.0) -> None:
         .map(lambda points: Chain(points=tuple(points), thickness=0.1)),
     )
 )
-def test_what_was_accepted_can_be_simulated(shape: Shape) -> None:
+def test_what_was_accepted_can_be_simulated(shape):
     assert_it_can_be_simulated(shape, haste=0.01)
 
 
@@ -89,11 +80,11 @@ EXTREMES: dict[str, Shape] = {
 
 
 @pytest.mark.parametrize('shape', EXTREMES.values(), ids=EXTREMES.keys())
-def test_the_most_extreme_shapes_can_be_simulated(shape: Shape) -> None:
+def test_the_most_extreme_shapes_can_be_simulated(shape):
     # Not so fast that most of the time goes into sweeping needles.
     assert_it_can_be_simulated(shape, haste=0.01)
 
 
 @pytest.mark.parametrize('shape', SHAPES.values(), ids=SHAPES.keys())
-def test_every_kind_of_shape_can_be_simulated(shape: Shape) -> None:
+def test_every_kind_of_shape_can_be_simulated(shape):
     assert_it_can_be_simulated(shape, haste=0.3)
