@@ -402,6 +402,32 @@ def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
     sheet.wait('physsim.bodies["ball/0"][0] > 1')
 
 
+@pytest.mark.parametrize('text', ['-1', 'abc', ''])
+@pytest.mark.parametrize('of', ['a body', 'what is drawn next'])
+def test_a_field_that_is_refused_shows_again_what_is(sheet: Sheet, text: str, of: str) -> None:
+    if of == 'a body':
+        sheet.press('Hand')
+        sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    else:
+        sheet.press('Material')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    field, slider = (
+        panel.get_by_label('Friction, typed'),
+        panel.get_by_label('Friction', exact=True),
+    )
+    field.fill('0.3')
+    field.press('Enter')
+    field.fill(text)
+    field.press('Enter')
+    if text == '-1':
+        sheet.page.get_by_role('status').get_by_text('Friction is -1').wait_for()
+        # It can be corrected until the field is left.
+        assert field.input_value() == '-1'
+    field.evaluate('element => element.blur()')
+    shown = (field, slider)
+    sheet.until(lambda: [each.input_value() for each in shown] == ['0.3', '0.3'], 'what is')
+
+
 def test_a_body_is_made_of_a_material_by_one_button(sheet: Sheet) -> None:
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
