@@ -41,6 +41,21 @@ def test_the_ends_of_a_rod_go_to_the_middle_of_a_body_or_onto_its_rim(world: Wor
     assert join.points[1] == pytest.approx((3.5, 0.0), abs=1e-3)
 
 
+@pytest.mark.parametrize('sag', [0.5, 1.2, 2.0])
+def test_a_sagging_line_from_a_body_to_nowhere_is_a_rope(world: World, sag: float) -> None:
+    spawn(world, 'bob/0', pose=(0.0, 0.0, 0.0))
+    along = np.linspace(0.0, 1.0, 30)
+    stroke = np.column_stack((3.0 * along, -sag * np.sin(np.pi * along)))
+
+    reading = draw(world, stroke)
+
+    assert (reading.meaning, reading.runner_up) == ('rope', 'wall')
+    join = joined(reading)
+    assert (join.kind, join.a, join.b) == (JointKind.ROPE, 'bob/0', 'world')
+    length = np.hypot(*np.diff(stroke, axis=0).T).sum()
+    assert join.properties.length == pytest.approx(length, rel=0.02)
+
+
 def test_a_line_from_a_body_to_nowhere_hangs_it_up(world: World) -> None:
     spawn(world, 'bob/0', pose=(0.0, 0.0, 0.0))
 
