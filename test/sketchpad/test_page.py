@@ -385,6 +385,25 @@ def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, addre
     sheet.close()
 
 
+@pytest.mark.parametrize('ends', [((5.0, 6.0), (1.0, 6.3)), ((1.0, 6.3), (5.0, 6.0))])
+def test_a_wall_is_hatched_on_its_lower_side(
+    sheet: Sheet, ends: tuple[tuple[float, float], tuple[float, float]]
+) -> None:
+    def colors(above: float) -> list[list[int]]:
+        return [sheet.color_at(x, 6.375 - 0.075 * x + above) for x in places]
+
+    places = [1.5 + 0.23 * each for each in range(13)]
+    sides = (0.12, -0.12)
+    before = [colors(side) for side in sides]
+    bodies = sheet.names()
+    sheet.press('Wall')
+    sheet.drag(*ends)
+    sheet.wait_for_new(bodies)
+
+    sheet.until(lambda: colors(sides[1]) != before[1], 'hatches below')
+    assert colors(sides[0]) == before[0]
+
+
 def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
     sheet.press('Material')
     gravity = sheet.page.get_by_label('Gravity [m/s²], typed')
