@@ -187,3 +187,9 @@ def net(side: int) -> World:
         axle = JointKind.AXLE
         world.apply(Join(name=f'nail/{knot}', kind=axle, points=at, a=f'knot/{knot}', b='world'))
     return world
+
+
+def sleepers(world: World) -> list[str]:
+    """Return the names of the bodies that sleep in the engine."""
+    bodies = world.space.bodies.by_name
+    return [name for name, rigid in bodies.items() if rigid.pm_body.is_sleeping]

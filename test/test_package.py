@@ -464,7 +464,7 @@ def test_the_overlay_hides_the_source_tree(workspace, overlay, tmp_path):
 # Of each kind one: alone, with the programs in other processes, with the plugin in another pytest.
 # None of those here, which would start over.
 SUBSET = (
-    'test/style/test_xmllint.py::test_the_manifest_keeps_the_rules_of_rep_149',
+    'test/style/test_ament.py::test_the_manifest_keeps_the_rules_of_rep_149',
     'test/ros/test_draw_example.py::test_strokes_build_a_car_that_rolls',
     'test/testing/test_plugin.py::test_a_robot_of_others_is_tested_with_the_same_bits_every_time',
 )

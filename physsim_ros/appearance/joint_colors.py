@@ -15,15 +15,12 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Snapshot
 
 # Colours at no force, and at the full-scale force: red, green, blue.
 SLATE, PULL, PUSH = (0.25, 0.3, 0.38), (0.84, 0.1, 0.12), (0.1, 0.35, 0.9)
 _AMBER = (0.93, 0.6, 0.13)
-# Kinds whose force is along their line.
-_ALONG = {JointKind.ROD, JointKind.SPRING, JointKind.ROPE}
 # Full-scale force of a joint without `break_force`: in weights of the heaviest body; and the least
 # one [N].
 _FULL_SCALE, _LEAST = 2.0, 1e-3
@@ -42,7 +39,9 @@ class JointColors:
         self._full_scale = np.array(
             [joint.properties.break_force or full_scale_force(scene) for joint in scene.joints]
         )
-        self._along_line = np.array([joint.kind in _ALONG for joint in scene.joints], dtype=bool)
+        self._along_line = np.array(
+            [joint.kind.schema.along_line for joint in scene.joints], dtype=bool
+        )
 
     def at(self, snapshot: Snapshot) -> NDArray[np.float32]:
         """

@@ -114,7 +114,7 @@ def _is_due(name: str, before: _Scan, laser: Laser, now: Snapshot) -> bool:
 
 def _points(surroundings: Surroundings, row: int, laser: Laser) -> Floats:
     snapshot = surroundings.snapshot
-    ranges = read_laser(surroundings, row, laser, snapshot.scene.settings.seed)
+    ranges = read_laser(surroundings, row, laser)
     hits = np.concatenate(((False,), np.isfinite(ranges)))
     points = np.column_stack((scan_points(snapshot, row, laser, ranges), hits))
     if laser.beams * laser.increment > math.tau - _GAP:

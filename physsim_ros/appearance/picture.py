@@ -125,7 +125,7 @@ def _area_of(snapshot: Snapshot) -> tuple[float, float, float, float]:
     if snapshot.scene.settings.bounds is not None:
         left, bottom, right, top = snapshot.scene.settings.bounds
     elif snapshot.scene.bodies:
-        extents = np.array([[body.shape.form.outer] for body in snapshot.scene.bodies])
+        extents = snapshot.scene.outer_radii[:, None]
         (left, bottom), (right, top) = (
             (snapshot.centers - extents).min(axis=0).tolist(),
             (snapshot.centers + extents).max(axis=0).tolist(),

@@ -30,10 +30,10 @@ from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import Box, Chain, contains_each, Disc, Polygon, Shape
 from physsim_ros.model.transform import Point, Pose, rotated_each
-from physsim_ros.simulation.world.joint_requests import drawn_points
 
-# Kinds of joints whose end on the background is a point that a body can cover.
-_KINDS = {JointKind.AXLE, JointKind.PIN, JointKind.ROD, JointKind.ROPE, JointKind.SPRING}
+# Kinds of joints whose end on the background is a point that a body can cover, as is that of those
+# along a line.
+_AT_POINT = {JointKind.AXLE, JointKind.PIN}
 
 
 def disc(name: str, center: Point, radius: float, settings: DrawingSettings) -> Spawn:
@@ -120,17 +120,15 @@ def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Re
     """
     requests: list[Request] = []
     poses = {name: scene.pose(name) for name in _known(names, scene, 'names')}
-    _, number = split_name(scene.next_body())
     copies = {WORLD: WORLD}
-    for each, (name, (x, y, yaw)) in enumerate(poses.items(), number):
-        copies[name] = copied = f'{DRAWN}/{each}'
+    for copied, (name, (x, y, yaw)) in zip(scene.new_bodies(), poses.items(), strict=False):
+        copies[name] = copied
         requests.append(copy_of(copied, scene.body(name), (x + by[0], y + by[1], yaw)))
-    _, number = split_name(scene.next_joint())
-    among = (joint for joint in scene.joints if joint.a in copies and joint.b in copies)
-    for each, joint in enumerate(among, number):
-        points, lengths = drawn_points(joint, poses), joint.drawn_values()
+    among = [joint for joint in scene.joints if joint.a in copies and joint.b in copies]
+    for copied, joint in zip(scene.new_joints(), among, strict=False):
+        points, lengths = joint.drawn_points(poses), joint.drawn_values()
         join = Join(
-            name=f'{DRAWN}/{each}',
+            name=copied,
             kind=joint.kind,
             points=tuple((x + by[0], y + by[1]) for x, y in points),
             a=copies[joint.a],
@@ -197,7 +195,9 @@ def _joins_of(body: Spawn, scene: SceneQuery) -> Iterator[Join]:
     waiting = [
         joint
         for joint in scene.joints
-        if joint.b == WORLD and joint.kind in _KINDS and split_name(joint.name)[0] == DRAWN
+        if joint.b == WORLD
+        and (joint.kind.schema.along_line or joint.kind in _AT_POINT)
+        and split_name(joint.name)[0] == DRAWN
     ]
     if not waiting:
         return

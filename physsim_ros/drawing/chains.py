@@ -11,18 +11,18 @@ bodies that it joins, so that no link lies within them.
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
+from itertools import islice, pairwise
 import math
 
 import numpy as np
 from physsim_ros.drawing import body_requests
-from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.geometry import path_length, point_of, spaced
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadProperty, BadSize
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import split_name, WORLD
+from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point
@@ -59,27 +59,18 @@ def chain(
     if length < settings.wall_thickness:
         raise BadSize('there is no room for a chain between these ends', field='point')
     knots = spaced(between, 1 + _links(length, link))
-    first, first_joint = (
-        int(split_name(name)[1]) for name in (scene.next_body(), scene.next_joint())
-    )
-    names = [f'{DRAWN}/{first + number}' for number in range(len(knots) - 1)]
+    names = [*islice(scene.new_bodies(), len(knots) - 1)]
     settings = replace(settings, draw_color=settings.draw_color or _STEEL)
     requests: list[Request] = [
         _link(name, start, end, settings)
         for name, (start, end) in zip(names, pairwise(map(point_of, knots)), strict=True)
     ]
     # A knot joins the link after it to the one before it; the last one has none after it.
-    for number, knot in enumerate(knots):
-        a, b = [*names, names[-1]][number], [ends[0], *names[:-1], ends[1]][number]
-        requests.append(
-            Join(
-                name=f'{DRAWN}/{first_joint + number}',
-                kind=JointKind.AXLE,
-                points=(point_of(knot),),
-                a=a,
-                b=b,
-            )
-        )
+    after, before = (*names, names[-1]), (ends[0], *names[:-1], ends[1])
+    requests += [
+        Join(name=name, kind=JointKind.AXLE, points=(point_of(knot),), a=a, b=b)
+        for name, knot, a, b in zip(scene.new_joints(), knots, after, before, strict=False)
+    ]
     return tuple(requests)
 
 

@@ -18,7 +18,7 @@ what a chain loses.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 import itertools
 import math
 
@@ -27,6 +27,7 @@ from physsim_ros.drawing.strokes.joining import connected
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import BadSize
 from physsim_ros.model.shapes import (
+    as_tuples,
     Box,
     Chain,
     Compound,
@@ -243,11 +244,7 @@ def _gap(polygon: Floats, other: Floats) -> float:
 
 
 def _polygon(outline: Floats) -> Polygon:
-    return Polygon(outline=_tuples(outline))
-
-
-def _tuples(points: Iterable[Floats]) -> tuple[Point, ...]:
-    return tuple((float(x), float(y)) for x, y in points)
+    return Polygon(outline=as_tuples(outline))
 
 
 def _triangles(outlines: list[Floats]) -> Polygon | Triangles:
@@ -266,7 +263,7 @@ def _triangles(outlines: list[Floats]) -> Polygon | Triangles:
     kept = doubled > SMALLEST * longest
     if doubled[~kept].sum() / 2 > _SLIVERS * whole or not kept.any():
         raise BadSize(f'a part is thinner than {SMALLEST:g} m', field='points')
-    return Triangles(vertices=_tuples(fans[kept].reshape(-1, 2)))
+    return Triangles(vertices=as_tuples(fans[kept].reshape(-1, 2)))
 
 
 def _fan(outline: Floats) -> Iterator[Floats]:
@@ -310,7 +307,7 @@ def _cut_chain(chain: Chain, start: Floats, end: Floats) -> Iterator[Chain]:
         # The pieces beside the seam of a ring are one.
         lines[0] = np.vstack((lines.pop(), lines[0]))
     for line in lines:
-        yield Chain(points=_tuples(line), thickness=chain.thickness)
+        yield Chain(points=as_tuples(line), thickness=chain.thickness)
 
 
 def _between(points: Floats, length: Floats, first: float, last: float) -> Floats:

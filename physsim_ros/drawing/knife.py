@@ -22,22 +22,18 @@ from typing import Any
 import numpy as np
 from physsim_ros.drawing import body_requests
 from physsim_ros.drawing.cut_shape import cut_shape
-from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.bodies_under import nearest_points
 from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
-from physsim_ros.model.joints import JointKind
-from physsim_ros.model.names import split_name, WORLD
+from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Cut, Rejoin, Spawn, Unjoin
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import cross, Point, rotated
-from physsim_ros.simulation.world.joint_requests import drawn_points
 
-# Joints along a line, which a knife cuts.
-_LINES = {JointKind.ROPE, JointKind.ROD, JointKind.SPRING}
 # Difference of the areas of a body and of its pieces above which material was lost, in shares.
 _SAME_AREA = 1e-9
 
@@ -69,13 +65,11 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
         raise NothingThere(
             'the stroke passes right through no body, rope, rod or spring', field='point'
         )
-    _, number = split_name(scene.next_body())
+    new = scene.new_bodies()
     parts: list[ChangeBody | Spawn] = []
     names: dict[str, dict[str, Shape]] = {}
     for name, shapes in pieces.items():
-        new = [f'{DRAWN}/{number + each}' for each in range(len(shapes) - 1)]
-        number += len(new)
-        names[name] = dict(zip((name, *new), shapes, strict=True))
+        names[name] = {name: shapes[0]} | {next(new): shape for shape in shapes[1:]}
         parts += _requests_of(name, names[name], scene)
     moved = (_moved_joint(joint, names) for joint in scene.joints if joint.name not in severed)
     return Cut(
@@ -107,10 +101,10 @@ def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shap
 
 def _is_crossed(joint: Joint, start: Point, end: Point, scene: SceneQuery) -> bool:
     """Return whether a stroke crosses a rope, rod or spring beside the bodies at its ends."""
-    if joint.kind not in _LINES:
+    if not joint.kind.schema.along_line:
         return False
     bodies = [name for name in (joint.a, joint.b) if name != WORLD]
-    points = drawn_points(joint, {name: scene.pose(name) for name in bodies})
+    points = joint.drawn_points({name: scene.pose(name) for name in bodies})
     a, b, first, last = np.array((*points, start, end))
     along, stroke, away = b - a, last - first, first - a
     determinant = cross(along, stroke)

@@ -9,20 +9,20 @@ Law: queries read a snapshot, past or present, and need neither engine nor clock
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from functools import cached_property
+from itertools import count
 import math
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.errors import BadProperty, UnknownFrame
+from physsim_ros.model.errors import BadProperty, no_frame
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import contain_each, contains_each
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import (
     local_to_world,
     Point,
@@ -97,7 +97,7 @@ class SceneQuery:
         :param slack: the greatest distance of the point from a body that still covers it [m]
         """
         offsets = self.snapshot.centers - point
-        near = np.hypot(offsets[:, 0], offsets[:, 1]) <= self._outer_radii + slack
+        near = np.hypot(offsets[:, 0], offsets[:, 1]) <= self.snapshot.scene.outer_radii + slack
         rows = np.flatnonzero(near)[::-1]
         forms = [self.snapshot.scene.bodies[row].shape.form for row in rows]
         poses = self.snapshot.poses[rows]
@@ -136,11 +136,7 @@ class SceneQuery:
         if not frame:
             return point
         if frame not in self._rows:
-            raise UnknownFrame(
-                f'frame {frame!r} is neither the world nor a body'
-                f'{nearest_name(frame, self._rows)}',
-                field='header.frame_id',
-            )
+            raise no_frame(frame, self._rows)
         return self.in_world(frame, point)
 
     def gravity_strength(self) -> float:
@@ -156,28 +152,34 @@ class SceneQuery:
             )
         return strength
 
+    def new_bodies(self) -> Iterator[str]:
+        """Return names for the next drawn bodies, numbered above all drawn before."""
+        return _new_names(self.names, self._first)
+
+    def new_joints(self) -> Iterator[str]:
+        """Return names for the next drawn joints, numbered above all drawn before."""
+        return _new_names((joint.name for joint in self.joints), self._first_joint)
+
     def next_body(self) -> str:
-        """Return the name of the next drawn body, numbered above all drawn before."""
-        return f'{DRAWN}/{max(_next_number(self.names), self._first)}'
+        """Return the name of the next drawn body."""
+        return next(self.new_bodies())
 
     def next_joint(self) -> str:
-        """Return the name of the next drawn joint, numbered above all drawn before."""
-        names = (joint.name for joint in self.joints)
-        return f'{DRAWN}/{max(_next_number(names), self._first_joint)}'
+        """Return the name of the next drawn joint."""
+        return next(self.new_joints())
 
     @cached_property
     def _rows(self) -> dict[str, int]:
         return {name: row for row, name in enumerate(self.names)}
 
-    @cached_property
-    def _outer_radii(self) -> Floats:
-        """(n,) float64: outer radius of each body about its centre of mass [m]."""
-        return np.array([body.shape.form.outer for body in self.snapshot.scene.bodies])
 
+def _new_names(names: Iterable[str], first: int) -> Iterator[str]:
+    """
+    Return drawn names, numbered above all drawn ones among others.
 
-def _next_number(names: Iterable[str]) -> int:
-    """Return the lowest number above those of all drawn names among these."""
+    :param first: the lowest number
+    """
     # Of thousands of names, few are drawn.
     numbers = (split_name(name) for name in names if name.startswith(DRAWN))
     drawn = (id_ for space, id_ in numbers if space == DRAWN and id_ < _NUMBER_LIMIT)
-    return 1 + max(drawn, default=-1)
+    return (f'{DRAWN}/{number}' for number in count(max(first, 1 + max(drawn, default=-1))))

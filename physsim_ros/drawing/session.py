@@ -35,7 +35,8 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised
 from physsim_ros.model.names import split_name
 from physsim_ros.model.requests import Cut, Join, Request, Spawn
-from physsim_ros.model.snapshot import Answer, Line, NO_PREVIEW, Preview, request_count, Snapshot
+from physsim_ros.model.shapes import as_tuples
+from physsim_ros.model.snapshot import Answer, NO_PREVIEW, Preview, request_count, Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 from physsim_ros.simulation.request_queue import Amend
 from physsim_ros.simulation.simulation import Simulation
@@ -276,11 +277,7 @@ def _in_world(samples: Floats, frame: str, scene: SceneQuery) -> Floats:
 
 def _unrecognised_preview(points: Floats) -> Preview:
     """Return the preview of a stroke that was not recognised."""
-    return Preview(lines=(_line(points),), label='not recognised')
-
-
-def _line(points: Floats) -> Line:
-    return tuple((x, y) for x, y in points.tolist())
+    return Preview(lines=(as_tuples(points),), label='not recognised')
 
 
 def _mark_reading(figure: Figure) -> Reading:
@@ -303,4 +300,4 @@ def _reading_preview(reading: Reading) -> Preview:
     label = f'{reading.meaning} {reading.confidence:.0%}'
     if reading.runner_up and reading.runner_up_confidence >= _MENTIONED:
         label += f', or {reading.runner_up} {reading.runner_up_confidence:.0%}'
-    return Preview(lines=(_line(reading.outline),), label=label)
+    return Preview(lines=(as_tuples(reading.outline),), label=label)

@@ -18,13 +18,12 @@ import math
 import operator
 
 from physsim_ros.engine.layout import address_of
-from physsim_ros.model.actors import ActorState, WAITING
 from physsim_ros.model.applied_forces import wrench_of
 from physsim_ros.model.checkpoint import BodyState, Motion
-from physsim_ros.model.robot_states import RobotState, SPAWNED
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece
+from physsim_ros.model.states import ActorState, RobotState, SPAWNED, WAITING
 from physsim_ros.model.transform import (
     local_to_world,
     NO_WRENCH,

@@ -65,7 +65,7 @@ def _clear_contacts(space: Space) -> None:
     # In random order: in ascending order the engine's tree is as deep as there are bodies, and
     # 20,000 took 4 s.
     state[:, 0] = np.random.default_rng(0).permutation(len(rigids)) * 1e6
-    space.write_state(state)
+    space.core.write_state(state)
     space.pm_space.step(space.dt)
 
 

@@ -11,16 +11,27 @@ import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.scene_columns import columns_of
-from physsim_ros.model.actors import ActorStates
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.noise import normals
-from physsim_ros.model.robot_states import RobotStates
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.states import (
+    ACTOR_STATE,
+    ActorState,
+    NO_ACTORS,
+    NO_ROBOTS,
+    Records,
+    ROBOT_STATE,
+    RobotState,
+    states_in,
+)
 from physsim_ros.model.transform import NO_WRENCH
 import pymunk
 
 # A body beyond this position or speed is removed [m, m/s, rad, rad/s]; `step.c` has it too.
 LOST = 1e12
+# Fields of `Robot` and `Actor` that are state, in the order of `ROBOT_STATE` and `ACTOR_STATE`.
+_OF_ROBOT = ['aim', 'until', 'rolling', 'travel', 'odometry', 'covariance']
+_OF_ACTOR = ['begun', 'reached']
 # Steps whose noise is made at once: a call of `normals` takes as long as 300 of its numbers.
 _BLOCK = 64
 
@@ -60,10 +71,12 @@ class BodyTable:
                 self.set_wrench(row, scene.settings.gravity, dt)
             if rigid.push != NO_WRENCH:
                 own['push'][row] = rigid.push
-        states = RobotStates.of([self.bodies[row].driven for row in self.robots['body'].tolist()])
-        self._write_robots(states)
-        for record, row in zip(self.actors, self.actors['body'].tolist(), strict=True):
-            record['begun'], record['reached'] = bodies[row].acting
+        if len(self.robots):
+            driven = [bodies[row].driven for row in self.robots['body'].tolist()]
+            self.robots[_OF_ROBOT] = np.array(driven, ROBOT_STATE)
+        if len(self.actors):
+            acting = [bodies[row].acting for row in self.actors['body'].tolist()]
+            self.actors[_OF_ACTOR] = np.array(acting, ACTOR_STATE)
 
     def set_wrench(self, row: int, gravity: tuple[float, float], dt: float) -> None:
         """Set the wrench of a body, and the lead of its velocity in free flight."""
@@ -84,12 +97,12 @@ class BodyTable:
         for row in np.flatnonzero(pushes.any(axis=1)).tolist():
             x, y, turn = pushes[row].tolist()
             self.bodies[row].push = x, y, turn
-        for row, state in zip(self.robots['body'].tolist(), self.robot_states.rows(), strict=True):
+        driven = states_in(self.robot_states, RobotState)
+        for row, state in zip(self.robots['body'].tolist(), driven, strict=True):
             self.bodies[row].driven = state
-        for row, acting in zip(
-            self.actors['body'].tolist(), self.actor_states.rows(), strict=True
-        ):
-            self.bodies[row].acting = acting
+        acting = states_in(self.actor_states, ActorState)
+        for row, each in zip(self.actors['body'].tolist(), acting, strict=True):
+            self.bodies[row].acting = each
 
     def lost(self) -> list[str]:
         """Return the names of the bodies whose state is not finite, or too large."""
@@ -101,11 +114,6 @@ class BodyTable:
             if not all(abs(each) < LOST for each in state):
                 names.append(rigid.body.name)
         return names
-
-    @property
-    def asleep(self) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-        """Return (n,) bool: bodies that sleep in the engine."""
-        return np.array([rigid.pm_body.is_sleeping for rigid in self.bodies], np.bool_)
 
     # Floor and robots
 
@@ -126,34 +134,14 @@ class BodyTable:
             self.records['push'][rows] = pushes
 
     @property
-    def robot_states(self) -> RobotStates:
-        """Return drives and odometry of the robots."""
-        if not len(self.robots):
-            return RobotStates.of(())
-        return RobotStates(
-            aim=self.robots['aim'].copy(),
-            until=self.robots['until'].copy(),
-            wheels=self.robots['rolling'].copy(),
-            travel=self.robots['travel'].copy(),
-            odometry=self.robots['odometry'].copy(),
-            covariance=self.robots['covariance'].copy(),
-        )
+    def robot_states(self) -> Records:
+        """Return (r,) `ROBOT_STATE`: drives and odometry of the robots."""
+        return self.robots[_OF_ROBOT].astype(ROBOT_STATE) if len(self.robots) else NO_ROBOTS
 
     @property
-    def actor_states(self) -> ActorStates:
-        """Return the states of the actors."""
-        if not len(self.actors):
-            return ActorStates.of(())
-        return ActorStates(self.actors['begun'].copy(), self.actors['reached'].copy())
-
-    def _write_robots(self, states: RobotStates) -> None:
-        if len(self.robots):
-            self.robots['aim'][:] = states.aim
-            self.robots['until'] = states.until
-            self.robots['rolling'][:] = states.wheels
-            self.robots['travel'][:] = states.travel
-            self.robots['odometry'][:] = states.odometry
-            self.robots['covariance'][:] = states.covariance
+    def actor_states(self) -> Records:
+        """Return (a,) `ACTOR_STATE`: the states of the actors."""
+        return self.actors[_OF_ACTOR].astype(ACTOR_STATE) if len(self.actors) else NO_ACTORS
 
     def make_noise(self, step: int, count: int) -> None:
         """Make the noise of odometry for some steps: it depends on seed, name and step alone."""

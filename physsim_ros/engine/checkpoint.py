@@ -21,11 +21,18 @@ from physsim_ros.engine.body import engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
-from physsim_ros.model.actors import ActorStates, WAITING
 from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
 from physsim_ros.model.garbage_collection import suspended_collection
-from physsim_ros.model.robot_states import RobotStates, SPAWNED
 from physsim_ros.model.scene import Body, Scene
+from physsim_ros.model.states import (
+    ACTOR_STATE,
+    ActorState,
+    ROBOT_STATE,
+    RobotState,
+    SPAWNED,
+    states_in,
+    WAITING,
+)
 from physsim_ros.model.transform import NO_WRENCH
 
 
@@ -77,12 +84,11 @@ def saved_state(space: Space, step: int) -> WorldState:
     # A contact may have ended as a stage moved a body, with its impulses still in the cache. A
     # rebuilt space does not find it, and what is loaded must be saved as it was.
     memory = take_checkpoint(restore_checkpoint(checkpoint, space.dt), step).memory
-    states = (each.shifted(-step) for each in checkpoint.robots.rows())
-    driven = dict(zip(checkpoint.scene.robot_rows.tolist(), states, strict=True))
-    states_of_actors = (each.shifted(-step) for each in checkpoint.actors.rows())
-    acting = dict(zip(checkpoint.scene.actor_rows.tolist(), states_of_actors, strict=True))
+    robots, actors = checkpoint.scene.robot_rows.tolist(), checkpoint.scene.actor_rows.tolist()
+    driven = dict(zip(robots, states_in(checkpoint.robots, RobotState), strict=True))
+    acting = dict(zip(actors, states_in(checkpoint.actors, ActorState), strict=True))
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
-    _, twists = space.observe()
+    _, twists = space.core.observe()
     rigids = enumerate(space.bodies.by_name.values())
     for (row, rigid), (state, free) in zip(rigids, motions, strict=True):
         body, until = rigid.body, rigid.wrench_until
@@ -96,8 +102,8 @@ def saved_state(space: Space, step: int) -> WorldState:
                 motion=Motion._make((*state, free)),
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
-                driven=driven.get(row),
-                acting=acting.get(row),
+                driven=driven[row].shifted(-step) if row in driven else None,
+                acting=acting[row].shifted(-step) if row in acting else None,
             )
         )
     return WorldState(
@@ -139,19 +145,21 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
         ),
         memory=state.memory or _no_impulses(state),
         unstepped=frozenset(joint.name for joint in state.joints),
-        robots=RobotStates.of(
+        robots=np.array(
             [
                 (saved.driven or SPAWNED).shifted(step)
                 for saved in state.bodies
                 if saved.body.robot is not None
-            ]
+            ],
+            ROBOT_STATE,
         ),
-        actors=ActorStates.of(
+        actors=np.array(
             [
                 (saved.acting or WAITING).shifted(step)
                 for saved in state.bodies
                 if saved.body.actor is not None
-            ]
+            ],
+            ACTOR_STATE,
         ),
     )
 
@@ -190,11 +198,12 @@ def restore_checkpoint(
         rigids, checkpoint.memory.ids.tolist(), checkpoint.free.tolist(), strict=True
     ):
         rigid.first_shape, rigid.free = first, free
-    driven = checkpoint.robots.rows()
+    driven = states_in(checkpoint.robots, RobotState)
     for row, state in zip(scene.robot_rows.tolist(), driven, strict=True):
         rigids[row].driven = state
-    for row, acting in zip(scene.actor_rows.tolist(), checkpoint.actors.rows(), strict=True):
-        rigids[row].acting = acting
+    acting = states_in(checkpoint.actors, ActorState)
+    for row, each in zip(scene.actor_rows.tolist(), acting, strict=True):
+        rigids[row].acting = each
     space.bodies.add_without_shapes(rigids)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
@@ -202,10 +211,10 @@ def restore_checkpoint(
     table.set_pushes(checkpoint.memory.pushes)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
-    space.write_state(at_rest)
+    space.core.write_state(at_rest)
     space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in rigids)
     write_impulses(space.pm_space, space.shapes, checkpoint.memory, dt)
-    space.write_state(checkpoint.state)
+    space.core.write_state(checkpoint.state)
     for joint in scene.joints:
         space.joints.add(joint)
     space.joints.set_unstepped(checkpoint.unstepped)

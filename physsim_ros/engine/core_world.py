@@ -27,6 +27,8 @@ _FUNCTIONS = {
     'each_arbiter': 'cpSpaceEachCachedArbiter',
     'point_query': 'cpShapePointQuery',
 }
+# Structs of the tables that `CoreWorld.use` takes.
+_STRUCTS = {'grips': 'Grip', 'forces': 'AppliedForce', 'robots': 'Robot', 'actors': 'Actor'}
 _CONTACT, _BEGUN = dtype_of('Contact'), dtype_of('Begun')
 check_layout()
 
@@ -65,15 +67,12 @@ class CoreWorld:
 
     def use_bodies(self, bodies: Table, former: Sequence[int]) -> None:
         """
-        Have the core step these bodies.
+        Have the core step these bodies; `forces`, `robots` and `actors` of theirs are next.
 
         :param bodies: (n + 1,) `Body`; the last one is the background
         :param former: place of each in the table before; -1 for those that are new
         """
         self.drop_joints()
-        self.use_forces(np.zeros(0, dtype_of('AppliedForce')))
-        self.use_robots(np.zeros(0, dtype_of('Robot')))
-        self.use_actors(np.zeros(0, dtype_of('Actor')))
         places = np.array(former, np.int32)
         lib.core_use_bodies(
             self._world, *_pointer_and_count(bodies, 'Body'), pointer(places, 'int32_t')
@@ -92,25 +91,17 @@ class CoreWorld:
         lib.core_use_joints(self._world, ffi.NULL, 0, ffi.NULL, 0, ffi.NULL, 0)
         self._tables.pop('joints', None)
 
-    def use_grips(self, grips: Table) -> None:
-        """Have the core draw bodies to hands, `Grip`."""
-        self._world.grips, self._world.grip_count = _pointer_and_count(grips, 'Grip')
-        self._tables['grips'] = (grips,)
+    def use(self, **tables: Table) -> None:
+        """
+        Have the core use tables, each in place of the one of its name.
 
-    def use_forces(self, forces: Table) -> None:
-        """Have the core apply constant forces, `AppliedForce`, in the order of their bodies."""
-        self._world.forces, self._world.force_count = _pointer_and_count(forces, 'AppliedForce')
-        self._tables['forces'] = (forces,)
-
-    def use_robots(self, robots: Table) -> None:
-        """Have the core drive robots, `Robot`, in the order of their bodies."""
-        self._world.robots, self._world.robot_count = _pointer_and_count(robots, 'Robot')
-        self._tables['robots'] = (robots,)
-
-    def use_actors(self, actors: Table) -> None:
-        """Have the core move actors, `Actor`, in the order of their bodies."""
-        self._world.actors, self._world.actor_count = _pointer_and_count(actors, 'Actor')
-        self._tables['actors'] = (actors,)
+        :param tables: `grips`, and in the order of their bodies `forces`, `robots` and `actors`;
+            of the structs of `_STRUCTS`
+        """
+        for name, table in tables.items():
+            setattr(self._world, name, pointer(table, _STRUCTS[name]))
+            setattr(self._world, f'{name[:-1]}_count', len(table))
+            self._tables[name] = (table,)
 
     def note_moved_static(self) -> None:
         """Note that an anchored body or a wall has been moved."""

@@ -17,10 +17,9 @@ piece, since their centres are apart.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 import math
-from typing import NamedTuple, TypeVar
-from weakref import WeakKeyDictionary
+from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.engine.broad_phase import pairs_in_parts
@@ -28,6 +27,7 @@ from physsim_ros.engine.settings import COLLISION_SLOP
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Form, Piece, Shape
 from physsim_ros.model.transform import next_vertices, Pose, rotated, rotated_each
+from physsim_ros.model.weak_cache import cached_weakly
 
 # Candidates compared at once: some 30 MB.
 _PART = 200_000
@@ -55,29 +55,14 @@ class Cores(NamedTuple):
     yaws: Floats
 
 
-_Value = TypeVar('_Value')
-
-
-def _cached_by_form(function: Callable[[Form], _Value]) -> Callable[[Form], _Value]:
-    """Cache the value of a function for each form, as long as there are shapes of that form."""
-    values: WeakKeyDictionary[Form, _Value] = WeakKeyDictionary()
-
-    def value_of(form: Form) -> _Value:
-        if form not in values:
-            values[form] = function(form)
-        return values[form]
-
-    return value_of
-
-
-@_cached_by_form
+@cached_weakly
 def _cores_of(form: Form) -> Cores:
     """Return the cores of the pieces of a form, in the body's frame."""
     centers, halves, yaws = zip(*map(_core, form.pieces), strict=True)
     return Cores(np.array(centers), np.array(halves), np.array(yaws))
 
 
-@_cached_by_form
+@cached_weakly
 def _only_core(form: Form) -> tuple[tuple[float, float], tuple[float, float], float]:
     """Return the core of a form of one piece: centre, half length and width, yaw."""
     return _core(form.pieces[0])
@@ -174,7 +159,7 @@ def count_inside(shape: Shape) -> int:
     return _count_inside(shape.form)
 
 
-@_cached_by_form
+@cached_weakly
 def _count_inside(form: Form) -> int:
     count = len(form.pieces)
     if count == 1:

@@ -10,7 +10,7 @@ a wrench changes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 import math
 
 import numpy as np
@@ -19,20 +19,16 @@ from physsim_ros.engine.body import RigidBody, same_in_engine, states_after
 from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
-from physsim_ros.engine.contacts import take_contacts
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
-from physsim_ros.model.actors import ActorStates
-from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.robot_states import RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Contacts, Grip
+from physsim_ros.model.snapshot import Grip
 from physsim_ros.model.transform import NO_WRENCH, Point, Pose, REST, Twist, Wrench
 
 
@@ -69,8 +65,8 @@ class Space:
         self.shapes.following = first_shape
         self.bodies = BodySet(self.pm_space, self.shapes)
         self.boundary = Boundary(self.pm_space, self.shapes)
-        self.core = CoreWorld(self.pm_space, dt)
-        self.joints = JointSet(self.pm_space, self.bodies.by_name, self.core, dt)
+        self._core = CoreWorld(self.pm_space, dt)
+        self.joints = JointSet(self.pm_space, self.bodies.by_name, self._core, dt)
         self.broken: list[tuple[str, float]] = []
         self.changes = 0
         self._age = 0
@@ -99,6 +95,13 @@ class Space:
         return self.lay_out(self._scene) if self._table is None else self._table
 
     @property
+    def core(self) -> CoreWorld:
+        """Return the core, which has the bodies and joints of now."""
+        if self._table is None:
+            self.lay_out(self._scene)
+        return self._core
+
+    @property
     def _scene(self) -> Scene:
         return Scene(
             bodies=tuple(rigid.body for rigid in self.bodies.by_name.values()),
@@ -111,10 +114,8 @@ class Space:
         """Return a new table of the bodies, which the core steps from now on."""
         rigids, background = tuple(self.bodies.by_name.values()), self.pm_space.static_body
         self._table = table = BodyTable(scene, rigids, background, self.dt)
-        self.core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
-        self.core.use_forces(table.columns.forces)
-        self.core.use_robots(table.robots)
-        self.core.use_actors(table.actors)
+        self._core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
+        self._core.use(forces=table.columns.forces, robots=table.robots, actors=table.actors)
         self._background = len(rigids)
         for row, rigid in enumerate(rigids):
             rigid.row = row
@@ -126,28 +127,6 @@ class Space:
         if self.joints.by_name:
             bodies = (*(rigid.pm_body for rigid in self.table.bodies), self.pm_space.static_body)
             self.joints.use_places({body: place for place, body in enumerate(bodies)})
-
-    def read_state(self) -> tuple[Floats, Flags]:
-        """
-        Return the state that the next step begins with, after all requests until now.
-
-        :return: (n, 6) float64: poses and velocities of the engine's origins [m, rad, m/s, rad/s];
-            (n,) bool: in free flight, so that the velocity leads
-        """
-        state, free, _ = self._laid_out().read_state()
-        return state, free
-
-    def write_state(self, state: Floats) -> None:
-        """Set poses and velocities, (n, 6) float64; no body may sleep."""
-        self._laid_out().write_state(state)
-
-    def observe(self) -> tuple[Floats, Floats]:
-        """
-        Return poses of the bodies' origins and true velocities of their centres of mass.
-
-        :return: (n, 3) float64 each: x, y [m], yaw [rad]; velocity [m/s], spin [rad/s]
-        """
-        return self._laid_out().observe()
 
     def twist_of(self, rigid: RigidBody) -> Twist:
         """Return the true velocity of a body."""
@@ -220,7 +199,7 @@ class Space:
         touching = self.bodies.touching(rigid.pm_body)
         rigid.pose = self.joints.with_turns(rigid, pose)
         self.bodies.wake_around(rigid, touching)
-        self.core.note_moved_static()
+        self._core.note_moved_static()
         self._release(touching)
         self.changes += 1
 
@@ -259,11 +238,6 @@ class Space:
 
     # Robots
 
-    @property
-    def robot_states(self) -> RobotStates:
-        """Return drives and odometry of the robots, in the order of the scene."""
-        return self.table.robot_states
-
     def drive(self, rigid: RigidBody, velocity: Twist, until: int) -> None:
         """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""
         robot = rigid.body.robot
@@ -285,13 +259,6 @@ class Space:
         record: np.void = robots[int(robots['body'].searchsorted(rigid.row))]
         return record
 
-    # Actors
-
-    @property
-    def actor_states(self) -> ActorStates:
-        """Return the states of the actors, in the order of the scene."""
-        return self.table.actor_states
-
     # Grips
 
     def set_grip(self, grip: Grip) -> None:
@@ -312,21 +279,13 @@ class Space:
 
     # Contacts
 
-    def take_contacts(self, centers: Callable[[], Floats]) -> Contacts:
-        """
-        Return the contacts since the last call, of the steps in which they were reported.
-
-        :param centers: returns (n, 2) float64: centres of mass [m]
-        """
-        return take_contacts(self.core, self.table, centers)
-
     def clear_contacts(self) -> None:
-        """Drop the contacts since the last call of `take_contacts`."""
-        self.core.clear_contacts()
+        """Drop the contacts that nobody has taken."""
+        self._core.clear_contacts()
 
     def copy_reports(self, old: Space) -> None:
         """Copy what an older space of the same bodies has to report of the unfinished frame."""
-        self.core.copy_contacts(old.core)
+        self._core.copy_contacts(old._core)
         self.broken = old.broken
 
     # Joints
@@ -360,11 +319,11 @@ class Space:
         for rigid in list(self._wrenched.values()):
             if rigid.wrench_until is not None and rigid.wrench_until <= number:
                 self.set_wrench(rigid, NO_WRENCH, None)
-        table, made = self.table, self._steps_until_event(number, count)
+        table, core, made = self.table, self.core, self._steps_until_event(number, count)
         if table.columns.moving:
-            self.core.use_grips(self.grips.records(self.bodies.by_name))
+            core.use(grips=self.grips.records(self.bodies.by_name))
             table.make_noise(number, made)
-            made = self.core.step(
+            made = core.step(
                 made,
                 number=number,
                 age=self._age,
@@ -372,11 +331,11 @@ class Space:
                 reports_contacts=reports_contacts,
             )
         self._age += made
-        if self.core.has_broken:
+        if core.has_broken:
             for name, force in self.joints.broken():
                 self.unjoin(name)
                 self.broken.append((name, force))
-        lost = table.lost() if self.core.has_lost else []
+        lost = table.lost() if core.has_lost else []
         # In a fixed order: the engine solves its constraints in an order that removals change.
         expired = table.columns.expiries.get(number + made, ())
         for name in dict.fromkeys((*lost, *expired)):
@@ -390,12 +349,6 @@ class Space:
         return min([count, *(event - number for event in events if event > number)])
 
     # Inside
-
-    def _laid_out(self) -> CoreWorld:
-        """Return the core, which has the bodies and joints of now."""
-        if self._table is None:
-            self.lay_out(self._scene)
-        return self.core
 
     def _change_gravity(self, old: Point, new: Point) -> None:
         """
@@ -460,7 +413,7 @@ class Space:
         """Drop the table, before a body or joint is added, removed or changed."""
         if self._table is not None:
             self._table.store()
-            self.core.drop_joints()
+            self._core.drop_joints()
         self._table = None
 
 

@@ -19,13 +19,19 @@ from physsim_ros.engine.body import lead_of, offset_of
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.engine.core import sub_step_of
 from physsim_ros.files.world_schema import ROUNDING
-from physsim_ros.model.actors import ActorState, WAITING
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.checks import LONGEST, number, pair, Row, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import Command
-from physsim_ros.model.robot_states import Covariance, NEVER, RobotState, SPAWNED
+from physsim_ros.model.states import (
+    ActorState,
+    Covariance,
+    NEVER,
+    RobotState,
+    SPAWNED,
+    WAITING,
+)
 from physsim_ros.model.transform import local_to_world, NO_WRENCH, ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_requests import check_command

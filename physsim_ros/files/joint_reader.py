@@ -26,7 +26,6 @@ from physsim_ros.model.requests import join_from, Restore
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.transform import Point, Pose, REST
 from physsim_ros.simulation.world import World
-from physsim_ros.simulation.world.joint_requests import drawn_points
 
 
 def joints_from(
@@ -98,7 +97,7 @@ def _is_unedited(
         difference = abs(math.remainder(seat.phase - phase, math.tau))
         if difference > ROUNDING + 4.0 * math.ulp(seat.phase):
             return False
-    return joint.kind.points == len(points) and is_same(drawn_points(joint, poses), points)
+    return joint.kind.points == len(points) and is_same(joint.drawn_points(poses), points)
 
 
 def _seat(value: object) -> Seat:

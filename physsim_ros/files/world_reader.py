@@ -42,9 +42,9 @@ from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import steps_in
 from physsim_ros.simulation.world.body_description import new_body
-from physsim_ros.simulation.world.body_requests import check_namespaces
 from physsim_ros.simulation.world.capacity import check_limit
 from physsim_ros.simulation.world.live_space import check_start
+from physsim_ros.simulation.world.robot_requests import check_namespaces
 
 # Keys of a body whose values follow from `motion`.
 _MOTION_KEYS = ('at', 'velocity', 'spin')

@@ -24,7 +24,6 @@ from physsim_ros.model.declarations import entry_of
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.transform import Pose
-from physsim_ros.simulation.world.joint_requests import drawn_points
 
 # Quoted texts, and whole numbers with an exponent.
 _TEXT_OR_POWER = re.compile(r'("(?:[^"\\]|\\.)*")|(?<![\d.])(\d+)(?=e)')
@@ -96,7 +95,7 @@ def _entry(state: BodyState, physics_rate: float) -> dict[str, object]:
 
 
 def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
-    points = drawn_points(joint, poses)
+    points = joint.drawn_points(poses)
     entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
     entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
     return entry | joint.properties.explicit() | {'seat': list(joint.seat)}

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance import picture_of
 from physsim_ros.gym.task import Action, Observation, Task
-from physsim_ros.model.checks import OfClass
+from physsim_ros.model.checks import OfClass, OneOf
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import SavedMoment, Simulation
 
@@ -28,6 +28,7 @@ from physsim_ros.simulation.simulation import SavedMoment, Simulation
 _SEEDS = 2**31
 # Frames a second of a video, and the width of its pictures [pixels].
 _FRAMES, _WIDTH = 10, 480
+_RENDER_MODE = OneOf(('rgb_array',))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,17 +61,20 @@ class RobotEnv(Env[Observation, Action]):
 
     :param task: of the agent
     :param render_mode: 'rgb_array' has `render` return pictures; None none
-    :raises BadProperty: the period of the task does not divide into steps of its physics rate
+    :raises BadProperty: there is no such render mode, or the period of the task does not divide
+        into steps of its physics rate
     :raises UnknownBody: its robot is not in its world
 
     :ivar task: of the agent
     :ivar robot: that it drives; `robot.simulation` is its world
     """
 
-    metadata = {'render_modes': ['rgb_array'], 'render_fps': _FRAMES}  # noqa: RUF012 - Gymnasium's
+    metadata = {'render_modes': [*_RENDER_MODE.words], 'render_fps': _FRAMES}  # noqa: RUF012 - Gymnasium's
 
     def __init__(self, task: Task, *, render_mode: str | None = None) -> None:
         self.task = task
+        if render_mode is not None:
+            _RENDER_MODE(render_mode, 'render_mode')
         self.render_mode = render_mode
         self.metadata = {**self.metadata, 'render_fps': max(1, round(1.0 / task.period))}
         simulation = Simulation(

@@ -14,13 +14,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from physsim_ros.model.actors import ActorState, ActorStates, NO_ACTORS
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.lesson import Lesson
-from physsim_ros.model.robot_states import NO_ROBOTS, RobotState, RobotStates
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
+from physsim_ros.model.states import ActorState, NO_ACTORS, NO_ROBOTS, Records, RobotState
 from physsim_ros.model.transform import NO_WRENCH, Pose, REST, Twist, Wrench
 
 
@@ -138,8 +137,8 @@ class Checkpoint:
     :param memory: impulse cache
     :param grips: of hands on bodies
     :param unstepped: names of the joints whose first step is to come
-    :param robots: drives and odometry of the robots, in the order of the scene
-    :param actors: states of the actors, in the order of the scene
+    :param robots: (r,) `ROBOT_STATE`: states of the robots, in the order of the scene
+    :param actors: (a,) `ACTOR_STATE`: states of the actors, in the order of the scene
     """
 
     step: int
@@ -150,8 +149,8 @@ class Checkpoint:
     memory: ImpulseCache
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
-    robots: RobotStates = NO_ROBOTS
-    actors: ActorStates = NO_ACTORS
+    robots: Records = field(default_factory=lambda: NO_ROBOTS)
+    actors: Records = field(default_factory=lambda: NO_ACTORS)
 
     @property
     def nbytes(self) -> int:

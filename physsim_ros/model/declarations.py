@@ -25,7 +25,7 @@ from typing import Any, ClassVar, Generic, Self, TypeVar
 
 from physsim_ros.model.checks import Check, LONGEST_SHOWN, shown
 from physsim_ros.model.errors import BadProperty, UnknownProperty
-from physsim_ros.model.texts import nearest_name, property_meant
+from physsim_ros.model.texts import name_meant, nearest_name, property_meant
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,16 +235,19 @@ class OfKind(Generic[_Value]):
 
     :param noun: for such a value, for messages
     :param kinds: classes by the words for them
+    :param everyday: further words that people use for a kind, by the word for it
     """
 
     noun: str
     kinds: Mapping[str, type[_Value]]
+    everyday: Mapping[str, tuple[str, ...]]
 
     def __call__(self, value: object, name: str) -> _Value:
         """
         Return a value of one of the kinds as it is, and that of a mapping as `from_mapping`.
 
         :raises BadProperty: it is neither, or there is no such kind; and as `from_mapping`
+        :raises UnknownProperty: a key is one of other kinds alone; and as `from_mapping`
         """
         for each in self.kinds.values():
             if isinstance(value, each):
@@ -255,10 +258,18 @@ class OfKind(Generic[_Value]):
         if kind is None:
             raise BadProperty(f'{name} has no kind, which is one of {words}', field='kind')
         if not isinstance(kind, str) or kind not in self.kinds:
-            near = nearest_name(shown(kind).strip("'"), self.kinds)
+            word = shown(kind).strip("'")
+            meant = name_meant(word, self.everyday)
+            hint = f"; use '{meant}'" if meant else nearest_name(word, self.kinds)
             raise BadProperty(
-                f'there is no kind of {self.noun} {shown(kind)}{near}; there are {words}',
+                f'there is no kind of {self.noun} {shown(kind)}{hint}; there are {words}',
                 field='kind',
             )
-        rest = {key: each for key, each in value.items() if key != 'kind'}
+        rest, known = {key: value[key] for key in value if key != 'kind'}, self.kinds[kind].FIELDS
+        for key in rest:
+            if key not in known and any(key in each.FIELDS for each in self.kinds.values()):
+                raise UnknownProperty(
+                    f'{self.noun}s of kind {kind} have no {key}; they have {", ".join(known)}',
+                    field=key,
+                )
         return self.kinds[kind].from_mapping(rest)

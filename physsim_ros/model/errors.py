@@ -240,6 +240,18 @@ def no_joint(name: str, known: Iterable[str], field: str) -> UnknownJoint:
     return UnknownJoint(f'there is no joint {name!r}{nearest_name(name, known)}', field=field)
 
 
+def no_frame(frame: str, known: Iterable[str]) -> UnknownFrame:
+    """
+    Return the refusal of a frame that is neither the world nor a body.
+
+    :param known: names of the bodies, of which the most similar one is told
+    """
+    return UnknownFrame(
+        f'frame {frame!r} is neither the world nor a body{nearest_name(frame, known)}',
+        field='header.frame_id',
+    )
+
+
 def nothing_at(point: tuple[float, float], field: str) -> NothingThere:
     """Return the refusal of a point in no body [m], of a field of the request."""
     x, y = point

@@ -4,7 +4,8 @@
 """
 Kinds of joints and their properties: one table of properties, one table of kinds.
 
-Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its glyph (`view`).
+Not here: constraints and Jacobian rows of a kind (`engine.joints`), and its glyph
+(`appearance`).
 """
 
 from collections.abc import Mapping
@@ -53,6 +54,8 @@ class Schema:
     :param words: everyday words for it; those of Box2D, Pymunk and URDF among them
     :param least_distance: between its two points [m]; 0 is no such rule
     :param has_axis: whether the direction from its first to its second point is an axis of body b
+    :param along_line: whether its force is along the line between its two points, where a knife
+        can cut it
     """
 
     points: int
@@ -61,6 +64,7 @@ class Schema:
     words: tuple[str, ...] = ()
     least_distance: float = 0.0
     has_axis: bool = False
+    along_line: bool = False
 
     @property
     def properties(self) -> tuple[str, ...]:
@@ -105,6 +109,7 @@ class JointKind(StrEnum):
             'pulls and pushes in proportion to its strain',
             own=('stiffness', 'damping', 'rest_length'),
             words=('elastic', 'damped_spring', 'shock'),
+            along_line=True,
         ),
     )
     ROD = (
@@ -114,6 +119,7 @@ class JointKind(StrEnum):
             'keeps the drawn distance',
             words=('distance', 'bar', 'link', 'stick'),
             least_distance=SMALLEST,
+            along_line=True,
         ),
     )
     ROPE = (
@@ -123,6 +129,7 @@ class JointKind(StrEnum):
             'pulls where its ends would part further than its length',
             own=('length',),
             words=('string', 'cord', 'cable', 'chain', 'slide'),
+            along_line=True,
         ),
     )
     SLIDER = (

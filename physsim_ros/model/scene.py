@@ -9,6 +9,7 @@ Law: everything here is immutable, and constant while the world steps.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -26,7 +27,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, rotated
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -151,6 +152,22 @@ class Joint:
         value: float | None = getattr(self.properties, name)
         return DEFAULTS[name] if value is None else value
 
+    def drawn_points(self, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
+        """
+        Return the points of the world with which it would be drawn now [m].
+
+        :param poses: of its bodies, by name
+        """
+        seat = self.seat
+        x, y = local_to_world((seat.ax, seat.ay), poses[self.a])
+        if self.kind.points == 1:
+            return ((x, y),)
+        pose_b = ORIGIN if self.b == WORLD else poses[self.b]
+        if self.kind.schema.has_axis:
+            ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
+            return (x, y), (x + ux, y + uy)
+        return (x, y), local_to_world((seat.bx, seat.by), pose_b)
+
     def drawn_values(self) -> dict[str, float]:
         """Return the properties whose default is the value as drawn, by name."""
         values = {
@@ -213,6 +230,12 @@ class Scene:
         rows = [row for row, body in enumerate(self.bodies) if body.actor is not None]
         return np.array(rows, np.int64)
 
+    @cached_property
+    def sensor_rows(self) -> Ints:
+        """Rows of the bodies that are sensors, in spawn order: (s,) int64."""
+        rows = [row for row, body in enumerate(self.bodies) if body.sensor]
+        return np.array(rows, np.int64)
+
     @property
     def floor_friction(self) -> Floats:
         """Return (n,) float64: coefficient of friction with the floor; 0 where none acts."""
@@ -245,6 +268,11 @@ class Scene:
         """(n, 2) float64: centre of mass in the body's frame [m]."""
         rows = [body.shape.form.centroid for body in self.bodies]
         return np.array(rows, dtype=np.float64).reshape(-1, 2)
+
+    @cached_property
+    def outer_radii(self) -> Floats:
+        """(n,) float64: greatest distance of a point of each body from its centre of mass [m]."""
+        return np.array([body.shape.form.outer for body in self.bodies], np.float64)
 
     @cached_property
     def joint_rows(self) -> Ints:

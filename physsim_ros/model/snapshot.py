@@ -17,8 +17,8 @@ import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.errors import no_body, Refusal
 from physsim_ros.model.names import shown_name
-from physsim_ros.model.robot_states import NO_ROBOTS, RobotStates
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.states import NO_ROBOTS, Records
 from physsim_ros.model.transform import Point, rotated_each
 
 # The field of every request with a point or pose, besides the point or pose itself.
@@ -91,7 +91,7 @@ class Snapshot:
     :param grips: of hands on bodies
     :param pulls: (j, 2) float64: force of each joint on its body b in the last step, world axes
         [N]; empty if contacts were not requested
-    :param robots: drives and odometry of the robots, in the order of `scene.robot_rows`
+    :param robots: (r,) `ROBOT_STATE`: states of the robots, in the order of `scene.robot_rows`
     """
 
     step: int
@@ -104,7 +104,7 @@ class Snapshot:
     springs: Springs = NO_SPRINGS
     grips: tuple[Grip, ...] = ()
     pulls: Floats = field(default_factory=lambda: np.empty((0, 2)))
-    robots: RobotStates = NO_ROBOTS
+    robots: Records = field(default_factory=lambda: NO_ROBOTS)
 
     def row(self, name: str) -> int:
         """

@@ -84,6 +84,9 @@ class FrameLoop:
                 is_overdue=lambda: self._fleet.in_lockstep or _is_overdue(began),
                 is_spent=request_time.is_spent,
             )
+        elif self._simulation.playback.changed:
+            # By a service, as a reset, after which a robot may be gone, or its scan.
+            frames = (self._simulation.frame,)
         stepped = time.perf_counter_ns()
         for frame in frames:
             self._outputs.show(frame)
@@ -137,7 +140,7 @@ class FrameLoop:
         if self.started:
             self.apply_up_to_seek()
         elif wait is not Wait.NONE:
-            self._simulation.apply_waiting()
+            self._simulation.requests.apply_waiting()
 
     def current_snapshot(self) -> Snapshot:
         """Return the snapshot that is shown, with the waiting requests if they are applied."""
@@ -168,7 +171,7 @@ class FrameLoop:
 
     def _report_answers(self) -> tuple[Answer, ...]:
         """Publish and log the answers that no frame carries, and return them."""
-        answers = self._simulation.take_answers()
+        answers = self._simulation.requests.take_answers()
         self._outputs.report_answers(answers)
         return answers
 

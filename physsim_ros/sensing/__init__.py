@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-What sensors of robots read: functions of a frame, the sensor and the seed.
+What sensors of robots read: functions of a frame and the sensor.
 
-Law: the same frame, sensor and seed have the same reading, whoever else senses, in any order and
+Law: the same frame and sensor have the same reading, whoever else senses, in any order and
 after a rewind. No state, no clock, and of the engine only the core, which casts the rays;
 messages of readings are in `ros`. Start with `distance`, then `surroundings` (what rays meet).
 """
@@ -22,12 +22,11 @@ from physsim_ros.sensing.motion import (
 )
 from physsim_ros.sensing.mounting import is_due
 from physsim_ros.sensing.surroundings import Surroundings
-from physsim_ros.sensing.touch import FloorMarks, is_bumped, read_bumper, read_floor
+from physsim_ros.sensing.touch import is_bumped, read_bumper, read_floor
 from physsim_ros.sensing.view import read_sensor, View
 
 __all__ = [
     'Fix',
-    'FloorMarks',
     'InertialReading',
     'OdometryReading',
     'Surroundings',

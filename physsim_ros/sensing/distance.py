@@ -20,7 +20,7 @@ from physsim_ros.sensing.mounting import noise_of, placed
 from physsim_ros.sensing.surroundings import Surroundings
 
 
-def read_laser(surroundings: Surroundings, row: int, laser: Laser, seed: int) -> Floats:
+def read_laser(surroundings: Surroundings, row: int, laser: Laser) -> Floats:
     """
     Return (beams,) float64: the range of each beam [m].
 
@@ -30,14 +30,13 @@ def read_laser(surroundings: Surroundings, row: int, laser: Laser, seed: int) ->
     :param surroundings: of the frame
     :param row: of the robot's body in the scene
     :param laser: on it
-    :param seed: of all noise of the world
     """
     snapshot = surroundings.snapshot
     *origin, yaw = placed(snapshot, row, laser)
     directions = rotated_each(_beams(laser.beams, laser.angle[0], laser.increment), yaw)
     least, greatest = laser.range
     ranges = surroundings.nearest((origin[0], origin[1]), directions, greatest, row)
-    noise = noise_of(snapshot, row, laser, seed, laser.beams) if laser.noise else None
+    noise = noise_of(snapshot, row, laser, laser.beams) if laser.noise else None
     return within_range(ranges, least, greatest, laser.noise, noise)
 
 
@@ -82,7 +81,7 @@ def _beams(count: int, first: float, increment: float) -> Floats:
     return np.column_stack((np.cos(angles), np.sin(angles)))
 
 
-def read_range(surroundings: Surroundings, row: int, finder: RangeFinder, seed: int) -> float:
+def read_range(surroundings: Surroundings, row: int, finder: RangeFinder) -> float:
     """
     Return the nearest distance that a ray of the cone meets [m].
 
@@ -92,7 +91,6 @@ def read_range(surroundings: Surroundings, row: int, finder: RangeFinder, seed: 
     :param surroundings: of the frame
     :param row: of the robot's body in the scene
     :param finder: on it
-    :param seed: of all noise of the world
     """
     snapshot = surroundings.snapshot
     x, y, yaw = placed(snapshot, row, finder)
@@ -102,5 +100,5 @@ def read_range(surroundings: Surroundings, row: int, finder: RangeFinder, seed: 
     directions = np.column_stack((np.cos(angles), np.sin(angles)))
     least, greatest = finder.range
     nearest = surroundings.nearest((x, y), directions, greatest, row).min(keepdims=True)
-    noise = noise_of(snapshot, row, finder, seed, 1) if finder.noise else None
+    noise = noise_of(snapshot, row, finder, 1) if finder.noise else None
     return float(within_range(nearest, least, greatest, finder.noise, noise)[0])

@@ -40,21 +40,20 @@ class Fix(NamedTuple):
     altitude: float
 
 
-def read_gps(snapshot: Snapshot, row: int, gps: Gps, seed: int) -> Fix | None:
+def read_gps(snapshot: Snapshot, row: int, gps: Gps) -> Fix | None:
     """
     Return where a receiver is; None in a world without a datum.
 
     :param snapshot: of the world
     :param row: of the robot's body in the scene
     :param gps: on it
-    :param seed: of all noise of the world
     """
     datum = snapshot.scene.settings.datum
     if datum is None:
         return None
     east, north, _ = placed(snapshot, row, gps)
     if gps.noise:
-        noise = noise_of(snapshot, row, gps, seed, 2).tolist()
+        noise = noise_of(snapshot, row, gps, 2).tolist()
         east, north = east + gps.noise * noise[0], north + gps.noise * noise[1]
     return fix_of((east, north), datum)
 

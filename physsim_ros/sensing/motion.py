@@ -44,7 +44,7 @@ def read_odometry(snapshot: Snapshot, row: int) -> OdometryReading:
     """
     place = int(np.searchsorted(snapshot.scene.robot_rows, row))
     states = snapshot.robots
-    (x, y, yaw), twist = states.odometry[place].tolist(), states.wheels[place].tolist()
+    (x, y, yaw), twist = states['odometry'][place].tolist(), states['wheels'][place].tolist()
     return OdometryReading((x, y, yaw), tuple(twist))
 
 
@@ -91,8 +91,8 @@ def read_wheels(snapshot: Snapshot, row: int) -> WheelReading:
     states = snapshot.robots
     return WheelReading(
         tuple(robot.drive.wheels),
-        (rims * states.travel[place]).sum(axis=1),
-        (rims * states.wheels[place]).sum(axis=1),
+        (rims * states['travel'][place]).sum(axis=1),
+        (rims * states['wheels'][place]).sum(axis=1),
     )
 
 
@@ -110,9 +110,7 @@ class InertialReading(NamedTuple):
     acceleration: Point
 
 
-def read_imu(
-    snapshot: Snapshot, before: Snapshot | None, row: int, imu: Imu, seed: int
-) -> InertialReading:
+def read_imu(snapshot: Snapshot, before: Snapshot | None, row: int, imu: Imu) -> InertialReading:
     """
     Return the reading of an inertial measurement unit.
 
@@ -120,7 +118,6 @@ def read_imu(
     :param before: an earlier one; None, or one without the body, is no acceleration but gravity
     :param row: of the robot's body in the scene
     :param imu: on it
-    :param seed: of all noise of the world
     """
     yaw = placed(snapshot, row, imu)[2]
     turn_rate = float(snapshot.twists[row, 2])
@@ -137,7 +134,7 @@ def read_imu(
     felt = change[0] * share - gravity[0], change[1] * share - gravity[1]
     ahead, aside = rotated(felt, turn / 2.0 - yaw)
     if any(imu.noise):
-        noise = noise_of(snapshot, row, imu, seed, 3).tolist()
+        noise = noise_of(snapshot, row, imu, 3).tolist()
         ahead += imu.noise[0] * noise[0]
         aside += imu.noise[0] * noise[1]
         turn_rate += imu.noise[1] * noise[2]

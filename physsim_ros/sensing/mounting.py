@@ -25,15 +25,14 @@ def placed(snapshot: Snapshot, row: int, sensor: Sensor) -> Pose:
     return x + ahead, y + aside, yaw + sensor.at[2]
 
 
-def noise_of(snapshot: Snapshot, row: int, sensor: Sensor, seed: int, count: int) -> Floats:
+def noise_of(snapshot: Snapshot, row: int, sensor: Sensor, count: int) -> Floats:
     """
     Return (count,) float64: normal numbers of mean 0 and variance 1 for a reading.
 
     :param row: of the body in the scene
-    :param seed: of all noise of the world
     """
     name = f'{snapshot.scene.bodies[row].name}|{sensor.name}'
-    return normals(seed, name, snapshot.step, count)
+    return normals(snapshot.scene.settings.seed, name, snapshot.step, count)
 
 
 def is_due(name: str, rate: float, before: int, now: int) -> bool:

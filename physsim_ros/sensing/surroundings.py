@@ -17,7 +17,6 @@ from functools import cached_property
 import itertools
 import math
 from typing import NamedTuple
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +26,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.shapes import Capsule, Circle, Convex, Form
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point
+from physsim_ros.model.weak_cache import cached_weakly
 
 _PIECE, _EDGE = dtype_of('Piece'), dtype_of('Edge')
 _EVERYWHERE = ((0.0, 0.0), math.inf)
@@ -45,8 +45,6 @@ class _Outline(NamedTuple):
 
 
 _NOTHING = _Outline(np.empty(0, _PIECE), np.empty(0, _EDGE))
-_BY_FORM: WeakKeyDictionary[Form, _Outline] = WeakKeyDictionary()
-_BY_SCENE: WeakKeyDictionary[Scene, _Outline] = WeakKeyDictionary()
 
 
 class Surroundings:
@@ -86,15 +84,13 @@ class Surroundings:
     @cached_property
     def _pointers(self) -> tuple[object, ...]:
         """Pieces, their count, edges and poses; the last pose is that of the walls."""
-        scene = self.snapshot.scene
-        outline = _BY_SCENE.get(scene)
-        if outline is None:
-            outline = _BY_SCENE[scene] = _outline_of_scene(scene)
+        outline = _outline_of_scene(self.snapshot.scene)
         pieces, edges = pointer(outline.pieces, 'Piece'), pointer(outline.edges, 'Edge')
         poses = np.concatenate((self.snapshot.poses, np.zeros((1, 3))))
         return pieces, len(outline.pieces), edges, pointer(poses, 'Pose')
 
 
+@cached_weakly
 def _outline_of_scene(scene: Scene) -> _Outline:
     parts = [
         (row, _outline_of_form(body.shape.form))
@@ -120,11 +116,9 @@ def _outline_of_walls(left: float, bottom: float, right: float, top: float) -> _
     return _outline((side, _EVERYWHERE) for side in sides)
 
 
+@cached_weakly
 def _outline_of_form(form: Form) -> _Outline:
-    outline = _BY_FORM.get(form)
-    if outline is None:
-        outline = _BY_FORM[form] = _outline(_simple_pieces(form))
-    return outline
+    return _outline(_simple_pieces(form))
 
 
 _Disc = tuple[Point, float]

@@ -10,16 +10,13 @@ white, and a colour that is not opaque is mixed with what is below it.
 
 from __future__ import annotations
 
-from functools import cached_property
 import math
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.robots.sensors import Bumper, FloorEye
-from physsim_ros.model.scene import Scene
 from physsim_ros.model.shapes import contains
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.model.transform import dots, rotated_each
@@ -69,72 +66,42 @@ def read_bumper(snapshot: Snapshot, contacts: Contacts, row: int, bumper: Bumper
     return False
 
 
-_ROWS: WeakKeyDictionary[Scene, NDArray[np.int64]] = WeakKeyDictionary()
-
-
-class FloorMarks:
-    """
-    What lies on the floor of a frame.
-
-    :param snapshot: of the world
-    """
-
-    def __init__(self, snapshot: Snapshot) -> None:
-        self.snapshot = snapshot
-
-    @cached_property
-    def rows(self) -> NDArray[np.int64]:
-        """(m,) int64: rows of the bodies that lie on the floor, in spawn order."""
-        scene = self.snapshot.scene
-        rows = _ROWS.get(scene)
-        if rows is None:
-            found = [row for row, body in enumerate(scene.bodies) if body.sensor]
-            rows = _ROWS[scene] = np.array(found, dtype=np.int64)
-        return rows
-
-    @cached_property
-    def extents(self) -> Floats:
-        """(m,) float64: greatest distance of a point of each from its centre of mass [m]."""
-        bodies = self.snapshot.scene.bodies
-        return np.array([bodies[row].shape.form.outer for row in self.rows.tolist()])
-
-    def colors_at(self, points: Floats) -> Floats:
-        """
-        Return (k, 3) float64: red, green, blue at points, each 0 .. 1.
-
-        :param points: (k, 2) float64: close together, world [m]
-        """
-        colors = np.ones((len(points), 3))
-        middle = points.mean(axis=0)
-        reach = float(np.abs(points - middle).sum(axis=1).max())
-        away = self.snapshot.centers[self.rows] - middle
-        near = dots(away, away) <= (self.extents + reach) ** 2
-        for row in self.rows[near].tolist():
-            body, pose = self.snapshot.scene.bodies[row], self.snapshot.poses[row]
-            local = rotated_each(points - pose[:2], -pose[2])
-            inside = contains(body.shape.form.pieces, *local.T)
-            alpha = body.color[3]
-            colors[inside] = (1.0 - alpha) * colors[inside] + alpha * np.array(body.color[:3])
-        return colors
-
-
-def read_floor(marks: FloorMarks, row: int, eye: FloorEye, seed: int) -> NDArray[np.uint8]:
+def read_floor(snapshot: Snapshot, row: int, eye: FloorEye) -> NDArray[np.uint8]:
     """
     Return (pixels, 3) uint8: red, green, blue of each photodiode, from left to right.
 
-    :param marks: of the frame
+    :param snapshot: of the world
     :param row: of the robot's body in the scene
     :param eye: on it
-    :param seed: of all noise of the world
     """
-    snapshot = marks.snapshot
     x, y, yaw = placed(snapshot, row, eye)
     half = eye.width / 2 if eye.pixels > 1 else 0.0
     left = np.linspace(half, -half, eye.pixels)
     points = rotated_each(np.column_stack((np.zeros(eye.pixels), left)), yaw)
     points += np.array((x, y))
-    colors = marks.colors_at(points)
+    colors = _floor_colors(snapshot, points)
     if eye.noise:
-        noise = noise_of(snapshot, row, eye, seed, 3 * eye.pixels)
+        noise = noise_of(snapshot, row, eye, 3 * eye.pixels)
         colors += eye.noise * noise.reshape(-1, 3)
     return np.rint(255.0 * np.clip(colors, 0.0, 1.0)).astype(np.uint8)
+
+
+def _floor_colors(snapshot: Snapshot, points: Floats) -> Floats:
+    """
+    Return (k, 3) float64: red, green, blue of the floor at points, each 0 .. 1.
+
+    :param points: (k, 2) float64: close together, world [m]
+    """
+    scene = snapshot.scene
+    colors = np.ones((len(points), 3))
+    middle = points.mean(axis=0)
+    reach = float(np.abs(points - middle).sum(axis=1).max())
+    away = snapshot.centers[scene.sensor_rows] - middle
+    near = dots(away, away) <= (scene.outer_radii[scene.sensor_rows] + reach) ** 2
+    for row in scene.sensor_rows[near].tolist():
+        body, pose = scene.bodies[row], snapshot.poses[row]
+        local = rotated_each(points - pose[:2], -pose[2])
+        inside = contains(body.shape.form.pieces, *local.T)
+        alpha = body.color[3]
+        colors[inside] = (1.0 - alpha) * colors[inside] + alpha * np.array(body.color[:3])
+    return colors

@@ -24,7 +24,7 @@ from physsim_ros.sensing.distance import read_laser, read_range
 from physsim_ros.sensing.gps import read_gps
 from physsim_ros.sensing.motion import read_imu, read_wheels
 from physsim_ros.sensing.surroundings import Surroundings
-from physsim_ros.sensing.touch import FloorMarks, read_bumper, read_floor
+from physsim_ros.sensing.touch import read_bumper, read_floor
 
 
 class View:
@@ -40,28 +40,22 @@ class View:
         self.snapshot = frame.snapshot
         self.contacts = NO_CONTACTS if frame.contacts is None else frame.contacts
         self.before = before
-        self.seed = frame.snapshot.scene.settings.seed
 
     @cached_property
     def surroundings(self) -> Surroundings:
         """Bodies and walls that rays can meet."""
         return Surroundings(self.snapshot)
 
-    @cached_property
-    def floor_marks(self) -> FloorMarks:
-        """Sensor bodies on the floor, as colours."""
-        return FloorMarks(self.snapshot)
-
 
 # Reading of a sensor of a kind on the body of a row.
 _READERS: Mapping[type[Sensor], Callable[[View, int, Any], Any]] = {
-    Laser: lambda view, row, laser: read_laser(view.surroundings, row, laser, view.seed),
-    RangeFinder: lambda view, row, finder: read_range(view.surroundings, row, finder, view.seed),
+    Laser: lambda view, row, laser: read_laser(view.surroundings, row, laser),
+    RangeFinder: lambda view, row, finder: read_range(view.surroundings, row, finder),
     Bumper: lambda view, row, bumper: read_bumper(view.snapshot, view.contacts, row, bumper),
-    Imu: lambda view, row, imu: read_imu(view.snapshot, view.before, row, imu, view.seed),
+    Imu: lambda view, row, imu: read_imu(view.snapshot, view.before, row, imu),
     WheelEncoders: lambda view, row, _: read_wheels(view.snapshot, row),
-    FloorEye: lambda view, row, eye: read_floor(view.floor_marks, row, eye, view.seed),
-    Gps: lambda view, row, gps: read_gps(view.snapshot, row, gps, view.seed),
+    FloorEye: lambda view, row, eye: read_floor(view.snapshot, row, eye),
+    Gps: lambda view, row, gps: read_gps(view.snapshot, row, gps),
 }
 
 

@@ -17,13 +17,13 @@ import math
 from physsim_ros.model.checks import number
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import DriveRobot
-from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.model.snapshot import Frame
 from physsim_ros.sensing import View
-from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.past import finish, Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
-from physsim_ros.simulation.world.body_requests import is_driving
+from physsim_ros.simulation.world.robot_requests import is_driving
 
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
@@ -41,7 +41,7 @@ class FrameMaker:
     :ivar past: the lines of events, cached frames, and their budget of memory
     :ivar playback: the moment that is shown
     :ivar requests: queue of the requests that wait for the next frame, and what applies them
-    :ivar held: the commands with which robots drive on, by the names of their bodies
+    :ivar driving: the commands with which robots drive on, by the names of their bodies
     """
 
     def __init__(self, past: Past, speed: float) -> None:
@@ -50,7 +50,7 @@ class FrameMaker:
         self.past = past
         self.playback = Playback(past, speed=speed)
         self.requests = RequestQueue(past, self.playback)
-        self.held: dict[str, DriveRobot] = {}
+        self.driving: dict[str, DriveRobot] = {}
         self._view: View | None = None
 
     @property
@@ -73,11 +73,11 @@ class FrameMaker:
         self.playback.speed = speed
         if self.playback.speed < 0.0:
             self.requests.hands.clear()
-            self.let_go()
+            self.stop_driving()
 
-    def let_go(self) -> None:
+    def stop_driving(self) -> None:
         """End what `Robot.drive` has robots do; their last commands end with their timeouts."""
-        self.held.clear()
+        self.driving.clear()
 
     @property
     def view(self) -> View:
@@ -98,10 +98,6 @@ class FrameMaker:
         """Return the frame of now, which is made when it is first read."""
         return self.view.frame
 
-    def apply_waiting(self) -> None:
-        """Apply the requests that wait, at whose seeks the world goes at once."""
-        self.requests.apply_waiting()
-
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
         Apply the requests up to a seek.
@@ -121,21 +117,20 @@ class FrameMaker:
         :param is_overdue: whether the work is to continue in another call
         :return: whether it is done
         """
-        while self.playback.continue_work():
-            if is_overdue():
-                # The time of this replay is not made up for.
-                self.playback.clock.restart()
-                return False
-        return True
+        return self._replay(self.playback.parts_of_work(), is_overdue)
+
+    def _replay(self, parts: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+        """Carry out a replay until time is up, and return whether it is done."""
+        if _carry_out(parts, is_overdue):
+            return True
+        # The time of this replay is not made up for.
+        self.playback.clock.restart()
+        return False
 
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
         self.requests.apply_waiting()
         return self._observe_frame(moved=False) if self.playback.changed else None
-
-    def take_answers(self) -> tuple[Answer, ...]:
-        """Return the answers that no frame has taken, and drop them."""
-        return self.requests.take_answers()
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
@@ -160,11 +155,11 @@ class FrameMaker:
 
     def _advance_period(self) -> None:
         """Apply the requests that wait, and advance by one publish period."""
-        self._hold_drives()
+        self._drive_on()
         self.requests.apply_waiting()
         self.requests.release_grips()
         self.playback.clock.restart()
-        self.playback.play(self.playback.steps_to_period)
+        finish(self.playback.play(self.playback.steps_to_period))
 
     def advance(
         self,
@@ -192,7 +187,7 @@ class FrameMaker:
         if not self.finish_seek(is_overdue):
             return ()
         if playback.speed > 0.0:
-            self._hold_drives()
+            self._drive_on()
         self.requests.apply_up_to_seek(is_spent)
         if not self.finish_seek(is_overdue):
             return ()
@@ -218,7 +213,7 @@ class FrameMaker:
             if steps == 0:
                 return
             if steps > 0:
-                playback.play(steps, is_overdue)
+                _carry_out(playback.play(steps), is_overdue)
                 yield self._observe_frame(moved=True)
             elif frame := self._rewind_frame(-steps, is_overdue):
                 yield frame
@@ -227,24 +222,19 @@ class FrameMaker:
             if playback.speed == 0 or is_overdue():
                 return
 
-    def _hold_drives(self) -> None:
+    def _drive_on(self) -> None:
         """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
-        for drive in self.held.values():
+        for drive in self.driving.values():
             if not is_driving(self.world, drive, self.frame_steps):
-                # In the gesture before, with which it is undone: nobody undoes a tick.
-                self.requests.apply_now(drive, self.requests.gesture)
+                # Nobody undoes a tick.
+                self.past.apply_unasked(drive)
 
     def _rewind_frame(self, steps: int, is_overdue: Callable[[], bool]) -> Frame | None:
         """Return the frame some steps back; None while its replay goes on."""
         before = self.playback.step
-        while not self.playback.rewind(steps):
-            if is_overdue():
-                # The time of this replay is not made up for.
-                self.playback.clock.restart()
-                return None
-        for _ in self.playback.replay_ahead(steps):
-            if is_overdue():
-                break
+        if not self._replay(self.playback.rewind(steps), is_overdue):
+            return None
+        _carry_out(self.playback.replay_ahead(steps), is_overdue)
         if self.playback.step <= self.past.tree.oldest:
             self.playback.speed = 0.0
             self.requests.report_oldest('; paused')
@@ -271,3 +261,8 @@ class FrameMaker:
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before
         self._view = View(frame, before)
         return frame
+
+
+def _carry_out(parts: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
+    """Carry out parts of work until time is up, and return whether all are done."""
+    return not any(is_overdue() for _ in parts)

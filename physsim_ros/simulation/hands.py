@@ -88,22 +88,15 @@ class Hands:
                 self._dragging.pop(name, None)
         return answer
 
-    def release_grips(self, gesture: int) -> list[Answer]:
-        """
-        Remove the grips of hands that are gone, unless their release lies ahead.
-
-        :param gesture: of the release, where no request was made before
-        :return: events about it
-        """
+    def release_grips(self) -> list[Answer]:
+        """Remove the grips of hands that are gone, unless their release lies ahead."""
         cursor = self._past.cursor
         if self._playback.is_frame_cached or not cursor.world.grips or not cursor.is_newest:
             return []
         events = []
         for grip in cursor.world.grips:
             if grip.hand not in self:
-                # In the gesture of the request before, so that they are undone together.
-                before = self._past.tree.node(cursor.serial).gesture
-                self._past.apply(LetGo(hand=grip.hand), before or gesture)
+                self._past.apply_unasked(LetGo(hand=grip.hand))
                 message = f'released {grip.body}: no message from {grip.hand}'
                 events.append(Answer(topic='~/drag/feedback', subject=grip.body, message=message))
         return events

@@ -12,7 +12,7 @@ frame. Where contacts are reported, the frame of a paused world has those of its
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import NO_CONTACTS
@@ -203,13 +203,14 @@ class Playback:
             step, self._shown = self._shown.snapshot.step, None
             self._past.cursor.seek(step, with_contacts=False)
 
-    def continue_work(self) -> bool:
+    def parts_of_work(self) -> Iterator[None]:
         """
-        Carry out a part of a seek or an amendment; return whether it is still under way.
+        Carry out a seek or an amendment that is under way; yield after each part but the last.
 
         Nothing is done while a cached frame is shown in place of the goal.
         """
-        return self._shown is None and self._past.cursor.continue_work()
+        while self._shown is None and self._past.cursor.continue_work():
+            yield
 
     def note_jump(self) -> None:
         """Show the moment of the cursor, which is another than the one that was shown."""
@@ -234,12 +235,8 @@ class Playback:
         self.frames_due += 1
         return round(step * 1e9 / self._past.physics_rate)
 
-    def play(self, steps: int, is_overdue: Callable[[], bool] = lambda: False) -> None:
-        """
-        Advance by steps, or to the first multiple of the publish period at which time is up.
-
-        :param is_overdue: whether time is up
-        """
+    def play(self, steps: int) -> Iterator[None]:
+        """Advance by steps; yield at each multiple of the publish period, and at the end."""
         self.seek_shown()
         self._lacks_contacts, self.changed = False, True
         cursor = self._past.cursor
@@ -248,22 +245,19 @@ class Playback:
             cursor.advance(some)
             cursor.build_ahead(some)
             steps -= some
-            if is_overdue():
-                return
+            yield
 
-    def rewind(self, steps: int) -> bool:
+    def rewind(self, steps: int) -> Iterator[None]:
         """
         Show the frame of an earlier step, no earlier than the oldest.
 
-        :return: whether it is shown; if not, a part of its replay was made
+        Yield after each part of its replay, before which another frame is shown.
         """
         step = max(self._past.tree.oldest, self.step - steps)
         if step < self.step:
-            shown = self._past.frames.frame_at(step)
-            if shown is None:
-                return False
+            while (shown := self._past.frames.frame_at(step)) is None:
+                yield
             self._shown, self._lacks_contacts = shown, False
-        return True
 
     def replay_ahead(self, steps: int) -> Iterator[None]:
         """

@@ -71,9 +71,10 @@ class RequestQueue:
         self._is_applying = False
         # Gesture of the last request that was applied.
         self._applied = 0
-        # Entries that a later one replaces: the waiting move of each hand, by its name, and the
-        # waiting seek, by '', which is the name of no hand.
-        self._replaceable: dict[str, Entry] = {}
+        # Entries that a later one replaces: the waiting move of each hand, by its name, and a
+        # waiting seek that no request has followed.
+        self._moves: dict[str, Entry] = {}
+        self._seek: Entry | None = None
         # Number of answers that the last entry stands for.
         self._untold = 0
 
@@ -108,8 +109,8 @@ class RequestQueue:
         :param asker: key of the message that asks, which the answer names; '' for none
         :param author: name of the person who did it; '' is nobody
         """
-        if isinstance(request, MoveHand) and request.hand in self._replaceable:
-            self._replaceable[request.hand].request = request
+        if isinstance(request, MoveHand) and request.hand in self._moves:
+            self._moves[request.hand].request = request
             return
         size = size_of(request)
         if gesture is None:
@@ -122,10 +123,10 @@ class RequestQueue:
         self._waiting.append(entry)
         self._size += size
         if not isinstance(request, MoveHand | KeepHand):
-            self._replaceable.clear()
-        self._replaceable.pop('', None)
+            self._moves.clear()
+        self._seek = None
         if isinstance(request, MoveHand):
-            self._replaceable[request.hand] = entry
+            self._moves[request.hand] = entry
 
     def submit_seek(self, stamp: int, *, topic: str) -> None:
         """
@@ -136,12 +137,12 @@ class RequestQueue:
         if busy := self._busy():
             self.refuse(busy, topic=topic, subject='', joined=True)
             return
-        if before := self._replaceable.get(''):
+        if self._seek is not None:
             message = f'superseded by a seek to {stamp * 1e-9:.3f} s'
-            before.request = Answer(topic=before.topic, message=message)
-        entry = Entry(Seek(stamp), topic, '', self.gesture)
-        self._replaceable = {'': entry}
-        self._waiting.append(entry)
+            self._seek.request = Answer(topic=self._seek.topic, message=message)
+        self._moves.clear()
+        self._seek = Entry(Seek(stamp), topic, '', self.gesture)
+        self._waiting.append(self._seek)
 
     def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
         """
@@ -156,7 +157,8 @@ class RequestQueue:
             return
         if busy := self._busy():
             raise busy
-        self._replaceable.clear()
+        self._moves.clear()
+        self._seek = None
         # Its answers have their own topics.
         self._waiting.append(Entry(Call(call, wait), '', '', self.begin_gesture()))
 
@@ -270,9 +272,11 @@ class RequestQueue:
             while self._waiting and self._is_ready(self._waiting[0]):
                 entry = self._waiting.popleft()
                 self._size -= entry.size
-                for key, each in list(self._replaceable.items()):
-                    if each is entry:
-                        del self._replaceable[key]
+                request = entry.request
+                if isinstance(request, MoveHand) and self._moves.get(request.hand) is entry:
+                    del self._moves[request.hand]
+                if entry is self._seek:
+                    self._seek = None
                 if entry.is_for_world:
                     self._applied = entry.gesture
                 yield entry
@@ -340,7 +344,7 @@ class RequestQueue:
 
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
-        self.answers += self.hands.release_grips(self.gesture)
+        self.answers += self.hands.release_grips()
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, and drop them."""

@@ -27,7 +27,7 @@ from physsim_ros.sensing import (
     true_motion,
 )
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.simulation.world.body_requests import robot_of_name
+from physsim_ros.simulation.world.robot_requests import robot_of_name
 
 
 class Robot:
@@ -76,7 +76,7 @@ class Robot:
         :raises Malformed: a number is not finite
         """
         command = DriveRobot(name=self.name, velocity=(speed, sideways, turn))
-        self.simulation.held[self.name] = command
+        self.simulation.driving[self.name] = command
 
     def place(self, x: float, y: float, yaw: float = 0.0) -> None:
         """

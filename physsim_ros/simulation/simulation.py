@@ -43,14 +43,14 @@ class SavedMoment:
     :param loaded: the state that was loaded last, to which `reset` returns
     :param frame: that is shown
     :param before: the last snapshot of another time, which was shown before it; None is none
-    :param held: what robots drive on with
+    :param driving: the commands with which robots drive on
     """
 
     checkpoint: Checkpoint
     loaded: WorldState
     frame: Frame
     before: Snapshot | None
-    held: tuple[DriveRobot, ...]
+    driving: tuple[DriveRobot, ...]
 
 
 class Simulation(FrameMaker):
@@ -176,14 +176,14 @@ class Simulation(FrameMaker):
         self._note_beginning()
 
     def _note_beginning(self) -> None:
-        """Note that the world is another one, which nobody holds or drives."""
+        """Note that the world is another one, which nobody drags or drives."""
         self.requests.hands.clear()
-        self.let_go()
+        self.stop_driving()
         self.playback.note_jump()
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` returns; time goes on."""
-        self.let_go()
+        self.stop_driving()
         return self.perform(Restore(state=state))
 
     def save(self) -> WorldState:
@@ -233,7 +233,7 @@ class Simulation(FrameMaker):
             loaded=self.loaded,
             frame=frame,
             before=self.view.before,
-            held=tuple(self.held.values()),
+            driving=tuple(self.driving.values()),
         )
 
     def restore(self, saved: SavedMoment) -> None:
@@ -245,7 +245,7 @@ class Simulation(FrameMaker):
         OfClass(SavedMoment)(saved, 'saved')
         self.past.restore(saved.checkpoint, saved.loaded)
         self._note_beginning()
-        self.held = {drive.name: drive for drive in saved.held}
+        self.driving = {drive.name: drive for drive in saved.driving}
         self._view = View(saved.frame, saved.before)
         self.playback.changed = False
 
@@ -258,7 +258,7 @@ class Simulation(FrameMaker):
         """
         with self._jump():
             self.requests.hands.clear()
-            self.let_go()
+            self.stop_driving()
             done = self.past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
@@ -306,7 +306,7 @@ class Simulation(FrameMaker):
             raise BadProperty(f'a time is a whole number of ns, not {shown(stamp)}', field='clock')
         number(stamp, 'clock')
         self.requests.apply_waiting()
-        self.let_go()
+        self.stop_driving()
         return self.requests.seek(stamp)
 
     @contextmanager

@@ -202,7 +202,7 @@ def _world_at(simulation: Simulation, seconds: float) -> WorldState:
     """
     simulation.seek(round(max(seconds, simulation.status.oldest) * 1e9))
     snapshot = simulation.frame.snapshot
-    for row, aim in zip(snapshot.scene.robot_rows.tolist(), snapshot.robots.aim, strict=True):
+    for row, aim in zip(snapshot.scene.robot_rows.tolist(), snapshot.robots['aim'], strict=True):
         ahead, aside, turn = aim.tolist()
         name = snapshot.scene.names[row]
         simulation.perform(DriveRobot(name=name, velocity=(ahead, aside, turn)))

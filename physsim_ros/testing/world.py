@@ -82,7 +82,7 @@ class PhysSim(ObservedWorld):
                 looked = ', '.join(dict.fromkeys(map(str, paths)))
                 refused.add_note(f'A test also looks for {looked}.')
             raise
-        self.node.simulation.let_go()
+        self.node.simulation.stop_driving()
         self.node.apply_requests()
         self.settle()
 
@@ -196,7 +196,7 @@ class PhysSim(ObservedWorld):
         :raises Refused: the time is no longer in the history, or in the future
         """
         self.settle()
-        self.node.simulation.let_go()
+        self.node.simulation.stop_driving()
         with refusals_as_refused():
             self.node.simulation.seek(round(seconds * 1e9))
         self.node.apply_requests()
@@ -333,9 +333,16 @@ class PhysSim(ObservedWorld):
     # Recording
 
     def record(self, path: str | Path) -> None:
-        """Record all frames from now on in a `.rrd` file, which is complete after the test."""
+        """
+        Record all frames from now on in a `.rrd` file, which is complete after the test.
+
+        :raises Refused: the file cannot be written, as in a folder that does not exist
+        """
+        viewer = self.node.outputs.viewer
+        viewer.record(Path(path))
+        if reason := viewer.wait_for_file():
+            raise Refused('record_failed', f'{path}: {reason}', 'path')
         self.recording = Path(path)
-        self.node.outputs.viewer.record(self.recording)
 
     def record_past(self, path: Path) -> None:
         """
@@ -351,7 +358,7 @@ class PhysSim(ObservedWorld):
                 robot.commands.take()
         simulation.seek(round(status.oldest * 1e9))
         self.node.apply_requests()
-        self.record(path)
+        self.node.outputs.viewer.record(path)
         for _ in range(self._frames(status.newest - status.oldest)):
             self.node.advance_frame()
 

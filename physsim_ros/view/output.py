@@ -65,6 +65,8 @@ class Output:
         # Steady times of the last progress, and until which the last frames are waited for [s].
         self._progress, self._end_by = time.monotonic(), float('inf')
         self._ending = threading.Event()
+        # Set once the endpoint is open, or could not be opened.
+        self._tried = threading.Event()
         name = f'viewer {endpoint.kind}'
         self._thread = threading.Thread(target=self._run, name=name, daemon=True)
         self._thread.start()
@@ -82,6 +84,11 @@ class Output:
         """Return the reason why nothing is logged; '' where there is none."""
         failed = self._reason not in ('', STARTING)
         return f'{self._endpoint.kind}: {self._reason}' if failed else ''
+
+    def wait_until_tried(self) -> str:
+        """Wait until the endpoint is open or has failed; return why, '' where it is open."""
+        self._tried.wait(SILENT_AFTER)
+        return self._reason if self.failure else ''
 
     @property
     def is_open(self) -> bool:
@@ -212,9 +219,11 @@ class Output:
         if self._reason and not self._ending.is_set():
             self._reason = ''
             self._report(Answer(topic='viewer', message=self._endpoint.address))
+        self._tried.set()
 
     def _fail(self, reason: str) -> None:
         """Note the reason why nothing is logged, and report the first one."""
         known, self._reason = self.failure, reason
         if not known:
             self._report(self._endpoint.lost_answer(reason))
+        self._tried.set()

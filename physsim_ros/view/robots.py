@@ -100,7 +100,7 @@ class RobotPaths:
         known = self._places if abs(now.stamp - self._stamp) <= _LONGEST else {}
         rows, states = now.scene.robot_rows, now.robots
         self._stamp, self._places = now.stamp, {}
-        poses, odometry = now.poses[rows].tolist(), states.odometry.tolist()
+        poses, odometry = now.poses[rows].tolist(), states['odometry'].tolist()
         for row, pose, reading in zip(rows.tolist(), poses, odometry, strict=True):
             name = now.scene.names[row]
             if not any(reading) or name not in self._frames:

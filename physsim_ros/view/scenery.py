@@ -109,7 +109,7 @@ class Scenery:
             self._content, self._aimed = scene.settings.bounds, True
         elif scene.bodies:
             near = _widened(self._content, _TOLERANCE * _longer_side(self._content))
-            reach = np.array([body.shape.form.outer for body in scene.bodies])[:, None]
+            reach = scene.outer_radii[:, None]
             around = (snapshot.centers - reach, snapshot.centers + reach, *snapshot.ends)
             if not self._aimed or not _contains(near, np.concatenate(around)):
                 extent = _extent(snapshot)

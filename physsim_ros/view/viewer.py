@@ -116,6 +116,10 @@ class Viewer:
         self._file_path = path
         self._file = self._open(FileEndpoint(path, overwrite=True))
 
+    def wait_for_file(self) -> str:
+        """Wait until the recording is open or has failed; return why, '' where it is open."""
+        return '' if self._file is None else self._file.wait_until_tried()
+
     def show(self, frame: Frame) -> None:
         """
         Queue a frame for viewer and file; never blocks.

@@ -16,9 +16,11 @@ from physsim_ros.drawing.session import DrawingSession
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.tools import Tool
 from physsim_ros.model.errors import Refusal
-from physsim_ros.model.requests import Request, Spawn
-from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.requests import Request
+from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.world import World
+
+from ..building import spawn
 
 # Coordinates of clicks [m]: near one another and near bodies, as people click; and any.
 near = st.integers(-8, 8).map(lambda eighths: eighths / 8)
@@ -28,6 +30,13 @@ frame = st.sampled_from(['', '', '', 'a/0', 'a/1', 'drawn/0', 'nobody/0'])
 action = st.one_of(
     st.tuples(st.sampled_from(Tool), st.none(), st.none()), st.tuples(st.none(), point, frame)
 )
+
+
+def populated() -> World:
+    world = World()
+    spawn(world, 'a/0')
+    spawn(world, 'a/1', Box(width=2.0, height=0.5), (0.5, 0.25, 0.3))
+    return world
 
 
 def apply_all(world: World, requests: Iterable[Request]) -> None:
@@ -48,9 +57,7 @@ def apply_all(world: World, requests: Iterable[Request]) -> None:
 def test_any_stroke_is_read_or_refused_and_leaves_the_world_sound(
     points: list[tuple[float, float]], odd: tuple[float, float], with_odd: bool, where: str
 ) -> None:
-    world = World()
-    world.apply(Spawn(name='a/0', shape=Disc(radius=0.5)))
-    world.apply(Spawn(name='a/1', shape=Box(width=2.0, height=0.5), pose=(0.5, 0.25, 0.3)))
+    world = populated()
     pen = DrawingSession(DrawingSettings(sketch_confidence=0.0))
     samples = np.array([*points, *([odd] if with_odd else [])]).reshape(-1, 2)
     before = world.digest()
@@ -72,9 +79,7 @@ def test_any_stroke_is_read_or_refused_and_leaves_the_world_sound(
 def test_any_clicks_are_drawn_or_refused_and_leave_the_world_sound(
     tool: Tool, actions: list[tuple[Tool | None, tuple[float, float] | None, str | None]]
 ) -> None:
-    world = World()
-    world.apply(Spawn(name='a/0', shape=Disc(radius=0.5)))
-    world.apply(Spawn(name='a/1', shape=Box(width=2.0, height=0.5), pose=(0.5, 0.25, 0.3)))
+    world = populated()
     pen = DrawingSession(DrawingSettings(), tool)
     for taken, clicked, where in actions:
         if taken is not None:

@@ -40,16 +40,19 @@ from physsim_ros.model.requests import (
     Spawn,
 )
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Box, Chain, Disc, MOST_POINTS, Polygon
+from physsim_ros.model.shapes import Box, Chain, Disc, MOST_POINTS, Polygon, Shape
 from physsim_ros.model.snapshot import NO_PREVIEW
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import Point, Pose
 from physsim_ros.simulation.world import World
 import pytest
+
+from ..building import DISC, spawning
 
 WEIGHTLESS = WorldSettings(gravity=(0.0, 0.0))
 SIDE, TURN = (3.0, 1.0), 0.7
 # Rounding of a few sums [m].
 CLOSE = 1e-12
+JOINING = (Tool.SPRING, Tool.ROD, Tool.ROPE)
 
 
 def pen(tool: Tool, **settings: object) -> DrawingSession:
@@ -86,13 +89,8 @@ def populated(*bodies: Spawn) -> World:
     return world
 
 
-def disc(name: str, x: float, y: float, radius: float = 0.5, **said: object) -> Spawn:
-    return Spawn(
-        name=name,
-        shape=Disc(radius=radius),
-        pose=(x, y, 0.0),
-        properties=Properties(**said),
-    )
+def disc(name: str, x: float, y: float, **said: object) -> Spawn:
+    return spawning(name, DISC, (x, y, 0.0), **said)
 
 
 def corners(width: float, height: float) -> list[Point]:
@@ -111,16 +109,26 @@ def test_there_is_a_function_for_every_tool_but_none() -> None:
 # Bodies
 
 
-def test_a_circle_has_its_centre_and_its_rim_where_they_were_clicked() -> None:
-    spawn = drawn(Tool.CIRCLE, (1.0, 2.0), (1.0 + 3.0, 2.0 - 4.0))
-    assert spawn.shape == Disc(radius=5.0)
-    assert spawn.pose == (1.0, 2.0, 0.0)
-
-
-def test_a_circle_by_its_diameter_lies_between_the_clicks() -> None:
-    spawn = drawn(Tool.CIRCLE_DIAMETER, (1.0, 2.0), (4.0, 6.0))
-    assert spawn.shape == Disc(radius=2.5)
-    assert spawn.pose == (2.5, 4.0, 0.0)
+@pytest.mark.parametrize(
+    ('tool', 'clicks', 'shape', 'pose'),
+    [
+        (Tool.CIRCLE, [(1, 2), (4, -2)], Disc(radius=5.0), (1, 2, 0)),
+        (Tool.CIRCLE_DIAMETER, [(1, 2), (4, 6)], Disc(radius=2.5), (2.5, 4, 0)),
+        # Its frame lies along it.
+        (
+            Tool.WALL,
+            [(1, 1), (4, 5)],
+            Chain(points=((-2.5, 0.0), (2.5, 0.0)), thickness=0.2),
+            (2.5, 3, math.atan2(4, 3)),
+        ),
+    ],
+)
+def test_a_circle_or_a_wall_is_where_it_was_clicked(
+    tool: Tool, clicks: Sequence[Point], shape: Shape, pose: Pose
+) -> None:
+    spawn = drawn(tool, *clicks, wall_thickness=0.2)
+    assert (spawn.shape, spawn.pose) == (shape, pose)
+    assert spawn.properties == Properties(**({'anchored': True} if tool == Tool.WALL else {}))
 
 
 @pytest.mark.parametrize('height', [0.5, -0.5])
@@ -192,36 +200,23 @@ def test_a_polygon_has_as_many_corners_as_an_outline_may_have_and_one_more_drops
     assert len(spawn.shape.outline) == MOST_POINTS
 
 
-def test_a_wall_is_an_anchored_segment_with_its_frame_along_it() -> None:
-    spawn = drawn(Tool.WALL, (1.0, 1.0), (4.0, 5.0), wall_thickness=0.2)
-    assert spawn.shape == Chain(points=((-2.5, 0.0), (2.5, 0.0)), thickness=0.2)
-    assert spawn.pose == (2.5, 3.0, math.atan2(4.0, 3.0))
-    assert spawn.properties == Properties(anchored=True)
-
-
 @pytest.mark.parametrize(
-    ('tool', 'points'),
+    ('tool', 'points', 'properties'),
     [
-        (Tool.CIRCLE, [(0, 0), (1, 0)]),
-        (Tool.CIRCLE_DIAMETER, [(0, 0), (1, 0)]),
-        (Tool.RECTANGLE, [(0, 0), (1, 0), (1, 1)]),
-        (Tool.POLYGON, [(0, 0), (1, 0), (1, 1), (0, 0)]),
+        (Tool.CIRCLE, [(0, 0), (1, 0)], {'velocity': (3.0, -1.0)}),
+        (Tool.CIRCLE_DIAMETER, [(0, 0), (1, 0)], {'velocity': (3.0, -1.0)}),
+        (Tool.RECTANGLE, [(0, 0), (1, 0), (1, 1)], {'velocity': (3.0, -1.0)}),
+        (Tool.POLYGON, [(0, 0), (1, 0), (1, 1), (0, 0)], {'velocity': (3.0, -1.0)}),
+        (Tool.WALL, [(0, 0), (1, 0)], {'anchored': True}),
     ],
 )
-def test_what_is_drawn_takes_velocity_and_colour_from_the_settings(
-    tool: Tool, points: Sequence[Point]
+def test_what_is_drawn_takes_colour_and_if_it_moves_velocity_from_the_settings(
+    tool: Tool, points: Sequence[Point], properties: dict[str, object]
 ) -> None:
     color = (1.0, 0.5, 0.0, 1.0)
     spawn = drawn(tool, *points, draw_velocity=(3.0, -1.0), draw_color=color)
-    assert spawn.properties == Properties(velocity=(3.0, -1.0))
+    assert spawn.properties == Properties(**properties)
     assert spawn.color == color
-
-
-def test_a_wall_takes_the_colour_and_no_velocity() -> None:
-    color = (1.0, 0.5, 0.0, 1.0)
-    spawn = drawn(Tool.WALL, (0, 0), (1, 0), draw_velocity=(3.0, -1.0), draw_color=color)
-    assert spawn.color == color
-    assert populated(spawn).snapshot().twists.tolist() == [[0.0, 0.0, 0.0]]
 
 
 # Names
@@ -232,61 +227,56 @@ def test_names_count_up_from_the_highest_in_the_world() -> None:
     assert drawn(Tool.CIRCLE, (5, 5), (6, 5), world=world).name == 'drawn/5'
 
 
-def test_a_name_is_not_given_twice_though_the_world_has_lost_or_refused_its_body() -> None:
-    hand, snapshot = pen(Tool.WALL), World().snapshot()
-    names = []
+@pytest.mark.parametrize('tool', [Tool.WALL, Tool.ROPE])
+def test_a_name_is_not_given_twice_and_joints_count_apart_from_bodies(tool: Tool) -> None:
+    # The world has not heard of what was drawn: it may have lost or refused it.
+    snapshot = populated(disc('drawn/1' if tool == Tool.ROPE else 'a/0', 0.0, 0.0)).snapshot()
+    hand, names = pen(tool), []
     for _ in range(3):
         hand.click((0.0, 0.0), '', snapshot)
-        (spawn,) = hand.click((1.0, 0.0), '', snapshot).requests
-        names.append(spawn.name)
+        (request,) = hand.click((3.0, 0.0), '', snapshot).requests
+        names.append(request.name)
     assert names == ['drawn/0', 'drawn/1', 'drawn/2']
-
-
-def test_joints_count_apart_from_bodies() -> None:
-    world = populated(disc('drawn/7', 0.0, 0.0))
-    hand = pen(Tool.ROPE)
-    names = []
-    for _ in range(2):
-        hand.click((0.0, 0.0), '', world.snapshot())
-        (join,) = hand.click((3.0, 0.0), '', world.snapshot()).requests
-        names.append(join.name)
-    assert names == ['drawn/0', 'drawn/1']
 
 
 # Tools for bodies and joints that are there
 
 
+def drawn_join(tool: Tool, points: tuple[Point, Point], a: str, b: str) -> Join:
+    return Join(name='drawn/0', kind=JointKind(tool), points=points, a=a, b=b)
+
+
+TWO = (0.25, 0.0), (2.75, 0.25)
+AWAY = (0.25, 0.0), (0.0, 3.0)
+
+
 @pytest.mark.parametrize(
-    ('tool', 'kind'),
+    ('tool', 'clicks', 'request_'),
     [
-        (Tool.ANCHOR, Anchor),
-        (Tool.RELEASE, Release),
-        (Tool.PIN, Pin),
-        (Tool.AXLE, Axle),
+        (Tool.ANCHOR, [(1, 2)], Anchor(point=(1, 2))),
+        (Tool.RELEASE, [(1, 2)], Release(point=(1, 2))),
+        (Tool.PIN, [(1, 2)], Pin(point=(1, 2))),
+        (Tool.AXLE, [(1, 2)], Axle(point=(1, 2))),
+        # The topmost body.
+        (Tool.DELETE, [(9.2, 0.0)], Delete(name='b/1')),
+        *((tool, TWO, drawn_join(tool, TWO, 'a/0', 'a/1')) for tool in JOINING),
+        # To the background, whichever was clicked first.
+        (Tool.SPRING, AWAY, drawn_join(Tool.SPRING, AWAY, 'a/0', 'world')),
+        (Tool.SPRING, AWAY[::-1], drawn_join(Tool.SPRING, AWAY, 'a/0', 'world')),
+        # The spin stays.
+        (
+            Tool.VELOCITY,
+            [(0.25, 0.0), (0.25, -1.5)],
+            Command(names=('a/0',), twists=((0.0, -1.5, 2.0),)),
+        ),
     ],
 )
-def test_one_click_holds_or_frees_what_is_under_it(tool: Tool, kind: type) -> None:
-    assert draw(tool, (1.0, 2.0)) == (kind(point=(1.0, 2.0)),)
-
-
-def test_the_topmost_body_under_a_click_is_deleted() -> None:
-    world = populated(disc('a/0', 0.0, 0.0), disc('a/1', 0.4, 0.0), disc('a/2', 3.0, 0.0))
-    assert draw(Tool.DELETE, (0.2, 0.0), world=world) == (Delete(name='a/1'),)
-
-
-@pytest.mark.parametrize('tool', [Tool.SPRING, Tool.ROD, Tool.ROPE])
-def test_two_bodies_are_joined_where_they_were_clicked(tool: Tool) -> None:
-    world = populated(disc('a/0', 0.0, 0.0), disc('a/1', 3.0, 0.0))
-    (join,) = draw(tool, (0.25, 0.0), (2.75, 0.25), world=world)
-    points = ((0.25, 0.0), (2.75, 0.25))
-    assert join == Join(name='drawn/0', kind=JointKind(tool), points=points, a='a/0', b='a/1')
-
-
-def test_a_body_is_joined_to_the_background_whichever_was_clicked_first() -> None:
-    world = populated(disc('a/0', 0.0, 0.0))
-    (join,) = draw(Tool.SPRING, (0.0, 3.0), (0.25, 0.0), world=world)
-    assert (join.a, join.b) == ('a/0', 'world')
-    assert join.points == ((0.25, 0.0), (0.0, 3.0))
+def test_a_tool_acts_on_what_was_clicked(
+    tool: Tool, clicks: Sequence[Point], request_: Request
+) -> None:
+    spinning = disc('a/0', 0.0, 0.0, velocity=(4.0, 0.0), spin=2.0)
+    others = [disc('a/1', 3.0, 0.0), disc('b/0', 9.0, 0.0), disc('b/1', 9.4, 0.0)]
+    assert draw(tool, *clicks, world=populated(spinning, *others)) == (request_,)
 
 
 def test_a_joint_holds_the_place_that_was_clicked_though_the_body_has_moved_on() -> None:
@@ -301,12 +291,6 @@ def test_a_joint_holds_the_place_that_was_clicked_though_the_body_has_moved_on()
     assert join.points[0] == pytest.approx((x, y), abs=1e-9)
     assert join.points[1] == (4.0, 3.0)
     assert join.a == 'a/0'
-
-
-def test_an_arrow_from_a_body_is_its_velocity_and_its_spin_stays() -> None:
-    world = populated(disc('a/0', 0.0, 0.0, velocity=(4.0, 0.0), spin=2.0))
-    requests = draw(Tool.VELOCITY, (0.25, 0.0), (0.25, -1.5), world=world)
-    assert requests == (Command(names=('a/0',), twists=((0.0, -1.5, 2.0),)),)
 
 
 @pytest.mark.parametrize(

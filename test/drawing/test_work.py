@@ -6,15 +6,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from functools import partial
+import itertools
+import sys
+import tracemalloc
 
 import numpy as np
-from physsim_ros.drawing import DrawingSession, DrawingSettings, scene_query
-from physsim_ros.drawing.strokes import bodies_under, figure
-from physsim_ros.drawing.strokes.figure import Figure, MOST_STROKES, MOST_TIME
+from physsim_ros.drawing import DrawingSession, DrawingSettings
+from physsim_ros.drawing.strokes.figure import MOST_STROKES, MOST_TIME
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.errors import Malformed
 from physsim_ros.model.requests import Spawn
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
@@ -25,8 +27,12 @@ import pytest
 
 from ..building import DISC
 
-# Pieces of each chain of a crowd.
+# Between 2, where work is proportional, and 4, where it grows by the square.
+TWICE = 2.5
 PIECES = 99
+ALONG = np.linspace(0.0, 1.0, PIECES + 1)
+WAVES = zip((4.0 * ALONG).tolist(), (0.3 * np.sin(40.0 * ALONG)).tolist(), strict=True)
+WALL = Chain(points=tuple(WAVES), thickness=0.1)
 SHARE = np.linspace(0.0, 1.0, 12)
 STROKES = {
     'line': np.column_stack((0.05 + 3.9 * SHARE, 0.05 * SHARE, SHARE)),
@@ -49,105 +55,101 @@ def crowd(count: int, shape: Shape, *, anchored: bool) -> Snapshot:
     )
 
 
+NOBODY = crowd(0, DISC, anchored=True)
+
+
+def work(act: Callable[[], object]) -> Floats:
+    """Return how often an act calls functions, of Python or C, and its greatest memory [bytes]."""
+    calls = 0
+
+    def note(_frame: object, event: str, _argument: object) -> None:
+        nonlocal calls
+        calls += event in {'call', 'c_call'}
+
+    tracemalloc.start()
+    sys.setprofile(note)
+    try:
+        act()
+    finally:
+        sys.setprofile(None)
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+    return np.array((calls, most))
+
+
 @pytest.mark.parametrize('kind', STROKES)
-def test_a_stroke_over_twice_as_many_walls_is_twice_the_work(
-    kind: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    share = np.linspace(0.0, 1.0, PIECES + 1)
-    points = zip((4.0 * share).tolist(), (0.3 * np.sin(40.0 * share)).tolist(), strict=True)
-    wall = Chain(points=tuple(points), thickness=0.1)
-    tested: list[int] = []
-    surfaces: list[str] = []
+def test_a_stroke_over_twice_as_many_walls_is_twice_the_work(kind: str) -> None:
+    def drawn(count: int) -> Floats:
+        snapshot = crowd(count, WALL, anchored=True)
 
-    def note(name: str, count: Callable[[Any, Floats], int]) -> None:
-        call = getattr(scene_query, name)
+        def draw() -> None:
+            DrawingSession(DrawingSettings()).stroke(STROKES[kind], '', snapshot, began=0.0)
 
-        def contain(what: Any, x: Floats, y: Floats, *slack: float) -> Any:
-            tested.append(count(what, x))
-            return call(what, x, y, *slack)
+        # What is kept of a scene is made first.
+        draw()
+        return work(draw)
 
-        monkeypatch.setattr(scene_query, name, contain)
-
-    def surface(*words: Any) -> Any:
-        surfaces.append(words[1])
-        return nearest(*words)
-
-    note('contains_each', lambda form, x: len(form.pieces) * len(x))
-    note('contain_each', lambda forms, _: sum(len(form.pieces) for form in forms))
-    nearest = bodies_under._surface  # noqa: SLF001 - once for each pair of bodies, it took seconds
-    monkeypatch.setattr(bodies_under, '_surface', surface)
-
-    def work(count: int) -> int:
-        session, snapshot = DrawingSession(DrawingSettings()), crowd(count, wall, anchored=True)
-        tested.clear()
-        surfaces.clear()
-        try:
-            session.stroke(STROKES[kind], '', snapshot, began=0.0)
-        except Refusal:
-            assert kind == 'scribble'
-        assert len(surfaces) <= 4
-        return sum(tested)
-
-    some, more = work(40), work(80)
-    assert 0 < more <= 2 * some
-    # At most each point of the stroke and a few others.
-    assert more <= 80 * PIECES * 2 * 128
+    some, more = drawn(40), drawn(80)
+    assert (more > some).all()
+    assert (more <= TWICE * some).all()
+    # The pieces of a wall are not looked at one by one.
+    assert (more - some)[0] < 40 * PIECES
 
 
-def test_a_stroke_is_read_with_the_newest_strokes_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    read = list[int]()
-    guess_meanings = figure.guess_meanings
-    monkeypatch.setattr(
-        figure, 'guess_meanings', lambda *words: read.append(1) or guess_meanings(*words)
-    )
-    session, snapshot = DrawingSession(DrawingSettings()), crowd(0, DISC, anchored=True)
-    for number in range(3 * MOST_STROKES):
-        read.clear()
-        # A saw of lines, each of which begins where the last one ends.
-        line = [(0.5 * each, 0.7 * (each % 2), 0.3 * each) for each in (number, number + 1)]
-        reading = session.stroke(np.array(line), '', snapshot, began=0.5 * number)
+def saw(number: int) -> Floats:
+    """Return a line of a saw: it begins where the one before it ends."""
+    return np.array([(0.5 * each, 0.7 * (each % 2), 0.3 * each) for each in (number, number + 1)])
+
+
+def test_a_stroke_is_read_with_the_newest_strokes_alone() -> None:
+    session = DrawingSession(DrawingSettings())
+
+    def draw(number: int) -> None:
+        reading = session.stroke(saw(number), '', NOBODY, began=0.5 * number)
         assert reading.meaning == 'wall'
-        assert len(read) == min(number + 1, MOST_STROKES)
+
+    calls = [work(partial(draw, number))[0] for number in range(MOST_STROKES + 4)]
+
+    grown = calls[:MOST_STROKES]
+    assert grown == sorted(grown)
+    # One stroke more would be a fifth more.
+    assert max(calls) < 1.1 * grown[-1]
 
 
-def test_a_stroke_is_read_by_itself_when_the_time_is_over(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    now, read = 0.0, Figure.read
-    times = list[float]()
+@pytest.mark.parametrize(('pause', 'meaning'), [(0.0, 'rectangle'), (0.003, 'wall')])
+def test_a_stroke_is_read_by_itself_when_the_time_is_over(pause: float, meaning: str) -> None:
+    looks = list[float]()
 
-    def slow(*words: Any, **options: Any) -> Figure:
-        nonlocal now
-        times.append(now)
-        now += 0.003
-        return read(*words, **options)
+    def clock() -> float:
+        looks.append(pause * len(looks))
+        return looks[-1]
 
-    monkeypatch.setattr(Figure, 'read', slow)
-    session = DrawingSession(DrawingSettings(), clock=lambda: now)
-    snapshot = crowd(0, DISC, anchored=True)
-    for number in range(2 * MOST_STROKES):
-        times.clear()
-        line = [(0.5 * each, 0.7 * (each % 2), 0.3 * each) for each in (number, number + 1)]
-        session.stroke(np.array(line), '', snapshot, began=0.5 * number)
-    # The stroke itself, and then as many groups as are begun in time.
-    assert len(times) == 1 + 4
-    assert times[-1] - times[1] < MOST_TIME
+    session = DrawingSession(DrawingSettings(), clock=clock)
+    # Lines that are no sides of the square make more groups than there is time for.
+    corners = [(-1, 3), (-1, 5), (-1, 7), (-1, 9), (0, 0), (1, 0), (1, 1), (0, 1), (0, 0)]
+    for number, ends in enumerate(itertools.pairwise(corners)):
+        line = np.column_stack((np.array(ends, dtype=np.float64), (0.0, 0.2)))
+        looks.clear()
+        reading = session.stroke(line, '', NOBODY, began=0.5 * number)
+
+    assert reading.meaning == meaning
+    if pause:
+        assert looks[-2] <= looks[0] + MOST_TIME < looks[-1]
 
 
-def test_a_copy_of_twice_as_many_bodies_is_twice_the_work(monkeypatch: pytest.MonkeyPatch) -> None:
-    split, looked = scene_query.split_name, list[str]()
-    monkeypatch.setattr(scene_query, 'split_name', lambda name: looked.append(name) or split(name))
-
-    def work(count: int) -> int:
+def test_a_copy_of_twice_as_many_bodies_is_twice_the_work() -> None:
+    def copied(count: int) -> Floats:
         session, snapshot = DrawingSession(DrawingSettings()), crowd(count, DISC, anchored=False)
-        looked.clear()
-        for first in (count, 2 * count):
+
+        def copy(first: int) -> None:
             copies = session.copy_machine(snapshot.scene.names, (9.0, 0.0), snapshot)
             numbers = range(first, first + count)
             assert [each.name for each in copies] == [f'drawn/{number}' for number in numbers]
-        return len(looked)
 
-    assert 0 < work(400) <= 2 * work(200)
+        copy(count)
+        return work(lambda: copy(2 * count))
+
+    assert (copied(400) <= TWICE * copied(200)).all()
 
 
 def test_no_body_is_copied_twice_at_once() -> None:

@@ -91,19 +91,16 @@ def test_a_declared_field_is_read_and_written(folder: Path) -> None:
     assert other['actor']['slack'] == 0.5
 
 
-FIELDS = ['circle: {radius: 0.2, ', 'tracked, ', 'north, ', 'speed: 1, ']
+@pytest.mark.parametrize(
+    'of', ['circle: {radius: 0.2, ', 'tracked, ', 'north, ', 'speed: 1, '], ids=str.strip
+)
+@pytest.mark.parametrize(
+    ('said', 'words'), [('slack: 2', 'between 0 and 1'), ('slakc: 0.5', "nearest is 'slack'")]
+)
+def test_a_declared_field_is_checked_and_listed(
+    of: str, said: str, words: str, folder: Path
+) -> None:
+    refusal = refusal_of(TEXT.replace(f'{of}slack: 0.5', f'{of}{said}'), folder)
 
-
-@pytest.mark.parametrize('of', FIELDS)
-def test_a_declared_field_is_checked(of: str, folder: Path) -> None:
-    refusal = refusal_of(TEXT.replace(f'{of}slack: 0.5', f'{of}slack: 2'), folder)
-
-    assert refusal.field == 'slack'
-    assert 'between 0 and 1' in str(refusal)
-
-
-@pytest.mark.parametrize('of', FIELDS)
-def test_a_declared_field_is_listed_where_a_key_is_unknown(of: str, folder: Path) -> None:
-    refusal = refusal_of(TEXT.replace(f'{of}slack: 0.5', f'{of}slakc: 0.5'), folder)
-
-    assert "nearest is 'slack'" in str(refusal)
+    assert refusal.field == said.partition(':')[0]
+    assert words in str(refusal)

@@ -4,6 +4,7 @@
 """A saved world that was edited by hand: motion and impulses count where nothing was changed."""
 
 import base64
+from collections.abc import Callable
 import math
 from pathlib import Path
 from typing import Any
@@ -12,8 +13,7 @@ import zlib
 from hypothesis import given, HealthCheck, settings
 from hypothesis import strategies as st
 import numpy as np
-from physsim_ros.files.impulse_cache import pack
-from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.files.impulse_cache import pack, unpack
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.requests import Command, Restore
 from physsim_ros.model.settings import WorldSettings
@@ -21,13 +21,7 @@ from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
 import pytest
 
-from .world_files import (
-    edited,
-    load,
-    restored,
-    rewrite,
-    save,
-)
+from .world_files import edited, load, restored, rewrite, save, write
 from ..building import body, DISC, ELL, pose, spawn, stack, twist
 
 
@@ -109,21 +103,27 @@ def test_a_body_that_was_anchored_in_the_file_needs_no_more_than_that(folder: Pa
     assert pose(again, 'a/0').tolist() == [1.0, 2.0, 0.3]
 
 
-@pytest.fixture
-def resting(folder: Path) -> Path:
-    """Return the file of a stack at rest, with what the engine remembers of its contacts."""
+@pytest.fixture(scope='module')
+def rested(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Return the text of a stack at rest, with what the engine remembers of its contacts."""
     world = World(settings=WorldSettings(bounds=(-8.0, 0.0, 8.0, 30.0)))
     stack(world, 5)
     world.step(960)
-    return save(world, folder)
+    return save(world, tmp_path_factory.mktemp('rested')).read_text()
 
 
-def remembering(path: Path, changes: dict[str, Any]) -> WorldState:
-    return rewrite(path, lambda content: content['memory'].update(changes))
+@pytest.fixture
+def resting(rested: str, folder: Path) -> Path:
+    """Return a file of that text."""
+    return write(folder, rested)
 
 
 def packed(*rows: object, kind: type = np.int64) -> str:
     return pack(np.array(rows, dtype=kind))
+
+
+def with_memory(**changes: Any) -> Callable[[dict[str, Any]], object]:
+    return lambda content: content['memory'].update(changes)
 
 
 @pytest.mark.parametrize(
@@ -149,9 +149,9 @@ def packed(*rows: object, kind: type = np.int64) -> str:
 def test_a_memory_that_is_none_is_refused(
     changes: dict[str, Any], field: str, resting: Path
 ) -> None:
-    assert remembering(resting, {}).memory is not None
+    assert load(resting).memory is not None
     with pytest.raises(BadWorldFile) as refused:
-        remembering(resting, changes)
+        rewrite(resting, with_memory(**changes))
     assert refused.value.field == field
 
 
@@ -162,48 +162,38 @@ def test_a_memory_without_one_of_its_keys_is_refused(key: str, resting: Path) ->
     assert refused.value.field == key
 
 
-@pytest.mark.parametrize(
-    'ids', [(), (1, 2), (-1, 0, 1, 2, 3), (0, 1, 2, 3, 10**9), (20, 20, 21, 22, 23)]
-)
-def test_a_memory_of_other_bodies_is_none(ids: tuple[int, ...], resting: Path) -> None:
-    state = remembering(resting, {'ids': packed(*ids)})
+def moved(content: dict[str, Any]) -> None:
+    content['bodies'][0]['at'] = [3.0, 3.0, 0.0]
+
+
+def in_pieces(content: dict[str, Any]) -> None:
+    """Make a chain of the lowest body, as wide, as high and as heavy at both ends."""
+    lowest = content['bodies'][0]
+    width, height = lowest.pop('box').values()
+    points = [[share * width, 0.0] for share in (-0.4, -0.2, 0.0, 0.2, 0.4)]
+    lowest['chain'] = {'points': points, 'thickness': height}
+
+
+OF_OTHERS = [(), (1, 2), (-1, 0, 1, 2, 3), (0, 1, 2, 3, 10**9), (20, 20, 21, 22, 23)]
+WITHOUT: dict[str, Callable[[dict[str, Any]], object]] = {
+    **{f'ids {ids}': with_memory(ids=packed(*ids)) for ids in OF_OTHERS},
+    'walls and bodies share numbers': lambda content: content['memory'].update(
+        walls=int(unpack(content['memory']['ids'], 'ids', np.int64)[0])
+    ),
+    'deleted': lambda content: content.pop('memory'),
+    'a body is gone': lambda content: content['bodies'].pop(),
+    'a body was moved': moved,
+    'a body is in pieces': in_pieces,
+}
+
+
+@pytest.mark.parametrize('change', WITHOUT.values(), ids=WITHOUT)
+def test_without_a_memory_of_just_these_bodies_the_world_goes_on(
+    change: Callable[[dict[str, Any]], object], resting: Path
+) -> None:
+    state = rewrite(resting, change)
     assert state.memory is None
-    restored(state).step(10)
-
-
-def test_a_memory_in_which_walls_and_bodies_share_numbers_is_none(resting: Path) -> None:
-    first = remembering(resting, {}).memory
-    assert first is not None
-    state = remembering(resting, {'walls': int(first.ids[0])})
-    assert state.memory is None
-    restored(state).step(10)
-
-
-def test_the_memory_may_be_deleted(resting: Path) -> None:
-    state = rewrite(resting, lambda content: content.pop('memory'))
-    assert state.memory is None
-    assert len(state.bodies) == 5
-
-
-def test_a_body_that_is_gone_or_edited_leaves_no_memory(resting: Path) -> None:
-    text = resting.read_text()
-    assert rewrite(resting, lambda content: content['bodies'].pop()).memory is None
-    resting.write_text(text)
-    moved = {'at': [3.0, 3.0, 0.0]}
-    assert rewrite(resting, lambda content: content['bodies'][0].update(moved)).memory is None
-
-
-def test_a_body_that_was_cut_into_pieces_leaves_no_memory(resting: Path) -> None:
-    def cut(content: dict[str, Any]) -> None:
-        lowest = content['bodies'][0]
-        width, height = lowest.pop('box').values()
-        # As wide, as high and as heavy at both ends, so that it goes on from where it was.
-        points = [[share * width, 0.0] for share in (-0.4, -0.2, 0.0, 0.2, 0.4)]
-        lowest['chain'] = {'points': points, 'thickness': height}
-
-    state = rewrite(resting, cut)
-    assert state.bodies[0].motion is not None
-    assert state.memory is None
+    assert change is moved or all(each.motion is not None for each in state.bodies)
     restored(state).step(10)
 
 
@@ -225,16 +215,16 @@ def test_whatever_is_remembered_the_world_goes_on(
     walls: int,
     resting: Path,
 ) -> None:
-    state = remembering(
+    state = rewrite(
         resting,
-        {
-            'ids': packed(*ids),
-            'pairs': packed(*pairs),
-            'hashes': packed(*range(8), kind=np.uint64),
-            'impulses': packed(*impulses, kind=np.float64),
-            'walls': walls,
-            'following': 40,
-        },
+        with_memory(
+            ids=packed(*ids),
+            pairs=packed(*pairs),
+            hashes=packed(*range(8), kind=np.uint64),
+            impulses=packed(*impulses, kind=np.float64),
+            walls=walls,
+            following=40,
+        ),
     )
     assert state.memory is not None
     going = restored(state)

@@ -212,12 +212,12 @@ ANY = some.recursive(
         some.lists(each)
         | some.dictionaries(some.sampled_from(['strokes', 'points', 'name']), each)
     ),
-    max_leaves=20,
+    max_leaves=8,
 )
 
 
 @settings(deadline=None)
-@given(content=ANY | some.fixed_dictionaries({'strokes': some.lists(ANY)}))
+@given(content=ANY | some.fixed_dictionaries({'strokes': some.lists(ANY, max_size=4)}))
 def test_any_json_is_a_drawing_or_refused(
     tmp_path_factory: pytest.TempPathFactory, content: Any
 ) -> None:

@@ -11,10 +11,7 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
-from physsim_ros.files import (
-    save_world,
-    text_of,
-)
+from physsim_ros.files import save_world, text_of
 from physsim_ros.model.colors import color_of
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Anchor, Command, Configure, Release

@@ -8,29 +8,24 @@ import os
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.files import (
-    find_world,
-    hides_shipped,
-    shipped_worlds,
-    user_worlds,
-)
+from physsim_ros.files import hides_shipped, shipped_worlds, user_worlds
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.simulation.world import World
 import pytest
 
-from .world_files import assert_round_trip, load, save, write
+from .world_files import assert_round_trip, find, load, save, write
 from ..building import DISC, G, spawn
 
 # Places of files
 
 
 def test_a_plain_name_is_a_file_of_the_world_directory_before_a_shipped_one(folder: Path) -> None:
-    shipped = find_world('demo', world_dir=folder, confined=True)
-    assert find_world('demo.yaml', world_dir=folder, confined=True) == shipped
+    shipped = find('demo', folder)
+    assert find('demo.yaml', folder) == shipped
     own = write(folder, 'format: 1', 'demo.yaml')
 
     assert shipped == shipped_worlds() / 'demo.yaml'
-    assert find_world('demo', world_dir=folder, confined=True) == own
+    assert find('demo', folder) == own
 
 
 @pytest.mark.parametrize(
@@ -44,7 +39,7 @@ def test_only_what_the_name_of_a_shipped_world_now_means_hides_that(
     saved = save(World(), folder, name)
 
     assert hides_shipped(saved, world_dir=folder) is hides
-    meant = find_world('demo', world_dir=folder, confined=True)
+    meant = find('demo', folder)
     assert (meant.resolve() == saved) is hides
 
 
@@ -59,14 +54,13 @@ def test_a_path_is_below_the_world_directory(folder: Path) -> None:
     path = write(folder / 'sub', 'format: 1', 'x.yaml')
 
     for name in ('sub/x.yaml', 'sub/../sub/x.yaml', './sub/x.yaml', str(path)):
-        found = find_world(name, world_dir=folder, confined=True)
-        assert found.resolve() == path.resolve()
+        assert find(name, folder).resolve() == path.resolve()
 
 
 @pytest.mark.parametrize('path', sorted(shipped_worlds().glob('*.yaml')),
                          ids=lambda path: path.stem)  # fmt: skip
 def test_every_shipped_world_loads_by_its_name(path: Path, folder: Path) -> None:
-    assert find_world(path.stem, world_dir=folder, confined=True) == path
+    assert find(path.stem, folder) == path
     assert load(path).bodies
 
 
@@ -74,11 +68,9 @@ def test_a_file_outside_is_read_where_nobody_confines(folder: Path) -> None:
     outside = write(folder.parent, 'format: 1', 'outside.yaml')
 
     for name in ('../outside.yaml', str(outside)):
-        found = find_world(name, world_dir=folder, confined=False)
-        assert found.resolve() == outside.resolve()
-        with pytest.raises(BadWorldFile) as refused:
-            find_world(name, world_dir=folder, confined=True)
-        assert 'outside' in str(refused.value)
+        assert find(name, folder, confined=False).resolve() == outside.resolve()
+        with pytest.raises(BadWorldFile, match='outside'):
+            find(name, folder)
 
 
 def test_a_link_that_leads_outside_is_not_followed_where_confined(folder: Path) -> None:
@@ -87,9 +79,9 @@ def test_a_link_that_leads_outside_is_not_followed_where_confined(folder: Path) 
     (folder / 'sub').symlink_to(folder.parent, target_is_directory=True)
 
     for name in ('link', 'link.yaml', 'sub/outside.yaml'):
-        assert find_world(name, world_dir=folder, confined=False).is_file()
+        assert find(name, folder, confined=False).is_file()
         with pytest.raises(BadWorldFile):
-            find_world(name, world_dir=folder, confined=True)
+            find(name, folder)
         with pytest.raises(BadWorldFile):
             save(World(), folder, name)
     assert outside.read_text() == 'format: 1'
@@ -99,7 +91,7 @@ def test_a_link_within_the_directory_is_followed(folder: Path) -> None:
     path = write(folder, 'format: 1', 'real.yaml')
     (folder / 'link.yaml').symlink_to(path)
 
-    assert find_world('link', world_dir=folder, confined=True).read_text() == 'format: 1'
+    assert find('link', folder).read_text() == 'format: 1'
     save(World(), folder, 'link')
     assert path.read_text().startswith('format: 1\ngravity')
 
@@ -109,7 +101,7 @@ def test_links_in_a_circle_are_refused(folder: Path) -> None:
     (folder / 'b.yaml').symlink_to(folder / 'a.yaml')
 
     with pytest.raises(BadWorldFile):
-        find_world('a', world_dir=folder, confined=True)
+        find('a', folder)
     with pytest.raises(BadWorldFile):
         save(World(), folder, 'a')
 
@@ -169,7 +161,7 @@ def test_only_visible_yaml_files_are_read_and_written(name: str, folder: Path) -
     with pytest.raises(BadWorldFile):
         save(World(), folder, name)
     with pytest.raises(BadWorldFile):
-        find_world(name, world_dir=folder, confined=True)
+        find(name, folder)
 
     assert {path: path.is_file() and path.read_text() for path in folder.rglob('*')} == before
 
@@ -184,10 +176,9 @@ def test_only_visible_yaml_files_are_read_and_written(name: str, folder: Path) -
 def test_what_is_no_world_file_is_not_written_over(text: str, folder: Path) -> None:
     path = write(folder, text, 'compose.yaml')
 
-    with pytest.raises(BadWorldFile) as refused:
+    with pytest.raises(BadWorldFile, match='not a world file'):
         save(World(), folder, 'compose')
 
-    assert 'not a world file' in str(refused.value)
     assert path.read_text() == text
 
 
@@ -213,12 +204,12 @@ def test_what_is_no_plain_file_is_refused_at_once(kind: str, folder: Path) -> No
     else:
         path.symlink_to('/dev/zero' if kind == 'device' else '/proc/self/environ')
 
-    for read in (load, lambda path: find_world(str(path), world_dir=folder, confined=False)):
-        if kind in ('of the kernel', 'huge') and read is not load:
-            continue
-        with pytest.raises(BadWorldFile) as refused:
-            read(path)
-        assert len(str(refused.value)) < 400
+    with pytest.raises(BadWorldFile) as refused:
+        load(path)
+    assert len(str(refused.value)) < 400
+    if kind not in {'of the kernel', 'huge'}:
+        with pytest.raises(BadWorldFile):
+            find(str(path), folder, confined=False)
     with pytest.raises(BadWorldFile):
         save(World(), folder)
 
@@ -230,10 +221,9 @@ def test_a_world_file_of_the_working_directory_is_read_at_start(
     monkeypatch.chdir(folder.parent)
 
     for name in ('mine.yaml', './mine.yaml'):
-        found = find_world(name, world_dir=folder, confined=False)
-        assert found.resolve() == path.resolve()
+        assert find(name, folder, confined=False).resolve() == path.resolve()
         with pytest.raises(BadWorldFile):
-            find_world(name, world_dir=folder, confined=True)
+            find(name, folder)
 
 
 @pytest.mark.parametrize(
@@ -252,9 +242,11 @@ def test_names_are_quoted(name: str, folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    'name', ['../w.yaml', '/w.yaml', 'sub/../../w.yaml', '.', './', '../worlds']
+    'name', ['../w.yaml', '/w.yaml', 'sub/../../w.yaml', '.', './', '../worlds', 'none/w.yaml']
 )
-def test_nothing_is_written_outside_the_directory(name: str, folder: Path) -> None:
+def test_nothing_is_written_outside_the_directory_or_into_one_that_is_not_there(
+    name: str, folder: Path
+) -> None:
     (folder / 'sub').mkdir()
     before = sorted(folder.parent.rglob('*'))
 
@@ -263,13 +255,6 @@ def test_nothing_is_written_outside_the_directory(name: str, folder: Path) -> No
 
     assert sorted(folder.parent.rglob('*')) == before
     assert not Path('/w.yaml').exists()
-
-
-def test_nothing_is_written_into_a_directory_that_is_not_there(folder: Path) -> None:
-    with pytest.raises(BadWorldFile):
-        save(World(), folder, 'sub/w.yaml')
-
-    assert list(folder.iterdir()) == []
 
 
 @pytest.mark.parametrize(

@@ -10,19 +10,14 @@ from typing import Any
 from hypothesis import given, settings
 from hypothesis import strategies as st
 import numpy as np
-from physsim_ros.files import (
-    find_world,
-    load_mapping,
-    world_reader,
-)
+from physsim_ros.files import load_mapping
 from physsim_ros.files.yaml12 import load_entries
 from physsim_ros.model.errors import BadWorldFile, Malformed, WorldFull
-from physsim_ros.model.requests import Spawn
 from physsim_ros.simulation.world import World
 import pytest
 import yaml
 
-from .world_files import load, refusal_of, restored, save, write
+from .world_files import find, load, refusal_of, restored, save, write
 
 # Refusals of what files say
 
@@ -143,14 +138,6 @@ def test_what_is_no_yaml_mapping_is_refused(text: str, folder: Path) -> None:
     assert refusal_of(text, folder).field == 'world_file'
 
 
-def test_an_unknown_key_names_the_nearest(folder: Path) -> None:
-    assert "'gravity'" in str(refusal_of('format: 1\ngravty: [0, 0]', folder))
-    text = HEAD + '  - {name: a/0, circle: {radius: 1}, elastic: 1}'
-    refusal = refusal_of(text, folder)
-    assert "'elasticity'" in str(refusal)
-    assert "'a/0'" in str(refusal)
-
-
 @pytest.mark.parametrize(
     ('text', 'line'),
     [
@@ -172,47 +159,27 @@ def test_a_text_of_one_line_says_no_line() -> None:
     assert 'line' not in str(refused.value)
 
 
-def test_a_parameter_of_the_node_is_told_from_a_word_that_means_nothing(folder: Path) -> None:
-    assert 'parameter of the node' in str(refusal_of('format: 1\nmax_bodies: 2', folder))
-    refusal = refusal_of('format: 1\nflavour: 2', folder)
-    assert str(refusal).startswith("w.yaml: there is no property 'flavour'; there are format, ")
+DISCS_OF = ''.join(f'  - {{name: a/{k}, circle: {{radius: {3 - k}}}}}\n' for k in range(5))
 
 
 @pytest.mark.parametrize(
-    ('text', 'which'),
+    ('text', 'words'),
     [
-        ('bodies: [{name: a/0, circle: {radius: 1}}, {circle: {radius: 1}}]', 'body number 2: '),
-        ('bodies: []\njoints: [{kind: axle}]', 'joint number 1: '),
-        ('bodies: []\njoints: [{name: 7, kind: axle}]', 'joint 7: '),
+        ('gravty: [0, 0]', ["'gravity'"]),
+        ('bodies: [{name: a/0, circle: {radius: 1}, elastic: 1}]', ["'elasticity'", "'a/0'"]),
+        ('max_bodies: 2', ['parameter of the node']),
+        ('flavour: 2', ["w.yaml: there is no property 'flavour'; there are format, "]),
+        ('bodies: [{name: a/0, circle: {radius: 1}}, {circle: {radius: 1}}]', ['body number 2: ']),
+        ('joints: [{kind: axle}]', ['joint number 1: ']),
+        ('joints: [{name: 7, kind: axle}]', ['joint 7: ']),
+        (f'bodies:\n{DISCS_OF}', ["body 'a/3'"]),
     ],
 )
-def test_what_has_no_name_is_told_by_its_number(text: str, which: str, folder: Path) -> None:
-    assert which in str(refusal_of(f'format: 1\n{text}', folder))
-
-
-def test_a_refusal_says_which_body_it_is(folder: Path) -> None:
-    bodies = ''.join(f'  - {{name: a/{k}, circle: {{radius: {3 - k}}}}}\n' for k in range(5))
-
-    assert "body 'a/3'" in str(refusal_of(HEAD + bodies, folder))
-
-
-def test_a_value_that_unfolds_without_end_is_refused_at_once(folder: Path) -> None:
-    layers = ['a0: &a0 [x, x, x, x, x, x, x, x, x]']
-    layers += [f'a{k}: &a{k} [{", ".join([f"*a{k - 1}"] * 9)}]' for k in range(1, 30)]
-    name = ', '.join(layers)
-    refusal_of(f'format: 1\nbodies: [{{name: {{{name}}}, circle: {{radius: 1}}}}]', folder)
-
-    merges = ['m0: &m0 {mass: 1}']
-    merges += [
-        f'm{k}: &m{k} {{!!merge x: [{", ".join([f"*m{k - 1}"] * 9)}]}}' for k in range(1, 30)
-    ]
-    refusal_of('format: 1\n' + '\n'.join(merges), folder)
-
-
-def test_a_mapping_that_holds_itself_is_refused(folder: Path) -> None:
-    refusal_of('format: &a [*a]', folder)
-    refusal_of('format: 1\nbodies: &a [*a]', folder)
-    refusal_of('format: 1\nbodies: [&a {name: *a, circle: {radius: 1}}]', folder)
+def test_a_refusal_says_the_nearest_key_and_of_which_body_or_joint(
+    text: str, words: list[str], folder: Path
+) -> None:
+    told = str(refusal_of(f'format: 1\n{text}', folder))
+    assert [word for word in words if word not in told] == []
 
 
 # Refusals of files
@@ -223,7 +190,7 @@ def test_a_file_that_is_not_there_is_refused(folder: Path) -> None:
         load(folder / 'nothing.yaml')
     for name in ('nothing', 'nothing.yaml', 'sub/nothing', '/nothing.yaml', '.', '..', '../..'):
         with pytest.raises(BadWorldFile):
-            find_world(name, world_dir=folder, confined=False)
+            find(name, folder, confined=False)
 
 
 def test_where_a_world_is_not_there_the_nearest_is_named_be_it_shipped_or_ones_own(
@@ -233,7 +200,7 @@ def test_where_a_world_is_not_there_the_nearest_is_named_be_it_shipped_or_ones_o
     write(folder, 'format: 1', '.hidden.yaml')
     for name, nearest in (('mines', "'mine'"), ('brigde', "'bridge'"), ('hidden', '')):
         with pytest.raises(BadWorldFile, match='physsim --help') as refused:
-            find_world(name, world_dir=folder, confined=True)
+            find(name, folder)
         _, is_near, told = str(refused.value).partition('nearest is ')
         assert bool(is_near) == bool(nearest)
         assert told.startswith(nearest)
@@ -242,12 +209,10 @@ def test_where_a_world_is_not_there_the_nearest_is_named_be_it_shipped_or_ones_o
 def test_a_directory_is_no_world(folder: Path) -> None:
     (folder / 'sub.yaml').mkdir()
 
-    with pytest.raises(BadWorldFile):
-        load(folder / 'sub.yaml')
-    with pytest.raises(BadWorldFile):
-        find_world('sub', world_dir=folder, confined=True)
-    with pytest.raises(BadWorldFile):
-        save(World(), folder, 'sub')
+    for act in (lambda: load(folder / 'sub.yaml'), lambda: find('sub', folder),
+                lambda: save(World(), folder, 'sub')):  # fmt: skip
+        with pytest.raises(BadWorldFile):
+            act()
 
 
 def test_a_file_that_is_no_text_is_refused(folder: Path) -> None:
@@ -269,16 +234,15 @@ def test_a_file_that_may_not_be_read_is_refused(folder: Path) -> None:
 
 
 @pytest.mark.parametrize('name', ['', 'a' * 5000, 'a\0b', 'a\0b.yaml', '\ud800'])
-@pytest.mark.parametrize('confined', [False, True])
-def test_a_name_that_no_file_can_have_is_refused(
-    *, name: str, confined: bool, folder: Path
-) -> None:
-    with pytest.raises(BadWorldFile) as refused:
-        find_world(name, world_dir=folder, confined=confined)
-    assert refused.value.field == 'world_file'
-    with pytest.raises(BadWorldFile) as refused:
-        save(World(), folder, name)
-    assert refused.value.field == 'world_file'
+def test_a_name_that_no_file_can_have_is_refused(name: str, folder: Path) -> None:
+    for act in (
+        lambda: find(name, folder, confined=False),
+        lambda: find(name, folder),
+        lambda: save(World(), folder, name),
+    ):
+        with pytest.raises(BadWorldFile) as refused:
+            act()
+        assert refused.value.field == 'world_file'
     assert list(folder.iterdir()) == []
 
 
@@ -352,40 +316,38 @@ def test_an_outline_may_be_repeated(folder: Path) -> None:
     assert len(load(write(folder, repeating(20))).bodies) == 20
 
 
-@pytest.mark.parametrize(
-    'text',
-    [
-        repeating(1500),
-        # Each line has ten times as many values as the one before.
-        'a0: &a0 [x]\n'
-        + ''.join(f'a{n}: &a{n} [{", ".join([f"*a{n - 1}"] * 10)}]\n' for n in range(1, 30)),
-        '{a: &a [*a]}',
-        '{a: &a {b: *a}}',
-        '{? &a b : &c [*c], *a : 1}',
-    ],
-    ids=['walls', 'tenfold', 'list in itself', 'mapping in itself', 'by a key'],
-)
-def test_aliases_end_while_they_are_read(
-    text: str, folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr('physsim_ros.files.world_file.state_from', pytest.fail)
+def unfolding(layer: str, times: int, first: str) -> list[str]:
+    """Return entries, each of which has the one before it so many times."""
+    entries = [f'a0: &a0 {first}']
+    for each in range(1, 30):
+        again = ', '.join([f'*a{each - 1}'] * times)
+        entries.append(f'a{each}: &a{each} {layer.format(f"[{again}]")}')
+    return entries
+
+
+ENDLESS = {
+    'walls': repeating(1500),
+    'lists': '\n'.join(unfolding('{}', 10, '[x]')),
+    'merges': 'format: 1\n' + '\n'.join(unfolding('{{!!merge x: {}}}', 9, '{mass: 1}')),
+    'a name': f'bodies: [{{name: {{{", ".join(unfolding("{}", 9, "[x]"))}}}}}]',
+    'a list in itself': '{a: &a [*a]}',
+    'a mapping in itself': '{a: &a {b: *a}}',
+    'a key': '{? &a b : &c [*c], *a : 1}',
+    'a format': 'format: &a [*a]',
+    'bodies': 'format: 1\nbodies: &a [*a]',
+    'a body': 'format: 1\nbodies: [&a {name: *a, circle: {radius: 1}}]',
+}
+
+
+@pytest.mark.parametrize('text', ENDLESS.values(), ids=ENDLESS)
+def test_aliases_end_while_they_are_read(text: str, folder: Path) -> None:
     assert 'aliases repeat more than 100000 values' in str(refusal_of(text, folder))
 
 
-def test_pieces_are_counted_while_bodies_are_read(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    made = list[str]()
-    new_body = world_reader.new_body
-
-    def noted(spawn: Spawn, *details: Any) -> Any:
-        made.append(spawn.name)
-        return new_body(spawn, *details)
-
-    monkeypatch.setattr(world_reader, 'new_body', noted)
+def test_pieces_are_counted_while_bodies_are_read(folder: Path) -> None:
+    # Of three walls of twenty.
     with pytest.raises(WorldFull, match='the world would have 2997 convex pieces'):
         load(write(folder, repeating(20)), max_shapes=2000)
-    assert made == ['a/0', 'a/1', 'a/2']
 
 
 def test_keys_are_texts() -> None:

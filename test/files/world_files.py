@@ -7,10 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.files import (
-    load_world,
-    save_world,
-)
+from physsim_ros.files import find_world, load_world, save_world
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.requests import Restore
@@ -31,6 +28,11 @@ def write(folder: Path, text: str, name: str = 'w.yaml') -> Path:
     path = folder / name
     path.write_text(text, encoding='utf-8')
     return path
+
+
+def find(name: str, folder: Path, *, confined: bool = True) -> Path:
+    """Return the path of a world by its name."""
+    return find_world(name, world_dir=folder, confined=confined)
 
 
 def load(path: Path, *, rate: float = RATE, **settings: Any) -> WorldState:
@@ -55,9 +57,9 @@ def save(world: World | WorldState, folder: Path, name: str = 'w') -> Path:
 
 def rewrite(path: Path, change: Callable[[dict[str, Any]], object], **load_as: Any) -> WorldState:
     """Change the content of a file, and return the state that it then has."""
-    content = yaml.safe_load(path.read_text())
+    content = yaml.load(path.read_text(), yaml.CSafeLoader)
     change(content)
-    path.write_text(yaml.safe_dump(content, sort_keys=False))
+    path.write_text(yaml.dump(content, Dumper=yaml.CSafeDumper, sort_keys=False))
     return load(path, **load_as)
 
 

@@ -170,6 +170,8 @@ def test_a_picture_shows_the_robot_where_it_is() -> None:
 def test_what_does_not_fit_is_refused() -> None:
     with pytest.raises(BadProperty, match='does not divide'):
         RobotEnv(task(period=0.033))
+    with pytest.raises(BadProperty, match='render_mode must be one of rgb_array'):
+        RobotEnv(task(), render_mode='human')
     for times in ({'period': 0.0}, {'longest': float('inf')}, {'longest': -1.0}):
         with pytest.raises(Refusal, match=next(iter(times))):
             task(**times)

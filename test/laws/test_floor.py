@@ -11,6 +11,7 @@ from physsim_ros.model.shapes import Box, Disc, Polygon
 import pytest
 
 from .scenes import DT, G, NOWHERE, simulation, spawn, steps, turned
+from ..building import sleepers
 
 # Of all floors here.
 MU = 0.5
@@ -113,7 +114,7 @@ def test_a_body_at_rest_stays_and_sleeps():
     last = _after(sim, 5.0)
 
     assert np.array_equal(last.poses, first.poses)
-    assert sim.world.space.table.asleep.all()
+    assert sleepers(sim.world) == ['box/0']
 
 
 @pytest.mark.parametrize(('speed', 'turn'), [(0.2, 0.0), (0.2, 1.0), (-0.1, -2.8), (0.0, 2.0)])
@@ -240,7 +241,7 @@ def test_a_robot_at_a_wall_pushes_with_the_force_of_its_traction(report, speed):
         39, 'way of a robot at a wall, 1 s', last.poses[row, 0], pressed.poses[row, 0], 1e-9, 'm'
     )
     # Its wheels slip, and so does its odometry.
-    wheels = last.robots.odometry[0, 0] - pressed.robots.odometry[0, 0]
+    wheels = last.robots['odometry'][0, 0] - pressed.robots['odometry'][0, 0]
     report.check(39, 'way of wheels that slip, 1 s', wheels, speed, 1e-9, 'm')
 
 
@@ -373,7 +374,7 @@ def test_odometry_without_slip_is_the_way(report):
         for name in ('robot/0', 'omni/0'):
             _drive(sim, *command, name=name)
         last = _after(sim, 0.25)
-        for start, pose, reckoned in zip(starts, last.poses, last.robots.odometry, strict=True):
+        for start, pose, reckoned in zip(starts, last.poses, last.robots['odometry'], strict=True):
             x, y = turned(reckoned[:2], start[2]) + start[:2]
             off = max(off, abs(np.array([x, y, start[2] + reckoned[2]]) - pose).max())
 
@@ -390,7 +391,7 @@ def test_the_drift_of_odometry_is_as_large_as_it_says(report):
 
     last = _after(sim, way / 0.4)
 
-    ways, headings = last.robots.odometry[:, 0], last.robots.odometry[:, 2]
+    ways, headings = last.robots['odometry'][:, 0], last.robots['odometry'][:, 2]
     driven = last.poses[0, 0]
     # Headings make the way along x shorter too; both by chance, of 200 within a fifth.
     report.check(
@@ -425,7 +426,7 @@ def test_the_covariance_of_odometry_is_that_of_its_errors(report):
 
         states = _after(sim, 6.0).robots
 
-        told, found = states.covariance.mean(axis=0), np.cov(states.odometry.T)
+        told, found = states['covariance'].mean(axis=0), np.cov(states['odometry'].T)
         for place, (row, column) in enumerate(((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2))):
             # Of 300, a variance is within 16 % of its own, at two standard deviations; so is a
             # product, of the root of its variances.
@@ -444,7 +445,7 @@ def test_noise_is_another_one_of_another_seed_and_another_robot():
                 sim, f'robot/{number}', (0.0, float(number), 0.0), odometry={'slip': (0.05, 0.05)}
             )
             _drive(sim, 0.4, 0.0, 0.0, name=f'robot/{number}')
-        drifts.append(_after(sim, 1.0).robots.odometry)
+        drifts.append(_after(sim, 1.0).robots['odometry'])
 
     assert np.array_equal(drifts[0], drifts[1])
     assert not np.isclose(drifts[0], drifts[2]).all(axis=1).any()

@@ -6,10 +6,15 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from typing import Any
 
+from physsim_ros.model.actors import actor_from
 from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.declarations import OfKind
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.joints import JointKind, JointProperties, kind_from
+from physsim_ros.model.robots.drives import drive_from
+from physsim_ros.model.robots.sensors import sensor_from
 from physsim_ros.model.texts import EVERYDAY_WORDS
 import pytest
 
@@ -52,6 +57,39 @@ def test_an_everyday_word_for_a_property_of_a_joint_is_told_its_name(word: str, 
 def test_a_word_for_a_kind_of_joint_is_told_its_name(word: str, hint: str) -> None:
     with pytest.raises(BadProperty, match=f"^there is no kind of joint '{word}'; {hint}"):
         kind_from(word)
+
+
+@pytest.mark.parametrize(
+    ('check', 'word', 'hint'),
+    [(sensor_from, 'lidar', "use 'laser'"), (sensor_from, 'Ultrasonic', "use 'range'"),
+     (sensor_from, 'lasr', "nearest is 'laser'"), (drive_from, 'diff-drive', "use 'differential'"),
+     (drive_from, 'ackermann', "use 'car'"), (drive_from, 'xyz', 'there are differential'),
+     (actor_from, 'pedestrian', "use 'social_force'"), (actor_from, 'rvo2', "use 'orca'")],
+)  # fmt: skip
+def test_a_word_for_a_kind_of_sensor_drive_or_actor_is_told_its_name(
+    check: OfKind[Any], word: str, hint: str
+) -> None:
+    with pytest.raises(BadProperty, match=f"^there is no kind of {check.noun} '{word}'; {hint}"):
+        check({'kind': word}, check.noun)
+
+
+@pytest.mark.parametrize('check', [sensor_from, drive_from, actor_from])
+def test_the_everyday_words_of_kinds_are_no_kinds(check: OfKind[Any]) -> None:
+    words = [word for each in check.everyday.values() for word in each]
+    assert check.everyday.keys() == check.kinds.keys()
+    assert not {*words} & check.kinds.keys()
+    assert len({*words}) == len(words)
+
+
+def test_a_key_of_another_kind_is_refused_with_those_of_this_one() -> None:
+    with pytest.raises(UnknownProperty) as refused:
+        drive_from({'kind': 'omni', 'wheelbase': 0.3}, 'drive')
+
+    assert str(refused.value) == (
+        'drives of kind omni have no wheelbase; they have max_speed, max_turn, acceleration, '
+        'traction, timeout, track, wheel_radius'
+    )
+    assert refused.value.field == 'wheelbase'
 
 
 def test_every_property_has_everyday_words_and_none_of_them_is_a_property() -> None:

@@ -46,3 +46,9 @@ def test_a_word_that_is_no_kind_is_bad(word: object) -> None:
     with pytest.raises(BadProperty) as refused:
         kind_from(word)
     assert refused.value.field == 'kind'
+
+
+@pytest.mark.parametrize('kind', [kind for kind in JointKind if kind.schema.along_line])
+def test_a_force_along_a_line_needs_two_points_and_no_axis(kind: JointKind) -> None:
+    assert kind.points == 2
+    assert not kind.schema.has_axis

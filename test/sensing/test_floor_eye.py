@@ -8,10 +8,10 @@ import math
 import numpy as np
 from physsim_ros.model.robots.sensors import FloorEye
 from physsim_ros.model.shapes import Box, Chain, Disc
-from physsim_ros.sensing import FloorMarks, read_floor
+from physsim_ros.sensing import read_floor
 import pytest
 
-from .worlds import add_robot, plane
+from .worlds import add_robot, plane, seen
 from ..building import INSIDE, SHAPES, spawn
 
 BLACK, RED = (0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0)
@@ -20,7 +20,7 @@ WHITE = [255, 255, 255]
 
 
 def read(world, row, eye, seed=1):
-    return read_floor(FloorMarks(world.snapshot()), row, eye, seed)
+    return read_floor(seen(world, seed), row, eye)
 
 
 def test_a_line_under_the_row_is_seen_where_it_is():

@@ -10,7 +10,7 @@ from physsim_ros.model.robots.sensors import Gps
 from physsim_ros.sensing import fix_of, read_gps
 import pytest
 
-from .worlds import add_robot, plane
+from .worlds import add_robot, plane, seen
 
 DATUM = (48.1375, 11.5755)
 AXIS, FLATTENING = 6378137.0, 1.0 / 298.257223563
@@ -62,9 +62,9 @@ def test_a_receiver_reads_where_it_is_mounted_and_without_a_datum_nothing():
     gps = Gps(at=(1.0, 0.5))
     world = plane(datum=DATUM)
     row = add_robot(world, pose=(10.0, 20.0, math.pi / 2))
-    assert read_gps(world.snapshot(), row, gps, 0) == fix_of((9.5, 21.0), DATUM)
+    assert read_gps(world.snapshot(), row, gps) == fix_of((9.5, 21.0), DATUM)
     world = plane()
-    assert read_gps(world.snapshot(), add_robot(world), gps, 0) is None
+    assert read_gps(world.snapshot(), add_robot(world), gps) is None
 
 
 def test_noise_is_as_large_as_told_and_repeats():
@@ -73,9 +73,9 @@ def test_noise_is_as_large_as_told_and_repeats():
     away = []
     for _ in range(400):
         world.step(1)
-        snapshot = world.snapshot()
-        fix = read_gps(snapshot, row, gps, 5)
-        assert fix == read_gps(snapshot, row, gps, 5)
+        snapshot = seen(world, 5)
+        fix = read_gps(snapshot, row, gps)
+        assert fix == read_gps(snapshot, row, gps)
         away.append(_on_plane(fix, DATUM)[:2])
     # Four standard errors of a standard deviation of 400 numbers.
     assert np.std(away, axis=0) == pytest.approx((2.0, 2.0), rel=4.0 / math.sqrt(800))

@@ -10,14 +10,14 @@ from physsim_ros.model.robots.sensors import Imu
 from physsim_ros.sensing import read_imu
 import pytest
 
-from .worlds import add_robot, plane
+from .worlds import add_robot, plane, seen
 from ..building import command, DT, spawn, unlimit_wrenches
 
 
 def readings(world, row, imu, steps=60):
     before = world.snapshot()
     world.step(steps)
-    return read_imu(world.snapshot(), before, row, imu, 1)
+    return read_imu(world.snapshot(), before, row, imu)
 
 
 def test_a_push_is_felt_in_the_axes_of_the_robot():
@@ -55,7 +55,7 @@ def test_a_pose_that_is_set_is_no_turn_of_the_axes():
     world.step(4)
     command(world, 'robot/0', pose=(0.0, 0.0, 1.0), twist=(0.0, 0.0, 0.0))
 
-    felt = read_imu(world.snapshot(), before, row, Imu(), 1)
+    felt = read_imu(world.snapshot(), before, row, Imu())
 
     up = 9.81 * math.sin(1.0), 9.81 * math.cos(1.0)
     assert felt.acceleration == pytest.approx(up)
@@ -70,8 +70,8 @@ def test_in_free_fall_nothing_is_felt_and_at_rest_the_weight_is():
     felt = readings(world, row, Imu())
 
     assert felt.acceleration == pytest.approx((0.0, 0.0), abs=1e-9)
-    assert read_imu(still, None, row, Imu(), 1).acceleration == pytest.approx((0.0, 9.81))
-    assert read_imu(still, still, row, Imu(), 1).acceleration == pytest.approx((0.0, 9.81))
+    assert read_imu(still, None, row, Imu()).acceleration == pytest.approx((0.0, 9.81))
+    assert read_imu(still, still, row, Imu()).acceleration == pytest.approx((0.0, 9.81))
 
 
 def test_a_robot_that_was_not_there_before_has_no_acceleration():
@@ -81,7 +81,7 @@ def test_a_robot_that_was_not_there_before_has_no_acceleration():
     row = add_robot(world, pose=(5.0, 0.0, 0.0), velocity=[1.0, 0.0])
     world.step(1)
 
-    assert read_imu(world.snapshot(), before, row, Imu(), 1).acceleration == (0.0, 0.0)
+    assert read_imu(world.snapshot(), before, row, Imu()).acceleration == (0.0, 0.0)
 
 
 def test_the_row_of_a_body_may_change():
@@ -94,7 +94,7 @@ def test_the_row_of_a_body_may_change():
     world.apply(Delete(name='thing/0'))
     world.step(10)
 
-    felt = read_imu(world.snapshot(), before, row - 1, Imu(), 1)
+    felt = read_imu(world.snapshot(), before, row - 1, Imu())
 
     # Stamps are whole nanoseconds.
     assert felt.acceleration == pytest.approx((1.0, 0.0), abs=1e-7)
@@ -103,12 +103,11 @@ def test_the_row_of_a_body_may_change():
 def test_noise_is_that_of_the_seed():
     world = plane()
     row = add_robot(world)
-    snapshot = world.snapshot()
     imu = Imu(noise=(0.1, 0.01))
 
-    felt = read_imu(snapshot, None, row, imu, 1)
+    felt = read_imu(seen(world, 1), None, row, imu)
 
-    assert felt == read_imu(snapshot, None, row, imu, 1)
-    assert felt != read_imu(snapshot, None, row, imu, 2)
+    assert felt == read_imu(seen(world, 1), None, row, imu)
+    assert felt != read_imu(seen(world, 2), None, row, imu)
     assert 0.0 < abs(felt.turn_rate) < 0.06
     assert 0.0 < math.hypot(*felt.acceleration) < 0.9

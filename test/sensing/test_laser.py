@@ -11,7 +11,7 @@ from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.sensing import read_laser, Surroundings
 import pytest
 
-from .worlds import add_robot, engine_rays, plane, PRECISION, random_world
+from .worlds import add_robot, engine_rays, plane, PRECISION, random_world, seen
 from ..building import SHAPES, spawn
 
 FAR = 12.0
@@ -19,7 +19,7 @@ SEED = 3
 
 
 def scan(world, row, laser, seed=SEED):
-    return read_laser(Surroundings(world.snapshot()), row, laser, seed)
+    return read_laser(Surroundings(seen(world, seed)), row, laser)
 
 
 def assert_same(scanned, expected):
@@ -199,11 +199,11 @@ def test_one_among_fifty_reads_the_same_bits_as_alone():
     row, row_among = add_robot(alone, pose=pose), add_robot(together, pose=pose)
     for number in range(25):
         add_robot(together, f'after/{number}', (0.0, 100.0 + number, 0.0))
-    surroundings = Surroundings(together.snapshot())
+    surroundings = Surroundings(seen(together, SEED))
     for other in range(10):
-        read_laser(surroundings, other, laser, SEED)
+        read_laser(surroundings, other, laser)
 
-    among = read_laser(surroundings, row_among, laser, SEED)
+    among = read_laser(surroundings, row_among, laser)
 
     assert scan(alone, row, laser).tobytes() == among.tobytes()
 

@@ -10,12 +10,12 @@ from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.sensing import read_range, Surroundings
 import pytest
 
-from .worlds import add_robot, plane
+from .worlds import add_robot, plane, seen
 from ..building import spawn
 
 
 def read(world, row, finder, seed=1):
-    return read_range(Surroundings(world.snapshot()), row, finder, seed)
+    return read_range(Surroundings(seen(world, seed)), row, finder)
 
 
 def test_the_nearest_in_the_cone_counts():

@@ -3,6 +3,7 @@
 
 """Worlds for sensors, and the engine's own rays in them."""
 
+from dataclasses import replace
 import math
 
 import numpy as np
@@ -38,6 +39,13 @@ def add_robot(world, name='robot/0', pose=(0.0, 0.0, 0.0), shape=None, **propert
     """Spawn a body for sensors; return its row."""
     spawn(world, name, shape or Disc(radius=0.1), pose, **properties)
     return world.snapshot().scene.names.index(name)
+
+
+def seen(world, seed):
+    """Return the snapshot of a world whose noise has another seed."""
+    snapshot = world.snapshot()
+    settings = replace(snapshot.scene.settings, seed=seed)
+    return replace(snapshot, scene=replace(snapshot.scene, settings=settings))
 
 
 def engine_rays(world, origin, angles, reach):

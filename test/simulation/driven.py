@@ -87,8 +87,8 @@ def world_after(*timed: tuple[int, str, Request], frames: int = 60) -> Simulatio
 def take_back(simulation: Simulation, author: str) -> Answer:
     """Have the last gesture of a person be taken back, and return the answer."""
     simulation.requests.submit(TakeBack(), topic='~/undo', author=author)
-    simulation.apply_waiting()
-    (answer,) = (each for each in simulation.take_answers() if each.topic == '~/undo')
+    simulation.requests.apply_waiting()
+    (answer,) = (each for each in simulation.requests.take_answers() if each.topic == '~/undo')
     return answer
 
 

@@ -97,7 +97,7 @@ def test_actors_under_way_are_saved_and_loaded_to_the_bit(tmp_path):
         assert one.digest() == other.digest()
         one.step(120)
         other.step(120)
-    assert one.space.actor_states.reached.any()
+    assert one.space.table.actor_states['reached'].any()
 
 
 @pytest.mark.parametrize(

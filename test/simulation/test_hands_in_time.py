@@ -139,6 +139,25 @@ def test_a_silent_hand_lets_go_after_five_seconds_of_running_time() -> None:
     assert (sim.step, sim.world.grips) == (0, ())
 
 
+def test_the_release_of_a_silent_hand_is_undone_with_the_gesture_before_which_is_redone() -> None:
+    sim = holding()
+    sim.advance_frame()
+    sim.perform(spawning('b/0', DISC, (5.0, 0.0, 0.0)))
+    sim.requests.hands.clear()
+    sim.advance_frame()
+    assert not sim.world.grips
+
+    sim.undo()
+    # Nobody holds the body here either.
+    frame = sim.advance_frame()
+
+    assert frame.snapshot.scene.names == ('a/0',)
+    assert not sim.world.grips
+    assert sim.status.redo == 'redo spawn b/0 and 1 more'
+    sim.redo()
+    assert sim.world.scene.names == ('a/0', 'b/0')
+
+
 def test_a_pause_is_no_silence() -> None:
     sim = holding()
     sim.advance(0)

@@ -82,7 +82,7 @@ def test_a_seek_that_waited_is_made_bit_by_bit_and_those_behind_it_wait(
     # Up to the first seek, and to the second, which begins when the first is done.
     ticks, frame = ticks_to_a_frame(simulation, 0)
     assert ticks > 150
-    answers = list(simulation.take_answers())
+    answers = list(simulation.requests.take_answers())
     while 'early/0' not in frame.snapshot.scene.names:
         _, frame = ticks_to_a_frame(simulation, ticks * SECOND)
     answers += frame.answers
@@ -319,7 +319,7 @@ def test_a_gesture_is_taken_back_bit_by_bit_while_the_past_is_told_as_if_it_were
         assert sum(steps) <= simulation.frame_steps
         status = simulation.status
         assert (status.now, status.newest, status.state) == (step / 240, step / 240, 'paused')
-        assert not simulation.take_answers()
+        assert not simulation.requests.take_answers()
     _, frame = ticks_to_a_frame(simulation, 400 * SECOND)
     told = [(each.topic, each.message, each.asker) for each in frame.answers]
     assert told[0] == ('~/undo', 'undid spawn Anna/0', 'anna')
@@ -371,5 +371,5 @@ def test_an_amendment_under_way_is_finished_before_anything_else_moves(way: str)
             assert simulation.world.scene.names == ('Ben/0',)
     while len(simulation.requests):
         simulation.apply_requests()
-    told = simulation.take_answers() or simulation.frame.answers
+    told = simulation.requests.take_answers() or simulation.frame.answers
     assert 'undid spawn Anna/0' in [answer.message for answer in told]

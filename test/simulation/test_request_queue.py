@@ -77,7 +77,7 @@ def test_a_seek_to_where_nothing_is_kept_is_refused() -> None:
     sim.requests.submit_seek(9 * SECOND, topic='~/seek')
 
     assert sim.apply_requests() is None
-    (answer,) = sim.take_answers()
+    (answer,) = sim.requests.take_answers()
     assert (answer.topic, answer.code) == ('~/seek', 'out_of_history')
 
 

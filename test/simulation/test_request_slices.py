@@ -75,7 +75,7 @@ def test_each_request_of_a_slice_is_answered_once_and_in_order() -> None:
     for number in range(COUNT // SLICE + 1):
         for frame in simulation.advance(number * FRAME, is_spent=spent_after(SLICE)):
             answers += frame.answers
-        answers += simulation.take_answers()
+        answers += simulation.requests.take_answers()
     assert [answer.subject for answer in answers] == [f'a/{each}' for each in range(COUNT)]
 
 

@@ -169,7 +169,7 @@ def test_a_saved_moment_is_continued_to_the_bit(
     digest = simulation.world.digest()
     for another in (simulation, Simulation(history=0.0)):
         another.restore(saved)
-        assert another.held['robot/0'] == saved.held[0]
+        assert another.driving['robot/0'] == saved.driving[0]
         again = Robot(another, 'robot/0')
         assert (another.step, again.bumped, again.read('imu')) == (step, bumped, imu)
         assert wander(again, 60) == first
@@ -236,15 +236,30 @@ def test_a_robot_that_is_gone_is_not_driven_on() -> None:
         robot.truth()
 
 
+def test_a_robot_that_drives_on_after_an_undo_leaves_what_there_is_to_redo() -> None:
+    robot = corridor()
+    robot.drive(0.2)
+    robot.simulation.run(0.5)
+    robot.simulation.perform(Spawn(name='b/0', shape=Disc(radius=0.1), pose=(0.0, 50.0, 0.0)))
+    robot.simulation.run(1.0)
+
+    robot.simulation.undo()
+    robot.simulation.run(1.0)
+
+    assert robot.truth().twist[0] == pytest.approx(0.2, abs=1e-6)
+    robot.simulation.redo()
+    assert 'b/0' in robot.simulation.world
+
+
 def test_another_world_and_a_seek_end_what_a_robot_is_held_to() -> None:
     robot = corridor()
     robot.drive(0.2)
     robot.simulation.run(1.0)
     robot.simulation.seek(500_000_000)
-    assert not robot.simulation.held
+    assert not robot.simulation.driving
     robot.drive(0.2)
     robot.simulation.load(load_world(find_world('boxes')))
-    assert not robot.simulation.held
+    assert not robot.simulation.driving
 
 
 def test_what_is_no_robot_or_has_no_such_sensor_is_refused() -> None:

@@ -65,12 +65,12 @@ def test_times_and_speeds_out_of_range_are_refused_and_change_nothing(value: flo
         assert refused.value.field == name
     sim = Simulation()
     drive = DriveRobot(name='robot/0', velocity=(1.0, 0.0, 0.0))
-    sim.held['robot/0'] = drive
+    sim.driving['robot/0'] = drive
     with pytest.raises((BadProperty, Malformed), match='speed'):
         sim.speed = value
     with pytest.raises((BadProperty, Malformed), match='history'):
         sim.limit_history(value)
-    assert (sim.speed, sim.held) == (1.0, {'robot/0': drive})
+    assert (sim.speed, sim.driving) == (1.0, {'robot/0': drive})
 
 
 def test_a_time_beyond_all_numbers_is_refused() -> None:

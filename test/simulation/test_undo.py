@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import (
@@ -72,6 +74,24 @@ def test_a_refused_request_leaves_what_there_is_to_redo(driven: Driven) -> None:
     driven.apply_requests()
     driven.simulation.redo()
     assert 'late/0' in driven.names
+
+
+@pytest.mark.parametrize('turns', [0, 1, -3])
+def test_a_marker_that_is_published_back_leaves_what_there_is_to_redo(*, turns: int) -> None:
+    simulation = Simulation(speed=0.0)
+    yaw = 0.1 + turns * math.tau
+    simulation.perform(spawning('a/0', BOX, (0.3, 0.2, yaw)))
+    simulation.perform(spawning('b/0', BOX, (5.0, 0.0, 0.0)))
+    simulation.undo()
+    digest, color = simulation.world.digest(), simulation.world.scene.bodies[0].color
+    # The yaw of a quaternion, and channels of single precision.
+    back = 2.0 * math.atan2(math.sin(0.05), math.cos(0.05))
+    red, green, blue, alpha = np.array(color, np.float32).tolist()
+
+    simulation.perform(spawning('a/0', BOX, (0.3, 0.2, back), color=(red, green, blue, alpha)))
+
+    assert simulation.world.digest() == digest
+    assert simulation.status.redo == 'redo spawn b/0'
 
 
 def test_settings_are_undone_and_follow_time(driven: Driven) -> None:

@@ -5,33 +5,25 @@
 
 import ast
 from graphlib import TopologicalSorter
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from .sources import module_name, trees
 
 
-def _name(path):
-    parts = path.relative_to(ROOT).with_suffix('').parts
-    return '.'.join(parts[:-1] if parts[-1] == '__init__' else parts)
-
-
-MODULES = {_name(path): path for path in (ROOT / 'physsim_ros').rglob('*.py')}
-
-
-def _imported(path):
+def _imported(tree, modules):
     """Yield the modules of the package that a module imports."""
-    for node in ast.walk(ast.parse(path.read_text(encoding='utf-8'))):
-        if isinstance(node, ast.ImportFrom) and node.module in MODULES:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.module in modules:
             for alias in node.names:
                 inside = f'{node.module}.{alias.name}'
-                yield inside if inside in MODULES else node.module
+                yield inside if inside in modules else node.module
 
 
 @pytest.mark.linter
 def test_modules_import_each_other_in_no_circle():
-    graph = {name: set(_imported(path)) for name, path in MODULES.items()}
+    modules = {module_name(path): tree for path, tree in trees().items()}
+    graph = {name: set(_imported(tree, modules)) for name, tree in modules.items()}
 
     # It raises CycleError, which names the circle.
     order = list(TopologicalSorter(graph).static_order())

@@ -3,14 +3,12 @@
 
 """Every source file says whose it is, and under which licence, in its first two lines."""
 
-from pathlib import Path
 import re
 
 import pytest
 
-from .changed_files import GENERATED
+from .sources import ROOT, sources
 
-ROOT = Path(__file__).parents[2]
 HEAD = re.compile(
     r'# Copyright \d{4}(-\d{4})? physsim_ros maintainers\n# SPDX-License-Identifier: Apache-2.0\n'
 )
@@ -18,18 +16,6 @@ HEAD = re.compile(
 
 @pytest.mark.linter
 def test_every_source_file_begins_with_the_licence():
-    folders = ('physsim_ros', 'test', 'tools', 'launch')
-    sources = [
-        ROOT / 'setup.py',
-        *(path for name in folders for path in ROOT.glob(f'{name}/**/*.py')),
-    ]
+    texts = {path.relative_to(ROOT): path.read_text(encoding='utf-8') for path in sources()}
 
-    without = [
-        str(path.relative_to(ROOT))
-        for path in sources
-        if path != GENERATED
-        and (text := path.read_text(encoding='utf-8'))
-        and not HEAD.match(text)
-    ]
-
-    assert without == []
+    assert [str(path) for path, text in texts.items() if text and not HEAD.match(text)] == []

@@ -5,7 +5,6 @@
 
 import ast
 import importlib
-from pathlib import Path
 import re
 
 from physsim_ros.files import world_schema
@@ -16,11 +15,11 @@ from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.shapes import MOST_POINTS
 import pytest
 
-ROOT = Path(__file__).parents[2]
-DOCS = ROOT / 'docs'
+from .sources import DOCS, DOCUMENTS, PACKAGE, ROOT, spans
+
+pytestmark = pytest.mark.linter
 
 
-@pytest.mark.linter
 def test_what_pip_is_to_bring_is_what_the_package_asks_for():
     tree = ast.parse((ROOT / 'setup.py').read_text(encoding='utf-8'))
     (asked,) = (
@@ -38,25 +37,6 @@ def test_what_pip_is_to_bring_is_what_the_package_asks_for():
     assert {word.strip("'") for word in line.split()} == set(asked) - known
 
 
-DOCUMENTS = [
-    path
-    for path in (ROOT / 'README.md', ROOT / 'CONTRIBUTING.md', *sorted(DOCS.rglob('*.md')))
-    if '_build' not in path.parts
-]
-# Paths in documents begin at the repository or at the package.
-BASES = [ROOT, ROOT / 'physsim_ros']
-
-
-def _named_paths(text):
-    """Return the paths in backticks that begin with a known folder; fenced blocks do not count."""
-    inline = re.sub(r'^```.*?^```', '', text, flags=re.MULTILINE | re.DOTALL)
-    words = {word for span in re.findall(r'`([^`\n]+)`', inline) for word in span.split()}
-    folders = {path.name for base in BASES for path in base.iterdir() if path.is_dir()}
-    paths = {word for word in words if re.fullmatch(r'[\w.-]+(/[\w.-]*)+', word)}
-    return {path for path in paths if path.endswith('.py') or path.split('/')[0] in folders}
-
-
-@pytest.mark.linter
 @pytest.mark.parametrize('document', DOCUMENTS, ids=lambda path: path.name)
 def test_every_link_of_a_document_leads_to_a_file_and_a_heading(document):
     links = re.findall(
@@ -75,21 +55,17 @@ def _anchors(document):
     return {re.sub(r'[^\w -]', '', heading.lower()).replace(' ', '-') for heading in headings}
 
 
-@pytest.mark.linter
 def test_the_architecture_names_every_folder_of_the_package():
-    named = _named_paths((DOCS / 'architecture.md').read_text(encoding='utf-8'))
-    package = ROOT / 'physsim_ros'
-    folders = {f'{path.parent.relative_to(package)}/' for path in package.rglob('*/__init__.py')}
+    named = set(' '.join(spans((DOCS / 'architecture.md').read_text(encoding='utf-8'))).split())
+    folders = {f'{path.parent.relative_to(PACKAGE)}/' for path in PACKAGE.rglob('*/__init__.py')}
 
     assert sorted(folders - named) == []
 
 
-@pytest.mark.linter
 def test_the_readme_is_read_in_five_minutes():
     assert len((ROOT / 'README.md').read_text(encoding='utf-8').splitlines()) <= 120
 
 
-@pytest.mark.linter
 def test_the_changelog_begins_with_the_version_of_the_package():
     titles = re.findall(r'^(.*)\n-+$', (ROOT / 'CHANGELOG.rst').read_text('utf-8'), re.MULTILINE)
     (version,) = re.findall('<version>(.*)</version>', (ROOT / 'package.xml').read_text('utf-8'))
@@ -99,7 +75,6 @@ def test_the_changelog_begins_with_the_version_of_the_package():
     assert f"version='{version}'" in (ROOT / 'setup.py').read_text('utf-8')
 
 
-@pytest.mark.linter
 def test_every_page_is_in_a_table_of_contents():
     listed = set()
     for index in DOCS.rglob('index.md'):
@@ -117,7 +92,6 @@ def _section(page, heading):
     return text.partition(f'{heading}\n')[2].partition('\n#')[0]
 
 
-@pytest.mark.linter
 def test_what_repeats_declarations_is_as_they_are():
     pytest.importorskip('physsim_ros.ros.parameters', reason='there is no ROS')
     documents = importlib.import_module('tools.tables.documents')
@@ -127,7 +101,6 @@ def test_what_repeats_declarations_is_as_they_are():
         assert path.read_text(encoding='utf-8') == text, path
 
 
-@pytest.mark.linter
 def test_the_table_of_codes_has_every_refusal():
     def codes(kind):
         return {kind.code}.union(*(codes(each) for each in kind.__subclasses__()))
@@ -137,7 +110,6 @@ def test_the_table_of_codes_has_every_refusal():
     assert missing <= {Refusal.code}
 
 
-@pytest.mark.linter
 def test_the_table_of_world_files_has_every_key():
     joint = {*world_schema.OWN_JOINT_KEYS, *JOINT_KEYS} - {*JointProperties.__slots__}
     rows = re.findall(
@@ -153,7 +125,6 @@ def test_the_table_of_world_files_has_every_key():
         assert sorted(told) == sorted(f'`{key}`' for key in keys)
 
 
-@pytest.mark.linter
 def test_the_limits_of_values_are_those_of_the_code():
     def exponent(value):
         return re.sub(r'e(-?)\+?0*', r'e\1', f'{value:.0e}')
@@ -173,7 +144,6 @@ def test_the_limits_of_values_are_those_of_the_code():
         assert [number for number in numbers if number not in rows[what]] == []
 
 
-@pytest.mark.linter
 def test_the_address_of_the_project_is_written_in_its_manifest_alone():
     manifest = (ROOT / 'package.xml').read_text('utf-8')
     hosts = re.findall('(?:<url type="repository">https://|email="[^@]*@)([^/"]+)', manifest)
@@ -184,7 +154,6 @@ def test_the_address_of_the_project_is_written_in_its_manifest_alone():
     assert [path for path in texts for host in hosts if host in path.read_text('utf-8')] == []
 
 
-@pytest.mark.linter
 def test_the_topics_and_services_that_documents_name_are_those_of_the_node():
     # test/ros/test_security.py compares the policy with the node.
     policy = (ROOT / 'config' / 'sros2' / 'policy.xml').read_text('utf-8')

@@ -12,7 +12,8 @@ import subprocess
 import pytest
 import yaml
 
-ROOT = Path(__file__).parents[2]
+from ..source_tree import ROOT
+
 CONTAINER = ROOT / 'Containerfile'
 WORKFLOWS = sorted(ROOT.glob('.github/workflows/*.yaml'))
 

@@ -12,7 +12,6 @@ import ast
 import builtins
 from collections import defaultdict
 from importlib import import_module
-from pathlib import Path
 import re
 
 import numpy as np
@@ -22,14 +21,7 @@ from pymunk._chipmunk_cffi import lib
 import pymunk.batch
 import pytest
 
-ROOT = Path(__file__).parents[2]
-PACKAGE = ROOT / 'physsim_ros'
-# Paths begin at the repository or at the package.
-BASES = [ROOT, PACKAGE]
-SOURCES = sorted(PACKAGE.rglob('*.py'))
-DOCUMENTS = [ROOT / 'README.md', ROOT / 'CONTRIBUTING.md']
-DOCUMENTS += [path for path in sorted((ROOT / 'docs').rglob('*.md')) if '_build' not in path.parts]
-TREES = {path: ast.parse(path.read_text(encoding='utf-8')) for path in SOURCES}
+from .sources import BASES, DOCUMENTS, module_name, ROOT, spans, trees
 
 # Names of Chipmunk, Box2D, Bullet, Jolt, Rerun, Vega, pytest and ROS.
 ELSEWHERE = re.compile(
@@ -38,17 +30,13 @@ ELSEWHERE = re.compile(
 )
 
 
-def _dotted(path):
-    """Return the parts of the dotted name of a module or package."""
-    parts = path.relative_to(ROOT).with_suffix('').parts
-    return parts[:-1] if parts[-1] == '__init__' else parts
-
-
+TREES = trees()
 # Dotted names of modules, whole and from each folder on, as docstrings shorten them.
 MODULES = defaultdict(list)
-for _path in SOURCES:
-    for _first in range(len(_dotted(_path))):
-        MODULES['.'.join(_dotted(_path)[_first:])].append(TREES[_path])
+for _path, _tree in TREES.items():
+    _parts = module_name(_path).split('.')
+    for _first in range(len(_parts)):
+        MODULES['.'.join(_parts[_first:])].append(_tree)
 
 
 def _defined(tree):
@@ -56,11 +44,15 @@ def _defined(tree):
     names = set()
     for node in ast.walk(tree):
         match node:
-            case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
-                names.add(name)
-            case ast.ClassDef(name=name) | ast.arg(arg=name) | ast.keyword(arg=str(name)):
-                names.add(name)
-            case ast.Name(id=name) | ast.Attribute(attr=name):
+            case (
+                ast.FunctionDef(name=name)
+                | ast.AsyncFunctionDef(name=name)
+                | ast.ClassDef(name=name)
+                | ast.arg(arg=name)
+                | ast.keyword(arg=str(name))
+                | ast.Name(id=name)
+                | ast.Attribute(attr=name)
+            ):
                 names.add(name)
             case ast.alias(name=name, asname=other):
                 names.add(other or name.split('.')[0])
@@ -72,9 +64,12 @@ def _own(node):
     names = set()
     for each in ast.walk(node):
         match each:
-            case ast.FunctionDef(name=name) | ast.AsyncFunctionDef(name=name):
-                names.add(name)
-            case ast.Name(id=name, ctx=ast.Store()) | ast.Attribute(attr=name, ctx=ast.Store()):
+            case (
+                ast.FunctionDef(name=name)
+                | ast.AsyncFunctionDef(name=name)
+                | ast.Name(id=name, ctx=ast.Store())
+                | ast.Attribute(attr=name, ctx=ast.Store())
+            ):
                 names.add(name)
     return names
 
@@ -193,54 +188,44 @@ def _before_arguments(words):
     return next((place for place, word in enumerate(words) if '=' in word), len(words))
 
 
-def _spans(text):
-    return re.findall(
-        r'`([^`\n]+)`', re.sub(r'^```.*?^```', '', text, flags=re.MULTILINE | re.DOTALL)
-    )
+pytestmark = pytest.mark.linter
+OF_DOCUMENTS = {
+    # Files that the reader makes, and one of another project.
+    *('conftest.py', 'damper.py', 'fall.py', 'follower.py', 'parser.py', 'stopper.py'),
+    *('test_crash.py', 'test_fall.py', 'test_stopper.py', 'test_tracker.py', 'tracker.py'),
+    *('test_wall_follower.py', 'wall_follower.py', 'wall_task.py', 'ament_add_pytest_test'),
+    # Fields of messages, names and parameters of Nav2.
+    *('values.body', 'values.yaml', 'enable_stamped_cmd_vel', 'map_server'),
+    *('controller_frequency', 'expected_update_rate', 'odom_frame_id'),
+    *('robot_base_frame', 'transform_tolerance', 'yaml_filename'),
+    # Of simulation_interfaces, which the node does without.
+    *('STATE_LOADING_WORLD', 'TYPE_CONVEX_HULL', 'fail_on_unsupported_element'),
+    # Keys of the mapping `drive` of a robot.
+    *(f'drive.{key}' for each in DRIVES.values() for key in ('kind', *each.FIELDS)),
+}
 
 
-# Files that the reader makes, one of another project, fields of messages, names of Nav2.
-OF_DOCUMENTS = {'damper.py', 'fall.py', 'test_fall.py', 'parser.py', 'test_crash.py'}
-OF_DOCUMENTS |= {'wall_follower.py', 'test_wall_follower.py'}
-OF_DOCUMENTS |= {'conftest.py', 'stopper.py', 'test_stopper.py', 'tracker.py', 'test_tracker.py'}
-OF_DOCUMENTS |= {'follower.py', 'wall_task.py'}
-OF_DOCUMENTS |= {'ament_add_pytest_test'}
-OF_DOCUMENTS |= {'enable_stamped_cmd_vel', 'map_server'}
-# Parameters of Nav2.
-OF_DOCUMENTS |= {'controller_frequency', 'expected_update_rate', 'odom_frame_id'}
-OF_DOCUMENTS |= {'robot_base_frame', 'transform_tolerance', 'yaml_filename'}
-OF_DOCUMENTS |= {'values.body', 'values.yaml'}
-# Keys of the mapping `drive` of a robot.
-OF_DOCUMENTS |= {f'drive.{key}' for each in DRIVES.values() for key in ('kind', *each.FIELDS)}
-# Of simulation_interfaces, which the node does without.
-OF_DOCUMENTS |= {'STATE_LOADING_WORLD', 'TYPE_CONVEX_HULL', 'fail_on_unsupported_element'}
-
-
-@pytest.mark.linter
 @pytest.mark.parametrize('document', DOCUMENTS, ids=lambda path: path.name)
 def test_what_a_document_names_is_there(document):
-    spans = set(_spans(document.read_text(encoding='utf-8'))) - OF_DOCUMENTS
+    found = set(spans(document.read_text(encoding='utf-8'))) - OF_DOCUMENTS
 
-    assert [each for each in sorted(spans) if not _is_known(each, everywhere=False)] == []
+    assert [each for each in sorted(found) if not _is_known(each, everywhere=False)] == []
 
 
-@pytest.mark.linter
 def test_what_docstrings_name_is_there():
     missing = []
     for path, tree in TREES.items():
         for node in ast.walk(tree):
             if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
-                spans = _spans(ast.get_docstring(node) or '')
                 missing += [
                     f'{path.relative_to(ROOT)}: {each}'
-                    for each in spans
+                    for each in spans(ast.get_docstring(node) or '')
                     if not _is_known(each, everywhere=True)
                 ]
 
     assert missing == []
 
 
-@pytest.mark.linter
 @pytest.mark.parametrize(
     'wrong',
     [

@@ -9,11 +9,11 @@ functions whose loops for AVX-512 round otherwise than the others.
 """
 
 import ast
-from pathlib import Path
 
 import pytest
 
-PACKAGE = Path(__file__).parents[2] / 'physsim_ros'
+from .sources import PACKAGE, trees
+
 FOLDERS = ('model', 'sensing', 'engine', 'simulation', 'drawing')
 BLAS = {'dot', 'vdot', 'inner', 'matmul', 'einsum', 'tensordot', 'linalg', 'convolve', 'correlate'}
 # Measured: without AVX-512 these have other bits (NumPy 2.4).
@@ -35,8 +35,9 @@ def _names(tree):
 def test_what_moves_bodies_calls_nothing_that_depends_on_the_processor(folder):
     found = [
         f'{path.relative_to(PACKAGE)}:{line}: {name}'
-        for path in sorted((PACKAGE / folder).glob('**/*.py'))
-        for name, line in _names(ast.parse(path.read_text(encoding='utf-8')))
+        for path, tree in trees().items()
+        if path.is_relative_to(PACKAGE / folder)
+        for name, line in _names(tree)
     ]
 
     assert found == []

@@ -10,7 +10,7 @@ from pathlib import Path
 import re
 
 from physsim_ros import testing
-from physsim_ros.testing import disc, own_context, PhysSim
+from physsim_ros.testing import disc, own_context, PhysSim, Refused
 import pytest
 from rerun import chunk
 
@@ -241,6 +241,17 @@ def test_a_recording_holds_every_frame_since_it_began(
     assert ended == 4 * 130
     # It begins with the frame that is shown at that time.
     assert recorded_steps(path) == list(range(4 * 10, ended + 1, 4))
+
+
+def test_a_recording_that_cannot_be_written_is_refused(physsim: PhysSim, tmp_path: Path) -> None:
+    taken = tmp_path / 'taken.rrd'
+    taken.write_text('no recording')
+    for path in (tmp_path / 'missing' / 'a.rrd', taken):
+        with pytest.raises(Refused, match=str(path)) as refused:
+            physsim.record(path)
+        assert refused.value.code == 'record_failed'
+        assert physsim.recording is None
+    assert taken.read_text() == 'no recording'
 
 
 def test_the_tests_in_the_documents_pass(pytester: pytest.Pytester) -> None:

@@ -72,13 +72,19 @@ class Recording:
         self.path = path
         self._stream = rr.RecordingStream('test')
         self._stream.set_sinks(rr.FileSink(path))
-        self.picture = FrameRecorder(self._stream)
+        self._recorder = FrameRecorder(self._stream)
 
     def draw(self, *frames, **context):
-        self.picture.draw(frames, context=FrameContext(**context))
+        """Draw frames; return the time of the last on the timeline of the picture [ns]."""
+        self._recorder.draw(frames, context=FrameContext(**context))
+        return self._recorder.recorded
 
     def close(self):
         self._stream.disconnect()
+
+    def poses(self, name):
+        """Return the rows of the places of a body."""
+        return self.rows(f'world/bodies/{name}', 'InstancePoses3D:translations')
 
     def rows(self, entity, component):
         """Return all rows of a component, in the order of time; no more can be drawn then."""

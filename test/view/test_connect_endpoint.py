@@ -10,7 +10,7 @@ import signal
 
 from physsim_ros.view import ViewerMode
 
-from .viewers import bulk, Events, frame, rows, run_alone, show, until
+from .viewers import BOX, bulk, Events, frame, rows, run_alone, show, until
 from ..rerun_program import free_port
 
 
@@ -40,7 +40,7 @@ def test_a_server_that_comes_late_is_found_and_gets_every_answer(viewers, server
     viewer.close()
 
     written = server.wait_for('/events', 200)
-    assert written['/world/bodies/box/0'] >= 200
+    assert written[BOX] >= 200
 
 
 def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
@@ -58,7 +58,7 @@ def test_a_server_that_goes_and_comes_again_is_found_again(viewers, server):
     viewer.close()
 
     # With the geometry, as nothing of before has been kept.
-    assert server.wait_for('/world/bodies/box/0', 10)['/world/camera'] == 1
+    assert server.wait_for(BOX, 10)['/world/camera'] == 1
 
 
 # The whole life of a process whose viewer freezes: a frozen one would keep this one from ending.

@@ -11,27 +11,18 @@ import threading
 
 from physsim_ros.view import endpoints, ViewerMode
 
-from .viewers import (
-    Events,
-    frame,
-    PATIENCE,
-    rows,
-    rows_when,
-    run_alone,
-    show,
-    until,
-)
+from .viewers import BOX, Events, frame, PATIENCE, rows, rows_when, run_alone, show, until
 from ..rerun_program import rerun
 
 
 def test_a_recording_holds_every_frame_once_it_is_closed(viewers, tmp_path):
     path = tmp_path / 'it.rrd'
-    viewer = viewers(mode=ViewerMode.NONE, record_file=str(path))
+    viewer = viewers(record_file=path)
 
     show(viewer, 1000)
     viewer.close()
 
-    assert rows(path)['/world/bodies/box/0'] >= 1000
+    assert rows(path)[BOX] >= 1000
     assert ', ended, 1000 frames, 0 dropped' in viewer.state
 
 
@@ -48,8 +39,7 @@ def test_a_recording_that_is_closed_is_complete_and_one_that_is_not_can_be_mende
     viewer = viewers(record_file=path)
     show(viewer, 100)
     until(lambda: ', 100 frames' in viewer.state)
-    box = '/world/bodies/box/0'
-    rows_when(path, box, 100)
+    rows_when(path, BOX, 100)
     # As after a crash; rows of other entities may be missing.
     copy.write_bytes(path.read_bytes())
     viewer.close()
@@ -60,7 +50,7 @@ def test_a_recording_that_is_closed_is_complete_and_one_that_is_not_can_be_mende
     assert not verified(copy)
     assert rerun('rrd', 'optimize', copy, '-o', mended).wait(PATIENCE) == 0
     assert verified(mended)
-    assert 100 <= rows(mended)[box] <= rows(path)[box]
+    assert 100 <= rows(mended)[BOX] <= rows(path)[BOX]
 
 
 def test_a_link_to_a_recording_stays_a_link(viewers, tmp_path):
@@ -82,13 +72,13 @@ def test_a_recording_whose_index_takes_too_long_stays_as_it_is(viewers, tmp_path
     viewer.close()
 
     assert list(tmp_path.iterdir()) == [path]
-    assert rows(path)['/world/bodies/box/0'] >= 100
+    assert rows(path)[BOX] >= 100
 
 
 def test_a_file_that_cannot_be_written_is_told_and_the_rest_goes_on(viewers, server, tmp_path):
     path = tmp_path / 'nowhere' / 'it.rrd'
     server.start()
-    viewer = viewers(mode=ViewerMode.CONNECT, url=server.url, record_file=str(path))
+    viewer = viewers(mode=ViewerMode.CONNECT, url=server.url, record_file=(path))
     events = Events(viewer)
 
     failure = events.wait_for('record_failed')
@@ -98,7 +88,7 @@ def test_a_file_that_cannot_be_written_is_told_and_the_rest_goes_on(viewers, ser
 
     assert failure.topic == 'viewer'
     assert str(path) in failure.message
-    server.wait_for('/world/bodies/box/0', 50)
+    server.wait_for(BOX, 50)
 
 
 def test_a_file_that_is_no_regular_one_is_refused_and_blocks_nothing(viewers, tmp_path):
@@ -116,7 +106,7 @@ def test_a_recording_is_replaced_and_another_file_is_not(viewers, tmp_path):
         viewer = viewers(record_file=path)
         show(viewer, 10)
         viewer.close()
-        counts.append(rows(path)['/world/bodies/box/0'])
+        counts.append(rows(path)[BOX])
     assert counts[0] == counts[1] > 0
     path.write_text('notes of an evening')
     viewer = viewers(record_file=path)
@@ -212,7 +202,7 @@ def test_a_disk_that_is_full_is_told_once_and_recording_begins_again_beside(tmp_
 
 def test_where_there_is_no_rerun_that_is_told_and_nothing_is_open(viewers, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, 'rerun', None)
-    viewer = viewers(record_file=str(tmp_path / 'it.rrd'))
+    viewer = viewers(record_file=(tmp_path / 'it.rrd'))
 
     assert 'rerun' in Events(viewer).wait_for('record_failed').message
     until(lambda: not viewer.is_open)

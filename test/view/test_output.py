@@ -15,7 +15,7 @@ from physsim_ros.view import output as output_module
 from physsim_ros.view.endpoints import Endpoint, FileEndpoint
 from physsim_ros.view.output import Output
 
-from .viewers import frame, PATIENCE, rows, until
+from .viewers import BOX, frame, PATIENCE, rows, until
 
 
 class Blocked(FileEndpoint):
@@ -53,7 +53,7 @@ def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers(tmp_path, mo
     assert [each.code for each in told] == ['', 'frames_dropped']
     counts = rows(path)
     assert counts['/events'] == 101
-    assert counts['/world/bodies/box/0'] >= 11
+    assert counts[BOX] >= 11
 
 
 def test_closing_gives_up_on_one_that_takes_nothing(tmp_path):

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -57,6 +58,18 @@ def contacts(*impulses, pair=(0, -1)):
     )
 
 
+def draw_contacts(recording, batches):
+    """Draw frames with contacts of a box, batch by batch."""
+    box, steps = scene(body()), itertools.count(step=4)
+    for batch in batches:
+        recording.draw(
+            *(
+                frame(box, [(step, 0, 0)], step=step, contacts=each)
+                for each, step in zip(batch, steps, strict=False)
+            )
+        )
+
+
 def test_applied_forces_are_arrows_at_their_points_that_turn_with_thrusters(recording):
     wind = AppliedForce(force=(0.0, -4.0))
     thruster = AppliedForce(force=(2.0, 0.0), at=(1.0, 0.0), axes='body')
@@ -75,18 +88,11 @@ def test_applied_forces_are_arrows_at_their_points_that_turn_with_thrusters(reco
 
 
 def test_contacts_are_arrows_by_force_on_the_movable_body_as_long_as_they_last(recording):
-    box = scene(body())
     weight = 2.0 * 9.81
     press, heavy = contacts((0.0, -weight / 60)), contacts((0.0, -2 * weight / 60))
 
     # Two in one batch, so that they have one scale.
-    step = 0
-    for several in ((contacts(),), (press, heavy), (contacts(),), (contacts(),)):
-        frames = []
-        for each in several:
-            frames.append(frame(box, [(step, 0, 0)], step=step, contacts=each))
-            step += 4
-        recording.draw(*frames)
+    draw_contacts(recording, [[contacts()], [press, heavy], [contacts()], [contacts()]])
 
     origins = recording.rows('world/contacts', 'Arrows3D:origins')
     vectors = recording.rows('world/contacts', 'Arrows3D:vectors')
@@ -99,16 +105,10 @@ def test_contacts_are_arrows_by_force_on_the_movable_body_as_long_as_they_last(r
 
 
 def test_arrows_fit_the_greatest_force_of_most_frames_and_the_legend_tells_it(recording):
-    box, step = scene(body()), 0
     forces = {40: 50, 30: 50, 90: 100, 10: 10, 8: 10}
-    for force in forces:
-        # The last is an impact: its arrow is cut.
-        frames = []
-        for each in (*[force] * 31, 100 * force):
-            pressed = contacts((0.0, -each / 60))
-            frames.append(frame(box, [(step, 0, 0)], step=step, contacts=pressed))
-            step += 4
-        recording.draw(*frames)
+    # The last of a batch is an impact: its arrow is cut.
+    batches = [[*[force] * 31, 100 * force] for force in forces]
+    draw_contacts(recording, [[contacts((0.0, -each / 60)) for each in row] for row in batches])
 
     rows = recording.rows('world/contacts', 'Arrows3D:vectors')
     lengths = [np.hypot(*row.value[0, :2]) for row in rows]
@@ -133,10 +133,7 @@ def test_contacts_in_next_to_no_gravity_are_arrows_too(recording):
 
 
 def test_thousands_of_contacts_are_sent_less_often(recording):
-    box = scene(body())
-    crowd = contacts(*[(0.0, -1.0)] * 1500)
-
-    recording.draw(*(frame(box, [(n, 0, 0)], step=4 * n, contacts=crowd) for n in range(60)))
+    draw_contacts(recording, [[contacts(*[(0.0, -1.0)] * 1500)] * 60])
 
     rows = recording.rows('world/contacts', 'Arrows3D:origins')
     assert 1 < len(rows) <= 8

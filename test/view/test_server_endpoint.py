@@ -13,7 +13,7 @@ from urllib.request import urlopen
 from physsim_ros.view import endpoints, ViewerMode
 import pytest
 
-from .viewers import Events, PATIENCE, rows_when, show, until
+from .viewers import BOX, Events, PATIENCE, rows_when, show, until
 from ..rerun_program import is_open, rerun
 
 psutil = pytest.importorskip('psutil')
@@ -57,7 +57,7 @@ def test_who_looks_late_at_what_is_served_sees_all_of_it(viewers, tmp_path):
     path = tmp_path / 'late.rrd'
     late = rerun(stream, '--save', path)
     try:
-        rows_when(path, '/world/bodies/box/0', 20)
+        rows_when(path, BOX, 20)
     finally:
         late.kill()
         late.wait()
@@ -118,30 +118,20 @@ def test_a_page_server_that_ends_is_told_and_opened_again_when_asked(
     until(lambda: is_open(urlsplit(viewer.page_address).port))
 
 
-@pytest.fixture
-def no_display(monkeypatch):
-    monkeypatch.delenv('DISPLAY', raising=False)
+@pytest.mark.parametrize(
+    ('mode', 'display', 'code', 'words'),
+    [
+        (ViewerMode.AUTO, '', '', ['web: http://127.0.0.1:']),
+        (ViewerMode.SPAWN, '', 'viewer_lost', ['there is no display', 'http://127.0.0.1:']),
+        (ViewerMode.AUTO, ':987', 'viewer_lost', ['the window has failed']),
+    ],
+)
+def test_where_no_window_can_be_opened_it_is_a_page_and_that_is_told(
+    viewers, monkeypatch, mode, display, code, words
+):
+    monkeypatch.setenv('DISPLAY', display)
     monkeypatch.delenv('WAYLAND_DISPLAY', raising=False)
 
+    told = Events(viewers(mode=mode)).wait_for(code).message
 
-def test_where_there_is_no_display_auto_is_a_page(viewers, no_display):
-    viewer = viewers(mode=ViewerMode.AUTO)
-
-    assert Events(viewer).wait_for('').message.startswith('web: http://127.0.0.1:')
-
-
-def test_where_there_is_no_display_a_window_becomes_a_page_and_that_is_told(viewers, no_display):
-    viewer = viewers(mode=ViewerMode.SPAWN)
-
-    why = Events(viewer).wait_for('viewer_lost').message
-
-    assert 'http://127.0.0.1:' in why
-    assert 'there is no display' in why
-
-
-def test_where_no_window_can_be_opened_it_becomes_a_page(viewers, monkeypatch):
-    monkeypatch.setenv('DISPLAY', ':987')
-    monkeypatch.delenv('WAYLAND_DISPLAY', raising=False)
-    viewer = viewers(mode=ViewerMode.AUTO)
-
-    assert 'the window has failed' in Events(viewer).wait_for('viewer_lost').message
+    assert [word for word in words if word not in told] == []

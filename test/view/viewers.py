@@ -24,6 +24,8 @@ from ..rerun_program import free_port, is_open, rerun
 
 chunk = pytest.importorskip('rerun.chunk')
 
+# The entity of the only body.
+BOX = '/world/bodies/box/0'
 SCENE = Scene(bodies=(PLAIN_BODY,), settings=WorldSettings())
 
 

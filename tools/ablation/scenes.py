@@ -152,6 +152,17 @@ def _flat_fall() -> float:
     return max(abs(float(each.poses[row, 2])) for each in steps(sim, 480))
 
 
+def _clay() -> float:
+    """Drop a disc of clay onto a light plate on the floor; return by how much it rises again."""
+    sim = simulation(elasticity=0.0)
+    floor(sim)
+    spawn(sim, 'plate/0', Box(width=1.0, height=0.2), (0.0, 0.1, 0.0), mass=1.0)
+    clay = spawn(sim, 'clay/0', Disc(radius=0.3), (0.0, 3.5, 0.0), mass=30.0)
+    heights = [float(now.poses[clay, 1]) for now in steps(sim, 480)]
+    lowest = heights.index(min(heights))
+    return max(heights[lowest:]) - heights[lowest]
+
+
 def _stack() -> float:
     """Put down a stack of ten boxes; return its speed from 3 to 5 s."""
     sim, size = simulation(), 0.3
@@ -346,6 +357,7 @@ SCENES = (
     Scene('disc on a corner (6)', 'v', 1e-6, _corner),
     Scene('seams of tiles', 'v', 0.01, _seams),
     Scene('flat fall (8)', 'rad', 1e-4, _flat_fall),
+    Scene('clay on a plate (44)', 'm', 1e-3, _clay),
     Scene('stack of ten (18)', 'm/s', 1e-3, _stack),
     Scene('removed floor', 'm, rad', 1e-3, _removed_floor),
     Scene('cradle, 2 and 3 of 5 (17)', 'v', 0.02, _cradle),

@@ -77,6 +77,7 @@ STAGES = (
     Stage('impact propagation', lib.STAGE_PROPAGATION),
     Stage('block solver', lib.STAGE_BLOCK_SOLVER),
     Stage('joint solver', lib.STAGE_JOINTS),
+    Stage('impact loads', lib.STAGE_LOADS),
     Stage('sleeping', 0, (((settings, 'IDLE_TIME'), math.inf),)),
     Stage(
         'warm start',

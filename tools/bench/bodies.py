@@ -9,11 +9,11 @@ from collections.abc import Callable
 from functools import lru_cache
 import math
 import random
+from test.building import spawn
 import time
 
-from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.requests import Configure, Restore, Spawn
+from physsim_ros.model.requests import Configure, Restore
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 import pymunk
@@ -35,18 +35,9 @@ def fill(world: World, count: int, *, settle: float = SETTLE) -> None:
     row = int(2 * half / 0.7)
     world.apply(Configure(changes={'bounds': (-half, 0.0, half, 1000.0)}))
     for number in range(count):
-        world.apply(
-            Spawn(
-                name=f'body/{number}',
-                shape=_shape(number),
-                pose=(
-                    0.5 - half + number % row * 0.7 + rng.uniform(-0.1, 0.1),
-                    0.5 + number // row * 0.7,
-                    0.0,
-                ),
-                properties=Properties(elasticity=0.0),
-            )
-        )
+        x = 0.5 - half + number % row * 0.7 + rng.uniform(-0.1, 0.1)
+        pose = (x, 0.5 + number // row * 0.7, 0.0)
+        spawn(world, f'body/{number}', _shape(number), pose, elasticity=0.0)
 
 
 @lru_cache(maxsize=2)
@@ -76,24 +67,19 @@ def sparse(count: int) -> World:
     for number in range(count):
         row, column = divmod(number, side)
         velocity = rng.uniform(-1.0, 1.0), rng.uniform(-1.0, 1.0)
-        properties = Properties(velocity=velocity, spin=rng.uniform(-1.0, 1.0))
-        pose = (3.0 * column, 3.0 * row, 0.0)
-        world.apply(
-            Spawn(name=f'body/{number}', shape=_shape(number), pose=pose, properties=properties)
-        )
+        motion = {'velocity': velocity, 'spin': rng.uniform(-1.0, 1.0)}
+        spawn(world, f'body/{number}', _shape(number), (3.0 * column, 3.0 * row, 0.0), **motion)
     return world
 
 
 def laid(count: int) -> World:
     """Return boxes laid down in columns on the ground; after a second they are at rest."""
     world = World()
-    ground = Box(width=GROUND, height=2.0)
-    still = Properties(anchored=True)
-    world.apply(Spawn(name='ground/0', shape=ground, pose=(0.0, -1.0, 0.0), properties=still))
+    spawn(world, 'ground/0', Box(width=GROUND, height=2.0), (0.0, -1.0, 0.0), anchored=True)
     for number in range(count):
         column, level = divmod(number, HIGH)
         pose = (0.3 * column - 0.15 * count / HIGH, 0.1 + 0.2 * level, 0.0)
-        world.apply(Spawn(name=f'body/{number}', shape=Box(width=0.2, height=0.2), pose=pose))
+        spawn(world, f'body/{number}', Box(width=0.2, height=0.2), pose)
     return world
 
 
@@ -172,3 +158,10 @@ def timed(act: Callable[[], object]) -> float:
     began = time.perf_counter()
     act()
     return (time.perf_counter() - began) * 1e3
+
+
+def cpu_time(act: Callable[[], object]) -> float:
+    """Return the CPU time of a call in this thread [ms]."""
+    began = time.thread_time()
+    act()
+    return (time.thread_time() - began) * 1e3

@@ -17,13 +17,13 @@ import random
 import re
 import statistics
 import tempfile
+from test.building import spawn
 from test.outside import Outside
 from test.sketchpad.chromium import circle, launched_chromium, Sheet
 
 from physsim_ros.files import save_world
-from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.requests import Configure, Spawn
+from physsim_ros.model.requests import Configure
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 from physsim_ros.testing.domain import own_domain
@@ -79,10 +79,8 @@ def spinning(count: int) -> WorldState:
         level, column = divmod(number, across)
         shape = Disc(radius=0.25) if (level + column) % 2 else Box(width=0.5, height=0.5)
         pose = (column * APART, level * APART, 0.0)
-        spin = Properties(spin=rng.uniform(-1.0, 1.0))
-        world.apply(Spawn(name=f'body/{number}', shape=shape, pose=pose, properties=spin))
-    hand = (right / 2, top - FREE / 2, 0.0)
-    world.apply(Spawn(name='hand/0', shape=Disc(radius=0.5), pose=hand))
+        spawn(world, f'body/{number}', shape, pose, spin=rng.uniform(-1.0, 1.0))
+    spawn(world, 'hand/0', Disc(radius=0.5), (right / 2, top - FREE / 2, 0.0))
     return world.save()
 
 

@@ -10,7 +10,6 @@ A world has ten balls in a box, one of which its pupil lifts each second.
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Sequence
 import json
 import os
 from pathlib import Path
@@ -23,8 +22,10 @@ import time
 
 from physsim_ros.testing.domain import own_domain
 import psutil
-from tornado.httpclient import AsyncHTTPClient, HTTPRequest
-from tornado.websocket import websocket_connect, WebSocketClientConnection
+from tornado.httpclient import AsyncHTTPClient
+from tornado.websocket import WebSocketClientConnection
+
+from .page_client import cookie_of, open_page
 
 PUPILS = (10, 30)
 # Wall time in which the worlds are watched [s].
@@ -35,23 +36,12 @@ WORLD = 'format: 1\nbounds: [-5, 0, 5, 8]\nelasticity: 0.6\nbodies:\n' + ''.join
 )
 
 
-async def _cookie(login: str) -> str:
-    response = await AsyncHTTPClient().fetch(login, follow_redirects=False, raise_error=False)
-    return str(response.headers['Set-Cookie'].partition(';')[0])
-
-
 async def _open_pages(teacher: str) -> list[WebSocketClientConnection]:
     """Open a page of each world of a class."""
-    base = teacher.partition('/login')[0]
-    headers = {'Cookie': await _cookie(teacher)}
-    response = await AsyncHTTPClient().fetch(f'{base}/seats', headers=headers)
-    pages = []
-    for seat in json.loads(response.body)['seats']:
-        origin = seat['address'].partition('/login')[0]
-        headers = {'Cookie': await _cookie(seat['address']), 'Origin': origin}
-        request = HTTPRequest(origin.replace('http', 'ws') + '/ws', headers=headers)
-        pages.append(await websocket_connect(request))
-    return pages
+    seats = teacher.partition('/login')[0] + '/seats'
+    headers = {'Cookie': await cookie_of(teacher)}
+    response = await AsyncHTTPClient().fetch(seats, headers=headers)
+    return [await open_page(seat['address']) for seat in json.loads(response.body)['seats']]
 
 
 async def _watch(teacher: str) -> list[float]:
@@ -115,15 +105,11 @@ def _measured(pupils: int) -> tuple[float, float, float]:
     return min(paces), sum(paces) / len(paces), processors
 
 
-def table(pupils: Sequence[int] = PUPILS) -> None:
+def table() -> None:
     """Print the pace of a class."""
     print('\nA class with a world for each pupil, a page open in each')
     print(f'{"pupils":>8}{"least pace":>12}{"mean pace":>12}{"processors":>12}{"at pace 1":>12}')
-    for count in pupils:
+    for count in PUPILS:
         least, mean, processors = _measured(count)
         needed = processors / mean
         print(f'{count:8d}{least:12.2f}{mean:12.2f}{processors:12.2f}{needed:12.2f}')
-
-
-if __name__ == '__main__':
-    table([int(word) for word in sys.argv[1:]] or PUPILS)

@@ -3,14 +3,17 @@
 
 """The cost of fast bodies: a crowd of small discs that falls and lands, and crowds of 20 km/s."""
 
+from functools import partial
 from test.building import spawn
 import time
 
 import numpy as np
-from physsim_ros.model.requests import Configure, Spawn
+from physsim_ros.model.requests import Configure
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc, Shape
 from physsim_ros.simulation.world import World
+
+from .bodies import timed
 
 FRAMES = 100
 STEPS = 5
@@ -23,7 +26,7 @@ def crowd(count: int) -> World:
     for number in range(count):
         row, column = divmod(number, 100)
         pose = (0.15 * column - 8.0, 5.0 + 0.15 * row, 0.0)
-        world.apply(Spawn(name=f'disc/{number}', shape=Disc(radius=0.05), pose=pose))
+        spawn(world, f'disc/{number}', Disc(radius=0.05), pose)
     return world
 
 
@@ -71,9 +74,6 @@ def _falling() -> None:
     print('\nA frame of 4 steps while small discs fall from 5 m [ms]')
     print('bodies    mean  longest')
     for count in (100, 1000):
-        world, costs = crowd(count), []
-        for _ in range(FRAMES):
-            began = time.perf_counter_ns()
-            world.step(4)
-            costs.append((time.perf_counter_ns() - began) * 1e-6)
+        world = crowd(count)
+        costs = [timed(partial(world.step, 4)) for _ in range(FRAMES)]
         print(f'{count:6} {sum(costs) / FRAMES:7.1f} {max(costs):8.1f}')

@@ -12,17 +12,16 @@ import time
 from physsim_ros.simulation.simulation import Simulation
 
 from .bodies import Bare
-from .scenes import FREE, MACHINES, Requests
+from .scenes import FREE, MACHINES, Scene
 
 # Frames of four steps that are measured in turn, and how often.
 FRAMES, ROUNDS = 30, 8
 
 
-def simulation_of(scene: Callable[[], Requests]) -> Simulation:
+def simulation_of(scene: Scene) -> Simulation:
     """Return a simulation without ROS in which a scene begins."""
     sim = Simulation()
-    for request in scene():
-        sim.perform(request)
+    scene(sim)
     return sim
 
 
@@ -34,7 +33,7 @@ def _cpu(act: Callable[[], object], count: int) -> float:
     return (time.process_time_ns() - began) / count * 1e-3
 
 
-def times(scene: Callable[[], Requests]) -> tuple[float, float, float]:
+def times(scene: Scene) -> tuple[float, float, float]:
     """
     Return the processor time of four steps of a scene [µs].
 
@@ -55,11 +54,11 @@ def table() -> None:
     print(f'{"":28} {"bare":>8} {"steps":>8} {"frame":>8}   {"steps":>6} {"frame":>6}')
     for name, scenes in (('free bodies', FREE), ('machines', MACHINES)):
         ratios = []
-        for scene, requests in scenes.items():
-            bare, steps, frame = times(requests)
+        for name_of_scene, scene in scenes.items():
+            bare, steps, frame = times(scene)
             ratios.append((steps / bare, frame / bare))
             print(
-                f'{scene:28} {bare:8.1f} {steps:8.1f} {frame:8.1f}   '
+                f'{name_of_scene:28} {bare:8.1f} {steps:8.1f} {frame:8.1f}   '
                 f'{steps / bare:6.1f} {frame / bare:6.1f}'
             )
         medians = [statistics.median(column) for column in zip(*ratios, strict=True)]

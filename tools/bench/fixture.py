@@ -11,10 +11,10 @@ over whole times between checkpoints.
 from __future__ import annotations
 
 from collections.abc import Callable
+from test.building import spawn
 import time
 
-from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.requests import Restore, Spawn
+from physsim_ros.model.requests import Restore
 from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 from physsim_ros.testing import own_context, PhysSim
@@ -36,14 +36,10 @@ def on_floor(count: int, speed: float) -> World:
     world = World()
     if count:
         floor = Box(width=4.0 * count * APART + 100.0, height=2.0)
-        fixed = Properties(anchored=True)
-        world.apply(Spawn(name='floor/0', shape=floor, pose=(0.0, -1.0, 0.0), properties=fixed))
+        spawn(world, 'floor/0', floor, (0.0, -1.0, 0.0), anchored=True)
     for number in range(count):
-        rolling = Properties(velocity=(speed, 0.0), spin=-speed / RADIUS)
-        pose = (APART * number, RADIUS, 0.0)
-        world.apply(
-            Spawn(name=f'body/{number}', shape=Disc(radius=RADIUS), pose=pose, properties=rolling)
-        )
+        pose, rolling = (APART * number, RADIUS, 0.0), {'spin': -speed / RADIUS}
+        spawn(world, f'body/{number}', Disc(radius=RADIUS), pose, velocity=(speed, 0.0), **rolling)
     return world
 
 

@@ -14,12 +14,11 @@ from itertools import count
 import math
 from pathlib import Path
 import statistics
-import subprocess
-import sys
 import tempfile
 import time
 from typing import NamedTuple
 
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import Pose, PoseArray
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.programs.physsim import reduce_latency
@@ -28,8 +27,12 @@ from physsim_ros.testing.domain import own_domain
 import rclpy
 from rclpy.logging import LoggingSeverity
 from rclpy.parameter import Parameter
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import MultiDOFJointState
+from visualization_msgs.msg import MarkerArray
 
 from .bodies import Bare, fill, SETTLE, timed
+from .node_process import listening
 
 FRAMES = 200
 # Frames before the measured ones, with the first checkpoint of this number of bodies.
@@ -37,32 +40,17 @@ WARM = 100
 # Frames in a row of each: a single frame would be sent during the others' time.
 TURN = 20
 PERIOD = 16_666_667  # ns
-TOPICS = ('clock', 'poses', 'states', 'contacts', 'markers', 'events', 'diagnostics')
-# Subscribes to topics as serialised bytes, in another process, so that its cost is not counted.
-LISTENER = """
-import sys, rclpy, rclpy.executors
-from rclpy.experimental import EventsExecutor
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from geometry_msgs.msg import PoseArray
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import MultiDOFJointState
-from visualization_msgs.msg import MarkerArray
-rclpy.init(domain_id=int(sys.argv[1]))
-node = rclpy.create_node('listener')
-kinds = {'poses': PoseArray, 'states': MultiDOFJointState, 'contacts': MultiDOFJointState,
-         'markers': MarkerArray, 'events': DiagnosticStatus, 'clock': Clock,
-         'diagnostics': DiagnosticArray}
-for topic in sys.argv[2:]:
-    name = f'/{topic}' if topic in ('clock', 'diagnostics') else f'/physsim/{topic}'
-    node.create_subscription(kinds[topic], name, lambda _: None, 5, raw=True)
-executor = EventsExecutor()
-executor.add_node(node)
-try:
-    while rclpy.ok():
-        executor.spin_once(timeout_sec=0.1)
-except rclpy.executors.ExternalShutdownException:
-    pass
-"""
+TOPICS = {
+    '/clock': Clock,
+    '/physsim/poses': PoseArray,
+    '/physsim/states': MultiDOFJointState,
+    '/physsim/contacts': MultiDOFJointState,
+    '/physsim/markers': MarkerArray,
+    '/physsim/events': DiagnosticStatus,
+    '/diagnostics': DiagnosticArray,
+}
+# All of them, and those that a client of many bodies reads.
+ALL, FEW = tuple(TOPICS), ('/physsim/poses', '/physsim/states')
 
 
 class Pile(NamedTuple):
@@ -78,11 +66,11 @@ class Pile(NamedTuple):
 
     count: int
     settled: bool = True
-    topics: tuple[str, ...] = TOPICS
+    topics: tuple[str, ...] = ALL
     paced: bool = False
 
     def __str__(self) -> str:
-        topics = 'all' if self.topics == TOPICS else ', '.join(self.topics)
+        topics = 'all' if self.topics == ALL else 'poses, states'
         state, pace = 'settled' if self.settled else 'falling', '60 Hz' if self.paced else 'free'
         return f'{self.count:6}  {state}  {topics:13}  {pace:5}'
 
@@ -125,9 +113,8 @@ def measure(pile: Pile, directory: Path, domain: int) -> None:
     node.start()
     world = node.simulation.world
     fill(world, pile.count, settle=SETTLE * pile.settled)
-    listener = subprocess.Popen([sys.executable, '-c', LISTENER, str(domain), *pile.topics])
-    try:
-        while not node.count_subscribers(f'/physsim/{pile.topics[1]}'):
+    with listening(domain, {topic: TOPICS[topic] for topic in pile.topics}):
+        while not node.count_subscribers(pile.topics[1]):
             time.sleep(0.01)
         node.simulation.speed = 1.0
         ticks = count()
@@ -145,10 +132,7 @@ def measure(pile: Pile, directory: Path, domain: int) -> None:
                     due += PERIOD * 1e-9
                     if pile.paced:
                         time.sleep(max(0.0, due - time.perf_counter()))
-    finally:
-        listener.terminate()
-        listener.wait()
-        node.destroy_node()
+    node.destroy_node()
     base, ours, plain = (statistics.mean(each[WARM:]) for each in times.values())
     size = record.stat().st_size / (WARM + FRAMES) / pile.count
     ratios = f'{ours / base:10.2f} {plain / base:11.2f}'
@@ -166,7 +150,7 @@ def table(counts: list[int]) -> None:
     piles = [Pile(count) for count in counts]
     piles += [
         Pile(1000, paced=True),
-        Pile(1000, topics=('poses', 'states')),
+        Pile(1000, topics=FEW),
         Pile(1000, settled=False),
     ]
     with own_domain() as domain, tempfile.TemporaryDirectory() as directory:

@@ -4,15 +4,15 @@
 """The cost of joints: a step of a machine, with its joints and without."""
 
 import statistics
-from test.building import net
-import time
+from test.building import net, spawn
 
-from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Join, Spawn
+from physsim_ros.model.requests import Join
 from physsim_ros.model.shapes import Box
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
+
+from .bodies import cpu_time
 
 STEPS = 480
 FRAMES = 180
@@ -25,36 +25,24 @@ def chain(count: int, *, links: int, joined: bool) -> World:
         row, link = divmod(number, links)
         name, x, y = f'link/{number}', 0.2 * link, 2.0 * row
         shape = Box(width=0.2, height=0.1)
-        still = Properties(mass=0.1, sensor=True)
-        world.apply(Spawn(name=name, shape=shape, pose=(x + 0.1, y, 0.0), properties=still))
+        spawn(world, name, shape, (x + 0.1, y, 0.0), mass=0.1, sensor=True)
         if joined:
-            other = f'link/{number - 1}' if link else 'world'
-            axle = Join(
-                name=f'joint/{number}', kind=JointKind.AXLE, points=((x, y),), a=name, b=other
-            )
-            world.apply(axle)
+            other, points = f'link/{number - 1}' if link else 'world', ((x, y),)
+            kind = JointKind.AXLE
+            world.apply(Join(name=f'joint/{number}', kind=kind, points=points, a=name, b=other))
     return world
 
 
 def median_step(world: World) -> float:
     """Return the median CPU time of a step [ms]."""
-    costs = []
-    for _ in range(STEPS):
-        began = time.thread_time_ns()
-        world.step(1)
-        costs.append((time.thread_time_ns() - began) * 1e-6)
-    return statistics.median(costs)
+    return statistics.median(cpu_time(lambda: world.step(1)) for _ in range(STEPS))
 
 
 def frames(world: World) -> tuple[float, float]:
     """Return the median CPU time of a frame, and the longest one, with a checkpoint in it [ms]."""
     simulation = Simulation(checkpoints=1.0)
     simulation.load(world.save())
-    costs = []
-    for _ in range(FRAMES):
-        began = time.thread_time_ns()
-        simulation.advance_frame()
-        costs.append((time.thread_time_ns() - began) * 1e-6)
+    costs = [cpu_time(simulation.advance_frame) for _ in range(FRAMES)]
     # The first step makes the tables of joints.
     return statistics.median(costs), max(costs[1:])
 

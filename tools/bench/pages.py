@@ -11,8 +11,11 @@ frames, so that neither a machine whose speed drifts nor a frame that was distur
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 import math
+from pathlib import Path
 import statistics
 import subprocess
 import sys
@@ -27,6 +30,7 @@ from rclpy.parameter import Parameter
 
 from .bodies import fill, SETTLE
 
+ROOT = Path(__file__).parents[2]
 # Zero pages show how equal the two worlds are.
 COUNTS = (0, 1, 20)
 # Number of compared frames, and of frames before them that do not count.
@@ -34,75 +38,31 @@ FRAMES, WARM = 360, 30
 # Pause between the frames of the two worlds, in which pages do their work beside the loop.
 PERIOD = 1 / 60
 STROKES = 20
-# Opens pages; prints the mean bytes of their frames, then how long each stroke took [ms].
-CLIENT = """
-import asyncio, json, math, sys, time
-from tornado.httpclient import AsyncHTTPClient, HTTPRequest
-from tornado.websocket import websocket_connect
-
-async def main(login, count, strokes):
-    base = login.partition('/login')[0]
-    response = await AsyncHTTPClient().fetch(login, follow_redirects=False, raise_error=False)
-    headers = {'Cookie': response.headers['Set-Cookie'].partition(';')[0], 'Origin': base}
-    address = base.replace('http', 'ws') + '/ws'
-    request = HTTPRequest(address, headers=headers)
-    sockets = [await websocket_connect(request) for _ in range(count)]
-    sizes, bodies = [], []
-
-    async def read(socket, first):
-        while (message := await socket.read_message()) is not None:
-            if first and isinstance(message, bytes):
-                sizes.append(len(message))
-            elif first and message.startswith('{"type":"scene"'):
-                bodies.append(len(json.loads(message)['bodies']))
-
-    readers = [asyncio.create_task(read(each, each is sockets[0])) for each in sockets]
-    while not sizes:
-        await asyncio.sleep(0.01)
-    print('open', flush=True)
-    for number in range(strokes):
-        turns = [math.tau * each / 60 for each in range(61)]
-        points = [[number + 0.4 * math.cos(t), 50 + 0.4 * math.sin(t), t / 6] for t in turns]
-        before, frames, began = bodies[-1], len(sizes), time.perf_counter()
-        await sockets[0].write_message(json.dumps({'id': 's', 'type': 'stroke', 'points': points}))
-        while bodies[-1] == before or sizes[-1] < 24 + 12 * bodies[-1]:
-            await asyncio.sleep(0.0005)
-        print(1e3 * (time.perf_counter() - began), flush=True)
-        await asyncio.sleep(0.1)
-    print('bytes', sum(sizes) / len(sizes), flush=True)
-    await asyncio.gather(*readers)
-
-asyncio.run(main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3])))
-"""
 
 
-class Clients:
+@contextmanager
+def open_pages(node: PhysSimNode, count: int, strokes: int = 0) -> Iterator[Callable[[], str]]:
     """
-    Pages in another process.
+    Open pages in another process, and give a function of its next line; see `page_client`.
 
     :param node: that serves them
-    :param count: of pages
+    :param count: of pages; without any there is no process
     :param strokes: that the first of them draws
     """
-
-    def __init__(self, node: PhysSimNode, count: int, strokes: int = 0) -> None:
-        assert node.outputs.sketchpad is not None
-        self._process = subprocess.Popen(
-            [sys.executable, '-c', CLIENT, node.outputs.sketchpad.url(), str(count), str(strokes)],
-            stdout=subprocess.PIPE,
-            text=True,
-        )
-        assert self._process.stdout is not None
-        self._lines = self._process.stdout
-
-    def read_line(self) -> list[str]:
-        """Return the words of the next line."""
-        return self._lines.readline().split()
-
-    def close(self) -> None:
-        """End the process."""
-        self._process.kill()
-        self._process.wait()
+    if not count:
+        yield str
+        return
+    assert node.outputs.sketchpad is not None
+    words = ['-m', 'tools.bench.page_client', node.outputs.sketchpad.url(), str(count)]
+    process = subprocess.Popen(
+        [sys.executable, *words, str(strokes)], cwd=ROOT, stdout=subprocess.PIPE, text=True
+    )
+    assert process.stdout is not None
+    try:
+        yield process.stdout.readline
+    finally:
+        process.kill()
+        process.wait()
 
 
 def served_world(bodies: int) -> PhysSimNode:
@@ -136,18 +96,26 @@ def ticks(nodes: Sequence[PhysSimNode], frames: int) -> np.ndarray:
     return 1e3 * times
 
 
+def run_until(
+    nodes: Sequence[PhysSimNode], read_line: Callable[[], str], count: int = 1
+) -> list[str]:
+    """Run nodes until their pages have printed so many lines, and return these."""
+    with ThreadPoolExecutor(1) as pool:
+        found = pool.submit(lambda: [read_line() for _ in range(count)])
+        ticks(nodes, WARM)
+        while not found.done():
+            ticks(nodes, WARM)
+    return found.result()
+
+
 def measure(bodies: int) -> None:
     """Print the rows of a count of bodies."""
     alone, paged = served_world(bodies), served_world(bodies)
     try:
         for count in COUNTS:
-            clients = Clients(paged, count) if count else None
-            ticks((alone, paged), WARM)
-            if clients is not None:
-                clients.read_line()
-            times = ticks((alone, paged), FRAMES)
-            if clients is not None:
-                clients.close()
+            with open_pages(paged, count) as read_line:
+                run_until((alone, paged), read_line)
+                times = ticks((alone, paged), FRAMES)
             words = [f'{bodies:6} {count:6}']
             for kind in range(2):
                 median = float(np.median(times[:, 0, kind]))
@@ -166,19 +134,16 @@ def measure(bodies: int) -> None:
 def measure_strokes(bodies: int) -> None:
     """Print how long it takes from a stroke to its body, and the size of a frame."""
     node = served_world(bodies)
-    clients = Clients(node, 1, STROKES)
     try:
-        # Each frame has a tick; the client has finished long before.
-        ticks((node,), WARM + 60 * STROKES // 3)
-        assert clients.read_line() == ['open']
-        took = [float(clients.read_line()[0]) for _ in range(STROKES)]
-        size = float(clients.read_line()[1])
+        with open_pages(node, 1, STROKES) as read_line:
+            opened, *took, size = run_until((node,), read_line, STROKES + 2)
+            assert opened == 'open\n'
     finally:
-        clients.close()
         node.destroy_node()
-    median = statistics.median(took)
+    times, each = [float(line) for line in took], float(size)
     print(
-        f'{bodies:6} {median:16.1f} {max(took):8.1f} {size:12.0f} {size / bodies:12.1f}',
+        f'{bodies:6} {statistics.median(times):16.1f} {max(times):8.1f} {each:12.0f}'
+        f' {each / bodies:12.1f}',
         flush=True,
     )
 

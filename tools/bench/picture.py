@@ -14,6 +14,7 @@ from pathlib import Path
 import tempfile
 from test.pictures import has_vulkan, headless_viewer
 from test.rerun_program import free_port
+from test.view.picture_file import Recording
 from test.worlds.film import simulation
 import threading
 import time
@@ -69,15 +70,12 @@ def _falling() -> _Scene:
 def print_size(name: str, frames: list[Frame]) -> None:
     """Print what a recording of frames takes."""
     with tempfile.TemporaryDirectory() as directory:
-        path = Path(directory) / 'it.rrd'
-        stream = rr.RecordingStream('bench')
-        stream.set_sinks(rr.FileSink(path))
-        recorder = FrameRecorder(stream)
+        recording = Recording(Path(directory) / 'it.rrd')
         for first in range(0, len(frames), FILED):
             end = first + FILED
-            recorder.draw(frames[first:end], context=CONTEXT)
-        stream.disconnect()
-        size = path.stat().st_size
+            recording.draw(*frames[first:end], real_time_factor=1.0)
+        recording.close()
+        size = recording.path.stat().st_size
     minutes = len(frames) / FRAMES / 60
     each = size / len(frames) / len(frames[0].snapshot.poses)
     print(f'{name:28} {size / 1e6 / minutes:14.2f} {each:24.1f}', flush=True)

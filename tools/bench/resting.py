@@ -6,9 +6,8 @@
 from __future__ import annotations
 
 import statistics
+from test.building import spawn
 
-from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.requests import Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.simulation.world import World
 
@@ -24,9 +23,8 @@ SPEEDS = (0.0, 5.0, 20.0)
 def _at_rest(speed: float) -> World:
     world = laid(COUNT)
     world.step(REST)
-    properties = Properties(velocity=(0.0, -speed))
     pose = (0.4 * GROUND, 50.0, 0.0)
-    world.apply(Spawn(name='ball/0', shape=Disc(radius=0.1), pose=pose, properties=properties))
+    spawn(world, 'ball/0', Disc(radius=0.1), pose, velocity=(0.0, -speed))
     return world
 
 

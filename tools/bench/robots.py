@@ -17,7 +17,6 @@ import math
 import os
 from pathlib import Path
 import subprocess
-import sys
 import tempfile
 from test.building import spawn
 import time
@@ -31,10 +30,10 @@ from physsim_ros.simulation.world import World
 from physsim_ros.testing import own_context, PhysSim
 from physsim_ros.testing.domain import own_domain
 import pytest
+from sensor_msgs.msg import LaserScan
 
 from .joints import median_step
-from .outside import cpu_seconds, Remote
-from .startup import executable
+from .node_process import cpu_seconds, executable, listening, Remote
 
 WALLS = 50
 # Numbers of robots in the fixture, and in the whole node.
@@ -46,19 +45,6 @@ SECONDS, TURNS = 2.0, 5
 # Frames from one scan to the next.
 EVERY = 12
 PEER = Path(__file__).with_name('irsim_world.py')
-# Subscribes to scans from another process, as serialised bytes.
-LISTENER = """
-import sys, rclpy
-from rclpy.experimental import EventsExecutor
-from sensor_msgs.msg import LaserScan
-rclpy.init(domain_id=int(sys.argv[1]))
-node = rclpy.create_node('listener')
-for topic in sys.argv[2:]:
-    node.create_subscription(LaserScan, topic, lambda _: None, 5, raw=True)
-executor = EventsExecutor()
-executor.add_node(node)
-executor.spin()
-"""
 
 
 def places(count: int) -> Iterator[tuple[float, float]]:
@@ -125,29 +111,26 @@ def in_node(count: int) -> tuple[float, float]:
 
     :return: by the wall, and by the CPU time of the node
     """
-    topics = [f'/robot_{number}/scan' for number in range(count)]
+    scans = {f'/robot_{number}/scan': LaserScan for number in range(count)}
     with own_domain() as domain, tempfile.TemporaryDirectory() as directory:
-        path = save_world(
-            scene(count).save(), 'scene', world_dir=Path(directory), physics_rate=240.0
-        )
-        listener = subprocess.Popen([sys.executable, '-c', LISTENER, str(domain), *topics])
-        remote = Remote(domain)
-        try:
-            with executable(domain, world_file=path, speed=0.0) as process:
-                remote.spin_until(lambda: remote.node.count_publishers(topics[-1]))
-                remote.spin_until(
-                    lambda: all(remote.node.count_subscribers(topic) for topic in topics)
+        state = scene(count).save()
+        path = save_world(state, 'scene', world_dir=Path(directory), physics_rate=240.0)
+        with (
+            listening(domain, scans),
+            Remote(domain) as remote,
+            executable(domain, world_file=path, speed=0.0) as process,
+        ):
+            remote.spin_until(
+                lambda: all(
+                    remote.node.count_publishers(topic) and remote.node.count_subscribers(topic)
+                    for topic in scans
                 )
-                before, began = cpu_seconds(process.pid), time.perf_counter()
-                remote.play()
-                remote.spin_until(lambda: remote.now >= SECONDS * TURNS)
-                cpu, wall = cpu_seconds(process.pid) - before, time.perf_counter() - began
-                return remote.now / wall, remote.now / cpu
-        finally:
-            # Its executor (rclpy 7, Jazzy) does not end by a signal that it handles.
-            listener.kill()
-            listener.wait()
-            remote.close()
+            )
+            before, began = cpu_seconds(process.pid), time.perf_counter()
+            remote.play()
+            remote.spin_until(lambda: remote.now() >= SECONDS * TURNS)
+            cpu, wall = cpu_seconds(process.pid) - before, time.perf_counter() - began
+            return remote.now() / wall, remote.now() / cpu
 
 
 def in_peer(count: int, step: float, beams: int = 360) -> float:

@@ -5,159 +5,133 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 import math
-from typing import Any
+from test.laws.scenes import floor, join, NOWHERE, spawn, walls
 
-from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.requests import Configure, Join, Request, Spawn
-from physsim_ros.model.shapes import Box, Chain, Disc, Shape
+from physsim_ros.model.requests import Configure
+from physsim_ros.model.shapes import Box, Chain, Disc
+from physsim_ros.simulation.simulation import Simulation
 
-Requests = Iterator[Request]
-
-
-def _body(name: str, shape: Shape, x: float, y: float, yaw: float = 0.0, **said: Any) -> Spawn:
-    return Spawn(name=name, shape=shape, pose=(x, y, yaw), properties=Properties(**said))
+Scene = Callable[[Simulation], None]
+BOX = Box(width=0.5, height=0.5)
 
 
-def _floor() -> Spawn:
-    return _body('floor/0', Box(width=200.0, height=2.0), 0.0, -1.0, anchored=True)
-
-
-def _join(
-    name: str, kind: str, points: Sequence[tuple[float, float]], a: str, b: str, **said: Any
-) -> Join:
-    return Join(
-        name=name,
-        kind=JointKind(kind),
-        points=tuple(points),
-        a=a,
-        b=b,
-        properties=JointProperties(**said),
-    )
-
-
-def rolling(count: int = 10) -> Requests:
-    """Yield discs that fall onto a floor and roll."""
-    yield _floor()
-    for number in range(count):
-        place = 3.0 * number, 0.5 + 0.1 * number
-        yield _body(f'disc/{number}', Disc(radius=0.25), *place, velocity=(1.0, 0.0))
-
-
-def stack() -> Requests:
-    """Yield ten boxes on each other; the lowest is pushed so that none of them sleeps."""
-    yield _floor()
+def rolling(sim: Simulation) -> None:
+    """Add discs that fall onto a floor and roll."""
+    floor(sim)
     for number in range(10):
-        yield _body(f'box/{number}', Box(width=0.5, height=0.5), 0.0, 0.25 + 0.5 * number)
+        place = (3.0 * number, 0.5 + 0.1 * number, 0.0)
+        spawn(sim, f'disc/{number}', Disc(radius=0.25), place, velocity=(1.0, 0.0))
 
 
-def heap() -> Requests:
-    """Yield a hundred discs and boxes that fall into a bin."""
-    yield Configure(changes={'bounds': (-3.0, 0.0, 3.0, 100.0)})
+def stack(sim: Simulation) -> None:
+    """Add ten boxes on each other."""
+    floor(sim)
+    for number in range(10):
+        spawn(sim, f'box/{number}', BOX, (0.0, 0.25 + 0.5 * number, 0.0))
+
+
+def heap(sim: Simulation) -> None:
+    """Add a hundred discs and boxes that fall into a bin."""
+    walls(sim, -3.0, 0.0, 3.0, 100.0)
     for number in range(100):
-        shape = Disc(radius=0.25) if number % 2 else Box(width=0.5, height=0.5)
+        shape = Disc(radius=0.25) if number % 2 else BOX
         x, y = number % 10 * 0.58 - 2.6, 0.4 + number // 10 * 0.6
-        yield _body(f'body/{number}', shape, x + 0.02 * (number % 3), y, elasticity=0.0)
+        spawn(sim, f'body/{number}', shape, (x + 0.02 * (number % 3), y, 0.0), elasticity=0.0)
 
 
-def tiles() -> Requests:
-    """Yield a box that slides over tiles."""
+def tiles(sim: Simulation) -> None:
+    """Add a box that slides over tiles."""
+    tile = Box(width=1.0, height=1.0)
     for number in range(40):
-        tile = Box(width=1.0, height=1.0)
-        yield _body(f'tile/{number}', tile, float(number), -0.5, anchored=True, friction=0.05)
-    box = Box(width=0.5, height=0.5)
-    yield _body('box/0', box, 0.0, 0.25, velocity=(6.0, 0.0), friction=0.05)
+        place = (float(number), -0.5, 0.0)
+        spawn(sim, f'tile/{number}', tile, place, anchored=True, friction=0.05)
+    spawn(sim, 'box/0', BOX, (0.0, 0.25, 0.0), velocity=(6.0, 0.0), friction=0.05)
 
 
-def gas() -> Requests:
-    """Yield 48 elastic discs in a box."""
-    yield Configure(changes={'bounds': (-3.0, -3.0, 3.0, 3.0), 'gravity': (0.0, 0.0)})
+def gas(sim: Simulation) -> None:
+    """Add 48 elastic discs in a box."""
+    walls(sim, -3.0, -3.0, 3.0, 3.0)
+    smooth = {'elasticity': 1.0, 'friction': 0.0}
+    sim.perform(Configure(changes={'gravity': NOWHERE, **smooth}))
     for number in range(48):
-        x, y = number % 7 * 0.8 - 2.4, number // 7 * 0.8 - 2.4
+        place = (number % 7 * 0.8 - 2.4, number // 7 * 0.8 - 2.4, 0.0)
         velocity = 3.0 * math.cos(number), 3.0 * math.sin(number)
-        disc = Disc(radius=0.15)
-        yield _body(f'disc/{number}', disc, x, y, elasticity=1.0, friction=0.0, velocity=velocity)
-    yield Configure(changes={'elasticity': 1.0, 'friction': 0.0})
+        spawn(sim, f'disc/{number}', Disc(radius=0.15), place, velocity=velocity, **smooth)
 
 
-def racer() -> Requests:
-    """Yield a disc that races in a box of thin walls."""
+def racer(sim: Simulation) -> None:
+    """Add a disc that races in a box of thin walls."""
     corners = ((-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0), (-4.0, -4.0))
-    walls = Chain(points=corners, thickness=0.02)
-    yield Configure(changes={'gravity': (0.0, 0.0)})
-    yield _body('walls/0', walls, 0.0, 0.0, anchored=True, elasticity=1.0, friction=0.0)
-    velocity = (40.0, 17.0)
-    yield _body(
-        'disc/0', Disc(radius=0.1), 0.0, 0.0, velocity=velocity, elasticity=1.0, friction=0.0
-    )
+    smooth = {'elasticity': 1.0, 'friction': 0.0}
+    sim.perform(Configure(changes={'gravity': NOWHERE}))
+    spawn(sim, 'walls/0', Chain(points=corners, thickness=0.02), anchored=True, **smooth)
+    spawn(sim, 'disc/0', Disc(radius=0.1), velocity=(40.0, 17.0), **smooth)
 
 
-def pendulum(count: int = 1) -> Requests:
-    """Yield pendulums side by side."""
+def pendulum(sim: Simulation, count: int = 1) -> None:
+    """Add pendulums side by side."""
     for number in range(count):
         x = 3.0 * number
-        yield _body(f'bob/{number}', Disc(radius=0.2), x + 1.0, 0.0)
-        yield _join(f'axle/{number}', 'axle', ((x, 0.0),), f'bob/{number}', 'world')
+        spawn(sim, f'bob/{number}', Disc(radius=0.2), (x + 1.0, 0.0, 0.0))
+        join(sim, f'axle/{number}', 'axle', [(x, 0.0)], a=f'bob/{number}', b='world')
 
 
-def double_pendulum() -> Requests:
-    """Yield two rods that swing on each other."""
-    for number in range(2):
-        rod = Box(width=1.0, height=0.1)
-        yield _body(f'rod/{number}', rod, 0.5 + number, 0.0, group=1)
-        other = f'rod/{number - 1}' if number else 'world'
-        yield _join(f'axle/{number}', 'axle', ((float(number), 0.0),), f'rod/{number}', other)
+def row(sim: Simulation, name: str, count: int, shape: Box, **said: float) -> None:
+    """Add boxes in a row, each joined to the one before by an axle, the first to the world."""
+    for number in range(count):
+        x = shape.width * number
+        spawn(sim, f'{name}/{number}', shape, (x + shape.width / 2, 0.0, 0.0), group=1, **said)
+        other = f'{name}/{number - 1}' if number else 'world'
+        join(sim, f'axle/{number}', 'axle', [(x, 0.0)], a=f'{name}/{number}', b=other)
 
 
-def chain(links: int = 50) -> Requests:
-    """Yield a chain that swings."""
-    for number in range(links):
-        link = Box(width=0.2, height=0.05)
-        yield _body(f'link/{number}', link, 0.2 * number + 0.1, 0.0, mass=0.1, group=1)
-        other = f'link/{number - 1}' if number else 'world'
-        yield _join(f'axle/{number}', 'axle', ((0.2 * number, 0.0),), f'link/{number}', other)
+def double_pendulum(sim: Simulation) -> None:
+    """Add two rods that swing on each other."""
+    row(sim, 'rod', 2, Box(width=1.0, height=0.1))
 
 
-def bridge() -> Requests:
-    """Yield a bridge of planks with a box on it."""
-    for number in range(10):
-        plank = Box(width=1.0, height=0.2)
-        yield _body(f'plank/{number}', plank, number + 0.5, 0.0, mass=1.0, group=1)
-        other = f'plank/{number - 1}' if number else 'world'
-        yield _join(f'axle/{number}', 'axle', ((float(number), 0.0),), f'plank/{number}', other)
-    yield _join('axle/10', 'axle', ((10.0, 0.0),), 'plank/9', 'world')
-    yield _body('box/0', Box(width=0.8, height=0.8), 5.0, 0.5, mass=10.0)
+def chain(sim: Simulation) -> None:
+    """Add a chain of fifty links that swings."""
+    row(sim, 'link', 50, Box(width=0.2, height=0.05), mass=0.1)
 
 
-def car() -> Requests:
-    """Yield a car whose wheels a motor drives over a floor."""
-    yield _floor()
-    yield _body('car/0', Box(width=2.0, height=0.4), 0.0, 0.6, group=1)
+def bridge(sim: Simulation) -> None:
+    """Add a bridge of planks with a box on it."""
+    row(sim, 'plank', 10, Box(width=1.0, height=0.2), mass=1.0)
+    join(sim, 'axle/10', 'axle', [(10.0, 0.0)], a='plank/9', b='world')
+    spawn(sim, 'box/0', Box(width=0.8, height=0.8), (5.0, 0.5, 0.0), mass=10.0)
+
+
+def car(sim: Simulation) -> None:
+    """Add a car whose wheels a motor drives over a floor."""
+    floor(sim)
+    spawn(sim, 'car/0', Box(width=2.0, height=0.4), (0.0, 0.6, 0.0), group=1)
+    driven = {'rate': -6.0, 'max_torque': 30.0}
     for number, x in enumerate((-0.7, 0.7)):
-        yield _body(f'wheel/{number}', Disc(radius=0.35), x, 0.36, group=1, friction=1.0)
-        said = {'rate': -6.0, 'max_torque': 30.0}
-        yield _join(f'motor/{number}', 'motor', ((x, 0.36),), f'wheel/{number}', 'car/0', **said)
+        wheel = f'wheel/{number}'
+        spawn(sim, wheel, Disc(radius=0.35), (x, 0.36, 0.0), group=1, friction=1.0)
+        join(sim, f'motor/{number}', 'motor', [(x, 0.36)], a=wheel, b='car/0', **driven)
 
 
-def cradle() -> Requests:
-    """Yield a cradle of five balls, one of them swung."""
+def cradle(sim: Simulation) -> None:
+    """Add a cradle of five balls, one of them swung."""
     for number in range(5):
-        x = 0.4 * number
-        at = (x - 1.0, 1.0) if number == 0 else (x, 0.0)
-        yield _body(f'ball/{number}', Disc(radius=0.2), *at, elasticity=1.0, friction=0.0)
-        yield _join(f'rod/{number}', 'rod', (at, (x, 1.0)), f'ball/{number}', 'world')
+        x, ball = 0.4 * number, f'ball/{number}'
+        at = (x, 0.0) if number else (x - 1.0, 1.0)
+        spawn(sim, ball, Disc(radius=0.2), (*at, 0.0), elasticity=1.0, friction=0.0)
+        join(sim, f'rod/{number}', 'rod', [at, (x, 1.0)], a=ball, b='world')
 
 
-def bob_on_spring() -> Requests:
-    """Yield a bob that swings up and down on a spring."""
-    yield _body('bob/0', Disc(radius=0.2), 0.0, 0.0, mass=1.0)
+def bob_on_spring(sim: Simulation) -> None:
+    """Add a bob that swings up and down on a spring."""
+    spawn(sim, 'bob/0', Disc(radius=0.2), mass=1.0)
     said = {'stiffness': 50.0, 'rest_length': 1.0}
-    yield _join('spring/0', 'spring', ((0.0, 0.0), (0.0, 1.5)), 'bob/0', 'world', **said)
+    join(sim, 'spring/0', 'spring', [(0.0, 0.0), (0.0, 1.5)], a='bob/0', b='world', **said)
 
 
-FREE: dict[str, Callable[[], Requests]] = {
+FREE: dict[str, Scene] = {
     'ten fall and roll': rolling,
     'stack of ten': stack,
     'a hundred in a heap': heap,
@@ -165,7 +139,7 @@ FREE: dict[str, Callable[[], Requests]] = {
     'elastic gas of 48': gas,
     'a disc races in thin walls': racer,
 }
-MACHINES: dict[str, Callable[[], Requests]] = {
+MACHINES: dict[str, Scene] = {
     'pendulum': pendulum,
     'double pendulum': double_pendulum,
     'chain of fifty': chain,
@@ -173,5 +147,5 @@ MACHINES: dict[str, Callable[[], Requests]] = {
     'car with a motor': car,
     'cradle of five': cradle,
     'bob on a spring': bob_on_spring,
-    'thirty pendulums': lambda: pendulum(30),
+    'thirty pendulums': lambda sim: pendulum(sim, 30),
 }

@@ -4,7 +4,6 @@
 """The cost of sensors: laser scans beside the own queries of the engine; walls of a map."""
 
 from collections.abc import Callable
-from functools import partial
 import math
 import statistics
 from test.building import spawn
@@ -18,6 +17,8 @@ from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.sensing import read_laser, Surroundings
 from physsim_ros.simulation.world import World
 import pymunk
+
+from .bodies import timed
 
 SHAPES = 1000
 # Half the side of the square of bodies [m], and of the clearing for robots.
@@ -48,8 +49,8 @@ def table() -> None:
     print('robots    scans    segment_query_first')
     for robots in (1, 10):
         world = scene(robots)
-        scans = _median(partial(_scan, world, robots))
-        queries = _median(partial(_query, world, robots))
+        scans = _median(_scan, world, robots)
+        queries = _median(_query, world, robots)
         print(f'{robots:6} {scans:8.2f} {queries:22.2f}')
     _maps()
 
@@ -57,7 +58,7 @@ def table() -> None:
 def _scan(world: World, robots: int) -> None:
     surroundings = Surroundings(world.snapshot())
     for row in range(robots):
-        read_laser(surroundings, row, LASER, 1)
+        read_laser(surroundings, row, LASER)
 
 
 def _query(world: World, robots: int) -> None:
@@ -69,13 +70,8 @@ def _query(world: World, robots: int) -> None:
             space.segment_query_first((x, y), end, 0.0, everything)
 
 
-def _median(work: Callable[[], None]) -> float:
-    costs = []
-    for _ in range(SCANS):
-        began = time.perf_counter()
-        work()
-        costs.append((time.perf_counter() - began) * 1e3)
-    return statistics.median(costs)
+def _median(work: Callable[[World, int], None], world: World, robots: int) -> float:
+    return statistics.median(timed(lambda: work(world, robots)) for _ in range(SCANS))
 
 
 def _maps() -> None:

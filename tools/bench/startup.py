@@ -6,12 +6,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager
-import os
-from pathlib import Path
 import re
-import signal
 import statistics
 import subprocess
 import sys
@@ -19,84 +14,35 @@ import time
 
 from geometry_msgs.msg import PoseArray
 from physsim_ros.testing.domain import own_domain
-import rclpy
-from rclpy.experimental import EventsExecutor
-from rclpy.node import Node
+import psutil
 from visualization_msgs.msg import Marker, MarkerArray
+
+from .node_process import ENVIRONMENT, executable, Remote
 
 RUNS = 3
 BODIES = 1000
 # Imports of the program before its first pose, and the least time of a package that is told [s].
 IMPORTS = 'import physsim_ros.ros.node, physsim_ros.ros.programs.real_time_loop'
 TOLD = 0.005
-# An installed package has its bytecode: without this variable the first run writes it.
-ENVIRONMENT = {key: os.environ[key] for key in os.environ.keys() - {'PYTHONDONTWRITEBYTECODE'}}
-
-
-@contextmanager
-def executable(domain: int, **parameters: object) -> Iterator[subprocess.Popen[bytes]]:
-    """Run the installed node on a domain."""
-    given = {'viewer': 'none'} | parameters
-    words = [word for name, value in given.items() for word in ('-p', f'{name}:={value}')]
-    process = subprocess.Popen(
-        [Path(sys.executable).with_name('physsim'), '--ros-args', *words],
-        env=ENVIRONMENT | {'ROS_DOMAIN_ID': str(domain)},
-        stderr=subprocess.DEVNULL,
-    )
-    try:
-        yield process
-    finally:
-        process.send_signal(signal.SIGINT)
-        process.wait()
-
-
-class Watcher:
-    """Another process's end: the poses that it receives."""
-
-    def __init__(self, domain: int) -> None:
-        self._context = rclpy.Context()
-        rclpy.init(context=self._context, domain_id=domain)
-        self.node = Node('watcher', context=self._context)
-        self._executor = EventsExecutor(context=self._context)
-        self._executor.add_node(self.node)
-        self.bodies = -1
-        self.node.create_subscription(PoseArray, '/physsim/poses', self._hear, 5)
-
-    def _hear(self, message: PoseArray) -> None:
-        self.bodies = len(message.poses)
-
-    def wait(self, bodies: int) -> None:
-        """Spin until a message with at least so many poses has come."""
-        while self.bodies < bodies:
-            self._executor.spin_once(timeout_sec=0.1)
-
-    def close(self) -> None:
-        """Leave the graph."""
-        self._executor.shutdown()
-        self.node.destroy_node()
-        self._context.shutdown()
 
 
 def first_pose() -> float:
     """Return the seconds from the command to the first message elsewhere."""
-    with own_domain() as domain:
-        watcher = Watcher(domain)
+    with own_domain() as domain, Remote(domain) as remote:
+        poses = remote.last_of(PoseArray, '/physsim/poses')
         began = time.perf_counter()
         with executable(domain):
-            watcher.wait(0)
-            elapsed = time.perf_counter() - began
-        watcher.close()
-    return elapsed
+            remote.spin_until(poses)
+            return time.perf_counter() - began
 
 
 def memory() -> float:
     """Return the resident memory of the node with its bodies [MB]."""
-    with own_domain() as domain, executable(domain) as process:
-        watcher = Watcher(domain)
-        publisher = watcher.node.create_publisher(MarkerArray, '/physsim/spawn_array', 10)
-        watcher.wait(0)
-        while publisher.get_subscription_count() == 0:
-            time.sleep(0.01)
+    with own_domain() as domain, executable(domain) as process, Remote(domain) as remote:
+        poses = remote.last_of(PoseArray, '/physsim/poses')
+        publisher = remote.node.create_publisher(MarkerArray, '/physsim/spawn_array', 10)
+        remote.spin_until(poses)
+        remote.spin_until(publisher.get_subscription_count)
         array = MarkerArray()
         for number in range(BODIES):
             marker = Marker(id=number, type=Marker.SPHERE)
@@ -104,11 +50,8 @@ def memory() -> float:
             marker.pose.position.x, marker.pose.position.y = number % 40.0, number // 40.0
             array.markers.append(marker)
         publisher.publish(array)
-        watcher.wait(BODIES)
-        status = Path(f'/proc/{process.pid}/status').read_text(encoding='ascii')
-        watcher.close()
-    kilobytes = next(line for line in status.splitlines() if line.startswith('VmRSS')).split()[1]
-    return int(kilobytes) / 1024
+        remote.spin_until(lambda: len(poses().poses) >= BODIES)
+        return psutil.Process(process.pid).memory_info().rss / 2**20
 
 
 def imports() -> Counter[str]:

@@ -8,62 +8,33 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hand:
-    """
-    How somebody draws; lengths as shares of the figure's size.
+    """How somebody draws; lengths are shares of the size of the figure."""
 
-    :param size: of the figure [m]
-    :param place: where it is drawn [m]
-    :param rate: samples a second [Hz]
-    :param uneven: how far the times between two samples are from even, 0 .. 1
-    :param duration: of the stroke [s]
-    :param drift: slow wandering
-    :param tremor: of 6 to 12 Hz
-    :param noise: of every sample
-    :param rounding: how far before a corner the pen begins to turn
-    :param bow: how much straight lines are bent
-    :param hook_down: flick when the pen is set down
-    :param hook_up: flick when it is lifted
-    :param closing: how much of a closed way is missing (< 0) or drawn twice (> 0)
-    :param slip: how far the end misses the beginning
-    :param spiral: how much the radius of a curve shrinks (> 0) or grows from end to end
-    :param slowing: of the pen at corners, 0 .. 1
-    :param unsteady: of the pen's speed
-    :param pixel: to which samples are rounded; 0 is none
-    :param first_step: length within which a touch screen sends nothing after the first sample
-    :param dropped: share of the samples that are lost
-    :param simplified: greatest distance of samples left out from the line through the others
-    :param slant: shear of all that is drawn
-    :param warp: amplitude of a smooth distortion whose waves are as long as the figure
-    :param lag: of the pen behind the hand [s], of `strangers`, as are the others that follow
-    :param missed: typical distance of a corner from where it should be
-    :param arc: typical height of the arc of a straight side, in shares of its length
-    :param wander: typical distance of the hand from its way
-    """
-
-    size: float
-    place: tuple[float, float]
-    rate: float
-    uneven: float
-    duration: float
-    drift: float
-    tremor: float
-    noise: float
-    rounding: float
-    bow: float
-    hook_down: float
-    hook_up: float
-    closing: float
-    slip: float
-    spiral: float
-    slowing: float
-    unsteady: float
-    pixel: float
-    first_step: float
-    dropped: float
-    simplified: float
-    slant: float = 0.0
-    warp: float = 0.0
-    lag: float = 0.0
-    missed: float = 0.0
-    arc: float = 0.0
-    wander: float = 0.0
+    size: float  # of the figure [m]
+    place: tuple[float, float]  # where it is drawn [m]
+    rate: float  # samples a second [Hz]
+    uneven: float  # how far the times between two samples are from even, 0 .. 1
+    duration: float  # of the stroke [s]
+    drift: float  # slow wandering
+    tremor: float  # of 6 to 12 Hz
+    noise: float  # of every sample
+    rounding: float  # how far before a corner the pen begins to turn
+    bow: float  # how much straight lines are bent
+    hook_down: float  # flick when the pen is set down
+    hook_up: float  # flick when it is lifted
+    closing: float  # how much of a closed way is missing (< 0) or drawn twice (> 0)
+    slip: float  # how far the end misses the beginning
+    spiral: float  # how much the radius of a curve shrinks (> 0) or grows from end to end
+    slowing: float  # of the pen at corners, 0 .. 1
+    unsteady: float  # of the pen's speed
+    pixel: float  # to which samples are rounded; 0 is none
+    first_step: float  # length within which a touch screen sends nothing after the first sample
+    dropped: float  # share of the samples that are lost
+    simplified: float  # greatest distance of samples left out from the line through the others
+    slant: float = 0.0  # shear of all that is drawn
+    warp: float = 0.0  # amplitude of a smooth distortion whose waves are as long as the figure
+    # Of `strangers` alone.
+    lag: float = 0.0  # of the pen behind the hand [s]
+    missed: float = 0.0  # typical distance of a corner from where it should be
+    arc: float = 0.0  # typical height of the arc of a straight side, in shares of its length
+    wander: float = 0.0  # typical distance of the hand from its way

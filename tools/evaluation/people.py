@@ -42,6 +42,11 @@ PEOPLE: dict[str, Fault] = {
 }
 # Typical distance by which a stroke is beside its place [m]: two pixels of a page of 1,600.
 _AIM = 0.02
+# Habits of a hand that are lengths.
+_LENGTHS = (
+    *('drift', 'tremor', 'noise', 'rounding', 'bow', 'hook_down', 'hook_up', 'slip', 'pixel'),
+    *('first_step', 'simplified', 'slant', 'warp', 'missed', 'arc', 'wander'),
+)
 # Extent above which a figure is not drawn less exactly [m].
 _STEADY = 2.0
 # Seconds between two strokes of one thing, and between two things.
@@ -142,23 +147,5 @@ def placed(somebody: Hand, way: Floats, place: Floats, rng: np.random.Generator)
     size = float(np.hypot(*np.ptp(way, axis=0)))
     share = min(1.0, _STEADY / size)
     x, y = (place + rng.normal(0.0, _AIM, 2)).tolist()
-    names = (
-        'drift',
-        'tremor',
-        'noise',
-        'rounding',
-        'bow',
-        'hook_down',
-        'hook_up',
-        'slip',
-        'pixel',
-        'first_step',
-        'simplified',
-        'slant',
-        'warp',
-        'missed',
-        'arc',
-        'wander',
-    )
-    exact = {name: share * getattr(somebody, name) for name in names}
+    exact = {name: share * getattr(somebody, name) for name in _LENGTHS}
     return replace(somebody, size=size, place=(x, y), **exact)

@@ -133,15 +133,13 @@ def _at_start(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     return [_at_ends(figure, somebody, rng)[figure.tail]]
 
 
-def _within(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+def _within(_figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     """Put a wheel into a round arrow."""
-    del figure
     return [(Disc(radius=somebody.size * rng.uniform(0.1, 0.3)), *somebody.place)]
 
 
-def _under(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+def _under(_figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     """Put a body under a sign that is a good deal smaller."""
-    del figure
     size = somebody.size * rng.uniform(1.2, 4.0)
     x, y = somebody.place
     if rng.random() < 0.5:
@@ -149,18 +147,16 @@ def _under(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     return [(Box(width=1.5 * size, height=size), x + rng.uniform(-0.2, 0.2) * size, y)]
 
 
-def _under_both(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+def _under_both(_figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     """Put two bodies that overlap under a small sign: a wheel and what it carries."""
-    del figure
     size = somebody.size * rng.uniform(2.2, 6.0)
     x, y = somebody.place
     carried = Box(width=size * rng.uniform(1.0, 4.0), height=size * rng.uniform(0.7, 1.2))
     return [(carried, x + rng.uniform(-0.3, 0.3) * size, y), (Disc(radius=size / 2), x, y)]
 
 
-def _scribbled(figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
+def _scribbled(_figure: Figure, somebody: Hand, rng: Random) -> list[Placed]:
     """Put a body under a scribble that is about as large."""
-    del figure
     size = somebody.size * rng.uniform(0.35, 0.7)
     x, y = somebody.place
     if rng.random() < 0.5:

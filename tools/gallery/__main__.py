@@ -11,16 +11,14 @@ from pathlib import Path
 import sys
 import tempfile
 from test.pictures import headless_viewer, HeadlessViewer
+from test.view.picture_file import Recording
 from test.worlds.digests import scene, SCENES
 
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.view import FrameContext
-from physsim_ros.view.recording import FrameRecorder
 from PIL import Image
-import rerun as rr
 
 from .car_story import car_story
 from .page import draw_page
@@ -67,26 +65,12 @@ TITLE = 36
 BATCH = 60
 
 
-class Recording:
-    """A recording of a simulation in a file."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self._stream = rr.RecordingStream('physsim')
-        self._stream.set_sinks(rr.FileSink(path))
-        self._recorder = FrameRecorder(self._stream)
-
-    def draw(self, frames: list[Frame]) -> int:
-        """Draw frames; return the time of the last on the timeline of the picture [ns]."""
-        context = FrameContext(real_time_factor=frames[-1].speed)
-        for first in range(0, len(frames), BATCH):
-            end = first + BATCH
-            self._recorder.draw(frames[first:end], context=context)
-        return self._recorder.recorded
-
-    def close(self) -> None:
-        """Complete the file."""
-        self._stream.disconnect()
+def record(recording: Recording, frames: list[Frame]) -> int:
+    """Draw frames batch by batch; return the time of the last on the picture's timeline [ns]."""
+    for first in range(0, len(frames), BATCH):
+        end = first + BATCH
+        now = recording.draw(*frames[first:end], real_time_factor=frames[-1].speed)
+    return now
 
 
 def frames_until(simulation: Simulation, seconds: float) -> Iterator[Frame]:
@@ -105,7 +89,7 @@ def draw_scene(viewer: HeadlessViewer, directory: Path, name: str) -> None:
         described = simulation.view.snapshot.scene
         for row in described.robot_rows:
             Robot(simulation, described.names[row]).drive(*COMMANDS[name])
-    now = recording.draw(list(frames_until(simulation, TIMES.get(name, USUAL))))
+    now = record(recording, list(frames_until(simulation, TIMES.get(name, USUAL))))
     recording.close()
     viewer.open_recording(recording.path)
     path = DOCS / f'{name}.png'
@@ -120,7 +104,7 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
     for point in ((10.0, 4.6), (12.0, 4.4), (12.8, 5.6), (11.4, 6.6)):
         session.click(point, '', frame.snapshot)
     recording = Recording(directory / 'drawing.rrd')
-    now = recording.draw([replace(frame, preview=session.preview)])
+    now = record(recording, [replace(frame, preview=session.preview)])
     recording.close()
     viewer.open_recording(recording.path)
     viewer.picture(now).save(DOCS / 'drawing.png', optimize=True)
@@ -129,7 +113,7 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
     """Draw the whole window, and the animation of the world."""
     recording = Recording(directory / 'car.rrd')
-    times = [recording.draw([frame]) for frame in car_story()]
+    times = [record(recording, [frame]) for frame in car_story()]
     recording.close()
     viewer.open_recording(recording.path)
     window = viewer.picture(times[-1], view='')

@@ -16,7 +16,7 @@ import math
 from pathlib import Path
 import tempfile
 from test.outside import Outside
-from test.sketchpad.chromium import launched_chromium, Sheet, started_world
+from test.sketchpad.chromium import circle, launched_chromium, Sheet, started_world
 
 from physsim_ros.testing.domain import own_domain
 from PIL import Image
@@ -45,12 +45,6 @@ def line(*corners: tuple[float, float]) -> Stroke:
         count = max(2, round(math.dist((x, y), (u, v)) / 0.2))
         points += [(x + (u - x) * i / count, y + (v - y) * i / count) for i in range(count + 1)]
     return points
-
-
-def circle(x: float, y: float, radius: float) -> Stroke:
-    """Return a round stroke."""
-    angles = [math.tau * each / 24 for each in range(25)]
-    return [(x + radius * math.cos(each), y + radius * math.sin(each)) for each in angles]
 
 
 def car() -> list[Stroke]:

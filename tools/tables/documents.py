@@ -56,7 +56,7 @@ def files() -> dict[Path, str]:
     tables = {
         'interface/properties': {
             'properties of a body': _table(Properties.FIELDS.values()),
-            'keys of a force': _keys_of_a_force(),
+            'keys of a force': _rows(_COLUMNS, *_fields_of(AppliedForce)),
             'kinds of joints': _joint_kinds(),
             'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
             'keys of a robot': _robot_keys(),
@@ -96,10 +96,8 @@ def _with_parts(path: Path, parts: Mapping[str, str], comment: str) -> str:
 
 
 def _rows(*rows: tuple[str, ...]) -> str:
-    head, *others = rows
-    lines = (head, *others)
-    text = [''.join(f'| {cell} ' if cell else '| ' for cell in line) + '|\n' for line in lines]
-    text.insert(1, '|---' * len(head) + '|\n')
+    text = [''.join(f'| {cell} ' if cell else '| ' for cell in row) + '|\n' for row in rows]
+    text.insert(1, '|---' * len(rows[0]) + '|\n')
     return '\n' + ''.join(text) + '\n'
 
 
@@ -111,11 +109,6 @@ def _table(declarations: Any, default: Any = None) -> str:
         for each in declarations
     ]
     return _rows(columns, *rows)
-
-
-def _keys_of_a_force() -> str:
-    rows = (_row(each) for each in AppliedForce.FIELDS.values())
-    return _rows(_COLUMNS, *rows)
 
 
 def _joint_kinds() -> str:
@@ -146,9 +139,9 @@ def _robot_keys() -> str:
         of = f'of {_list(kinds)}: ' if len(kinds) < len(DRIVES) else ''
         drive.append((key, default, span, of + meaning))
     parts = [
-        _titled('**`robot`**', _COLUMNS, [_row(each) for each in Robot.FIELDS.values()]),
+        _titled('**`robot`**', _COLUMNS, _fields_of(Robot)),
         _titled('**`drive`**', _COLUMNS, drive),
-        _titled('**`odometry`**', _COLUMNS, [_row(each) for each in Odometry.FIELDS.values()]),
+        _titled('**`odometry`**', _COLUMNS, _fields_of(Odometry)),
     ]
     return ''.join(parts) + '\n'
 
@@ -173,7 +166,7 @@ def _actor_keys() -> str:
     for kinds, rows in groups.items():
         title = _list(kinds) if len(kinds) < len(ACTORS) else 'every kind'
         parts.append(_titled(f'**{title}**', _COLUMNS, rows))
-    parts.append(_titled('**`start`**', _COLUMNS, [_row(each) for each in Start.FIELDS.values()]))
+    parts.append(_titled('**`start`**', _COLUMNS, _fields_of(Start)))
     return ''.join(parts) + '\n'
 
 
@@ -211,6 +204,11 @@ def _titled(title: str, columns: tuple[str, ...], rows: Sequence[tuple[str, ...]
 
 def _list(words: Iterable[str]) -> str:
     return ', '.join(f'`{word}`' for word in words)
+
+
+def _fields_of(kind: type[Checked]) -> list[tuple[str, ...]]:
+    """Return the rows of all fields of a kind of value."""
+    return [_row(each) for each in kind.FIELDS.values()]
 
 
 def _row(each: Declaration) -> tuple[str, str, str, str]:

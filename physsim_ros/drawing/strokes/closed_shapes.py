@@ -33,7 +33,7 @@ from physsim_ros.drawing.strokes.meanings import (
 from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
-from physsim_ros.model.transform import norms, Point
+from physsim_ros.model.transform import next_vertices, norms, Point
 
 # The name of a form whose meaning is a polygon.
 OVAL = 'oval'
@@ -216,8 +216,8 @@ def _bulge(outline: Floats, at: list[int]) -> float:
 def squareness(found: Floats) -> float:
     """Return how well four corners fit a rectangle, 0 .. 1."""
     nearest = rectangle(found)
-    sides = np.roll(found, -1, axis=0) - found
-    lengths = norms(np.roll(nearest, -1, axis=0) - nearest)
+    sides = next_vertices(found) - found
+    lengths = norms(next_vertices(nearest) - nearest)
     off = float(norms(nearest - found).mean() / lengths.mean())
     slants = np.abs(np.abs(angles(np.roll(sides, 1, axis=0), sides)) - math.pi / 2)
     # The direction of a short side is less exact than its ends.

@@ -17,10 +17,10 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.geometry import angles, smoothed, turns
+from physsim_ros.drawing.strokes.geometry import angles, meeting_point, smoothed, turns
 from physsim_ros.drawing.strokes.stroke import HOOK, HOOK_TURN
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import cross, dots, norms, Point
+from physsim_ros.model.transform import dots, norms, Point
 
 # Standard deviation of the Gaussian before detection, and arms of the turning angle [points].
 SMOOTHING, ARM = 1.5, 5
@@ -84,11 +84,10 @@ def vertices(points: Floats, at: list[int], *, closed: bool) -> Floats:
         for corner, (middle, along, _) in ((0, lines[0]), (-1, lines[-2])):
             found[corner] = middle + along * dots(found[corner] - middle, along)
     for corner in range(0 if closed else 1, count if closed else count - 1):
-        (p, u, _), (q, v, _) = lines[corner - 1], lines[corner]
-        sine = float(cross(u, v))
-        # The intersection of nearly parallel lines is ill-conditioned.
-        if abs(sine) > 0.3:
-            found[corner] = p + u * (cross(q - p, v) / sine)
+        (one, along, _), (other, beside, _) = lines[corner - 1], lines[corner]
+        meeting = meeting_point(one, along, other, beside)
+        if meeting is not None:
+            found[corner] = meeting
     return found
 
 

@@ -35,6 +35,7 @@ from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.transform import next_vertices
 
 # The greatest number of strokes of one figure.
 MOST_STROKES = 8
@@ -274,7 +275,7 @@ def _share_inside(line: Figure, solid: Figure) -> float:
 
 def _inside(points: Floats, outline: Floats) -> Flags:
     """Return whether points lie in a closed polyline, by the crossings of a ray (even-odd)."""
-    start, end = outline, np.roll(outline, -1, axis=0)
+    start, end = outline, next_vertices(outline)
     x, y = points[:, :1], points[:, 1:]
     passes = (start[:, 1] > y) != (end[:, 1] > y)
     height = np.where(end[:, 1] == start[:, 1], 1.0, end[:, 1] - start[:, 1])

@@ -23,7 +23,7 @@ from physsim_ros.drawing.strokes.geometry import (
     unit_vector,
 )
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.transform import dots, norms, rotated_each
+from physsim_ros.model.transform import dots, next_vertices, norms, rotated_each
 
 # The greatest distance of an open stroke from straight sides, root mean square, at which it is no
 # curve; and the tolerance to which a curve is simplified. Both in shares of its size.
@@ -78,7 +78,7 @@ def line(points: Floats) -> tuple[Floats, Floats, float]:
 def rectangle(corners: Floats) -> Floats:
     """Return the corners of the rectangle nearest to four corners, in their order."""
     middle = corners.mean(axis=0)
-    sides = np.roll(corners, -1, axis=0) - corners
+    sides = next_vertices(corners) - corners
     # Sides weigh by their length².
     angle = quarter_heading(sides, dots(sides, sides))
     local = rotated_each(corners - middle, -angle)

@@ -21,6 +21,8 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, dots, norms, Point
 
 _atan2 = np.frompyfunc(math.atan2, 2, 1)
+# Sine of the least angle between lines that meet: 17 degrees.
+_LEAST_SINE = 0.3
 
 
 def headings(vectors: Floats) -> Floats:
@@ -66,6 +68,18 @@ def principal_axis(away: Floats) -> tuple[float, float, float]:
     angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
     middle, half = (xx + yy) / 2, math.hypot((xx - yy) / 2, xy)
     return angle, middle + half, max(middle - half, 0.0)
+
+
+def meeting_point(one: Floats, along: Floats, other: Floats, beside: Floats) -> Floats | None:
+    """
+    Return where two lines meet, (2,) float64 [m]; None where they are nearly parallel.
+
+    :param one: a point of the first, `along` its unit vector
+    :param other: a point of the second, `beside` its unit vector
+    """
+    sine = float(cross(along, beside))
+    # The intersection of nearly parallel lines is ill-conditioned.
+    return one + along * (cross(other - one, beside) / sine) if abs(sine) > _LEAST_SINE else None
 
 
 def stretched(points: Floats, along: Floats, factor: float) -> Floats:

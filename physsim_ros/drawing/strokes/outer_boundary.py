@@ -16,7 +16,7 @@ import math
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself, signed_area
-from physsim_ros.model.transform import cross, norms
+from physsim_ros.model.transform import cross, next_vertices, norms
 
 # The least length of an outer boundary, in shares of that of the polyline: 0.76 for a pentagram,
 # 0.63 for a spiral of two and a half rounds.
@@ -58,7 +58,7 @@ def _loops(walk: list[int]) -> list[list[int]]:
 def _plane_graph(corners: Floats) -> Graph:
     """Return the corners and crossings of a closed polyline, joined by the parts of its sides."""
     count = len(corners)
-    steps = np.roll(corners, -1, axis=0) - corners
+    steps = next_vertices(corners) - corners
     # Shares of the sides at which every pair of them crosses, rows by the first side.
     away = corners[None] - corners[:, None]
     sine = cross(steps[:, None], steps[None])
@@ -110,4 +110,4 @@ def _outer_walk(nodes: Floats, neighbours: dict[int, list[int]]) -> list[int]:
 
 
 def _length(outline: Floats) -> float:
-    return float(norms(np.roll(outline, -1, axis=0) - outline).sum())
+    return float(norms(next_vertices(outline) - outline).sum())

@@ -14,10 +14,10 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import fitting
-from physsim_ros.drawing.strokes.geometry import headings, quarter_heading
+from physsim_ros.drawing.strokes.geometry import headings, meeting_point, quarter_heading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.shapes import crosses_itself
-from physsim_ros.model.transform import cross, dots, norms, Pose
+from physsim_ros.model.transform import cross, dots, next_vertices, norms, Pose
 
 
 def rectangle(corners: Floats, tolerance: float) -> tuple[Pose, float, float]:
@@ -82,7 +82,7 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
     away = corners - middle
     radii = norms(away)
     turn = 2 * math.pi / count
-    if cross(away, np.roll(away, -1, axis=0)).sum() < 0:
+    if cross(away, next_vertices(away)).sum() < 0:
         turn = -turn
     # The angle of the first corner, estimated from each corner.
     firsts = headings(away) - turn * np.arange(count)
@@ -103,7 +103,7 @@ def _regular(corners: Floats, tolerance: float) -> Floats | None:
 
 def _squared(corners: Floats, tolerance: float) -> Floats:
     """Return corners whose nearly horizontal, vertical or perpendicular sides are exactly so."""
-    following = np.roll(corners, -1, axis=0)
+    following = next_vertices(corners)
     sides = following - corners
     angles = headings(sides)
     lengths = norms(sides)
@@ -119,17 +119,16 @@ def _squared(corners: Floats, tolerance: float) -> Floats:
     along = np.column_stack((np.cos(angles), np.sin(angles)))
     result = corners.copy()
     for corner in range(len(corners)):
-        (p, u), (q, v) = ((middles[side], along[side]) for side in (corner - 1, corner))
-        sine = float(cross(u, v))
-        # The intersection of nearly parallel lines is ill-conditioned.
-        if abs(sine) > 0.3:
-            result[corner] = p + u * (float(cross(q - p, v)) / sine)
+        before = corner - 1
+        meeting = meeting_point(middles[before], along[before], middles[corner], along[corner])
+        if meeting is not None:
+            result[corner] = meeting
     moved = norms(result - corners)
     return result if moved.max() <= tolerance * lengths.mean() + 1e-12 else corners
 
 
 def _has_right_angle(corners: Floats) -> bool:
-    sides = np.roll(corners, -1, axis=0) - corners
+    sides = next_vertices(corners) - corners
     lengths = norms(sides)
     cosines = (sides * np.roll(sides, 1, axis=0)).sum(axis=1) / (lengths * np.roll(lengths, 1))
     return bool(np.abs(cosines).min() < 1e-9)
@@ -137,7 +136,7 @@ def _has_right_angle(corners: Floats) -> bool:
 
 def _isosceles(corners: Floats, tolerance: float) -> Floats:
     """Return a triangle whose two nearly equal sides are equal."""
-    sides = norms(np.roll(corners, -1, axis=0) - corners)
+    sides = norms(next_vertices(corners) - corners)
     # Relative difference of the two sides at each corner.
     ahead, behind = sides, np.roll(sides, 1)
     difference = np.abs(ahead - behind) / np.maximum(ahead, behind)

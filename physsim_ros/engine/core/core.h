@@ -217,7 +217,7 @@ typedef struct Joint {
     uint8_t broken;     // in the last step
     int32_t a, b;       // places of its bodies in the table
     int32_t first_part, part_count;
-    int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring
+    int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring without damping
 } Joint;
 
 // Functions of Chipmunk, from Pymunk's own library.
@@ -245,7 +245,8 @@ enum {
     STAGE_PROPAGATION = 1024,
     STAGE_BLOCK_SOLVER = 2048,
     STAGE_JOINTS = 4096,
-    STAGE_ALL = 8191
+    STAGE_LOADS = 8192,
+    STAGE_ALL = 16383
 };
 
 enum { SUB_STEPS = 4 };

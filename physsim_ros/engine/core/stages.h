@@ -38,17 +38,18 @@ void tighten_boxes(World *world);
 // Constraints are put where the step needs them (`joint_parts.c`).
 void prepare_parts(World *world);
 
-// Between narrow phase and solver: contacts that begin (`first_touch.c`), contacts next to an impact
-// (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
+// Between narrow phase and solver: contacts that begin (`first_touch.c`), the most that is a load (`impact_loads.c`),
+// contacts next to an impact (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);
-void keep_loads(World *world);
-void restore_loads(World *world);
+void bound_loads(World *world);
 void defer_contacts(World *world);
 void solve_impacts(World *world);
 void time_impacts(World *world);
 
 // Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
 void solve_joints(World *world);
+// The impulses of impacts, from which the next step does not start (`impact_loads.c`).
+void take_out_impacts(World *world);
 void begin_totals(World *world);
 void add_totals(World *world);
 void find_broken(World *world);

@@ -48,7 +48,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
     correct_first_touches(world);
-    keep_loads(world);
+    bound_loads(world);
     time_impacts(world);
     defer_contacts(world);
     solve_impacts(world);
@@ -81,7 +81,7 @@ static void step(World *world) {
     } else {
         forget_contacts(world);
     }
-    restore_loads(world);
+    take_out_impacts(world);
 }
 
 int32_t core_step(World *world, int32_t count) {

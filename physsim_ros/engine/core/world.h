@@ -27,7 +27,7 @@ typedef struct Private {
     struct Statics *statics;
     struct Touch *begun; // contacts that begin in this step
     int begun_count;
-    struct Load *loads; // that the next step starts from, after an impact
+    struct Load *loads; // of the contacts of this step
     int load_count;
     int call_step; // number of the step in this call
     int sub_step;  // number of the sub-step in this step

@@ -5,8 +5,8 @@
 The kinds of joints: the constraints of Chipmunk that each consists of, and their rows.
 
 Chipmunk solves the constraints together with contacts, without their bias, a velocity that closes
-gaps; the core then solves the rows (`core/joint_solver.c`). A constraint without rows, as a
-spring, is solved by Chipmunk alone.
+gaps; the core then solves the rows (`core/joint_solver.c`). A constraint without rows, as
+that of a motor, is solved by Chipmunk alone.
 """
 
 from __future__ import annotations
@@ -96,11 +96,6 @@ class EngineJoint:
     joint: Joint
     ends: Ends
     parts: tuple[Part, ...]
-
-    @property
-    def row_count(self) -> int:
-        """Return the count of its rows."""
-        return sum(len(part.rows) for part in self.parts)
 
     @property
     def constraints(self) -> tuple[pymunk.Constraint, ...]:

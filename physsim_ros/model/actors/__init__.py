@@ -13,13 +13,9 @@ from __future__ import annotations
 
 from physsim_ros.model.actors.actor import (
     Actor,
-    ActorState,
-    ActorStates,
-    NO_ACTORS,
     Path,
     REPEATS,
     Start,
-    WAITING,
 )
 from physsim_ros.model.actors.pedestrians import Orca, Pedestrian, SocialForce
 from physsim_ros.model.declarations import OfKind
@@ -29,16 +25,20 @@ from physsim_ros.model.declarations import OfKind
 ACTORS: dict[str, type[Actor]] = {each.KIND: each for each in (Path, SocialForce, Orca)}
 
 # The check of an actor.
-actor_from = OfKind('actor', ACTORS)
+actor_from = OfKind(
+    'actor',
+    ACTORS,
+    {
+        'path': ('trajectory', 'waypoints', 'loop', 'patrol'),
+        'social_force': ('pedestrian', 'person', 'people', 'human', 'walk', 'crowd'),
+        'orca': ('rvo', 'rvo2', 'velocity_obstacle'),
+    },
+)
 
 __all__ = [
     'ACTORS',
-    'NO_ACTORS',
     'REPEATS',
-    'WAITING',
     'Actor',
-    'ActorState',
-    'ActorStates',
     'Orca',
     'Path',
     'Pedestrian',

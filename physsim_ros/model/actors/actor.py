@@ -14,10 +14,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 import itertools
 import math
-from typing import Annotated, ClassVar, NamedTuple, Self
+from typing import Annotated, ClassVar
 
-import numpy as np
-from physsim_ros.model.arrays import Ints
 from physsim_ros.model.checks import (
     check_point,
     check_yaw,
@@ -31,7 +29,6 @@ from physsim_ros.model.checks import (
 )
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.robot_states import NEVER
 
 # Greatest number of points of an actor.
 MOST_POINTS = 1000
@@ -223,54 +220,3 @@ class Path(Actor):
             most[0] = max(most[0], math.dist(a[:2], b[:2]) / lapse)
             most[1] = max(most[1], abs(b[2] - a[2]) / lapse)
         return *most, float(len(self.points[0]) == 3)
-
-
-class ActorState(NamedTuple):
-    """
-    The state of one actor; `ActorStates` has its fields.
-
-    In a saved state, `begun` counts from the moment of saving.
-    """
-
-    begun: int
-    reached: int
-
-    def shifted(self, steps: int) -> Self:
-        """Return the state in a world that counts its steps from so many earlier."""
-        return self if self.begun == NEVER else self._replace(begun=self.begun + steps)
-
-
-# Of an actor that waits for its start.
-WAITING = ActorState(NEVER, 0)
-
-
-class ActorStates(NamedTuple):
-    """
-    The states of a actors, in the order of the scene.
-
-    :ivar begun: (a,) int64: step at which it starts, or started; NEVER where it waits for a
-        gate or a distance
-    :ivar reached: (a,) int64: count of the points that a pedestrian has reached; 0 of a path
-    """
-
-    begun: Ints
-    reached: Ints
-
-    @classmethod
-    def of(cls, actors: Sequence[ActorState]) -> Self:
-        """Return the states of actors; of none the same value, which checkpoints share."""
-        if not actors:
-            return cls(*NO_ACTORS)
-        return cls(*(np.array(column, np.int64) for column in zip(*actors, strict=True)))
-
-    @property
-    def nbytes(self) -> int:
-        """Memory of the arrays [bytes]."""
-        return sum(column.nbytes for column in self)
-
-    def rows(self) -> list[ActorState]:
-        """Return the state of each actor."""
-        return [ActorState(*row) for row in zip(*(each.tolist() for each in self), strict=True)]
-
-
-NO_ACTORS = ActorStates(np.empty(0, np.int64), np.empty(0, np.int64))

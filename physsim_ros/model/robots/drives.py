@@ -210,4 +210,12 @@ DRIVES: dict[str, type[Drive]] = {each.KIND: each for each in (Differential, Omn
 
 
 # The check of a drive.
-drive_from = OfKind('drive', DRIVES)
+drive_from = OfKind(
+    'drive',
+    DRIVES,
+    {
+        'differential': ('diff', 'diff_drive', 'differential_drive', 'two_wheels', 'tank'),
+        'omni': ('omnidirectional', 'holonomic', 'mecanum', 'kiwi'),
+        'car': ('ackermann', 'bicycle', 'steering', 'vehicle'),
+    },
+)

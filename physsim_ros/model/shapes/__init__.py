@@ -31,7 +31,7 @@ from physsim_ros.model.shapes.kinds import (
     Triangles,
 )
 from physsim_ros.model.shapes.polygons import crosses_itself, is_convex, signed_area
-from physsim_ros.model.shapes.validation import LARGEST, MOST_POINTS, SMALLEST
+from physsim_ros.model.shapes.validation import as_tuples, LARGEST, MOST_POINTS, SMALLEST
 
 __all__ = [
     'LARGEST',
@@ -50,6 +50,7 @@ __all__ = [
     'Polygon',
     'Shape',
     'Triangles',
+    'as_tuples',
     'contain_each',
     'contains',
     'contains_each',

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple, overload
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.shapes.form import Capsule, Circle, Convex, Form, Piece
+from physsim_ros.model.weak_cache import cached_weakly
 
 
 @overload
@@ -70,9 +70,6 @@ class _Columns(NamedTuple):
     capsules: Floats
     edges: Floats
     sides: Ints
-
-
-_COLUMNS: WeakKeyDictionary[Form, _Columns] = WeakKeyDictionary()
 
 
 def contain_each(forms: Sequence[Form], x: Floats, y: Floats, slack: float = 0.0) -> Flags:
@@ -137,18 +134,12 @@ def _in_convex(edges: Floats, firsts: Ints, x: Floats, y: Floats) -> Flags:
     return inside
 
 
+@cached_weakly
 def _columns_of(form: Form) -> _Columns:
-    columns = _COLUMNS.get(form)
-    if columns is None:
-        columns = _COLUMNS[form] = _made_columns(form.pieces)
-    return columns
-
-
-def _made_columns(pieces: Iterable[Piece]) -> _Columns:
     capsules: list[tuple[float, ...]] = []
     edges: list[tuple[float, ...]] = []
     sides: list[int] = []
-    for piece in pieces:
+    for piece in form.pieces:
         match piece:
             case Circle(center, radius):
                 capsules.append((*center, *center, radius))

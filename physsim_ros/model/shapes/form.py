@@ -19,13 +19,14 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass
-from functools import lru_cache, wraps
+from functools import wraps
 import math
 from typing import Any, cast, TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
 from physsim_ros.model.transform import cross, next_vertices, Point, Pose, rotated
+from physsim_ros.model.weak_cache import cached_weakly
 
 # A centroid closer to the origin than this share of the extent lies at the origin: a symmetric
 # shape is balanced to the bit, however its sums round.
@@ -220,7 +221,7 @@ def _greatest_distance(piece: Piece, point: Point) -> float:
 _CORNERS = 48
 
 
-@lru_cache(maxsize=4096)
+@cached_weakly
 def lever_of(form: Form) -> float:
     """Return the mean distance of the points of a shape from its centroid [m]."""
     sums = [_sum_of_distances(piece, form.centroid) for piece in form.pieces]

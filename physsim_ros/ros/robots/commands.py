@@ -109,6 +109,17 @@ class Commands:
         """Whether a publisher of commands is matched."""
         return self._subscription is not None and self._subscription.get_publisher_count() > 0
 
+    def expect_answer(self, stamp: int) -> None:
+        """
+        Expect a command that answers a scan, where a publisher is matched that may send it.
+
+        What a controller sends before it is matched is lost, and nobody waits for it.
+
+        :param stamp: of the scan [ns]
+        """
+        if self.is_heard:
+            self.awaited = stamp
+
     def match_new_publishers(self) -> bool:
         """
         Subscribe as publishers publish, where their number has changed.
@@ -228,7 +239,7 @@ class Commands:
 
     def close(self) -> None:
         """Unsubscribe."""
-        self._heard, self._unstamped = None, False
+        self._heard, self._unstamped, self.awaited = None, False, None
         if self._subscription is not None:
             self._node.destroy_subscription(self._subscription)
             self._subscription = None

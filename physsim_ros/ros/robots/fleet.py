@@ -187,7 +187,7 @@ class Fleet:
             robot = self.robots.get(snapshot.scene.names[row])
             with self._boundary.output('robots'):
                 if robot is not None and robot.publish(view, row, number):
-                    robot.commands.awaited = snapshot.stamp
+                    robot.commands.expect_answer(snapshot.stamp)
             if robot is not None and not self._has_told_timeout and _has_stopped(view, number):
                 self._tell_timeout(robot)
 
@@ -241,5 +241,5 @@ def _has_stopped(view: StampedView, number: int) -> bool:
     now, before = view.snapshot, view.before
     if before is None or before.scene is not now.scene:
         return False
-    until = int(now.robots.until[number])
+    until = int(now.robots['until'][number])
     return before.step < until <= now.step

@@ -18,7 +18,6 @@ from typing import Any, NamedTuple
 from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import Point, Vector3
 from nav_msgs.msg import Odometry
-from physsim_ros.model.robot_states import Covariance
 from physsim_ros.model.robots.sensors import (
     Bumper,
     FloorEye,
@@ -29,6 +28,7 @@ from physsim_ros.model.robots.sensors import (
     Sensor,
     WheelEncoders,
 )
+from physsim_ros.model.states import Covariance
 from physsim_ros.model.transform import Pose
 from physsim_ros.ros.robots.frames import rotation_of
 from physsim_ros.sensing import read_sensor, View

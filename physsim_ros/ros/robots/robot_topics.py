@@ -18,10 +18,10 @@ from typing import Any, NamedTuple
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import BadProperty, Refusal
-from physsim_ros.model.robot_states import SPAWNED
 from physsim_ros.model.robots import Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
 from physsim_ros.model.scene import Body
+from physsim_ros.model.states import SPAWNED
 from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.frames import (
     BASE,
@@ -186,24 +186,29 @@ class RobotTopics:
         :param view: of the frame
         :param row: of the robot's body in the scene
         :param number: of the robot among those of the scene
-        :return: whether a scan is among it
+        :return: whether a scan of the first laser with subscribers is among it, which is the one
+            that a controller answers: others may be heard by a recording alone
         """
-        scanned = False
+        scanned, first = False, None
         for topic in self._topics:
-            if topic.is_heard and self._is_due(topic, view):
+            if not topic.is_heard:
+                continue
+            if first is None and isinstance(topic.sensor, Laser):
+                first = topic
+            if self._is_due(topic, view):
                 topic.publisher.publish(topic.message(view, row, number))
-                scanned |= isinstance(topic.sensor, Laser)
+                scanned |= topic is first
         return scanned
 
     def _transforms(self, kind: type, view: StampedView, _: int, number: int) -> Any:
         """Return the message of the transform that moves."""
-        odometry = tuple(view.snapshot.robots.odometry[number].tolist())
+        odometry = tuple(view.snapshot.robots['odometry'][number].tolist())
         return kind(transforms=[self._frames.moving(view.stamp, odometry)])
 
     def odometry(self, view: StampedView, _: int, number: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
         states = view.snapshot.robots
-        ahead, aside, turn = states.wheels[number].tolist()
+        ahead, aside, turn = states['wheels'][number].tolist()
         way, heading = (deviation**2 for deviation in self.robot.odometry.slip)
         # Drifts are random walks along the path. That of the twist is their mean rate from one
         # message to the next: of the velocity along it, none across.
@@ -213,12 +218,12 @@ class RobotTopics:
         of_turn = heading * (speed + abs(turn)) * rate
         return odometry_message(
             view,
-            tuple(states.odometry[number].tolist()),
+            tuple(states['odometry'][number].tolist()),
             (ahead, aside, turn),
             parent=self._frames.name(ODOM),
             child=self._frames.name(FOOTPRINT),
             covariances=(
-                tuple(states.covariance[number].tolist()),
+                tuple(states['covariance'][number].tolist()),
                 (*along, 0.0, 0.0, of_turn),
             ),
         )

@@ -20,6 +20,7 @@ from physsim_ros.simulation.past.budget import (
 )
 from physsim_ros.simulation.past.node import CachedFrame, Moment
 from physsim_ros.simulation.past.past import Past
+from physsim_ros.simulation.past.replay import finish
 
 __all__ = [
     'DEFAULT_MEMORY',
@@ -30,6 +31,7 @@ __all__ = [
     'Moment',
     'Past',
     'amend',
+    'finish',
     'frame_size',
     'request_size',
     'take_back',

@@ -172,13 +172,28 @@ class Past:
         :param author: name of the person who did it; '' is nobody
         :raises Refusal: and nothing is changed
         """
+        answer = self._apply(request, gesture, author)
+        if self.cursor.world.changed:
+            self.tree.drop_undone()
+        return answer
+
+    def apply_unasked(self, request: Request) -> None:
+        """
+        Apply a request that nobody has made, as the release of a hand that is gone.
+
+        It is in the gesture before it, and is undone with that; what there is to redo stays.
+
+        :raises Refusal: and nothing is changed
+        """
+        self._apply(request, self.tree.node(self.cursor.serial).gesture)
+
+    def _apply(self, request: Request, gesture: int, author: str = '') -> Answer:
         cursor = self.cursor
         answer = self.carry_out(request)
         if cursor.world.changed:
             if not cursor.is_newest:
                 self._begin_course()
             cursor.log(request, answer.subject, gesture, author)
-            self.tree.drop_undone()
         return answer
 
     def carry_out(self, request: Request) -> Answer:
@@ -203,6 +218,7 @@ class Past:
         step, _ = self.cursor.moment
         left = self.tree.line(self.cursor.moment)
         self.tree.keep_course(left, self.frames.drop_from(step))
+        self.tree.drop_undone()
         self._courses += 1
         self.tree.course = self._courses
         message = f'course {self._courses} begins at {step / self.physics_rate:.3f} s'

@@ -120,6 +120,6 @@ class Replay:
 
 
 def finish(parts: Iterator[None]) -> None:
-    """Carry out all parts of a replay."""
+    """Carry out all parts of a work."""
     for _ in parts:
         pass

@@ -2,23 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Requests for bodies: spawned, changed, moved, commanded, anchored, deleted; robots are driven.
+Requests for bodies: spawned, changed, moved, commanded, anchored, deleted.
 
-Law: everything is checked before anything is changed: a handler that raises a `Refusal` has
-changed nothing. No two robots have one topic.
+Laws: everything is checked before anything is changed: a handler that raises a `Refusal` has
+changed nothing. A body that is spawned where it already is, in the colour that it has, keeps both
+to the bit, so that markers which are published back change nothing.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
+import math
 from typing import Any
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.space import Space
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import Anchored, BadProperty, Exists, nothing_at, UnknownBody
+from physsim_ros.model.errors import Anchored, BadProperty, nothing_at
 from physsim_ros.model.names import names_in
 from physsim_ros.model.requests import (
     Anchor,
@@ -29,13 +31,10 @@ from physsim_ros.model.requests import (
     Delete,
     DeleteAll,
     DeleteBodies,
-    DriveRobot,
     MoveBodies,
     Release,
     Spawn,
 )
-from physsim_ros.model.robot_states import NEVER
-from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Body
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
@@ -50,13 +49,15 @@ from physsim_ros.simulation.world.body_description import (
 from physsim_ros.simulation.world.live_space import (
     body_of_name,
     check_start,
+    is_same_pose,
     LiveSpace,
     points_in_world,
     pose_in_world,
 )
+from physsim_ros.simulation.world.robot_requests import check_robot
 
-# Number of robots that a refusal names.
-_MOST_NAMED = 10
+# Difference within which two colours are the same [1]: markers have single precision.
+_SAME_COLOR = 1e-6
 
 
 def spawn(live: LiveSpace, request: Spawn) -> Answer:
@@ -66,7 +67,11 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
     pose = pose_in_world(space, request.pose, request.frame)
     expires = live.step_after(request.lifetime)
     if old is not None:
-        _change(live, old, fields_set_by(request, expires), pose, request)
+        changes = fields_set_by(request, expires)
+        if math.dist(changes.get('color', old.body.color), old.body.color) <= _SAME_COLOR:
+            changes['color'] = old.body.color
+        here = old.pose
+        _change(live, old, changes, here if is_same_pose(here, pose) else pose, request)
         return Answer(subject=name, message=f'changed {name}')
     body, twist = new_body(request, live.settings, expires)
     check_robot(space, body)
@@ -291,101 +296,3 @@ def _change(
     if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):
         live.capacity.check_body(body, pose, old=old)
     live.space.change(old, body, pose, twist)
-
-
-def drive(live: LiveSpace, request: DriveRobot) -> Answer:
-    """
-    Have a robot drive at a velocity.
-
-    :raises UnknownBody: there is no such body
-    :raises BadProperty: it is no robot
-    """
-    rigid, robot = robot_of_name(live.space, request.name)
-    until = live.step_after(robot.drive.timeout)
-    live.space.drive(rigid, request.velocity, NEVER if until is None else until)
-    return Answer(subject=request.name, message=f'drives {request.name}')
-
-
-def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
-    """
-    Return the body of a name, and the robot that it is.
-
-    :raises UnknownBody: there is no such body
-    :raises BadProperty: it is no robot
-    """
-    rigid = space.bodies.by_name.get(name)
-    if rigid is not None and rigid.body.robot is not None:
-        return rigid, rigid.body.robot
-    robots = [each for each, found in space.bodies.by_name.items() if found.body.robot is not None]
-    hint = f'; robots: {", ".join(robots[:_MOST_NAMED]) or "none"}'
-    if rigid is None:
-        raise UnknownBody(f'there is no robot {name!r}{hint}', field='name')
-    raise BadProperty(f'{name} is not a robot{hint}', field='name')
-
-
-def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
-    """
-    Return whether a robot does what a command says for some steps; true of one that is not there.
-
-    :param steps: from now on
-    """
-    rigid = live.space.bodies.by_name.get(request.name)
-    if rigid is None or rigid.body.robot is None:
-        return True
-    aim, until = live.space.drive_of(rigid)
-    if aim != rigid.body.robot.drive.aim(request.velocity):
-        return False
-    # One that stands still does so after its timeout, too.
-    return not any(aim) or until >= live.step_count + steps
-
-
-def check_robot(space: Space, body: Body) -> None:
-    """
-    Refuse a robot that has joints, or a topic or frame of another one.
-
-    :raises BadProperty: it has joints
-    :raises Exists: its namespace or another of its names is taken
-    """
-    if body.robot is None:
-        return
-    if space.joints.has_joints(body.name):
-        raise BadProperty(f'{body.name} has joints; it cannot be a robot', field='robot')
-    # Only of robots below one another, or of one namespace, can names be the same.
-    below, related = _prefix_of(body.robot, body.name), [body]
-    for name, rigid in space.bodies.by_name.items():
-        if (robot := rigid.body.robot) is not None:
-            prefix = _prefix_of(robot, name)
-            if prefix.startswith(below) or below.startswith(prefix):
-                related.append(rigid.body)
-    check_namespaces(related)
-
-
-def _prefix_of(robot: Robot, body: str) -> str:
-    """Return the prefix of the names of topics and frames of a robot."""
-    namespace = robot.namespace_of(body)
-    return f'{namespace}/' if namespace else ''
-
-
-def check_namespaces(bodies: Iterable[Body]) -> None:
-    """
-    Refuse two robots of one namespace, topic or frame; of two bodies of one name the first counts.
-
-    A sensor may have the topic of another robot, whose namespace is nested in that of its own.
-
-    :raises Exists: there are
-    """
-    taken: dict[str, str] = {}
-    seen: set[str] = set()
-    for body in bodies:
-        if body.robot is None or body.name in seen:
-            continue
-        seen.add(body.name)
-        namespace = body.robot.namespace_of(body.name)
-        for name in body.robot.names_below(namespace):
-            other = taken.setdefault(name, body.name)
-            if other != body.name:
-                raise Exists(
-                    f'the robots {other} and {body.name} have one topic or frame, /{name}; give '
-                    'one of them another namespace',
-                    field='namespace',
-                )

@@ -23,7 +23,9 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.simulation.world.world import World
 
-# Bodies of a world whose forces are solved: a copy of 200 takes some milliseconds.
+# Bodies of a world whose forces are solved: a copy of 200 takes some milliseconds of the frame in
+# which it is made, wherever its bodies are. The limit changes no motion: the forces of a larger
+# world are known from its first step on.
 MOST_BODIES = 200
 # Steps in which bodies come to rest on each other.
 _STEPS = 8

@@ -10,7 +10,7 @@ is keeps its seat to the bit, so that markers which are published back change no
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 import math
 
@@ -23,23 +23,22 @@ from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import (
-    local_to_world,
     ORIGIN,
     Point,
     Pose,
     rotated,
     world_to_local,
 )
-from physsim_ros.simulation.world.live_space import body_of_name, LiveSpace, points_in_world
+from physsim_ros.simulation.world.live_space import (
+    are_same,
+    body_of_name,
+    LiveSpace,
+    points_in_world,
+)
 
-# Distance within which two points are the same [1, of their size]: markers that come back have the
-# digits of a double; no person draws a point twice so exactly.
-_SAME = 1e-9
 # A click means a weld or an axle within this share of the body's inner radius [1], and within at
 # least this distance [m].
 _NEAR_SHARE, _NEAR = 0.35, 0.1
-
-_STRAIGHT = {JointKind.SPRING, JointKind.ROD, JointKind.ROPE}
 
 
 def join(live: LiveSpace, request: Join) -> Answer:
@@ -149,23 +148,6 @@ def loosen(space: Space, body: str, point: Point) -> list[str]:
     return names
 
 
-def drawn_points(joint: Joint, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
-    """
-    Return the points of the world with which a joint would be drawn now [m].
-
-    :param poses: of the bodies, by name
-    """
-    seat = joint.seat
-    x, y = local_to_world((seat.ax, seat.ay), poses[joint.a])
-    if joint.kind.points == 1:
-        return ((x, y),)
-    pose_b = ORIGIN if joint.b == WORLD else poses[joint.b]
-    if joint.kind.schema.has_axis:
-        ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
-        return (x, y), (x + ux, y + uy)
-    return (x, y), local_to_world((seat.bx, seat.by), pose_b)
-
-
 def _members(
     space: Space, request: Join, points: tuple[Point, ...]
 ) -> tuple[str, str, tuple[Point, ...]]:
@@ -183,7 +165,7 @@ def _members(
     last = space.bodies.at(points[-1])
     if not a and not first:
         # A line that begins in the background and ends on a body: its body is a.
-        if request.kind in _STRAIGHT and b in ('', WORLD) and last:
+        if request.kind.schema.along_line and b in ('', WORLD) and last:
             return last[0], WORLD, points[::-1]
         raise nothing_at(points[0], 'points')
     a = a or first[0]
@@ -251,14 +233,11 @@ def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
             points[0],
             (x + (points[1][0] - x) / length, y + (points[1][1] - y) / length),
         )
-    size = 1.0 + max(abs(number) for point in drawn for number in point)
-    return all(
-        math.dist(here, there) <= _SAME * size for here, there in zip(drawn, points, strict=True)
-    )
+    return are_same(drawn, points)
 
 
 def _drawn(space: Space, joint: Joint) -> tuple[Point, ...]:
-    return drawn_points(joint, {name: _pose(space, name) for name in (joint.a, joint.b)})
+    return joint.drawn_points({name: _pose(space, name) for name in (joint.a, joint.b)})
 
 
 def _pose(space: Space, name: str) -> Pose:

@@ -12,7 +12,7 @@ into a space that is built from it.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 import math
 from typing import NamedTuple
 
@@ -23,12 +23,15 @@ from physsim_ros.engine.core import sub_step_of
 from physsim_ros.engine.space import Space
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import check_pose
-from physsim_ros.model.errors import no_body, UnknownFrame
+from physsim_ros.model.errors import no_body, no_frame
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.texts import nearest_name
 from physsim_ros.model.transform import local_to_world, Point, Pose
 from physsim_ros.simulation.world.capacity import Capacity
+
+# Difference within which places are the same [1, of their size]: markers that come back have the
+# digits of a double; no person draws a point twice so exactly.
+_SAME = 1e-9
 
 
 class LiveSpace:
@@ -177,15 +180,24 @@ def pose_in_world(space: Space, pose: Pose, frame: str) -> Pose:
     if not frame:
         return pose
     if frame not in space.bodies.by_name:
-        raise UnknownFrame(
-            f'frame {frame!r} is neither the world nor a body'
-            f'{nearest_name(frame, space.bodies.by_name)}',
-            field='header.frame_id',
-        )
+        raise no_frame(frame, space.bodies.by_name)
     origin = space.bodies.by_name[frame].pose
     result = (*local_to_world(pose[:2], origin), origin[2] + pose[2])
     check_pose(result, 'pose')
     return result
+
+
+def are_same(points: Sequence[Point], others: Sequence[Point]) -> bool:
+    """Return whether points are the same as others, but for rounding [m]."""
+    size = 1.0 + max(abs(number) for point in points for number in point)
+    pairs = zip(points, others, strict=True)
+    return all(math.dist(here, there) <= _SAME * size for here, there in pairs)
+
+
+def is_same_pose(pose: Pose, other: Pose) -> bool:
+    """Return whether two poses are the same, but for rounding and whole turns [m, rad]."""
+    turn = math.remainder(other[2] - pose[2], math.tau)
+    return are_same((pose[:2],), (other[:2],)) and abs(turn) <= _SAME
 
 
 def points_in_world(space: Space, points: Iterable[Point], frame: str) -> tuple[Point, ...]:

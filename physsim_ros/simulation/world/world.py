@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.engine.checkpoint import saved_state
+from physsim_ros.engine.contacts import take_contacts
 from physsim_ros.model import requests
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import StepFailed
@@ -31,6 +32,7 @@ from physsim_ros.simulation.world import (
     body_requests,
     hand_requests,
     joint_requests,
+    robot_requests,
 )
 from physsim_ros.simulation.world.live_space import LiveSpace
 
@@ -89,7 +91,7 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.MoveHand: hand_requests.move_hand,
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
-    requests.DriveRobot: body_requests.drive,
+    requests.DriveRobot: robot_requests.drive,
     requests.Configure: configure,
     requests.Restore: restore,
 }
@@ -140,7 +142,7 @@ class World(LiveSpace):
 
     def snapshot(self) -> Snapshot:
         """Return the snapshot of this step."""
-        poses, twists = self.space.observe()
+        poses, twists = self.space.core.observe()
         forces, pulls, pressing = self.space.joints.report()
         return Snapshot(
             step=self.step_count,
@@ -152,13 +154,13 @@ class World(LiveSpace):
             compressed=pressing,
             springs=self.space.joints.springs(),
             grips=self.grips,
-            robots=self.space.robot_states,
+            robots=self.space.table.robot_states,
             pulls=pulls if self.reports_contacts else np.empty((0, 2)),
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
         """Return the contacts since the last call, of the steps in which they were read."""
-        return self.space.take_contacts(lambda: snapshot.centers)
+        return take_contacts(self.space.core, self.space.table, lambda: snapshot.centers)
 
     def clear_contacts(self) -> None:
         """Drop the contacts since the last call of `contacts`."""
@@ -168,7 +170,7 @@ class World(LiveSpace):
         """Return a hash of time, scene, poses, velocities, wrenches, grips, robots, actors."""
         digest = hashlib.blake2b(digest_size=16)
         digest.update(f'{self.step_count} {self.physics_rate!r}'.encode())
-        state, free = self.space.read_state()
+        state, free, _ = self.space.core.read_state()
         digest.update(self.scene.key)
         digest.update(state.tobytes())
         digest.update(free.tobytes())
@@ -176,8 +178,9 @@ class World(LiveSpace):
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
         for grip in self.grips:
             digest.update(repr(grip).encode())
-        for column in (*self.space.robot_states, *self.space.actor_states):
-            digest.update(column.tobytes())
+        for states in (self.space.table.robot_states, self.space.table.actor_states):
+            for name in states.dtype.names or ():
+                digest.update(states[name].tobytes())
         return digest.hexdigest()
 
     @property

@@ -32,7 +32,6 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, Pose, REST, Twist
-from physsim_ros.simulation.world.joint_requests import drawn_points
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
@@ -162,7 +161,7 @@ def change_joint(page: PageSession, origin: Origin, name: str, properties: dict[
         name=name,
         kind=joint.kind,
         # A joint that is drawn where it is keeps its seat.
-        points=drawn_points(joint, poses),
+        points=joint.drawn_points(poses),
         a=joint.a,
         b=joint.b,
         **properties,

@@ -41,9 +41,9 @@ def test_a_rectangle_is_a_square_if_it_is_nearly(height: float, square: bool) ->
     assert (width == high) == square
 
 
-@pytest.mark.parametrize('count', [3, 5, 6])
-def test_a_polygon_is_regular_and_lies_flat_if_it_is_nearly(count: int) -> None:
-    angle = np.arange(count) * 2 * math.pi / count - math.pi / 2 + math.pi / count + 0.06
+@pytest.mark.parametrize(('count', 'turn'), [(3, 0.06), (5, 0.06), (6, 0.06), (6, 0.26)])
+def test_a_polygon_is_regular_and_lies_flat_if_it_is_nearly(count: int, turn: float) -> None:
+    angle = np.arange(count) * 2 * math.pi / count - math.pi / 2 + math.pi / count + turn
     drawn = np.column_stack((np.cos(angle), np.sin(angle)))
     drawn[0] *= 1.05
 
@@ -52,7 +52,7 @@ def test_a_polygon_is_regular_and_lies_flat_if_it_is_nearly(count: int) -> None:
     assert np.ptp(sides(made)) < 1e-9
     # m: two corners are the lowest
     lowest = np.sort(made[:, 1])
-    assert lowest[1] == pytest.approx(lowest[0], abs=1e-9)
+    assert (lowest[1] - lowest[0] < 1e-9) == (turn < NEAR)
 
 
 def test_nearly_right_angles_become_right_and_others_stay() -> None:
@@ -71,6 +71,12 @@ def test_a_triangle_with_two_sides_nearly_equal_is_isosceles() -> None:
 
     left, right = math.dist(made[2], made[0]), math.dist(made[2], made[1])
     assert left == pytest.approx(right, abs=1e-9)
+
+
+def test_a_triangle_with_sides_of_its_own_stays() -> None:
+    drawn = np.array([(0.0, 0.0), (3.9, 0.8), (1.0, 2.3)])
+
+    assert regularisation.polygon_outline(drawn, NEAR) == pytest.approx(drawn, abs=1e-9)
 
 
 def test_lines_are_level_and_upright_where_they_nearly_are() -> None:

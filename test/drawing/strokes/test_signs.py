@@ -9,34 +9,28 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, NothingThere, NotRecognised
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.requests import Anchor, Configure, Delete, Join
+from physsim_ros.model.requests import Anchor, Delete, Join, Spawn
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
+from physsim_ros.model.transform import Point
 from physsim_ros.simulation.world import World
 import pytest
 
 from .ways import built, carry_out, cross, draw, scribble
-from ...building import DISC, NOWHERE, spawn
+from ...building import BOX, DISC, NOWHERE, spawn, spawning
 
 
-def test_an_x_on_a_body_anchors_it(world: World) -> None:
-    spawn(world, 'a/0', Box(width=2.0, height=2.0))
+@pytest.mark.parametrize(('height', 'place'), [(2.0, (0.4, 0.3)), (0.1, (0.0, 0.12))])
+def test_an_x_on_a_body_or_across_a_thin_one_anchors_it(
+    world: World, height: float, place: Point
+) -> None:
+    spawn(world, 'a/0', Box(width=4.0, height=height))
 
-    reading = draw(world, cross(0.4, 0.3))
+    reading = draw(world, cross(*place))
     carry_out(world, reading)
 
-    assert reading.meaning == 'anchor'
+    assert (reading.meaning, reading.subject) == ('anchor', 'a/0')
     assert isinstance(reading.requests[0], Anchor)
-    assert world.snapshot().scene.bodies[0].anchored
-
-
-def test_an_x_across_a_thin_body_anchors_that(world: World) -> None:
-    spawn(world, 'plank/0', Box(width=4.0, height=0.1))
-
-    reading = draw(world, cross(0.0, 0.12))
-    carry_out(world, reading)
-
-    assert reading.subject == 'plank/0'
     assert world.snapshot().scene.bodies[0].anchored
 
 
@@ -45,21 +39,26 @@ def test_an_x_in_the_open_is_refused(world: World) -> None:
         draw(world, cross(0.0, 0.0))
 
 
-@pytest.mark.parametrize('angle', [0.3, 2.0, -1.5, 3.1])
-def test_an_arrow_in_the_open_turns_gravity(world: World, angle: float) -> None:
-    cos, sin = math.cos(angle), math.sin(angle)
-    arrow = [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)]
+ARROW = np.array([(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)])
 
-    reading = draw(world, [(cos * x - sin * y, sin * x + cos * y) for x, y in arrow])
+
+@pytest.mark.parametrize('strength', [9.81, 5.0])
+@pytest.mark.parametrize('angle', [0.3, 2.0, -1.5, 3.1, math.pi / 2])
+def test_an_arrow_in_the_open_turns_gravity_and_keeps_its_strength(
+    strength: float, angle: float
+) -> None:
+    world = World(settings=WorldSettings(gravity=(0.6 * strength, -0.8 * strength)))
+    cos, sin = math.cos(angle), math.sin(angle)
+
+    reading = draw(world, ARROW @ np.array([(cos, sin), (-sin, cos)]))
+    carry_out(world, reading)
 
     assert reading.meaning == 'gravity'
-    (configure,) = reading.requests
-    assert isinstance(configure, Configure)
-    x, y = configure.changes['gravity']
-    assert math.hypot(x, y) == pytest.approx(9.81, rel=1e-12)
+    x, y = world.settings.gravity
+    assert math.hypot(x, y) == pytest.approx(strength, rel=1e-12)
     # rad: nearly upright and nearly level become so
     assert math.cos(math.atan2(y, x) - angle) > math.cos(0.11)
-    assert (0.0 in (x, y)) == (angle in {-1.5, 3.1})
+    assert (0.0 in (x, y)) == (angle in {-1.5, 3.1, math.pi / 2})
 
 
 @pytest.mark.parametrize('head_first', [False, True])
@@ -82,55 +81,43 @@ def test_an_arrow_upon_an_anchored_body_is_refused(world: World) -> None:
     spawn(world, 'a/0', Box(width=2.0, height=2.0), anchored=True)
 
     with pytest.raises(NotRecognised, match='begins on a/0'):
-        draw(world, [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)])
+        draw(world, ARROW)
 
 
 def test_without_gravity_there_is_none_to_turn() -> None:
     with pytest.raises(BadProperty, match='no gravity'):
-        draw(World(settings=NOWHERE), [(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)])
+        draw(World(settings=NOWHERE), ARROW)
 
 
-def test_gravity_keeps_its_strength() -> None:
-    world = World(settings=WorldSettings(gravity=(3.0, -4.0)))
+# Bodies, a scribble over them, and those that it deletes.
+BOXES = [
+    spawning('floor/0', Box(width=20.0, height=1.0), (0.0, -1.0, 0.0), anchored=True),
+    spawning('box/0', BOX),
+    spawning('box/1', BOX, (1.4, 0.0, 0.0)),
+]
+BALLS = [spawning(f'ball/{n}', Disc(radius=0.2), (0.7 * n, 0.0, 0.0)) for n in range(3)]
+WALL = spawning('wall/0', Box(width=20.0, height=0.2), (0.0, -5.0, 0.0), anchored=True)
+PAIR = [spawning(f'a/{n}', Disc(radius=0.4), (n - 0.5, 0.0, 0.0)) for n in range(2)]
+SCRIBBLES = {
+    'one of those that it touches': (BOXES, (0.0, 0.0, 1.3, 1.3), ['box/0']),
+    'several': ([WALL, *BALLS], (0.7, 0.0, 2.2, 1.0), ['ball/0', 'ball/1', 'ball/2']),
+    'a long wall': ([WALL, *BALLS], (3.0, -5.0, 1.0, 1.0), ['wall/0']),
+    'from body to body': (PAIR, (0.0, 0.0, 1.6, 0.7), ['a/0', 'a/1']),
+}
 
-    carry_out(world, draw(world, [(0, 0), (0, 3), (0.4, 2.5), (0, 3), (-0.4, 2.5)]))
 
-    assert world.settings.gravity == pytest.approx((0.0, 5.0), abs=1e-9)
+@pytest.mark.parametrize(('bodies', 'over', 'deleted'), SCRIBBLES.values(), ids=SCRIBBLES)
+def test_a_scribble_deletes_what_it_covers_and_nothing_that_it_touches(
+    world: World, bodies: list[Spawn], over: tuple[float, ...], deleted: list[str]
+) -> None:
+    for body in bodies:
+        world.apply(body)
 
-
-def test_a_scribble_deletes_what_it_covers_and_nothing_that_it_touches(world: World) -> None:
-    spawn(world, 'floor/0', Box(width=20.0, height=1.0), (0.0, -1.0, 0.0), anchored=True)
-    spawn(world, 'box/0', Box(width=1.0, height=1.0), (0.0, 0.0, 0.0))
-    spawn(world, 'box/1', Box(width=1.0, height=1.0), (1.4, 0.0, 0.0))
-
-    reading = draw(world, scribble(0.0, 0.0, 1.3, 1.3))
+    reading = draw(world, scribble(*over))
 
     assert reading.meaning == 'deletion'
-    assert reading.requests == (Delete(name='box/0'),)
-    assert reading.subject == 'box/0'
-
-
-def test_a_scribble_deletes_several_bodies_and_a_long_wall(world: World) -> None:
-    spawn(world, 'wall/0', Box(width=20.0, height=0.2), (0.0, -5.0, 0.0), anchored=True)
-    for number in range(3):
-        spawn(world, f'ball/{number}', Disc(radius=0.2), (0.7 * number, 0.0, 0.0))
-
-    several = draw(world, scribble(0.7, 0.0, 2.2, 1.0))
-    long = draw(world, scribble(3.0, -5.0, 1.0, 1.0))
-
-    assert [request.name for request in several.requests if isinstance(request, Delete)] == [
-        'ball/0', 'ball/1', 'ball/2',
-    ]  # fmt: skip
-    assert long.requests == (Delete(name='wall/0'),)
-
-
-def test_a_scribble_from_body_to_body_deletes_both(world: World) -> None:
-    spawn(world, 'a/0', Disc(radius=0.4), (-0.5, 0.0, 0.0))
-    spawn(world, 'a/1', Disc(radius=0.4), (0.5, 0.0, 0.0))
-
-    reading = draw(world, scribble(0.0, 0.0, 1.6, 0.7))
-
-    assert reading.requests == (Delete(name='a/0'), Delete(name='a/1'))
+    assert reading.requests == tuple(Delete(name=name) for name in deleted)
+    assert reading.subject == (deleted[0] if len(deleted) == 1 else '')
 
 
 @pytest.mark.parametrize('size', [0.7, 1.4, 3.0])

@@ -51,42 +51,31 @@ def test_a_check_with_bowed_arms_has_one_bend(bow: float) -> None:
     )
 
 
-@pytest.mark.parametrize('count', [5, 21, 60, 1003, 100_000])
-def test_the_corners_of_a_square_do_not_depend_on_how_often_it_was_sampled(count: int) -> None:
-    samples = SQUARE if count == 5 else along(SQUARE, count)
-
-    made = found(samples)
-
-    # m: 21 samples are 0.4 m apart and miss the corners
-    assert made == pytest.approx(np.array([(0, 0), (2, 0), (2, 2), (0, 2)]), abs=0.06)
-
-
-def test_a_stroke_of_clicks_has_the_corners_that_were_clicked() -> None:
-    assert found(SQUARE * 0.01) == pytest.approx(
-        np.array([(0, 0), (2, 0), (2, 2), (0, 2)]) * 0.01, abs=1e-4
-    )
+CORNERS = np.array([(0, 0), (2, 0), (2, 2), (0, 2)])
+# Samples of a square, and by how far its corners may be off [m].
+SQUARES = {
+    'clicks': (SQUARE, 0.01),
+    # 21 samples are 0.4 m apart and miss the corners.
+    **{f'{count} samples': (along(SQUARE, count), 0.06) for count in (21, 60, 1003, 100_000)},
+    'an end that was drawn twice': (along(np.vstack((SQUARE, [(0.7, 0.02)])), 150), 0.05),
+    'ends that do not meet': (
+        along(np.array([(0.15, 0), (2, 0), (2, 2), (0, 2), (0, 0.15)]), 150), 0.05,
+    ),
+}  # fmt: skip
 
 
-def test_far_from_the_origin_a_stroke_is_the_same() -> None:
-    assert found(along(SQUARE, 200) + 1e5) - 1e5 == pytest.approx(
-        found(along(SQUARE, 200)), abs=1e-6
-    )
+@pytest.mark.parametrize(('samples', 'tolerance'), SQUARES.values(), ids=SQUARES)
+def test_a_square_has_four_corners_however_it_was_sampled(
+    samples: Floats, tolerance: float
+) -> None:
+    assert found(samples) == pytest.approx(CORNERS, abs=tolerance)
 
 
-def test_an_end_that_was_drawn_twice_is_cut_off() -> None:
-    twice = np.vstack((SQUARE, [(0.7, 0.02)]))
+@pytest.mark.parametrize(('size', 'far'), [(0.01, 0.0), (1.0, 1e5)])
+def test_a_stroke_is_the_same_in_any_size_and_far_from_the_origin(size: float, far: float) -> None:
+    here = found(along(SQUARE, 200))
 
-    assert found(along(twice, 150)) == pytest.approx(
-        np.array([(0, 0), (2, 0), (2, 2), (0, 2)]), abs=0.05
-    )
-
-
-def test_ends_that_do_not_meet_are_joined_where_the_sides_would() -> None:
-    unclosed = np.array([(0.15, 0), (2, 0), (2, 2), (0, 2), (0, 0.15)])
-
-    assert found(along(unclosed, 150)) == pytest.approx(
-        np.array([(0, 0), (2, 0), (2, 2), (0, 2)]), abs=0.05
-    )
+    assert (found(size * along(SQUARE, 200) + far) - far) / size == pytest.approx(here, abs=1e-6)
 
 
 def test_hooks_of_the_pen_are_cut_off() -> None:
@@ -178,8 +167,20 @@ def length(points: Floats) -> float:
     return float(np.hypot(*np.diff(points, axis=0).T).sum())
 
 
-def test_distinct_samples_without_jumps_stay_as_they_are() -> None:
-    assert (clean_samples(ARC) == ARC).all()
+ENDS = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0), (0.0, 0.02)]
+# Samples of which all were meant.
+KEPT = {
+    'without jumps': ARC,
+    'clicks of an arrow': np.array([(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)]),
+    'clicks of teeth': np.array([(n, 5.0 * (n % 2)) for n in range(20)]),
+    # More samples remain where the hand trembles at a corner.
+    'corners': np.vstack([np.add(at, [(0, 0), (0.03, 0.02), (0.05, -0.02)]) for at in ENDS]),
+}
+
+
+@pytest.mark.parametrize('samples', KEPT.values(), ids=KEPT)
+def test_distinct_samples_that_were_meant_stay_as_they_are(samples: Floats) -> None:
+    assert (clean_samples(samples) == samples).all()
 
 
 @pytest.mark.parametrize('at', [0, 17, 59])
@@ -211,14 +212,6 @@ def test_a_first_sample_that_the_pen_leaves_too_fast_is_gone(where: tuple[float,
     assert resample_stroke(late).length > resample_stroke(timed).length
 
 
-def test_clicks_are_no_spikes() -> None:
-    ways = np.array([(0, 0), (3, 0), (2.5, 0.4), (3, 0), (2.5, -0.4)], dtype=np.float64)
-    teeth = np.array([(n, 5.0 * (n % 2)) for n in range(20)], dtype=np.float64)
-
-    assert (clean_samples(ways) == ways).all()
-    assert (clean_samples(teeth) == teeth).all()
-
-
 @pytest.mark.parametrize('share', [0.15, 0.35])
 @pytest.mark.parametrize('way', ['line', 'arc', 'square'])
 def test_the_first_step_of_a_finger_is_kept(way: str, share: float) -> None:
@@ -233,11 +226,3 @@ def test_the_first_step_of_a_finger_is_kept(way: str, share: float) -> None:
 
     for samples in (received, received[::-1]):
         assert (clean_samples(samples)[[0, -1]] == samples[[0, -1]]).all()
-
-
-def test_of_a_stroke_sent_as_its_corners_all_is_kept() -> None:
-    ends = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0), (0.0, 0.02)]
-    # More samples remain where the hand trembles at a corner.
-    corners = np.vstack([np.add(at, [(0.0, 0.0), (0.03, 0.02), (0.05, -0.02)]) for at in ends])
-
-    assert (clean_samples(corners) == corners).all()

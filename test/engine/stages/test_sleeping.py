@@ -16,16 +16,10 @@ from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
 import pytest
 
-from ...building import BOX, command, DISC, G, pose, spawn, spawning, stack, twist
+from ...building import BOX, command, DISC, G, pose, sleepers, spawn, spawning, stack, twist
 
 YARD = WorldSettings(bounds=(-20.0, 0.0, 20.0, 40.0))
 SECOND = 1_000_000_000
-
-
-def sleepers(world: World) -> list[str]:
-    """Return the names of the bodies that sleep."""
-    table = world.space.table
-    return [table.scene.names[row] for row in np.flatnonzero(table.asleep)]
 
 
 def at_rest(count: int = 3) -> World:

@@ -13,15 +13,17 @@ from typing import Any
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from physsim_ros.model.requests import DriveRobot, Spawn
+from physsim_ros.model.requests import DriveRobot, Request, Spawn
 from physsim_ros.model.shapes import Disc
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.robots import Fleet
-from physsim_ros.simulation.request_queue import RequestQueue, TakeBack
+from physsim_ros.simulation.past import Past
+from physsim_ros.simulation.request_queue import TakeBack
 from physsim_ros.testing import box, delete, PhysSim, Refused, shared_context, UnknownName
 import pytest
 import rclpy
 from rclpy.context import Context
+from rclpy.time import Time as SimulationTime
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Image, Imu, JointState, LaserScan, NavSatFix, Range
 from std_msgs.msg import Bool
@@ -44,6 +46,11 @@ def heard(physsim: PhysSim, client: Client, kind: type, topic: str) -> list[Any]
     client.spin_until(lambda: client.node.count_publishers(topic))
     physsim.settle()
     return messages
+
+
+def stamp_of(message: Any) -> int:
+    """Return the time of a message [ns]."""
+    return SimulationTime.from_msg(message.header.stamp).nanoseconds
 
 
 @pytest.mark.parametrize('kind', [Twist, TwistStamped])
@@ -441,6 +448,21 @@ def test_a_scan_after_a_rewind_waits_for_an_answer_of_its_own(flat: PhysSim) -> 
     assert commands.awaited <= 1.5e9
 
 
+def test_of_several_lasers_the_first_one_that_is_heard_is_answered(
+    flat: PhysSim, client: Client
+) -> None:
+    lasers = [{'kind': 'laser', 'name': name, 'beams': 4} for name in ('front', 'rear')]
+    flat.robot({'from': 'turtlebot3_burger', 'sensors': lasers})
+    flat.add(Driver(flat.context, kind=TwistStamped, looks=False))
+    commands = flat.node.fleet.robots['robot/0'].commands
+    rear = heard(flat, client, LaserScan, '/robot_0/rear')
+    flat.run(0.5)
+    assert commands.awaited == stamp_of(rear[-1])
+    front = heard(flat, client, LaserScan, '/robot_0/front')
+    flat.run(until=lambda: front and stamp_of(rear[-1]) > stamp_of(front[-1]))
+    assert commands.awaited == stamp_of(front[-1])
+
+
 @pytest.fixture
 def waiting(flat: PhysSim) -> PhysSim:
     """Give a world in which a robot has a scan that its stamped controller has not answered."""
@@ -452,6 +474,27 @@ def waiting(flat: PhysSim) -> PhysSim:
     set_parameter(flat, 'lockstep', 1e3)
     assert flat.node.fleet.is_waiting
     return flat
+
+
+def test_a_controller_is_not_waited_for_with_a_scan_from_before_it_came(
+    flat: PhysSim, client: Client
+) -> None:
+    flat.robot('turtlebot3_burger')
+    scans = heard(flat, client, LaserScan, '/robot_0/scan')
+    set_parameter(flat, 'lockstep', 1e3)
+    flat.run(1.0)
+    assert scans
+    driver = Driver(flat.context, kind=TwistStamped, looks=False)
+    flat.add(driver)
+    assert not flat.node.fleet.is_waiting
+    count = len(scans)
+    while len(scans) == count:
+        flat.node.advance_frame()
+        flat.settle()
+    assert flat.node.fleet.is_waiting
+    driver.send(0.2, stamp=scans[-1].header.stamp)
+    flat.settle()
+    assert not flat.node.fleet.is_waiting
 
 
 def test_a_frozen_past_does_not_wait_for_an_answer(waiting: PhysSim) -> None:
@@ -501,6 +544,20 @@ def test_a_rewind_does_not_wait_for_a_controller_that_is_silent(waiting: PhysSim
     assert waiting.time == pytest.approx(0.4, abs=0.05)
 
 
+@pytest.mark.parametrize('service', ['reset', 'undo', 'clear'])
+def test_a_service_that_takes_a_scan_or_its_robot_away_ends_the_wait(
+    waiting: PhysSim, client: Client, service: str
+) -> None:
+    waiting.node.tick(0)
+    assert client.call(f'~/{service}').success
+    waiting.node.tick(SECOND // 60)
+    assert waiting.names == ()
+    assert not waiting.node.fleet.is_waiting
+    waiting.node.tick(2 * SECOND // 60)
+    waiting.node.tick(3 * SECOND // 60)
+    assert waiting.time == pytest.approx(1.0 * (service == 'clear'), abs=0.1)
+
+
 def test_commands_without_a_stamp_are_not_waited_for(waiting: PhysSim) -> None:
     sender = Driver(waiting.context, kind=TwistStamped, looks=False)
     sender.send(0.1)
@@ -537,16 +594,16 @@ def test_a_world_that_is_loaded_is_not_driven_by_the_robots_before_it(flat: Phys
 
 @pytest.fixture
 def submitted(flat: PhysSim, monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """Give a test the times at which drives are submitted [s]."""
+    """Give a test the times at which robots are driven on [s]."""
     times: list[float] = []
-    apply = RequestQueue.apply_now
+    apply = Past.apply_unasked
 
-    def note(queue: RequestQueue, request: Any, *others: Any) -> Any:
+    def note(past: Past, request: Request) -> None:
         if isinstance(request, DriveRobot):
             times.append(flat.time)
-        return apply(queue, request, *others)
+        apply(past, request)
 
-    monkeypatch.setattr(RequestQueue, 'apply_now', note)
+    monkeypatch.setattr(Past, 'apply_unasked', note)
     return times
 
 
@@ -582,10 +639,10 @@ def test_a_drive_counts_again_after_the_command_of_another_node(flat: PhysSim) -
     publisher.publish(other)
     flat.step()
     robots = flat.node.simulation.world.snapshot().robots
-    assert robots.aim[0, 0] == -0.2
+    assert robots['aim'][0, 0] == -0.2
     flat.step()
     robots = flat.node.simulation.world.snapshot().robots
-    assert robots.aim[0, 0] == 0.2
+    assert robots['aim'][0, 0] == 0.2
     node.destroy_node()
 
 

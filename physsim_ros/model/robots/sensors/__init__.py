@@ -4,8 +4,8 @@
 """
 Sensors of robots: what is mounted where, and how well it measures.
 
-A sensor is a value. What it reads in a frame is for the simulation, its message an encoder in
-`ros`. A new kind is a class and a member of `SENSORS`. Start with `sensor`, then `distance`.
+A sensor is a value. A function in `sensing` reads it in a frame, one in `ros` makes the message. A
+new kind is a class and a member of `SENSORS`. Start with `sensor`, then `distance`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,19 @@ SENSORS: dict[str, type[Sensor]] = {
 
 
 # The check of a sensor.
-sensor_from = OfKind('sensor', SENSORS)
+sensor_from = OfKind(
+    'sensor',
+    SENSORS,
+    {
+        'laser': ('lidar', 'scan', 'scanner', 'laser_scan'),
+        'range': ('sonar', 'ultrasonic', 'ultrasound', 'infrared', 'distance', 'proximity'),
+        'bumper': ('contact', 'touch', 'switch'),
+        'imu': ('gyro', 'gyroscope', 'accelerometer'),
+        'joint_states': ('encoder', 'encoders', 'wheel_encoders', 'wheels'),
+        'floor': ('line', 'line_sensor', 'camera', 'color', 'photodiodes'),
+        'gps': ('gnss', 'navsat', 'fix'),
+    },
+)
 
 __all__ = [
     'SENSORS',

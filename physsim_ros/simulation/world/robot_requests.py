@@ -1,0 +1,123 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Requests for robots: they are driven; and the names of their topics and frames.
+
+Law: no two robots have one topic or frame.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.space import Space
+from physsim_ros.model.errors import BadProperty, Exists, UnknownBody
+from physsim_ros.model.requests import DriveRobot
+from physsim_ros.model.robots import Robot
+from physsim_ros.model.scene import Body
+from physsim_ros.model.snapshot import Answer
+from physsim_ros.model.states import NEVER
+from physsim_ros.simulation.world.live_space import LiveSpace
+
+# Number of robots that a refusal names.
+_MOST_NAMED = 10
+
+
+def drive(live: LiveSpace, request: DriveRobot) -> Answer:
+    """
+    Have a robot drive at a velocity.
+
+    :raises UnknownBody: there is no such body
+    :raises BadProperty: it is no robot
+    """
+    rigid, robot = robot_of_name(live.space, request.name)
+    until = live.step_after(robot.drive.timeout)
+    live.space.drive(rigid, request.velocity, NEVER if until is None else until)
+    return Answer(subject=request.name, message=f'drives {request.name}')
+
+
+def robot_of_name(space: Space, name: str) -> tuple[RigidBody, Robot]:
+    """
+    Return the body of a name, and the robot that it is.
+
+    :raises UnknownBody: there is no such body
+    :raises BadProperty: it is no robot
+    """
+    rigid = space.bodies.by_name.get(name)
+    if rigid is not None and rigid.body.robot is not None:
+        return rigid, rigid.body.robot
+    robots = [each for each, found in space.bodies.by_name.items() if found.body.robot is not None]
+    hint = f'; robots: {", ".join(robots[:_MOST_NAMED]) or "none"}'
+    if rigid is None:
+        raise UnknownBody(f'there is no robot {name!r}{hint}', field='name')
+    raise BadProperty(f'{name} is not a robot{hint}', field='name')
+
+
+def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
+    """
+    Return whether a robot does what a command says for some steps; true of one that is not there.
+
+    :param steps: from now on
+    """
+    rigid = live.space.bodies.by_name.get(request.name)
+    if rigid is None or rigid.body.robot is None:
+        return True
+    aim, until = live.space.drive_of(rigid)
+    if aim != rigid.body.robot.drive.aim(request.velocity):
+        return False
+    # One that stands still does so after its timeout, too.
+    return not any(aim) or until >= live.step_count + steps
+
+
+def check_robot(space: Space, body: Body) -> None:
+    """
+    Refuse a robot that has joints, or a topic or frame of another one.
+
+    :raises BadProperty: it has joints
+    :raises Exists: its namespace or another of its names is taken
+    """
+    if body.robot is None:
+        return
+    if space.joints.has_joints(body.name):
+        raise BadProperty(f'{body.name} has joints; it cannot be a robot', field='robot')
+    # Only of robots below one another, or of one namespace, can names be the same.
+    below, related = _prefix_of(body.robot, body.name), [body]
+    for name, rigid in space.bodies.by_name.items():
+        if (robot := rigid.body.robot) is not None:
+            prefix = _prefix_of(robot, name)
+            if prefix.startswith(below) or below.startswith(prefix):
+                related.append(rigid.body)
+    check_namespaces(related)
+
+
+def _prefix_of(robot: Robot, body: str) -> str:
+    """Return the prefix of the names of topics and frames of a robot."""
+    namespace = robot.namespace_of(body)
+    return f'{namespace}/' if namespace else ''
+
+
+def check_namespaces(bodies: Iterable[Body]) -> None:
+    """
+    Refuse two robots of one namespace, topic or frame; of two bodies of one name the first counts.
+
+    A sensor may have the topic of another robot, whose namespace is nested in that of its own.
+
+    :raises Exists: there are
+    """
+    taken: dict[str, str] = {}
+    seen: set[str] = set()
+    for body in bodies:
+        if body.robot is None or body.name in seen:
+            continue
+        seen.add(body.name)
+        namespace = body.robot.namespace_of(body.name)
+        for name in body.robot.names_below(namespace):
+            other = taken.setdefault(name, body.name)
+            if other != body.name:
+                raise Exists(
+                    f'the robots {other} and {body.name} have one topic or frame, /{name}; give '
+                    'one of them another namespace',
+                    field='namespace',
+                )
