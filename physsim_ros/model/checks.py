@@ -167,7 +167,7 @@ class Row:
         count = len(self.checks)
         if not isinstance(value, list | tuple):
             raise BadProperty(
-                f'{name} must be a list of {count} numbers, not {shown(value)}', field=name
+                f'{name} is {shown(value)}; it must be a list of {count} numbers', field=name
             )
         if len(value) != count:
             raise Malformed(f'{name} needs {count} numbers, not {len(value)}', field=name)

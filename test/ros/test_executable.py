@@ -290,6 +290,7 @@ def test_it_can_be_started_in_a_namespace_under_another_name(outside: Outside) -
         (['--help'], 0, 'usage: physsim'),
         (['demo'], 2, 'usage: physsim'),
         (['-p', 'speed:=1.0'], 2, '--ros-args -p name:=value'),
+        (['world_file:=demo'], 2, 'a parameter: --ros-args -p world_file:=demo'),
         (['--ros-args', '--foo'], 1, "unknown arguments after --ros-args: ['--foo']"),
         (['--ros-args', '-r', f'__ns:=/{"x" * 300}'], 1, 'physsim: error creating node: invalid'),
     ],

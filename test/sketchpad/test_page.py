@@ -403,6 +403,25 @@ def test_no_hint_says_that_a_world_stands_still_which_plays(chromium: Any, addre
     sheet.close()
 
 
+@pytest.mark.parametrize('ends', [((5.0, 6.0), (1.0, 6.3)), ((1.0, 6.3), (5.0, 6.0))])
+def test_a_wall_is_hatched_on_its_lower_side(
+    sheet: Sheet, ends: tuple[tuple[float, float], tuple[float, float]]
+) -> None:
+    def colors(above: float) -> list[list[int]]:
+        return [sheet.color_at(x, 6.375 - 0.075 * x + above) for x in places]
+
+    places = [1.5 + 0.23 * each for each in range(13)]
+    sides = (0.12, -0.12)
+    before = [colors(side) for side in sides]
+    bodies = sheet.names()
+    sheet.press('Wall')
+    sheet.drag(*ends)
+    sheet.wait_for_new(bodies)
+
+    sheet.until(lambda: colors(sides[1]) != before[1], 'hatches below')
+    assert colors(sides[0]) == before[0]
+
+
 def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
     sheet.press('Material')
     gravity = sheet.page.get_by_label('Gravity [m/s²], typed')
@@ -418,6 +437,32 @@ def test_gravity_has_a_direction_and_a_number(sheet: Sheet) -> None:
     # Right is down now: the ball falls there.
     sheet.press('Play')
     sheet.wait('physsim.bodies["ball/0"][0] > 1')
+
+
+@pytest.mark.parametrize('text', ['-1', 'abc', ''])
+@pytest.mark.parametrize('of', ['a body', 'what is drawn next'])
+def test_a_field_that_is_refused_shows_again_what_is(sheet: Sheet, text: str, of: str) -> None:
+    if of == 'a body':
+        sheet.press('Hand')
+        sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    else:
+        sheet.press('Material')
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    field, slider = (
+        panel.get_by_label('Friction, typed'),
+        panel.get_by_label('Friction', exact=True),
+    )
+    field.fill('0.3')
+    field.press('Enter')
+    field.fill(text)
+    field.press('Enter')
+    if text == '-1':
+        sheet.page.get_by_role('status').get_by_text('Friction is -1').wait_for()
+        # It can be corrected until the field is left.
+        assert field.input_value() == '-1'
+    field.evaluate('element => element.blur()')
+    shown = (field, slider)
+    sheet.until(lambda: [each.input_value() for each in shown] == ['0.3', '0.3'], 'what is')
 
 
 def test_a_body_is_made_of_a_material_by_one_button(sheet: Sheet) -> None:

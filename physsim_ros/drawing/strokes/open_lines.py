@@ -102,13 +102,13 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     ends = bodies_under.joint_ends(drawn, context)
     sides = np.diff(points, axis=0)
     between = ends is not None and ends[1].body != WORLD
-    if between and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
+    # A line beside a body that ends on no other is a wall.
+    at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)
+    joins = between or (ends is not None and ends[0].body in at_ends)
+    if joins and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
     if math.dist(start, end) > _STRAIGHT * float(norms(sides).sum()):
-        # A line beside a body that ends on no other is a wall.
-        at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)
-        on_body = ends is not None and ends[0].body in at_ends
-        return JointKind.ROD, BETWEEN if between or on_body else 0.0
+        return JointKind.ROD, BETWEEN if joins else 0.0
     turns = np.sign(cross(sides[:-1], sides[1:]))
     teeth = len(turns) >= _FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all())
     return JointKind.SPRING, BETWEEN if between and teeth else 0.0

@@ -84,7 +84,9 @@ class Join(Request):
         self.properties.check_kind(self.kind, self.unset)
         least = self.kind.schema.least_distance
         if least and math.dist(*self.points) < least:
-            raise BadSize(f'the points of a {self.kind} must be {least:g} m apart', field='points')
+            raise BadSize(
+                f'the points of a {self.kind} must be at least {least:g} m apart', field='points'
+            )
 
     def phrase(self, subject: str) -> str:
         """Return the phrase for it, with its kind."""

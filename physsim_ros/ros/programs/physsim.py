@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from argparse import ArgumentParser
 from functools import partial
+from itertools import takewhile
 import signal
 import sys
 
@@ -37,6 +38,10 @@ def _initialise() -> None:
         description='Run a physics world as a ROS 2 node.',
         epilog='For example: physsim --ros-args -p world_file:=demo -p speed:=0.5',
     )
+    # rcl reads a parameter among them as a remapping of names.
+    for word in takewhile(lambda each: each != '--ros-args', sys.argv[1:]):
+        if ':=' in word:
+            usage.error(f'{word} stands before --ros-args; a parameter: --ros-args -p {word}')
     try:
         usage.parse_args(remove_ros_args(sys.argv)[1:])
         # The signal handlers of rclpy (Jazzy) raise at any point of the program, which can abort

@@ -132,14 +132,23 @@ export class Connection {
     for (const each of [type, 'any']) for (const listener of this.listeners.get(each) ?? []) listener(message);
   }
 
-  /** Connect again after a pause. A refused socket has no reason, so that the cookie is checked by a request. */
-  async #retry() {
+  /**
+   * Connect again after a pause. A refused socket has no reason, so that the cookie is checked by a request; and
+   * browsers delay the sockets of a page more and more that tried many in vain, so that a server that is gone is
+   * asked by requests alone.
+   * @param {boolean} wasGone whether the server was not reachable before
+   */
+  async #retry(wasGone = false) {
     this.socket = this.scene = null;
     this.waiting.clear();
     const status = await fetch('/session', {cache: 'no-store'}).then(
       (response) => response.status, () => 0);
+    if (status && wasGone) {
+      this.connect();
+      return;
+    }
     this.#emit('closed', status);
-    setTimeout(() => this.connect(), this.pause);
+    setTimeout(() => status ? this.connect() : this.#retry(true), this.pause);
     this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
   }
 }

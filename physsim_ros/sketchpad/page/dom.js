@@ -82,20 +82,25 @@ export function textOf(field) {
 }
 
 /**
- * A field for a number, with a decimal point or comma. What is none becomes again what it was. The keys `decimal` of a
- * telephone (`inputMode`) have no minus.
+ * A field for a number, with a decimal point or comma. What is none becomes again what it was, and so does a field
+ * that must not be empty (`required`). The keys `decimal` of a telephone (`inputMode`) have no minus.
  * @param {?number} value null is an empty field
  * @param {(value: ?number) => void} change gets null for a field that was emptied
  * @param {Record<string, any>} properties
  */
 export function numberField(value, change, properties = {}) {
-  const text = value === null ? '' : digits(value, 5);
-  const input = createElement('input', {className: 'number', autocomplete: 'off', value: text, ...properties,
-    onfocus: () => { input.dataset.before = input.value; },
+  let before = value === null ? '' : digits(value, 5);
+  const input = createElement('input', {className: 'number', autocomplete: 'off', value: before, ...properties,
+    onfocus: () => { before = input.value; },
     onchange: () => {
       const typed = input.value.trim() === '' ? null : numberOf(input.value);
-      if (Number.isNaN(typed)) input.value = input.dataset.before ?? text;
-      else change(typed);
+      if (Number.isNaN(typed) || typed === null && input.required) {
+        input.value = before;
+        input.dispatchEvent(new Event('input'));
+        return;
+      }
+      before = input.value;
+      change(typed);
     }});
   return input;
 }
@@ -109,7 +114,8 @@ export function numberField(value, change, properties = {}) {
  * @param {(value: number) => void} change when it is let go
  */
 export function range(label, min, max, step, value, change) {
-  const typed = numberField(value, (now) => now !== null && change(now), {
+  const typed = numberField(value, (now) => change(Number(now)), {
+    required: true,
     inputMode: min < 0 ? 'text' : 'decimal',
     'aria-label': t('{quantity}, typed', {quantity: label}),
     oninput: () => {

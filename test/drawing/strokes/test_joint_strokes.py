@@ -42,6 +42,13 @@ LINES: dict[str, tuple[Sequence[Spawn], Way | Floats, str, tuple[str, str]]] = {
     ),
     'a bent line': (BESIDE, [(0.0, 0.0), (2.0, -1.2), (4.0, 0.0)], 'rope', ('a/0', 'b/0')),
     **{
+        f'a line to nowhere that sags by {sag} m': (
+            BESIDE[:1], np.column_stack((3.0 * SHARE, -sag * np.sin(math.pi * SHARE))),
+            'rope', ('a/0', WORLD),
+        )
+        for sag in (0.5, 1.2, 2.0)
+    },
+    **{
         f'a zigzag of {teeth} teeth': (
             ABOVE, zigzag((0.0, 3.7), (0.1, 0.4), teeth), 'spring', ('b/0', 'a/0'),
         )

@@ -2,8 +2,8 @@
 /**
  * The panel at the right, of one subject at a time: a body, several, a joint, the world, or what is measured.
  *
- * It is rendered again with each scene, unless somebody works in it. On a page without room for all of it, and that
- * of a body while time runs or the large plot is open, it is folded to its first lines.
+ * It is rendered again with each scene and each refusal, unless somebody works in it. On a page without room for all of
+ * it, and that of a body while time runs or the large plot is open, it is folded to its first lines.
  */
 
 import {bodyContent} from './body_panel.js';
@@ -45,7 +45,10 @@ export class Panel {
       app.room.fit();
     }, t('All of this panel, or its first lines'));
     this.rest = createElement('div');
-    app.connection.on('scene', () => queueMicrotask(() => this.#follow()));
+    const followSoon = () => queueMicrotask(() => this.#follow());
+    app.connection.on('scene', followSoon);
+    // A field still shows what was refused.
+    app.connection.on('answer', ({request, ok}) => request && !ok && followSoon());
     this.element.addEventListener('focusout', () => setTimeout(() => this.isStale && this.#follow()));
     app.view.overlays.push((view) => {
       this.#fold();
@@ -108,7 +111,7 @@ export class Panel {
     this.#fold();
   }
 
-  /** Follow a scene, but not while its field is typed in, or its button pressed. */
+  /** Show the subject as it is, but not while its field is typed in, or its button pressed. */
   #follow() {
     const {element} = this;
     this.isStale = this.kind !== '' && (element.contains(document.activeElement) || element.matches(':active'));

@@ -44,9 +44,10 @@ export function worldContent(app) {
     size = value;
     pull();
   };
-  const change = (/** @type {any} */ properties) => {
-    Object.assign(app.material, properties);
-    app.connection.send('draw_with', properties);
+  const change = async (/** @type {any} */ properties) => {
+    const {material} = app;
+    app.material = {...material, ...properties};
+    if (!(await app.connection.ask('draw_with', properties)).ok) app.material = material;
   };
   const chosen = app.material.color ?? app.color, color = chosen || [0.3, 0.47, 0.66];
   const any = checkField(t('Each body another colour'), !chosen, (checked) => change({color: checked ? '' : hexOf(color)}));

@@ -108,7 +108,7 @@ export class BodyView {
     if (!this.isOnPage(frame, row, appearance)) return;
     this.setTransform(frame, row);
     const size = appearance.radius * camera.scale, pixel = 1 / camera.scale;
-    if (body.shape.kind === 'chain') this.#drawChain(body, appearance, pixel);
+    if (body.shape.kind === 'chain') this.#drawChain(body, appearance, pixel, frame.yaw[row]);
     else if (size < SMALL) {
       ctx.fillStyle = appearance.tiny;
       ctx.fill(appearance.path);
@@ -194,8 +194,9 @@ export class BodyView {
    * @param {Body} body
    * @param {Appearance} appearance
    * @param {number} pixel [m]
+   * @param {number} yaw
    */
-  #drawChain({shape, anchored}, {path, line, fill}, pixel) {
+  #drawChain({shape, anchored}, {path, line, fill}, pixel, yaw) {
     const {ctx} = this, width = Math.max(shape.thickness, 2 * pixel);
     ctx.lineCap = ctx.lineJoin = 'round';
     ctx.strokeStyle = line;
@@ -210,7 +211,7 @@ export class BodyView {
     ctx.globalAlpha = 0.55;
     ctx.beginPath();
     for (let i = 1; i < shape.points.length; i++) groundTicks(ctx, shape.points[i - 1], shape.points[i],
-      width / 2 + pixel, 10 * pixel);
+      yaw, width / 2 + pixel, 10 * pixel);
     ctx.stroke();
     ctx.globalAlpha = 1;
   }
@@ -239,15 +240,17 @@ function innerRadius({shape, centroid: [x, y]}, radius) {
 }
 
 /**
- * Short slanted strokes on the lower side of a segment.
+ * Short slanted strokes on the side of a segment that is lower in the world.
  * @param {CanvasRenderingContext2D} ctx
- * @param {Point} a
+ * @param {Point} a in the frame of its body
  * @param {Point} b
+ * @param {number} yaw of the body
  * @param {number} away from the segment [m]
  * @param {number} size [m]
  */
-function groundTicks(ctx, a, b, away, size) {
-  const length = Math.hypot(b[0] - a[0], b[1] - a[1]), flip = b[0] < a[0] ? -1 : 1;
+function groundTicks(ctx, a, b, yaw, away, size) {
+  const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+  const flip = (b[0] - a[0]) * Math.cos(yaw) < (b[1] - a[1]) * Math.sin(yaw) ? -1 : 1;
   const ux = flip * (b[0] - a[0]) / length, uy = flip * (b[1] - a[1]) / length;
   const start = flip > 0 ? a : b;
   for (let s = size / 2; s < length; s += size) {
