@@ -17,7 +17,7 @@ const TYPED = [['x', 'x [m]'], ['y', 'y [m]'], ['angle', t('Angle [°]')], ['mas
 const NOTHING = 1e-7; // m, °, m/s, rad/s: that is shown as 0
 const AT_REST = 4; // number of those that an anchored body has
 /** @typedef {{name: string, motion: Motion, answered: boolean}} Typed */
-const ENERGIES = [t('Energy of motion'), t('Energy of height')];
+const ENERGIES = [t('Kinetic energy'), t('Potential energy')];
 const MOST_PAIRS = 3; // bodies in touch with whose friction that of the pair is told
 
 export class Numbers {

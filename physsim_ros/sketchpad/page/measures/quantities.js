@@ -41,7 +41,7 @@ export function totalsOf(world, names) {
     py += bodies[row].mass * motion.vy;
     energy = [energy[0] + each[0], energy[1] + each[1]];
   }
-  return t('Together {mass} kg · momentum {momentum} · energy of motion {motion} J, of height {height} J',
+  return t('Together {mass} kg · momentum {momentum} · kinetic energy {motion} J, potential {height} J',
     {mass: threeDigits(mass), momentum: momentumText([px, py]), motion: twoPlaces(energy[0]), height: twoPlaces(energy[1])});
 }
 
@@ -116,8 +116,8 @@ export const QUANTITIES = {
   ay: {label: 'ay [m/s²]', of: ({ay = NaN}) => ay},
   acceleration: {label: t('Acceleration [m/s²]'), of: ({ax = NaN, ay = NaN}) => Math.hypot(ax, ay)},
   yaw: {label: t('Angle [rad]'), of: ({yaw}) => yaw},
-  motion: {label: t('Energy of motion [J]'), sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[0]},
-  height: {label: t('Energy of height [J]'), sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[1]},
+  motion: {label: t('Kinetic energy [J]'), sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[0]},
+  height: {label: t('Potential energy [J]'), sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[1]},
   ...Object.fromEntries(Object.entries(FORCES).map(([kind, name]) =>
     [kind, /** @type {Quantity} */ ({label: `${name} [N]`, of: ({forces}) => forces?.[kind] ?? NaN})])),
 };
