@@ -251,7 +251,7 @@ def test_diagnostics_count_the_errors(doors: NodeDoors, monkeypatch: pytest.Monk
 def test_diagnostics_themselves(doors: NodeDoors) -> None:
     doors.physsim.step()
     doors.node.start()
-    doors.fail(doors.node, 'count_nodes')
+    doors.fail(doors.node, 'get_node_names_and_namespaces')
     doors.node.tick(0)
     assert doors.goes_on() == ['/diagnostics']
 

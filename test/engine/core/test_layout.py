@@ -8,7 +8,8 @@ from physsim_ros.model.joints import JointKind
 import pymunk
 import pytest
 
-from ..jointed import joining, pair, points_of, PROPERTIES
+from ..jointed import pair, points_of, PROPERTIES
+from ...building import joining
 
 
 def test_the_structs_of_this_pymunk_are_those_of_the_core():
