@@ -69,7 +69,8 @@ class RobotEnv(Env[Observation, Action]):
     :ivar robot: that it drives; `robot.simulation` is its world
     """
 
-    metadata = {'render_modes': [*_RENDER_MODE.words], 'render_fps': _FRAMES}  # noqa: RUF012 - Gymnasium's
+    # Gymnasium's own name and type.
+    metadata = {'render_modes': [*_RENDER_MODE.words], 'render_fps': _FRAMES}  # noqa: RUF012
 
     def __init__(self, task: Task, *, render_mode: str | None = None) -> None:
         self.task = task
