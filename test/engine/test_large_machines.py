@@ -104,5 +104,5 @@ def test_a_thousand_joints_of_one_body_are_linear_in_memory():
     world.step(24)
 
     # The memory of a step stays with the world. All pairs of rows would be 290 MB.
-    assert process.memory_info().rss - before < 50e6
+    assert process.memory_info().rss - before < 120e6
     assert world.snapshot().poses[0] == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)
