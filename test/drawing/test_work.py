@@ -85,7 +85,7 @@ def test_a_stroke_over_twice_as_many_walls_is_twice_the_work(kind: str) -> None:
         def draw() -> None:
             DrawingSession(DrawingSettings()).stroke(STROKES[kind], '', snapshot, began=0.0)
 
-        # What is kept of a scene is made first.
+        # Values that are kept of a scene are made first.
         draw()
         return work(draw)
 

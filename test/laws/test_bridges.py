@@ -177,6 +177,6 @@ def test_light_planks_stay_closed_under_a_heavy_load(report, load):
     loads = now.poses[12:]
     between = (loads[:, 0] > 0.0) & (loads[:, 0] < 10.0)
     assert (loads[between, 1] > 5.0).all()
-    # What moves and what falls can be turned into a gain; a roller that is borne hardly falls.
+    # Kinetic energy and the fall of loads can become a gain; a roller that is borne hardly falls.
     there = before.kinetic_energy + fell
     report.check(33, f'{what}, energy gain', gained / there, 0.0, 0.01, '–')

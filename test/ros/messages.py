@@ -33,7 +33,7 @@ def spoiled(message: Any, path: str, value: Any) -> Any:
 def feedback(
     kind: int, x: float = 0.0, y: float = 0.0, *, hand: str = 'anna', frame: str = ''
 ) -> InteractiveMarkerFeedback:
-    """Return what a hand does at a place."""
+    """Return the feedback of a hand at a place."""
     return InteractiveMarkerFeedback(
         header=Header(frame_id=frame),
         client_id=hand,

@@ -101,7 +101,7 @@ def test_requests_are_answered_in_order_and_one_each():
             code='unknown_body',
             field='name',
         ),
-        # What could not be a request has its answer in its place.
+        # A refused text has its answer in its place.
         Answer(
             topic='~/spawn', subject='a/1', message='no number', code='malformed', field='pose'
         ),

@@ -98,13 +98,13 @@ def test_the_page_says_that_the_server_is_gone_and_comes_back_with_it(
     world, first = started_world(outside, sketchpad_port=8790)
     sheet = Sheet(chromium, first)
     sheet.begin()
+    world.interrupt()
+    alert = sheet.page.get_by_role('alert')
+    alert.get_by_text('gone').wait_for()
     requests: list[str] = []
     sockets: list[str] = []
     sheet.page.on('requestfailed', lambda request: requests.append(request.url))
     sheet.page.on('websocket', lambda socket: sockets.append(socket.url))
-    world.interrupt()
-    alert = sheet.page.get_by_role('alert')
-    alert.get_by_text('gone').wait_for()
     # Browsers delay the sockets of a page that tried many in vain.
     sheet.until(lambda: len(requests) > 2, 'requests to a server that is gone')
     assert not sockets

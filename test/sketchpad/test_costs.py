@@ -128,7 +128,7 @@ def crowded(start: Callable[..., PhysSim], tmp_path: Path) -> Iterator[PhysSim]:
     (tmp_path / 'crowded.yaml').write_text(world_text())
     physsim.load(tmp_path / 'crowded.yaml')
     physsim.step(2)
-    # What other tests have left would be collected within a message.
+    # Garbage of other tests would be collected within a message.
     gc.collect()
     gc.freeze()
     yield physsim

@@ -43,6 +43,6 @@ def module_name(path):
 
 
 def spans(text):
-    """Return what stands in backticks; fenced blocks do not count."""
+    """Return the texts in backticks; fenced blocks do not count."""
     inline = re.sub(r'^```.*?^```', '', text, flags=re.MULTILINE | re.DOTALL)
     return re.findall(r'`([^`\n]+)`', inline)

@@ -29,7 +29,7 @@ def test_what_has_been_deleted_is_cleared(recording):
 def test_the_recorded_time_goes_on_while_the_world_goes_back(recording):
     box = scene(body())
 
-    # What was drawn does not change with what is drawn next.
+    # A picture does not change as the next one is drawn.
     for batch in ((0, 4, 8), (4, 0), (4,)):
         recording.draw(*(frame(box, [(step, 0, 0)], step=step) for step in batch))
 

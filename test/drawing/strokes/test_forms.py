@@ -72,7 +72,7 @@ RULED: dict[str, tuple[str, Floats]] = {
 
 
 def forms_of(way: Floats) -> tuple[Form, ...]:
-    """Return what a stroke may be, the likeliest first."""
+    """Return the readings of a stroke, the likeliest first."""
     return recognise_form(resample_stroke(way))
 
 

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""What the simulator can do, its time, its end and its errors, by the standard services."""
+"""Features, time, end and errors of the simulator, by the standard services."""
 
 from __future__ import annotations
 

@@ -238,7 +238,7 @@ def test_a_description_is_the_label_of_a_body(caller: Caller) -> None:
     caller.physsim.spawn(box('crate/0', anchored=True))
     info = caller('GetEntityInfo', entity='crate/0').info
     before = caller.physsim.digest()
-    # What was told can be set, and changes nothing.
+    # A state that was told can be set, and changes nothing.
     assert caller.code('SetEntityInfo', entity='crate/0', info=info) == OK
     for fields, result in (
         ({'entity': 'crate/1'}, NOT_FOUND),
