@@ -40,12 +40,19 @@ static void solve_island(World *world, const Island *island) {
     arena_release(&world->own->arena, mark);
 }
 
+void find_joint_islands(World *world) {
+    if (has_stage(world, STAGE_JOINTS)) {
+        world->own->joint_islands = TAKE(&world->own->arena, Islands, 1);
+        *world->own->joint_islands = joint_islands(world);
+    }
+}
+
 void solve_joints(World *world) {
     if (!has_stage(world, STAGE_JOINTS)) {
         return;
     }
-    Islands found = joint_islands(world);
-    for (int number = 0; number < found.count; number++) {
-        solve_island(world, found.islands + number);
+    const Islands *found = world->own->joint_islands;
+    for (int number = 0; number < found->count; number++) {
+        solve_island(world, found->islands + number);
     }
 }

@@ -9,7 +9,10 @@
 // Solve rows with bounds. `solution` has the first guess of `sides`.
 void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
-// Come closer to the targets, which E keeps a solution from.
+// Solve them with other targets from the sides of the last solution, whose factors the system has.
+void solve_again(System *system, const Problem *problem, Solution *solution, Arena *arena);
+
+// Refine a solution against the targets that E keeps it from (one step of iterative refinement).
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
 #endif
