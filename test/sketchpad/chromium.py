@@ -75,8 +75,9 @@ new MutationObserver((changes) => {
 STATE = """() => ({...window.heard, ...window.physsim && {
     time: physsim.time, speed: physsim.speed, bodies: Object.keys(physsim.bodies),
     status: document.querySelector('[role=status]').textContent}})"""
-# Has pointer events come to the canvas that the protocol of the browser's tools cannot make: many at
-# once, of the eraser of a stylus, of one finger of two. A browser refuses to capture such a pointer.
+# Has pointer events come to the canvas that the protocol of the browser's tools cannot make: many
+# at once, of the eraser of a stylus, of one finger of two. A browser does not capture such a
+# pointer.
 POINTER = """([kind, buttons, id, places]) => {
     const canvas = document.querySelector('canvas');
     canvas.setPointerCapture = () => {};
