@@ -283,3 +283,6 @@ export interface Tool {
   /** Colour of the body that it is pointed at. */
   aims?: 'accent' | 'warn';
 }
+
+/** What a pointer works: a tool, or a handle. */
+export type Worked = Pick<Tool, 'down' | 'move' | 'up' | 'cancel' | 'clicks'>;
