@@ -211,14 +211,14 @@ setup(
             'ros-jazzy-rclpy[fastrtps]',
         ],
         # `make docs release`. 8.2 of sphinx brings the pages of modules.
-        'docs': ['furo', 'gymnasium>=1.0,<2', 'myst-parser>=4', 'sphinx>=8.2,<9', 'twine'],
+        'docs': ['furo', 'gymnasium>=1.1,<2', 'myst-parser>=4', 'sphinx>=8.2,<9', 'twine'],
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
         # Environments for learning (`physsim_ros.gym`).
-        'gym': ['gymnasium>=1.0,<2'],
+        'gym': ['gymnasium>=1.1,<2'],
         'test': [
             # That of environments.
-            'gymnasium>=1.0,<2',
+            'gymnasium>=1.1,<2',
             # That of a class.
             'segno>=1.6,<2',
             # Runs sweeps in processes of a cluster.
