@@ -29,7 +29,7 @@ class RobotVectorEnv(SyncVectorEnv):
     :param num_envs: number of worlds
     :param render_mode: 'rgb_array' has `render` return a picture of each; None none
     :param autoreset_mode: an episode that has ended begins anew in the next step, whose action is
-        ignored; in the same step; or (disabled) by a reset with the option `reset_mask`
+        ignored; in the same step; or (disabled) by a reset with a mask
     :raises BadProperty: the number is out of range, or there is no such render mode
     :raises ValueError: there is no such autoreset mode
 
@@ -58,9 +58,9 @@ class RobotVectorEnv(SyncVectorEnv):
         Begin an episode in each world, or in some.
 
         :param seed: of world k it is seed + k; or the seed of each; None is the next one of each
-        :param options: under `reset_mask` (count,) bool: the worlds in which one begins
-        :return: the observations of all worlds, and under `seed` the seeds of the noise of those
-            in which an episode has begun, by the flags under `_seed`
+        :param options: under 'reset_mask' (num_envs,) bool: the worlds in which one begins
+        :return: the observations of all worlds, and under 'seed' the seeds of the noise of those
+            in which an episode has begun, by the flags under '_seed'
         :raises ValueError: there are not as many seeds or flags as worlds, or no flag is set
         :raises TypeError: the flags are no array of bool
         """
