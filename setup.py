@@ -224,7 +224,7 @@ setup(
             # Writes the cheat sheet to print.
             'fpdf2>=2.8,<3',
             'furo',
-            'gymnasium>=1.0,<2',
+            'gymnasium>=1.1,<2',
             'myst-parser>=4',
             'sphinx>=8.2,<9',
             'twine',
@@ -232,10 +232,10 @@ setup(
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
         # Environments for learning (`physsim_ros.gym`).
-        'gym': ['gymnasium>=1.0,<2'],
+        'gym': ['gymnasium>=1.1,<2'],
         'test': [
             # That of environments.
-            'gymnasium>=1.0,<2',
+            'gymnasium>=1.1,<2',
             # That of a class.
             'segno>=1.6,<2',
             # Runs sweeps in processes of a cluster.
