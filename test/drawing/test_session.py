@@ -210,6 +210,24 @@ def test_an_x_of_two_strokes_anchors_the_body_and_leaves_no_trace(lines: Sequenc
     assert body.total_mass == before
 
 
+@pytest.mark.parametrize('seed', range(12))
+def test_two_lines_that_cross_within_both_are_an_x(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    at, there = rng.uniform(0.18, 0.82, 2)
+    turn, angle = rng.uniform(0.0, 7.0), rng.uniform(0.5, math.pi - 0.5)
+    share = np.linspace(0.0, 1.0, 30)
+    lines = [
+        length * np.outer(share - middle, (math.cos(heading), math.sin(heading)))
+        for length, middle, heading in zip(
+            rng.uniform(0.6, 1.0, 2), (at, there), (turn, turn + angle), strict=True
+        )
+    ]
+    desk = Desk()
+    desk.spawn(spawning('a/0', Disc(radius=1.5)))
+
+    assert [desk.draw_samples(line).meaning for line in lines] == ['hatching', 'anchor']
+
+
 @pytest.mark.parametrize('gap', [-0.1, 0.0, 0.3, 0.5])
 def test_a_shaft_that_ends_short_of_its_head_or_beyond_is_an_arrow_that_turns_gravity(
     gap: float,

@@ -20,16 +20,30 @@ from dataclasses import dataclass, replace
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.geometry import COUNT, size_of
+from physsim_ros.drawing.strokes.geometry import COUNT, few_points, size_of
 from physsim_ros.drawing.strokes.joining import (
     connected,
-    few_points,
     joined_strokes,
     touch,
     touching,
 )
-from physsim_ros.drawing.strokes.meanings import CLOSED, DELETION, DISC, OPEN, POLYGON, RECTANGLE
-from physsim_ros.drawing.strokes.reading import Guess, guess_meanings, is_likely
+from physsim_ros.drawing.strokes.meanings import (
+    CLOSED,
+    Context,
+    DELETION,
+    DISC,
+    Form,
+    OPEN,
+    POLYGON,
+    RECTANGLE,
+)
+from physsim_ros.drawing.strokes.reading import (
+    Guess,
+    guess_meanings,
+    is_likely,
+    recognise_form,
+)
+from physsim_ros.drawing.strokes.signs import x
 from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
@@ -77,6 +91,7 @@ class Figure:
     def read(
         cls,
         drawn: Stroke,
+        forms: Sequence[Form],
         *,
         strokes: tuple[Floats, ...],
         began: float,
@@ -88,8 +103,10 @@ class Figure:
         Return a figure with the guesses at its meaning; the first one is taken if it is likely.
 
         :param drawn: its strokes as one
+        :param forms: that these may have
         """
-        guesses = guess_meanings(drawn, scene, settings)
+        context = Context(drawn=drawn, scene=scene, settings=settings)
+        guesses = guess_meanings(forms, context)
         likely = is_likely(guesses, settings)
         return cls(
             strokes=strokes,
@@ -161,9 +178,12 @@ def likeliest_group(
             # Rods from body to body to body are a truss, no polygon.
             continue
         strokes = tuple(stroke for figure in group for stroke in figure.strokes)
+        # One more stroke may close a gap: its ends do not tell.
+        joined = replace(resample_stroke(joined_strokes(strokes)), relatability=0.0)
+        cross = x.of_lines(strokes)
         whole = Figure.read(
-            # One more stroke may close a gap: its ends do not tell.
-            replace(resample_stroke(joined_strokes(strokes)), relatability=0.0),
+            joined,
+            recognise_form(joined) if cross is None else (cross,),
             strokes=strokes,
             began=group[0].began,
             ended=last.ended,

@@ -18,14 +18,12 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.fitting import segment_distances
-from physsim_ros.drawing.strokes.geometry import angles, path_length, size_of
+from physsim_ros.drawing.strokes.geometry import angles, few_points, path_length, size_of
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import norms
 
 # The greatest distance of strokes that touch, in shares of the larger one's size.
 _TOUCHING = 0.15
-# Stride of the points of a stroke between which distances are taken: 1.6 % of its length.
-_STRIDE = 2
 # The length by which a stroke may end short of another that it is to meet, in shares of its own;
 # the number of points on it; the number of those at an end of a stroke that give its direction.
 _BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
@@ -142,8 +140,3 @@ def _extended(stroke: Floats) -> Floats:
         ahead *= step / max(float(norms(ahead)), 1e-300)
         parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
     return np.vstack(parts)
-
-
-def few_points(stroke: Floats) -> Floats:
-    """Return the points of a stroke between which distances are taken."""
-    return stroke[::_STRIDE]
