@@ -182,7 +182,7 @@ class DrawingSession:
         """
         figure.chosen = number
         reading = reading_of(figure.guesses, number, amends=figure.gestures)
-        requests = requests_with_waiting_joints(reading.requests, figure.scene)
+        requests = requests_with_waiting_joints(reading.requests, figure.scene, self.settings.snap)
         figure.requests = requests
         return replace(reading, requests=requests)
 

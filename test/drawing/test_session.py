@@ -298,6 +298,40 @@ def test_what_was_not_recognised_can_be_built_instead() -> None:
     assert desk.shapes == ['Disc']
 
 
+def plank(angle: float) -> Floats:
+    """Return the outline of a plank about the origin, 4 m long, turned by an angle [rad]."""
+    way = np.array([(-2.0, -0.15), (2.0, -0.15), (2.0, 0.15), (-2.0, 0.15), (-2.0, -0.15)])
+    cos, sin = math.cos(angle), math.sin(angle)
+    return np.asarray(way @ np.array([(cos, sin), (-sin, cos)]))
+
+
+@pytest.mark.parametrize('blades', [1, 2, 3, 4])
+def test_an_axle_drawn_on_each_blade_of_a_rotor_holds_all_on_the_background(blades: int) -> None:
+    desk = Desk()
+    for number in range(blades):
+        desk.draw(plank(number * math.pi / blades), after=2.0)
+        desk.draw(circle(0.0, 0.02 * number, 0.11), after=2.0)
+
+    joints = [{each.a, each.b} for each in desk.scene.joints]
+    assert [each.kind for each in desk.scene.joints] == [JointKind.AXLE] * blades
+    held = {'world'}
+    for _ in joints:
+        held = held.union(*(each for each in joints if each & held))
+    assert held == {'world', *(each.name for each in desk.scene.bodies)}
+
+
+def test_one_axle_goes_through_all_movable_bodies_at_its_place() -> None:
+    desk = Desk()
+    for number in range(3):
+        desk.draw(plank(number * math.pi / 3), after=2.0)
+    reading = desk.draw(circle(0.0, 0.0, 0.11), after=2.0)
+
+    assert reading.message == 'an axle between drawn/2, drawn/1 and drawn/0'
+    assert [(each.a, each.b) for each in desk.scene.joints] == [
+        ('drawn/2', 'drawn/1'), ('drawn/1', 'drawn/0'),
+    ]  # fmt: skip
+
+
 def test_an_axle_drawn_before_its_wheel_waits_for_it() -> None:
     desk = Desk()
     desk.spawn(spawning('chassis/0', Box(width=3.0, height=1.0)))
