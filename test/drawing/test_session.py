@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 import itertools
 import math
@@ -13,7 +14,7 @@ import math
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Reading, submit_reading
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NotRecognised, UnknownBody
+from physsim_ros.model.errors import NothingThere, NotRecognised, UnknownBody
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Configure, Join, MoveBodies, Request, Spawn
 from physsim_ros.model.robots import Robot
@@ -226,6 +227,46 @@ def test_two_lines_that_cross_within_both_are_an_x(seed: int) -> None:
     desk.spawn(spawning('a/0', Disc(radius=1.5)))
 
     assert [desk.draw_samples(line).meaning for line in lines] == ['hatching', 'anchor']
+
+
+SHAFT, TIP, BARBS = [(0.0, 0.0), (3.0, 0.0)], (3.05, 0.0), ((2.3, 0.45), (2.35, -0.4))
+HEADS: dict[str, list[Way]] = {
+    'two barbs': [[TIP, BARBS[0]], [TIP, BARBS[1]]],
+    'two barbs towards the tip': [[BARBS[0], TIP], [BARBS[1], TIP]],
+    'barbs in one stroke, then the side between them': [[BARBS[0], TIP, BARBS[1]], [*BARBS]],
+    'closed': [[BARBS[0], TIP, BARBS[1], BARBS[0]]],
+    'closed, from the tip on': [[TIP, *BARBS, TIP]],
+    'filled': [[BARBS[0], TIP, BARBS[1], BARBS[0], (2.6, -0.25), (2.6, 0.2), (2.9, 0.0)]],
+}
+
+
+@pytest.mark.parametrize('shaft_first', [True, False])
+@pytest.mark.parametrize('head', HEADS.values(), ids=HEADS)
+def test_an_arrow_of_several_strokes_turns_gravity_and_leaves_nothing_else(
+    head: list[Way], shaft_first: bool
+) -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    for stroke in [SHAFT, *head] if shaft_first else [*head, SHAFT]:
+        # A head that is filled is nothing by itself.
+        with suppress(NotRecognised, NothingThere):
+            desk.draw(stroke)
+
+    x, y = desk.scene.settings.gravity
+    assert math.atan2(y, x) == pytest.approx(0.0, abs=0.1)
+    assert desk.shapes == []
+
+
+@pytest.mark.parametrize('corners', [4, 5, 6, 60])
+def test_a_line_and_a_body_at_its_end_are_no_arrow(corners: int) -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    angle = np.linspace(0.0, 2.0 * math.pi, corners + 1)
+    desk.draw(SHAFT)
+    desk.draw(0.3 * np.column_stack((np.cos(angle), np.sin(angle))) + (3.3, 0.0))
+
+    assert desk.scene.settings.gravity == (0.0, -9.81)
+    assert len(desk.shapes) == 2
 
 
 @pytest.mark.parametrize('gap', [-0.1, 0.0, 0.3, 0.5])

@@ -106,6 +106,27 @@ def intersections(
     return [(one[i] + a * (one[i + 1] - one[i]), i + a, j + b) for i, j, a, b in places]
 
 
+def convex_hull(points: Floats) -> Floats:
+    """
+    Return the corners of the convex hull of points, counter-clockwise.
+
+    Andrew's monotone chain (Andrew, 1979).
+    """
+    ordered = sorted(set(map(point_of, points)))
+    hull: list[Point] = []
+    for way in (ordered, ordered[::-1]):
+        start = len(hull)
+        for x, y in way:
+            while len(hull) > start + 1:
+                (a, b), (c, d) = hull[-2:]
+                if (c - a) * (y - b) - (d - b) * (x - a) > 0.0:
+                    break
+                hull.pop()
+            hull.append((x, y))
+        hull.pop()
+    return np.array(hull)
+
+
 def stretched(points: Floats, along: Floats, factor: float) -> Floats:
     """Return points stretched by a factor along a unit vector: straight lines stay straight."""
     return points + ((factor - 1.0) * dots(points, along))[..., None] * along
