@@ -278,6 +278,8 @@ export interface Tool {
   open?: boolean;
   /** Finish an open gesture; false where there is none. */
   finish?(): boolean;
+  /** Whether the server knows of its unfinished gesture. */
+  atServer?: boolean;
   /** Whether it tells how fast a body is. */
   measures?: boolean;
   /** Colour of the body that it is pointed at. */
