@@ -157,7 +157,7 @@ class NodeControl:
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        return self._perform_with(world, self._files.open)
+        return self._perform_with(world, self._files.open_world)
 
     def _perform_with(self, world: str, action: Callable[[], str]) -> str:
         before = self.values['world_file']

@@ -60,7 +60,7 @@ class WorldFiles:
         state, path = self._read(confined=confined)
         return f'{self._simulation.load(state)} from {path.name}'
 
-    def open(self) -> str:
+    def open_world(self) -> str:
         """
         Begin with the world of the file, at time 0, and return a message about it.
 
@@ -69,7 +69,7 @@ class WorldFiles:
         :raises Refusal: there is no such file, or it is refused
         """
         state, path = self._read(confined=True)
-        return f'{self._simulation.open(state)} from {path.name}'
+        return f'{self._simulation.open_world(state)} from {path.name}'
 
     def save(self) -> str:
         """

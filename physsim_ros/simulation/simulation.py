@@ -261,14 +261,14 @@ class Simulation(FrameMaker):
             done = past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
-    def open(self, state: WorldState) -> str:
+    def open_world(self, state: WorldState) -> str:
         """
         Begin with another state, at time 0; `undo` reverts it. Return a message.
 
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         with self._jump():
-            self.past.open(state)
+            self.past.open_world(state)
             self.requests.hands.clear()
             self.stop_driving()
         return loaded(state)

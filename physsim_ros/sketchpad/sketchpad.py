@@ -234,7 +234,7 @@ class Sketchpad:
 
         def load() -> str:
             settings, rate = simulation.settings, simulation.physics_rate
-            return simulation.open(state_from(upload.content, settings, rate))
+            return simulation.open_world(state_from(upload.content, settings, rate))
 
         def answers() -> list[Answer]:
             answer = answer_of(origin, load, self._boundary)

@@ -324,7 +324,7 @@ def test_another_world_is_opened_at_time_0_and_one_undo_reverts_it():
     other = Simulation()
     other.perform(spawning('b/0', BOX, (0.0, 1.0, 0.0)))
     other.perform(spawning('c/0', BOX, (3.0, 1.0, 0.0)))
-    assert sim.open(other.save()) == 'loaded 2 bodies'
+    assert sim.open_world(other.save()) == 'loaded 2 bodies'
     assert (sim.status.now, sim.world.scene.names, sim.status.undo) == (
         0.0,
         ('b/0', 'c/0'),
@@ -356,6 +356,6 @@ def test_a_world_that_is_refused_changes_nothing():
         bodies=2 * sim.save().bodies,
     )
     with pytest.raises(Refusal):
-        sim.open(too_large)
+        sim.open_world(too_large)
     assert (sim.world.digest(), sim.past.tree.tip.users) == (before, users)
     assert sim.status.undo == 'undo spawn a/0'

@@ -275,7 +275,7 @@ class Past:
         self._begin_anew(state, 'reset')
         return True
 
-    def open(self, state: WorldState) -> None:
+    def open_world(self, state: WorldState) -> None:
         """
         Begin with another state, at time 0; undo reverts it.
 
