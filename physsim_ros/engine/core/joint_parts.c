@@ -150,13 +150,16 @@ static Vec line_of(const World *world, const Joint *joint, const Part *part) {
     return joint->has_axis ? by_axis(world, joint, part) : between(part->constraint, axial->anchorA, axial->anchorB);
 }
 
+static bool is_linear(const Part *part) {
+    return part->kind == PART_PIVOT || is_axial(part);
+}
+
 // The impulse of a part on the second body of its joint; of one that acts on the turn of the bodies, the first number.
 static Vec pull_of(const World *world, const Joint *joint, const Part *part) {
     Vec impulse = add(impulse_of(part), part->closing);
-    if (!is_axial(part)) {
-        return impulse;
-    }
-    return scaled(line_of(world, joint, part), impulse.x);
+    impulse = is_axial(part) ? scaled(line_of(world, joint, part), impulse.x) : impulse;
+    const Body *a = world->bodies + joint->a, *b = world->bodies + joint->b;
+    return is_linear(part) ? scaled(impulse, reported_share(a, b, impulse)) : impulse;
 }
 
 void begin_totals(World *world) {
@@ -182,8 +185,7 @@ void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8
         const Part *first = world->parts + joint->first_part;
         pulls[number] = vec(0.0, 0.0);
         for (const Part *part = first; part < first + joint->part_count; part++) {
-            bool is_linear = part->kind == PART_PIVOT || is_axial(part);
-            pulls[number] = is_linear ? add(pulls[number], part->total) : pulls[number];
+            pulls[number] = is_linear(part) ? add(pulls[number], part->total) : pulls[number];
         }
         pressing[number] =
             joint->presses && joint->part_count > 0 && dot(first->total, line_of(world, joint, first)) > 0.0;

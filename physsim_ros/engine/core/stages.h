@@ -56,6 +56,8 @@ void find_broken(World *world);
 
 // Which bodies the step only accelerated (`half_step.c`), and which do not fall asleep (`sleeping.c`).
 void find_free(World *world);
+// The share of an impulse on two bodies in this sub-step that does not take back a half-step lead; before `find_free`.
+double reported_share(const Body *a, const Body *b, Vec impulse);
 void forgive_trembling(World *world);
 void keep_awake(World *world);
 
