@@ -71,7 +71,7 @@ class Space:
         self.changes = 0
         self._age = 0
         self._table: BodyTable | None = None
-        # Place of the background in the table before; -1 if there was none.
+        # Row of the background in the last table; -1 if there was none.
         self._background = -1
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}

@@ -301,7 +301,7 @@ void core_take_contacts(World *world) {
     world->contact_count = 0;
     for (int slot = 0; slot < report->room; slot++) {
         const Pair *pair = report->pairs + slot;
-        // What the background touches has no row in a scene.
+        // Pairs of the background with itself are left out.
         if (pair->counts && pair->in_frame && pair->a < world->body_count - 1) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
         }

@@ -50,7 +50,7 @@ typedef struct Displacement {
     double sum, squares, widest; // of gaps and overlaps: sum, sum of squares, and the greatest [m, rad]
 } Displacement;
 
-// The iterate of least squares so far.
+// The iterate with the least sum of squared gaps so far.
 typedef struct Best {
     double squares;
     Pose *poses;

@@ -78,8 +78,7 @@ static Twist way_left(const Body *body, double dt) {
     return twist_sum(twist_sum((Twist){0}, mean, left), gone, -1.0);
 }
 
-// The way that a body has still to go, if it could pass through the smallest thing there is on it: of others, the sweep
-// would find nothing.
+// The remaining way of a body that could tunnel through the thinnest body of the world; else none.
 static Twist far_way(const World *world, const Body *body) {
     Twist way = way_left(body, world->dt);
     bool is_far = length(way.v) + fabs(way.w) * body->turning_radius > world->own->least_depth;

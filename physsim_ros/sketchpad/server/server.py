@@ -136,7 +136,7 @@ class Server:
         self._thread.join(_CLOSING)
 
     def _post(self, call: Callable[[], None]) -> None:
-        """Have the server's thread make a call, in the order in which they come."""
+        """Queue a call for the server's thread."""
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._carry_out, call)
 
