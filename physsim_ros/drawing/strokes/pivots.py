@@ -22,7 +22,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.transform import Point
 
 # The greatest diameter of an axle, in side lengths of a square of the body's area: on one body;
-# on two that bodies_under.
+# on two that overlap.
 _LARGEST, _LARGEST_ON_TWO = 0.5, 0.75
 # The least number of corners of a polygon that may be a small circle.
 _LEAST_CORNERS = 5
