@@ -201,6 +201,7 @@ class Space:
         """Set the pose of a body."""
         touching = self.bodies.touching(rigid.pm_body)
         rigid.pose = self.joints.with_turns(rigid, pose)
+        self.bodies.note_moved()
         self.bodies.wake_around(rigid, touching)
         self._core.note_moved_static()
         self._release(touching)
@@ -334,6 +335,7 @@ class Space:
                 reports_contacts=reports_contacts,
             )
         self._age += made
+        self.bodies.note_moved()
         if core.has_broken:
             for name, force in self.joints.broken():
                 self.unjoin(name)
