@@ -190,11 +190,14 @@ export class WorldState {
     return rotated([x - frame.x[row], y - frame.y[row]], -frame.yaw[row]);
   }
 
+  /** @returns {Bounds} of all bodies; infinite where there are none */
+  bodiesExtent() {
+    return unionOf(this.scene.bodies.slice(0, this.count).map((_, row) => this.#boundsOf(row)));
+  }
+
   /** @returns {Bounds} of the world, or of its bodies */
   extent() {
-    const {bounds, bodies} = this.scene;
-    if (bounds.length) return bounds;
-    const box = unionOf(bodies.slice(0, this.count).map((_, row) => this.#boundsOf(row)));
+    const {bounds} = this.scene, box = bounds.length ? bounds : this.bodiesExtent();
     return box.every(Number.isFinite) ? box : [-6, -1, 6, 6];
   }
 }
