@@ -99,7 +99,7 @@ class ClassServer:
         self._application = self._site.application(
             'class.html',
             [
-                (r'/ws/(\d+)', _Watch, {'seats': seats}),
+                (r'/ws/([0-9]{1,4})', _Watch, {'seats': seats}),
                 ('/seats', _SeatList, {'seats': seats, 'address': partial(self.url, Role.DRAW)}),
                 ('/join', _Join, {'seats': seats}),
             ],
