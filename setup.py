@@ -13,6 +13,7 @@ import shlex
 import sys
 
 from cffi import FFI
+import setuptools
 from setuptools import Extension, find_packages, setup
 from setuptools.command.build_ext import build_ext
 
@@ -107,6 +108,7 @@ def write_declarations(path: Path) -> None:
         file.write(f'SOURCES = {HASH!r}\n')
 
 
+SETUPTOOLS = int(setuptools.__version__.partition('.')[0])
 # Rerun, for recordings, and Arrow as recent as Rerun wants it: 650 MB.
 VIEWER = ['pyarrow', 'rerun-sdk>=0.41,<0.42']
 
@@ -135,7 +137,9 @@ setup(
     author_email=EMAIL,
     maintainer=AUTHOR,
     maintainer_email=EMAIL,
-    license='Apache-2.0',
+    # PEP 639, since setuptools 77; that of Ubuntu 24.04 is older.
+    **{'license' if SETUPTOOLS < 77 else 'license_expression': 'Apache-2.0'},
+    license_files=['LICENSE', 'NOTICE'],
     url=HOME or None,
     project_urls={
         'Source': HOME,
@@ -147,6 +151,7 @@ setup(
     else {},
     keywords=['ROS 2', 'robotics', 'physics', 'simulation', 'pytest', 'Pymunk', 'Rerun'],
     classifiers=[
+        'Development Status :: 4 - Beta',
         'Framework :: Pytest',
         'Intended Audience :: Developers',
         'Intended Audience :: Education',
@@ -222,7 +227,7 @@ setup(
             # Writes the cheat sheet to print.
             'fpdf2>=2.8,<3',
             'furo',
-            'gymnasium>=1.0,<2',
+            'gymnasium>=1.1,<2',
             'myst-parser>=4',
             'sphinx>=8.2,<9',
             'twine',
@@ -230,10 +235,10 @@ setup(
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
         # Environments for learning (`physsim_ros.gym`).
-        'gym': ['gymnasium>=1.0,<2'],
+        'gym': ['gymnasium>=1.1,<2'],
         'test': [
             # That of environments.
-            'gymnasium>=1.0,<2',
+            'gymnasium>=1.1,<2',
             # That of a class.
             'segno>=1.6,<2',
             # Runs sweeps in processes of a cluster.
