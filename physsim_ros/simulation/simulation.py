@@ -15,11 +15,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Integral
 
+import numpy as np
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import number, OfClass, shown, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
-from physsim_ros.model.requests import DriveRobot, Request, Restore
+from physsim_ros.model.requests import Command, DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
@@ -169,6 +170,18 @@ class Simulation(FrameMaker):
         message = self.requests.apply_now(request, gesture).message
         self.playback.changed = True
         return message
+
+    def place(self, name: str, x: float, y: float, yaw: float = 0.0) -> None:
+        """
+        Put a body at a pose in the world [m, m, rad], at rest unless it is anchored.
+
+        :raises UnknownBody: there is no such body
+        :raises Malformed: a number is not finite
+        """
+        rigid = self.at_shown_moment().cursor.world.space.bodies.by_name.get(name)
+        # An anchored body takes a pose only.
+        twists = np.zeros((0 if rigid is not None and rigid.body.anchored else 1, 3))
+        self.perform(Command(names=(name,), poses=np.array(((x, y, yaw),)), twists=twists))
 
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0 and without a past; `reset` returns to it."""
