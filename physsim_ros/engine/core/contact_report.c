@@ -151,15 +151,18 @@ static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) 
     if (arbiter->count > 0 && (pair->points == 0 || is_higher(normal, pair->highest))) {
         pair->highest = normal;
     }
+    Vec impulse = vec(0.0, 0.0);
     for (int number = 0; number < arbiter->count; number++) {
         const cpContact *point = arbiter->contacts + number;
-        Vec impulse = add(scaled(arbiter->n, point->jnAcc), scaled(perpendicular(arbiter->n), point->jtAcc));
         Vec place = add(add(arbiter->body_a->p, point->r1), add(arbiter->body_b->p, point->r2));
-        pair->impulse = add(pair->impulse, scaled(impulse, sign));
+        impulse = add(impulse, scaled(arbiter->n, point->jnAcc));
+        impulse = add(impulse, scaled(perpendicular(arbiter->n), point->jtAcc));
         pair->normals = add(pair->normals, normal);
         pair->places = add(pair->places, scaled(place, 0.5));
         pair->points++;
     }
+    double share = reported_share(body_of(arbiter->body_a), body_of(arbiter->body_b), impulse);
+    pair->impulse = add(pair->impulse, scaled(impulse, sign * share));
 }
 
 // Sensors, and kinematic bodies among themselves, overlap without points; Chipmunk lists them only here.

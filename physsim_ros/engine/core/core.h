@@ -202,6 +202,7 @@ typedef struct Part {
     int32_t kind;
     cpConstraint *constraint;
     cpVect total; // impulse on the second body of the joint in the last step, world axes; of a torque, the first number
+    cpVect closing; // impulse with which positions were closed in this sub-step, as Chipmunk would store it
 } Part;
 
 // A joint; its parts follow one another, and so do its rows.
