@@ -559,8 +559,6 @@ def test_a_picture_and_a_table_of_what_was_plotted_are_downloaded(sheet: Sheet) 
     sheet.page.mouse.click(*sheet.place(0.0, 0.5))
     sheet.press('Play')
     sheet.wait('physsim.time > 0.3')
-    # The panel is folded while time runs.
-    sheet.press('More')
     with sheet.page.expect_download() as table:
         sheet.press('Table (CSV)')
     head, *rows = Path(table.value.path()).read_text().splitlines()

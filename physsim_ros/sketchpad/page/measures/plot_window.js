@@ -5,6 +5,7 @@ import {choice, createElement, download, elementOf, iconButton, inRow, soon, tex
 import {drawChart, EVERY} from './chart.js';
 import {FORCES, QUANTITIES, tableOf} from './quantities.js';
 import {threeDigits} from '../rounding.js';
+import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
@@ -62,13 +63,10 @@ export class PlotWindow {
     this.element.hidden = false;
     this.#show(names);
     this.#record();
-    const {panel, room, selection, lessons} = this.app;
-    // The panel is folded beside it; on a small page there is no room for both.
-    panel.chosen = null;
-    if (!room.isRoomy) {
-      selection.select([]);
-      lessons.card.open = false;
-    }
+    const {room, selection, lessons} = this.app;
+    lessons.settle();
+    // On a small page there is no room for plot and panel.
+    if (!isRoomy()) selection.select([]);
     room.fit();
   }
 
