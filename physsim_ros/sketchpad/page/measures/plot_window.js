@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
 
-import {choice, createElement, download, elementOf, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
+import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
 import {FORCES, QUANTITIES, tableOf} from './quantities.js';
 import {threeDigits} from '../rounding.js';
@@ -56,10 +56,16 @@ export class PlotWindow {
       this.#record();
       this.#draw();
     });
+    const rest = inRow(this.#adder(), this.#summer(), textButton(t('Copy table'), () => this.#copyTable()));
+    rest.classList.add('rest');
+    const more = foldButton(t('Bodies, sum, table'), () => {
+      more.setAttribute('aria-expanded', String(!this.element.classList.toggle('folded')));
+    }, '');
+    more.setAttribute('aria-expanded', 'false');
+    this.element.classList.add('folded');
     this.element.replaceChildren(createElement('header', {},
-      inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')),
-        this.#adder(), this.#summer(), this.legend, textButton(t('Copy table'), () => this.#copyTable())),
-      iconButton(t('Close the plot'), 'close', () => this.close())), this.canvas, this.reading);
+      inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')), this.legend),
+      more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.canvas, this.reading);
     this.element.hidden = false;
     this.#show(names);
     this.#record();
