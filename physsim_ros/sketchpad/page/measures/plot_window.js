@@ -3,7 +3,7 @@
 
 import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
-import {FORCES, QUANTITIES, tableOf} from './quantities.js';
+import {QUANTITIES, tableOf} from './quantities.js';
 import {threeDigits} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
@@ -53,7 +53,6 @@ export class PlotWindow {
     const quantities = Object.entries(QUANTITIES).map(([key, {label}]) => /** @type {[string, string]} */ ([key, label]));
     const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => choice(label, quantities, this.axes[axis], (key) => {
       this.axes[axis] = key;
-      this.#record();
       this.#draw();
     });
     const rest = inRow(this.#adder(), this.#summer(), textButton(t('Copy table'), () => this.#copyTable()));
@@ -68,7 +67,6 @@ export class PlotWindow {
       more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.canvas, this.reading);
     this.element.hidden = false;
     this.#show(names);
-    this.#record();
     const {room, selection, lessons} = this.app;
     lessons.settle();
     // On a small page there is no room for plot and panel.
@@ -79,15 +77,8 @@ export class PlotWindow {
   close() {
     this.element.hidden = true;
     this.names = [];
-    this.app.records.recordsForces = false;
     this.app.records.want(this, []);
     this.app.room.fit();
-  }
-
-  /** Have forces recorded where an axis is one. */
-  #record() {
-    this.app.records.recordsForces = [this.axes.x, this.axes.y].some((key) => key in FORCES);
-    this.app.askForParts();
   }
 
   /** @returns {HTMLElement} the switch of the sum over the bodies, of what can be summed */
