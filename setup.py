@@ -104,6 +104,10 @@ def write_declarations(path: Path) -> None:
     ffi.emit_python_code(str(path))
 
 
+# Rerun, for recordings, and Arrow as recent as Rerun wants it: 650 MB.
+VIEWER = ['pyarrow', 'rerun-sdk>=0.41,<0.42']
+
+
 def _environment(name: str) -> list[str]:
     return shlex.split(os.environ.get(name, ''))
 
@@ -193,32 +197,40 @@ setup(
         # Calls the core; Pymunk needs it, too.
         'cffi>=1.17',
         'numpy>=2',
-        # Reads the images of maps; Rerun needs it, too. Earlier ones have known holes.
+        # Reads the images of maps. Earlier ones have known holes.
         'Pillow>=12.3',
-        # As recent as Rerun wants it.
-        'pyarrow',
         'pymunk>=7.3,<8',
         'PyYAML',
-        'rerun-sdk>=0.41,<0.42',
         # Serves the page; needs nothing itself. Earlier ones have known holes.
         'tornado>=6.5.10,<7',
     ],
     extras_require={
-        # ROS 2 Jazzy as wheels. Without fastrtps importing rclpy fails: it brings the only
-        # middleware there is.
+        # ROS 2 Jazzy as wheels, with the viewer. Without fastrtps importing rclpy fails: it brings
+        # the only middleware there is.
         'jazzy': [
             'ros-jazzy-common-interfaces',
             'ros-jazzy-rclpy[fastrtps]',
+            *VIEWER,
         ],
+        # Windows and recordings of Rerun. `Simulation`, `gym` and `sweeps` do without.
+        'viewer': VIEWER,
         # `make docs release`. 8.2 of sphinx brings the pages of modules.
-        'docs': ['furo', 'gymnasium>=1.0,<2', 'myst-parser>=4', 'sphinx>=8.2,<9', 'twine'],
+        'docs': [
+            # Writes the cheat sheet to print.
+            'fpdf2>=2.8,<3',
+            'furo',
+            'gymnasium>=1.1,<2',
+            'myst-parser>=4',
+            'sphinx>=8.2,<9',
+            'twine',
+        ],
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
         # Environments for learning (`physsim_ros.gym`).
-        'gym': ['gymnasium>=1.0,<2'],
+        'gym': ['gymnasium>=1.1,<2'],
         'test': [
             # That of environments.
-            'gymnasium>=1.0,<2',
+            'gymnasium>=1.1,<2',
             # That of a class.
             'segno>=1.6,<2',
             # Runs sweeps in processes of a cluster.

@@ -43,6 +43,14 @@ def test_the_page_names_all_names() -> None:
     assert sorted({*table, 'Request', 'Shape'}) == sorted(physsim_ros.__all__)
 
 
+def test_worlds_environments_and_sweeps_do_without_rerun() -> None:
+    pytest.importorskip('gymnasium')
+    lacking = "import sys\nsys.modules.update({'rerun': None, 'pyarrow': None})\n"
+    used = 'import physsim_ros.gym, physsim_ros.sweeps\nphyssim_ros.Simulation().run(0.1)\n'
+
+    assert run_python('-c', lacking + USE_ALL + used) == ''
+
+
 def test_the_package_imports_nothing_before_a_name_is_used() -> None:
     assert run_python('-c', 'import physsim_ros; dir(physsim_ros)' + IMPORTED) == 'IMPORTED []\n'
 

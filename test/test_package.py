@@ -137,16 +137,15 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
         'cffi',
         'numpy',
         'pillow',
-        'pyarrow',
         'pymunk',
         'pyyaml',
-        'rerun-sdk',
         'tornado',
     }
     assert set(always) == named
     assert '1.26.4' not in always['numpy']
     assert '8.0.0' not in always['pymunk']
-    assert extras == {f'extra == "{name}"' for name in ('class', 'docs', 'gym', 'jazzy', 'test')}
+    names = ('class', 'docs', 'gym', 'jazzy', 'test', 'viewer')
+    assert extras == {f'extra == "{name}"' for name in names}
 
 
 def test_pip_and_ros_are_told_the_same_version_and_licence(distribution):

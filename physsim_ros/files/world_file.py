@@ -15,6 +15,7 @@ from collections.abc import Collection
 from pathlib import Path
 import re
 
+from physsim_ros.files.foreign import advice_on, advice_on_xml
 from physsim_ros.files.map_file import with_map_walls
 from physsim_ros.files.regular_file import make_directory, read_file, write_file
 from physsim_ros.files.resources import files_by_name, is_plain, shipped, user_directory
@@ -24,6 +25,7 @@ from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_entries
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import (
+    BadProperty,
     BadWorldFile,
     Malformed,
     Refusal,
@@ -141,7 +143,11 @@ def load_world(
         raise _unreadable(path.name, error) from error
     try:
         settings = settings or WorldSettings()
+        if advice := advice_on_xml(text):
+            raise BadProperty(advice)
         content = load_entries(text, field=path.name)
+        if advice := advice_on(content):
+            raise BadProperty(advice)
         if 'map' in content:
             content = with_map_walls(content, path.parent, settings.max_bodies)
         return state_from(content, settings, physics_rate, parameters)

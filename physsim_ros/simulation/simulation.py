@@ -127,10 +127,10 @@ class Simulation(FrameMaker):
         :raises Refusal: it is out of range
         """
         length = self.past.steps_of('history', seconds)
-        self.playback.seek_shown()
+        past = self.at_shown_moment()
         # The times of a paused world are told anew.
         self.playback.changed = True
-        if not self.past.cursor.keep_within(length):
+        if not past.cursor.keep_within(length):
             self.playback.note_jump()
             self.requests.report_oldest()
 
@@ -164,7 +164,7 @@ class Simulation(FrameMaker):
         :raises Refusal: and nothing is changed
         """
         OfClass(Request)(request, 'request')
-        self.requests.apply_waiting()
+        self.at_shown_moment()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
         message = self.requests.apply_now(request, gesture).message
         self.playback.changed = True
@@ -194,8 +194,7 @@ class Simulation(FrameMaker):
         to its next impact: the engine solves contacts in the order in which it found them, which
         is not in a state.
         """
-        self.requests.apply_waiting()
-        return self.world.save()
+        return self.at_shown_moment().cursor.world.save()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """
@@ -221,13 +220,13 @@ class Simulation(FrameMaker):
 
         :raises InPast: the past is shown
         """
-        self.requests.apply_waiting()
+        past = self.at_shown_moment()
         if self.frame.past:
             raise InPast('the past is shown; go to its end first', field='history')
         self.requests.hands.clear()
         self.requests.release_grips()
         frame = self.frame
-        checkpoint = self.past.cursor.add_keyframe()
+        checkpoint = past.cursor.add_keyframe()
         return SavedMoment(
             checkpoint=checkpoint,
             loaded=self.loaded,
@@ -256,10 +255,10 @@ class Simulation(FrameMaker):
         :param seed: of all noise from then on; None is that of the state
         :raises BadProperty: the seed is out of range
         """
-        with self._jump():
+        with self._jump() as past:
             self.requests.hands.clear()
             self.stop_driving()
-            done = self.past.reset(seed)
+            done = past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
     def undo(self) -> str:
@@ -268,8 +267,8 @@ class Simulation(FrameMaker):
 
         :raises OutOfHistory: there is none that is kept
         """
-        with self._jump():
-            undone = self.past.undo()
+        with self._jump() as past:
+            undone = past.undo()
         return f'undid {undone}, back at {self.playback.time}'
 
     def redo(self) -> str:
@@ -278,8 +277,8 @@ class Simulation(FrameMaker):
 
         :raises OutOfHistory: nothing was undone, or a request was applied since
         """
-        with self._jump():
-            redone = self.past.redo()
+        with self._jump() as past:
+            redone = past.redo()
         return f'redid {redone}, at {self.playback.time}'
 
     def return_to_course(self, number: int) -> str:
@@ -289,8 +288,8 @@ class Simulation(FrameMaker):
         :param number: of the course
         :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
-        with self._jump():
-            if self.past.return_to_course(number):
+        with self._jump() as past:
+            if past.return_to_course(number):
                 self.requests.hands.clear()
         return f'on course {number}, at {self.playback.time}'
 
@@ -310,10 +309,9 @@ class Simulation(FrameMaker):
         return self.requests.seek(stamp)
 
     @contextmanager
-    def _jump(self) -> Iterator[None]:
+    def _jump(self) -> Iterator[Past]:
         """Have the block move the cursor, from the moment that is shown after all requests."""
-        self.requests.apply_waiting()
+        past = self.at_shown_moment()
         self.playback.frames_due = 0
-        self.playback.seek_shown()
-        yield
+        yield past
         self.playback.note_jump()

@@ -245,6 +245,7 @@ class Sketchpad:
                 'type': 'welcome',
                 'client': str(number),
                 'person': opened.key,
+                'received': opened.received,
                 'version': VERSION,
                 'physics_rate': simulation.physics_rate,
                 'frame_id': self._world.values['frame_id'],

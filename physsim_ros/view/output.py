@@ -151,9 +151,10 @@ class Output:
                 try:
                     self._log()
                     self._endpoint.complete()
-                except (ConnectionError, ImportError) as error:
-                    # Rerun may be missing, or be of another version.
+                except ConnectionError as error:
                     self._fail(str(error))
+                except ImportError as error:
+                    self._fail(_lacking(error))
                 if not self._endpoint.reopens or self._ending.wait(RETRY_PERIOD):
                     break
         except BaseException as error:  # noqa: BLE001 - a panic of Rerun (0.41) is no Exception
@@ -227,3 +228,10 @@ class Output:
         if not known:
             self._report(self._endpoint.lost_answer(reason))
         self._tried.set()
+
+
+def _lacking(error: ImportError) -> str:
+    """Return the reason why Rerun is not imported: it is missing, or of another version."""
+    if not isinstance(error, ModuleNotFoundError):
+        return str(error)
+    return f'{error.name} is not installed: install physsim_ros with its extra [viewer]'

@@ -150,7 +150,7 @@ class Tally:
 
 
 # Without these faults, all samples of a stroke were meant.
-_ALL_DRAWN = ('', 'a finger on a tablet', 'few samples', 'simplified')
+_ALL_DRAWN = ('', 'a finger on a tablet', 'a finger on a busy page', 'few samples', 'simplified')
 _CORNERED = {
     'rectangle': 'closed',
     'polygon': 'closed',

@@ -176,6 +176,7 @@ def _drawn_wrong(
         size=where[1],
         place=tuple(where[0].tolist()),
         first_step=person.first_step,
+        batch=person.batch,
         dropped=person.dropped,
         simplified=person.simplified,
     )

@@ -27,6 +27,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.parameters import NodeSettings, Spec, SPECS
 from physsim_ros.sketchpad.message import KINDS, Optional
 from physsim_ros.sketchpad.rights import Right
+from tools.tables import cheat_sheet
 
 ROOT = Path(__file__).parents[2]
 # Columns of a comment in YAML.
@@ -65,6 +66,7 @@ def files() -> dict[Path, str]:
         },
         'interface/parameters': {'parameters': _parameters()},
         'page_protocol': {'messages of a page': _page_messages()},
+        'cheat_sheet': {'keys of the page': cheat_sheet.tables()},
     }
     pages = {ROOT / 'docs' / f'{name}.md': parts for name, parts in tables.items()}
     types = ROOT / 'physsim_ros' / 'testing' / 'parameters.py'

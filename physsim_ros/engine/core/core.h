@@ -213,11 +213,12 @@ typedef struct Joint {
     double most;        // impulse in a step beyond which it breaks [N s, N m s]
     uint8_t has_axis;   // the direction from its first to its second point is an axis of the second body
     uint8_t presses;    // its first part may push the bodies apart
-    uint8_t unstepped;  // its first step is to come
+    uint8_t unstepped;  // its first step is to come, or it is being drawn together since it was made
     uint8_t broken;     // in the last step
     int32_t a, b;       // places of its bodies in the table
     int32_t first_part, part_count;
     int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring without damping
+    double apart; // of an unstepped one: how far its rows were out of their bounds before the step [m, rad]
 } Joint;
 
 // Functions of Chipmunk, from Pymunk's own library.

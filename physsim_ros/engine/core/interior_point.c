@@ -57,8 +57,7 @@ static Interior begin(const System *system, const Problem *problem, double *impu
     at.steps = TAKE(arena, double, count);
     for (int row = 0; row < count; row++) {
         Ends ends = system->ends[row];
-        double own =
-            inverse_effective_mass(problem->jacobians[row], system->inverses[ends.a], system->inverses[ends.b]);
+        double own = softness_unit(problem->jacobians[row], system->inverses[ends.a], system->inverses[ends.b]);
         at.own[row] = is_open(problem, row) ? own : 0.0;
         if (at.own[row] > 0.0) {
             at.most_wanted = greatest(at.most_wanted, fabs(problem->wanted[row]));

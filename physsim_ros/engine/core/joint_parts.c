@@ -9,6 +9,12 @@
 
 // Length of the arm with which a pin pulls a slider across its line [m]; any will do.
 static const double across_arm = 1.0;
+// An unstepped joint has come together where its rows are no more than this out of their bounds [m, rad]: ten times the
+// slop of limits.
+static const double drawn_apart = 1e-3;
+// The least speed at which it is drawn together [m/s, rad/s], a quarter of the greatest (`joint_positions.c`): a joint
+// that comes nearer more slowly is held apart by others.
+static const double drawn_least = 5.0;
 
 double *impulse_at(const Part *part, int component) {
     switch (part->kind) {
@@ -170,6 +176,33 @@ void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8
     }
 }
 
+// How far the row of a joint that is furthest out of its bounds is out of them [m, rad].
+static double apart_by(const World *world, const Joint *joint) {
+    Pose a = pose_of(world->bodies[joint->a].engine), b = pose_of(world->bodies[joint->b].engine);
+    Anchors anchors = anchors_at(joint, a, b);
+    Jacobian jacobian;
+    double most = 0.0;
+    for (const Row *row = world->rows + joint->first_row, *end = row + joint->row_count; row < end; row++) {
+        double x = row_at(row, joint, &anchors, a, b, &jacobian);
+        bool holds = row->kind != ROW_SPRING;
+        most = greatest(most, holds ? greatest(x - row->upper, row->lower - x) : 0.0);
+    }
+    return most;
+}
+
+void find_gaps(World *world) {
+    for (int number = 0; number < world->joint_count; number++) {
+        Joint *joint = world->joints + number;
+        joint->apart = joint->unstepped ? apart_by(world, joint) : 0.0;
+    }
+}
+
+// Whether an unstepped joint has come nearer in the step, and is still apart.
+static bool is_drawn(const World *world, const Joint *joint) {
+    double apart = apart_by(world, joint);
+    return apart > drawn_apart && joint->apart - apart > drawn_least * SUB_STEPS * world->dt;
+}
+
 void find_broken(World *world) {
     world->has_broken = false;
     for (int number = 0; number < world->joint_count; number++) {
@@ -177,7 +210,7 @@ void find_broken(World *world) {
         // The first step of a joint takes back the half-step lead of a body that was in free flight: that impulse is no
         // load.
         joint->broken = !joint->unstepped && joint->most < INFINITY && greatest_impulse(world, joint) > joint->most;
-        joint->unstepped = false;
+        joint->unstepped = joint->unstepped && is_drawn(world, joint);
         world->has_broken = world->has_broken || joint->broken;
     }
 }

@@ -215,6 +215,36 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
     }
 }
 
+// Have momenta turn with the rows along which joints that were just made or changed were drawn together.
+//
+// A displacement is a motion, whose impulse λ / dt begins along J and ends along J + dt dJ/dt, so that momenta change
+// by
+// -(dJ/dt)ᵀ λ. A ball on a rope that is shortened keeps its angular momentum by this, and the rope does work. Between
+// joints that contradict each other λ is of any size, and would give energy.
+static void turn_momenta(Solve *solve, const Displacement *move, const double *impulses) {
+    const Island *island = solve->island;
+    Jacobian *now = TAKE(solve->arena, Jacobian, island->row_count);
+    Jacobian *later = TAKE(solve->arena, Jacobian, island->row_count);
+    Pose *ahead = TAKE(solve->arena, Pose, island->body_count);
+    Twist *changes = TAKE(solve->arena, Twist, island->body_count);
+    for (int body = 0; body < island->body_count; body++) {
+        ahead[body] = moved(solve->poses[body], solve->velocities[body], solve->dt);
+    }
+    read_rows(island, ahead, move->excess, later);
+    read_rows(island, solve->poses, move->excess, now);
+    for (int row = 0; row < island->joint_row_count; row++) {
+        bool drawn = island->joints[island->joint_of_row[row]]->unstepped;
+        double impulse = drawn ? impulses[row] / solve->dt : 0.0;
+        add_momenta(now[row], island->ends[row], impulse, changes);
+        add_momenta(later[row], island->ends[row], -impulse, changes);
+    }
+    for (int body = 0; body < island->body_count; body++) {
+        changes[body].v = scaled(changes[body].v, island->inverses[body].mass);
+        changes[body].w *= island->inverses[body].moment;
+    }
+    change_velocities(solve, changes, 1.0);
+}
+
 void solve_positions(Solve *solve) {
     const Island *island = solve->island;
     size_t mark = arena_mark(solve->arena);
@@ -246,6 +276,7 @@ void solve_positions(Solve *solve) {
     }
     if (moved) {
         memcpy(solve->poses, best.poses, (size_t)island->body_count * sizeof(Pose));
+        turn_momenta(solve, &move, best.impulses);
         remove_velocity(solve, &move, best.impulses);
     }
     arena_release(solve->arena, mark);

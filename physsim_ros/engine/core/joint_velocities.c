@@ -50,7 +50,7 @@ static double softness_of(const Solve *solve, int row) {
     }
     Ends ends = solve->island->ends[row];
     const Inverse *inverses = solve->island->inverses;
-    double own = inverse_effective_mass(solve->jacobians[row], inverses[ends.a], inverses[ends.b]);
+    double own = softness_unit(solve->jacobians[row], inverses[ends.a], inverses[ends.b]);
     return 1.0 / (solve->dt * of_joint->damping * own);
 }
 

@@ -24,7 +24,7 @@ static void factor(System *system, const Problem *problem, const int8_t *sides) 
     for (int row = 0; row < system->row_count; row++) {
         Jacobian used = sides[row] == 0 ? problem->jacobians[row] : (Jacobian){0};
         Ends ends = system->ends[row];
-        double own = inverse_effective_mass(used, system->inverses[ends.a], system->inverses[ends.b]);
+        double own = softness_unit(used, system->inverses[ends.a], system->inverses[ends.b]);
         set_row(system, row, used, own > 0.0 ? problem->softness[row] * own : 1.0);
     }
     ldl_factor(&system->factors);
@@ -98,7 +98,7 @@ void refine(System *system, const Problem *problem, Solution *solution, Arena *a
         left[row] = problem->wanted[row] - rate(problem->jacobians[row], ends, solution->changes);
         if (problem->springs != NULL && problem->springs[row]) {
             const Inverse *inverses = system->inverses;
-            double own = inverse_effective_mass(problem->jacobians[row], inverses[ends.a], inverses[ends.b]);
+            double own = softness_unit(problem->jacobians[row], inverses[ends.a], inverses[ends.b]);
             left[row] -= problem->softness[row] * own * solution->impulses[row];
         }
     }

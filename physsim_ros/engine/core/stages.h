@@ -51,6 +51,7 @@ void solve_joints(World *world);
 // The impulses of impacts, from which the next step does not start (`impact_loads.c`).
 void take_out_impacts(World *world);
 void begin_totals(World *world);
+void find_gaps(World *world);
 void add_totals(World *world);
 void find_broken(World *world);
 

@@ -91,6 +91,7 @@ int32_t core_step(World *world, int32_t count) {
         arena_reset(&world->own->arena);
         damp_resting(world);
         begin_totals(world);
+        find_gaps(world);
         move_actors(world);
         world->frame_steps += world->reports_contacts;
         for (world->own->sub_step = 0; world->own->sub_step < SUB_STEPS; world->own->sub_step++) {

@@ -85,7 +85,7 @@ class Start(Checked):
     by: Annotated[
         str | None,
         _name,
-        'name of that other body; by default any that is neither anchored nor a sensor',
+        'name of that other body; by default, any body that is neither anchored nor a sensor',
     ] = None
     near: Annotated[
         str | None,
@@ -98,7 +98,7 @@ class Start(Checked):
     time: Annotated[
         float | None,
         Within(0.0, LONGEST, 's'),
-        'time to wait after that, or after the actor was spawned',
+        'delay after that condition, or after the actor was spawned',
     ] = None
 
     def __post_init__(self) -> None:
@@ -170,10 +170,10 @@ class Path(Actor):
     times: Annotated[
         tuple[float, ...] | None,
         _times,
-        'of the points, since it started [s], increasing; of a `loop` one more, of its first '
-        'point',
+        'times of the points since the start [s], increasing; a `loop` has one more, for its '
+        'first point',
     ] = None
-    speed: Annotated[float | None, PACE, 'between all points; excludes `times`'] = None
+    speed: Annotated[float | None, PACE, 'between all points; not together with `times`'] = None
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)

@@ -114,13 +114,26 @@ export class App {
       if (Object.keys(this.material).length && !this.viewOnly) this.connection.send('draw_with', this.material);
       this.askForParts();
     });
-    connection.on('open', () => {
+    let away = false; // without a socket
+    const isBack = () => {
+      away = false;
       if (!gone.hidden) this.notes.showMessage(t('Connected again'));
       gone.hidden = true;
+    };
+    connection.on('open', isBack);
+    connection.on('heard', isBack);
+    connection.on('silent', () => {
+      gone.hidden = false;
+      gone.textContent = t('The server does not answer. What you draw is sent when it does.');
+    });
+    connection.on('again', ({sent, lost}) => {
+      if (lost) this.notes.showMessage(t('Connected again. Of what you did meanwhile, {count} may be lost.', {count: lost}), {ok: false});
+      else if (sent) this.notes.showMessage(t('Connected again. What you did meanwhile is sent now.'));
     });
     connection.on('closed', (status) => {
-      // At the first failure only: a stroke that begins later is drawn to its end.
-      if (gone.hidden) this.tool.cancel?.();
+      // The server forgets the gestures that it knows of; a stroke is drawn to its end.
+      if (!away && this.tool.atServer) this.tool.cancel?.();
+      away = true;
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
         t('Wrong token: open the address that the node printed.') :

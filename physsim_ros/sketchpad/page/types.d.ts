@@ -280,8 +280,13 @@ export interface Tool {
   open?: boolean;
   /** Finish an open gesture; false where there is none. */
   finish?(): boolean;
+  /** Whether the server knows of its unfinished gesture. */
+  atServer?: boolean;
   /** Whether it tells how fast a body is. */
   measures?: boolean;
   /** Colour of the body that it is pointed at. */
   aims?: 'accent' | 'warn';
 }
+
+/** What a pointer works: a tool, or a handle. */
+export type Worked = Pick<Tool, 'down' | 'move' | 'up' | 'cancel' | 'clicks'>;

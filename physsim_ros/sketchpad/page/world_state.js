@@ -207,11 +207,14 @@ export class WorldState {
     return rotated([x - frame.x[row], y - frame.y[row]], -frame.yaw[row]);
   }
 
-  /** @returns {Bounds} of what a lesson shows first, with all that moves; of the world, or of its bodies */
+  /** @returns {Bounds} of all bodies that are kept in sight; infinite where there are none */
+  bodiesExtent() {
+    return unionOf(this.#keptInSight);
+  }
+
+  /** @returns {Bounds} of what a lesson shows first; of the world, or of its bodies */
   extent() {
-    const {bounds, lesson} = this.scene, view = lesson?.view;
-    if (bounds.length && !view) return bounds;
-    const box = unionOf([...view ? [view] : [], ...this.#keptInSight]);
+    const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.bodiesExtent());
     return box.every(Number.isFinite) ? box : [-6, -1, 6, 6];
   }
 }

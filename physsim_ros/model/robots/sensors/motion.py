@@ -21,7 +21,7 @@ _MOST_PIXELS = 1000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Imu(Sensor):
-    """An inertial measurement unit: turn rate, and acceleration as felt at `at`."""
+    """An inertial measurement unit: turn rate, and proper acceleration at `at`."""
 
     KIND: ClassVar = 'imu'
 

@@ -5,7 +5,7 @@ import {TOOLS} from '../tools/tools.js';
 import {showHelp} from '../ui/help.js';
 import {ARROWS} from '../ui/toolbar.js';
 
-/** @import {App, Point, SceneView, Touch} from '../types.js' */
+/** @import {App, Point, SceneView, Touch, Worked} from '../types.js' */
 
 const TURN = Math.PI / 12; // rad a press of R
 const ZOOM = 1.25;
@@ -31,7 +31,7 @@ export class Keyboard {
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
     this.keys = {
-      '?': () => showHelp(app), f: () => app.room.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      '?': () => showHelp(app), f: () => app.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
@@ -127,7 +127,8 @@ export class Cursor {
     this.app = app;
     this.x = this.y = -1; // px
     this.shown = false;
-    this.pressed = false;
+    /** @type {?Worked} what it presses */
+    this.pressed = null;
     app.view.overlays.push((view) => this.#draw(view));
   }
 
@@ -145,8 +146,9 @@ export class Cursor {
   }
 
   hide() {
-    if (this.pressed) this.app.pointers.worked.cancel?.();
-    this.shown = this.pressed = false;
+    this.pressed?.cancel?.();
+    this.shown = false;
+    this.pressed = null;
   }
 
   /**
@@ -161,7 +163,7 @@ export class Cursor {
     this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
     this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
     const {app: {pointers, tool}, touch} = this;
-    (this.pressed ? pointers.worked : tool).move?.(touch);
+    (this.pressed ?? tool).move?.(touch);
     if (!this.pressed) pointers.point(touch);
   }
 
@@ -172,10 +174,9 @@ export class Cursor {
       this.move(0, 0, false);
       return;
     }
-    const lifts = this.pressed;
-    if (!lifts) pointers.press(this.touch);
-    this.pressed = !lifts && !pointers.worked.clicks;
-    if (!this.pressed) pointers.lift(this.touch);
+    const lifts = this.pressed !== null, worked = this.pressed ?? pointers.press(this.touch);
+    this.pressed = lifts || worked.clicks ? null : worked;
+    if (!this.pressed) pointers.lift(worked, this.touch);
   }
 
   /** @param {SceneView} view */

@@ -99,7 +99,7 @@ export class TopBar {
         app.selection.select([]);
         app.panel.show('world');
       }, t('Material of new bodies; gravity')),
-      iconButton(t('Frame the world'), 'fit', () => app.room.frame(), t('Frame the world (F)')), zoom,
+      iconButton(t('Frame the world'), 'fit', () => app.room.frameAll(), t('Frame the world (F)')), zoom,
       iconButton(t('Light or dark'), 'theme', switchTheme),
       iconButton(t('Help'), 'help', () => showHelp(app), t('Help: keys and gestures (?)')));
     elementOf('looks').after(this.recording);

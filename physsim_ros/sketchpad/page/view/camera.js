@@ -5,7 +5,7 @@ import {roundUp} from '../rounding.js';
 
 /** @import {Bounds, Point} from '../types.js' */
 
-const LEAST_SCALE = 0.5, GREATEST_SCALE = 5000; // px/m
+const LEAST_SCALE = 1e-5, GREATEST_SCALE = 5000; // px/m; bodies are at most 1e7 m from the origin
 const LEAST_STEP = 70; // px between labelled lines of the grid
 const LEAST_SPAN = 3; // m; nothing smaller fills the page at first
 

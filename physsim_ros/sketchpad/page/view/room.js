@@ -54,10 +54,19 @@ export class Room {
     return {left, top, right: innerWidth - right, bottom: innerHeight - bottom};
   }
 
-  /** Frame the world as it is now. */
-  frame() {
+  /** Frame the bounds of the world, and every body: it may have been dragged beyond them. */
+  frameAll() {
+    const {world} = this.app;
+    this.frame(unionOf([world.extent(), world.bodiesExtent()]));
+  }
+
+  /**
+   * Frame a part of the world.
+   * @param {Bounds} extent
+   */
+  frame(extent = this.app.world.extent()) {
     const {app} = this;
-    this.extent = app.world.extent();
+    this.extent = extent;
     this.framed = app.camera.fitted = true;
     this.bounds = String(app.world.scene.bounds);
     this.#arrange();
