@@ -35,7 +35,7 @@ def rectangle(value: object, name: str) -> Bounds:
     Return the bounds of a rectangle [m].
 
     :raises Malformed: a number is not finite, or there are more or fewer than four
-    :raises BadProperty: it is no list of numbers, one is out of range, or a min is not below its max
+    :raises BadProperty: it is no list of numbers, one is out of range, or a min not below its max
     """
     left, bottom, right, top = Row((Within(-LARGEST, LARGEST, 'm'),) * 4)(value, name)
     if not (left < right and bottom < top):

@@ -54,7 +54,11 @@ def motion_of(name: str) -> Box:
     """Return the box of all places of the bodies that move, and of what holds them."""
     film = Film(simulation(name), SEEN[name][0])
     scene = film.frames[0].scene
-    points = [np.array([(seat.bx, seat.by) for seat in (joint.seat for joint in state_of(name).joints)]).reshape(-1, 2)]
+    points = [
+        np.array(
+            [(seat.bx, seat.by) for seat in (joint.seat for joint in state_of(name).joints)]
+        ).reshape(-1, 2)
+    ]
     for body in scene.bodies:
         if body.anchored:
             continue
@@ -87,9 +91,7 @@ def address(outside: Outside) -> Any:
 def sheet(chromium: Any, address: str, request: pytest.FixtureRequest) -> Iterator[Sheet]:
     """Give a test a page of a size."""
     width, height = request.param
-    sheet = Sheet(
-        chromium, address, unfolded=False, viewport={'width': width, 'height': height}
-    )
+    sheet = Sheet(chromium, address, unfolded=False, viewport={'width': width, 'height': height})
     sheet.wait('heard.people && Object.keys(physsim.bodies).length > 0')
     yield sheet
     sheet.close()

@@ -19,6 +19,7 @@ SIZES = [(1280, 800), (390, 844), (844, 390), (768, 1024), (640, 400), (1366, 65
 # View of the lesson [m].
 BOUNDS = -4.1, 0.0, 4.3, 5.2
 FOLD = "document.querySelector('#lesson .fold').click()"
+UNFOLD = "document.querySelector('#lesson.folded .fold')?.click()"
 # Boxes of what is shown beside the world [px].
 PANELS = """() => [...document.querySelectorAll(
     '#tools, #top > .bar, #bar, #lesson, #panel, #plot')]
@@ -122,7 +123,7 @@ def test_the_plot_stands_beside_the_world(sheet: Sheet) -> None:
 
 
 def test_a_moved_view_stays_where_a_panel_opens_and_closes(sheet: Sheet) -> None:
-    sheet.page.keyboard.press('+')
+    sheet.page.keyboard.press('-')
     before = sheet.place(0.0, 0.0)
     sheet.press('Show forces')
     sheet.press('Show forces')
@@ -201,7 +202,7 @@ def test_a_note_without_a_place_leaves_the_floor_in_sight(sheet: Sheet) -> None:
     }""")
     box = note.bounding_box()
     assert box['y'] + box['height'] < sheet.place(0.0, 0.5)[1]
-    assert sheet.page.locator('#top').bounding_box()['y'] < box['y']
+    assert sheet.page.locator('#files').bounding_box()['y'] < box['y']
 
 
 @pytest.mark.parametrize('size', SIZES[:1])
@@ -266,11 +267,11 @@ def test_a_telephone_shows_the_lesson_or_the_panel(
     sheet = Sheet(chromium, program[1], viewport={'width': size[0], 'height': size[1]})
     sheet.begin(2)
     measure = sheet.page.get_by_text('To measure:')
-    sheet.page.evaluate(FOLD)
+    sheet.page.evaluate(UNFOLD)
     measure.wait_for()
     select(sheet)
     measure.wait_for(state='hidden')
-    sheet.page.evaluate(FOLD)
+    sheet.page.evaluate(UNFOLD)
     measure.wait_for()
     sheet.page.get_by_role('heading', name='Ice').wait_for(state='hidden')
     check(sheet)

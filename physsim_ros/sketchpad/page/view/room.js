@@ -28,7 +28,7 @@ export class Room {
     this.app = app;
     this.element = elementOf('room');
     this.framed = false;
-    this.bounds = ''; // of the world that was framed; a world with other bounds is framed again
+    this.world = ''; // bounds of the world that was framed, and its view; a world with others is framed again
     /** @type {Bounds} that was framed */
     this.extent = [0, 0, 0, 0];
     this.late = false; // whether the world is framed when the gesture ends
@@ -38,9 +38,14 @@ export class Room {
     new ResizeObserver(() => this.fit()).observe(app.view.canvas);
     new ResizeObserver(() => this.#follow()).observe(this.element);
     app.connection.on('frame', () => {
-      const {frame, scene} = app.world, others = String(scene.bounds) !== this.bounds;
+      const {frame, scene} = app.world, others = this.#worldNow !== this.world;
       if (frame.epoch === scene.epoch && (!this.framed || others && app.camera.fitted)) this.frame();
     });
+  }
+
+  get #worldNow() {
+    const {bounds, lesson} = this.app.world.scene;
+    return `${bounds} ${lesson?.view ?? ''}`;
   }
 
   get #isInGesture() {
@@ -68,7 +73,7 @@ export class Room {
     const {app} = this;
     this.extent = extent;
     this.framed = app.camera.fitted = true;
-    this.bounds = String(app.world.scene.bounds);
+    this.world = this.#worldNow;
     this.#arrange();
   }
 
