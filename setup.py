@@ -13,6 +13,7 @@ import shlex
 import sys
 
 from cffi import FFI
+import setuptools
 from setuptools import Extension, find_packages, setup
 from setuptools.command.build_ext import build_ext
 
@@ -104,6 +105,7 @@ def write_declarations(path: Path) -> None:
     ffi.emit_python_code(str(path))
 
 
+SETUPTOOLS = int(setuptools.__version__.partition('.')[0])
 # Rerun, for recordings, and Arrow as recent as Rerun wants it: 650 MB.
 VIEWER = ['pyarrow', 'rerun-sdk>=0.41,<0.42']
 
@@ -132,7 +134,9 @@ setup(
     author_email=EMAIL,
     maintainer=AUTHOR,
     maintainer_email=EMAIL,
-    license='Apache-2.0',
+    # PEP 639, since setuptools 77; that of Ubuntu 24.04 is older.
+    **{'license' if SETUPTOOLS < 77 else 'license_expression': 'Apache-2.0'},
+    license_files=['LICENSE', 'NOTICE'],
     url=HOME or None,
     project_urls={
         'Source': HOME,
@@ -144,6 +148,7 @@ setup(
     else {},
     keywords=['ROS 2', 'robotics', 'physics', 'simulation', 'pytest', 'Pymunk', 'Rerun'],
     classifiers=[
+        'Development Status :: 4 - Beta',
         'Framework :: Pytest',
         'Intended Audience :: Developers',
         'Intended Audience :: Education',

@@ -18,7 +18,9 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
-from tools.tables.cheat_sheet import write_pdf  # noqa: E402 - found by the line above
+# Both are found by the line above.
+from tools.tables.cheat_sheet import write_pdf  # noqa: E402
+from tools.tables.search_words import with_entries  # noqa: E402
 
 project = 'physsim_ros'
 author = 'physsim_ros maintainers'
@@ -79,7 +81,8 @@ MOVED = {
 
 
 def amend_source(_app: object, name: str, source: list[str]) -> None:
-    """Put README on the first page, and keep modules out of the table of contents."""
+    """Put README on the first page, modules out of the contents, and words into the index."""
+    source[0] = with_entries(name, source[0])
     if name == 'index':
         readme = (ROOT / 'README.md').read_text(encoding='utf-8')
         for old, new in MOVED.items():

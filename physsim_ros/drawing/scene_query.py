@@ -71,6 +71,20 @@ class SceneQuery:
         motors = (each for each in self.joints if each.kind is JointKind.MOTOR)
         return next((each.name for each in motors if {each.a, each.b} == {a, b}), None)
 
+    def pivot(self, axle: Joint) -> Point:
+        """Return the place of an axle [m]."""
+        return self.in_world(axle.a, (axle.seat.ax, axle.seat.ay))
+
+    def axles_at(self, point: Point, slack: float) -> list[Joint]:
+        """
+        Return the axles at a point.
+
+        :param point: in the world [m]
+        :param slack: the greatest distance of an axle from it [m]
+        """
+        axles = (each for each in self.joints if each.kind is JointKind.AXLE)
+        return [each for each in axles if math.dist(self.pivot(each), point) <= slack]
+
     def body(self, name: str) -> Body:
         """Return the description of a body."""
         return self.snapshot.scene.bodies[self._rows[name]]

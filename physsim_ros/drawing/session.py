@@ -28,7 +28,13 @@ from physsim_ros.drawing.strokes.figure import (
     MOST_STROKES,
 )
 from physsim_ros.drawing.strokes.meanings import Outcome
-from physsim_ros.drawing.strokes.reading import Guess, not_recognised, Reading, reading_of
+from physsim_ros.drawing.strokes.reading import (
+    Guess,
+    not_recognised,
+    Reading,
+    reading_of,
+    recognise_form,
+)
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.tools import Gesture
 from physsim_ros.model.arrays import Floats
@@ -126,6 +132,7 @@ class DrawingSession:
         drawn = resample_stroke(placed)
         figure = Figure.read(
             drawn,
+            recognise_form(drawn),
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
@@ -175,7 +182,7 @@ class DrawingSession:
         """
         figure.chosen = number
         reading = reading_of(figure.guesses, number, amends=figure.gestures)
-        requests = requests_with_waiting_joints(reading.requests, figure.scene)
+        requests = requests_with_waiting_joints(reading.requests, figure.scene, self.settings.snap)
         figure.requests = requests
         return replace(reading, requests=requests)
 

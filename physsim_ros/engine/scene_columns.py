@@ -148,8 +148,7 @@ def _mark_sprung(records: Table, joints: Sequence[Joint], rows: dict[str, int]) 
     """
     Mark bodies that springs pull, and islands that hang on a spring.
 
-    The velocity of an island of joints that hangs on a spring, and on something that forces do not
-    move, has no half-step lead.
+    An island of joints that hangs by a spring from something fixed has no half-step lead.
     """
     island = list(range(len(records)))
 

@@ -71,7 +71,7 @@ class Space:
         self.changes = 0
         self._age = 0
         self._table: BodyTable | None = None
-        # Place of the background in the table before; -1 if its contacts are over.
+        # Row of the background in the last table; -1 if there was none.
         self._background = -1
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
@@ -170,6 +170,8 @@ class Space:
                 self.set_twist(old, twist)
             return
         rigid = rigid_body.build(body, old.serial)
+        # What it touches it does not touch anew.
+        rigid.row = old.row
         pose = self.joints.with_turns(old, pose)
         touching = self.bodies.touching(old.pm_body)
         self.joints.detach(body.name)
@@ -371,7 +373,6 @@ class Space:
         background = self.pm_space.static_body
         touching = self.bodies.touching(background)
         self.boundary.rebuild(self._settings)
-        self._background = -1
         self._release(touching)
 
     def _is_free(self, rigid: RigidBody) -> bool:

@@ -93,6 +93,11 @@ class NodeControl:
         return self._files.directory
 
     @property
+    def lesson_dir(self) -> Path:
+        """Return the directory of the user's lessons."""
+        return self._files.lessons
+
+    @property
     def drawing_settings(self) -> DrawingSettings:
         """Return the settings of drawing."""
         return parameters.drawing_settings(self.values)
@@ -144,10 +149,21 @@ class NodeControl:
 
         :raises PhysSimError: it is refused
         """
+        return self._perform_with(world, self.services[service].perform)
+
+    def open_world(self, world: str) -> str:
+        """
+        Begin with the world of a name, at time 0; undo reverts it.
+
+        :raises PhysSimError: it is refused, and nothing has changed
+        """
+        return self._perform_with(world, self._files.open_world)
+
+    def _perform_with(self, world: str, action: Callable[[], str]) -> str:
         before = self.values['world_file']
         self.set_parameter('world_file', world)
         try:
-            return self.services[service].perform()
+            return action()
         except Exception:
             self.set_parameter('world_file', before)
             raise

@@ -15,18 +15,19 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Integral
 
+import numpy as np
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import number, OfClass, shown, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
-from physsim_ros.model.requests import DriveRobot, Request, Restore
+from physsim_ros.model.requests import Command, DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
-from physsim_ros.simulation.world import forces_now
+from physsim_ros.simulation.world import forces_now, loaded
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -170,6 +171,18 @@ class Simulation(FrameMaker):
         self.playback.changed = True
         return message
 
+    def place(self, name: str, x: float, y: float, yaw: float = 0.0) -> None:
+        """
+        Put a body at a pose in the world [m, m, rad], at rest unless it is anchored.
+
+        :raises UnknownBody: there is no such body
+        :raises Malformed: a number is not finite
+        """
+        rigid = self.at_shown_moment().cursor.world.space.bodies.by_name.get(name)
+        # An anchored body takes a pose only.
+        twists = np.zeros((0 if rigid is not None and rigid.body.anchored else 1, 3))
+        self.perform(Command(names=(name,), poses=np.array(((x, y, yaw),)), twists=twists))
+
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0 and without a past; `reset` returns to it."""
         self.past.begin(state)
@@ -260,6 +273,18 @@ class Simulation(FrameMaker):
             self.stop_driving()
             done = past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
+
+    def open_world(self, state: WorldState) -> str:
+        """
+        Begin with another state, at time 0; `undo` reverts it. Return a message.
+
+        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        """
+        with self._jump():
+            self.past.open_world(state)
+            self.requests.hands.clear()
+            self.stop_driving()
+        return loaded(state)
 
     def undo(self) -> str:
         """

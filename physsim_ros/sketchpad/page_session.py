@@ -28,6 +28,7 @@ from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, Content, Message, Origin
 from physsim_ros.sketchpad.past import BodyPasts, PastTouches
+from physsim_ros.sketchpad.results import Result, Results
 from physsim_ros.sketchpad.rights import check_locked, check_right, Role
 from physsim_ros.sketchpad.world_control import WorldControl
 
@@ -50,6 +51,7 @@ class Shared(NamedTuple):
     :ivar past_touches: of bodies that pages begin to follow
     :ivar own_worlds: of the user
     :ivar autosave: of the world
+    :ivar results: of lessons in the world
     :ivar list_worlds: sends the list of worlds to the page of a number, or to all
     """
 
@@ -59,6 +61,7 @@ class Shared(NamedTuple):
     past_touches: PastTouches
     own_worlds: OwnWorlds
     autosave: Autosave
+    results: Results
     list_worlds: Callable[[int | None], None]
 
 
@@ -78,7 +81,7 @@ class PageSession:
     :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world
     :ivar driven: name of the robot that it drives, '' is none; and the gesture of that
-    :ivar answered: to the last lesson that was tried at this page: its `lesson`, `answer`, `right`
+    :ivar answered: last answer to a lesson of this person; empty where there is none
     :ivar raised: whether the person has raised a hand
     :ivar followed: names of the bodies whose touches it is told of
     :ivar material: properties of the bodies that it draws; those that are unset are the world's
@@ -96,7 +99,7 @@ class PageSession:
         self.drawing = DrawingSession(self.world.drawing_settings, clock=time.thread_time)
         self.hand = f'page {number}'
         self.driven = '', 0
-        self.answered: dict[str, Any] = {}
+        self.answered: Result = {}
         self.raised = False
         self.followed: frozenset[str] = frozenset()
         self.material = Properties()

@@ -83,6 +83,7 @@ OF_SIMULATION: dict[str, Call] = {
     'limit_memory': of_simulation(lambda it: it.limit_memory(64.0)),
     'load': of_simulation(lambda it: it.load(it.save())),
     'loaded': of_simulation(lambda it: it.loaded),
+    'place': of_simulation(lambda it: it.place('robot/0', 0.5, 0.0)),
     'perform': of_simulation(moved),
     'redo': of_simulation(redone),
     'reports_contacts': of_simulation(set_reporting),

@@ -14,7 +14,7 @@ from physsim_ros.model.joints import JOINT_KEYS, JointProperties
 from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.shapes import MOST_POINTS
 import pytest
-from tools.tables import cheat_sheet
+from tools.tables import cheat_sheet, search_words
 
 from .sources import DOCS, DOCUMENTS, PACKAGE, ROOT, spans
 
@@ -116,6 +116,14 @@ def test_the_cheat_sheet_has_every_stroke_and_tool_of_the_page():
     assert len(cheat_sheet.strokes()) == strokes.count('\n  [t(')
     assert len(cheat_sheet.keys()['Tools']) == tools.count('\n  tool(')
     assert all(cheat_sheet.keys().values())
+
+
+def test_words_of_the_search_lead_to_pages_and_headings_that_are_there():
+    for page, heading in search_words.WORDS:
+        text = (DOCS / f'{page}.md').read_text('utf-8')
+
+        assert not heading or f'\n## {heading}\n' in text
+        assert search_words.with_entries(page, text).count('```{index}') >= 1
 
 
 def test_the_table_of_codes_has_every_refusal():

@@ -19,7 +19,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 
-from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import closed_shapes, open_lines
 from physsim_ros.drawing.strokes.evidence import (
@@ -142,21 +141,16 @@ def _signs(features: Features) -> tuple[list[Form], float]:
     return list(best.values()), 1.0 - sum(weights)
 
 
-def guess_meanings(
-    drawn: Stroke, scene: SceneQuery, settings: DrawingSettings
-) -> tuple[Guess, ...]:
+def guess_meanings(forms: Sequence[Form], context: Context) -> tuple[Guess, ...]:
     """
     Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first.
 
-    :param drawn: the stroke, in the world
-    :param scene: the world that it was drawn over
-    :param settings: of drawing
+    :param forms: that the stroke may have, as `recognise_form` returns them
+    :param context: the stroke in its scene
     """
-    context = Context(drawn=drawn, scene=scene, settings=settings)
     weights: dict[str, float] = {}
     # Of each meaning, the likeliest one: several forms may have it.
     best: dict[str, Meaning] = {}
-    forms = recognise_form(context.drawn)
     for form in forms:
         for each in _MEANINGS[form.name](form, context):
             if each.weight < LEAST:

@@ -38,7 +38,7 @@ typedef struct Body {
     uint8_t anchored;      // it does not move at all
     uint8_t sensor;        // its contacts have no effect
     uint8_t joined;        // a joint ends on it
-    uint8_t sprung;        // an island of joints that hangs on a spring and on what forces do not move
+    uint8_t sprung;        // in an island of joints that hangs by a spring from something fixed
     uint8_t on_spring;     // a spring pulls it, and forces move it
     uint8_t expires;       // the steps of Python end with it
     cpVect offset;         // the engine's origin in the body's frame [m]
@@ -67,11 +67,11 @@ typedef struct Body {
     Pose begin;      // as the step begins
     Twist twist;     // with which Chipmunk begins
     Twist under;     // mean velocity of the floor under it
-    Twist without;   // velocity that it would have after the step without contacts, on a floor
+    Twist without;   // velocity after the step without contacts, on a floor; scratch of block_solver.c
     double left;     // of the step after continuous collision has stopped it [s]
     Twist carried;   // way with what has stopped it, in that time [m, rad]
-    double since;    // its first impact, until it was stopped or the step ended [s]
-    uint8_t parts;   // its impact lets it fly
+    double since;    // time from its first impact to the end of its motion [s]
+    uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
     double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
 } Body;
 
@@ -99,7 +99,7 @@ typedef struct Robot {
     double acceleration; // greatest of the rim of a wheel [m/s²]
     double curvature;    // greatest of its way [1/m]
     cpVect center;       // of mass in the frame of the body [m]
-    double slip[2];      // drift of the odometry: of the way [√m], and of the heading [rad/√m]
+    double slip[2];      // deviation of the odometry after 1 m of way: of the way [√m], of the heading [rad/√m]
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     // These fields are state; velocities are as seen from the robot.
     int64_t until;        // step at which the command ends
@@ -188,7 +188,7 @@ typedef struct Row {
     int32_t kind;
     int32_t part, component; // which impulse of which constraint is that of the row
     double lower, upper;     // [m, rad]
-    double below, above;     // λ by that impulse, where x is below its bounds, and where it is not
+    double below, above;     // factors from Chipmunk's impulse to λ, where x is below the lower bound, and elsewhere
     double most;             // greatest absolute value of λ in a step [N s, N m s]
     double stiffness;        // of a spring [N/m]
     double damping;          // of a spring, with what its stiffness adds to it [N s/m]
@@ -202,6 +202,7 @@ typedef struct Part {
     int32_t kind;
     cpConstraint *constraint;
     cpVect total; // impulse on the second body of the joint in the last step, world axes; of a torque, the first number
+    cpVect closing; // impulse with which positions were closed in this sub-step, as Chipmunk would store it
 } Part;
 
 // A joint; its parts follow one another, and so do its rows.

@@ -26,7 +26,7 @@
 
 static const double standard_gravity = 9.81; // of weights on the floor [m/s²]
 // The share of the push of the last step that the next one expects where the floor stands still. With all of it, bodies
-// would stay pressed against each other by friction alone, for ever; so they lose a fiftieth in each step.
+// would stay pressed against each other by friction alone, for ever; so 2 % of the push decays in each step.
 static const double relaxed = 0.98;
 // The greatest push that is expected, by the limit of friction: more is an impact, which is over.
 static const double most_expected = 2.0;

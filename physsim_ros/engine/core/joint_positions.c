@@ -9,7 +9,9 @@
 //
 // The displacement then changes velocities as far as their energy falls by it (the velocity update of position based
 // dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007). This is how a straight chain stops what falls on it: its
-// rows have no velocity, only a gap of second order. A gap thus never becomes energy.
+// rows have no velocity, only a gap of second order. A gap thus never becomes energy. The impulses of that change are
+// reported, but the next step does not start from them: where rows contradict each other they are of any size, cancel
+// in these poses alone, and a step that started from them after a turn of its bodies would gain the difference.
 
 #include "joint_positions.h"
 #include "mixed_lcp.h"
@@ -48,7 +50,7 @@ typedef struct Displacement {
     double sum, squares, widest; // of gaps and overlaps: sum, sum of squares, and the greatest [m, rad]
 } Displacement;
 
-// The iterate of least squares so far.
+// The iterate with the least sum of squared gaps so far.
 typedef struct Best {
     double squares;
     Pose *poses;
@@ -207,7 +209,7 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
     change_velocities(solve, changes, share);
     for (int row = 0; row < island->joint_row_count; row++) {
         double sign = sign_of(island->rows[row], move->excess[row]);
-        *island->impulses[row] += impulses[row] * share / solve->dt / sign;
+        *island->closing[row] = impulses[row] * share / solve->dt / sign;
     }
     for (int number = 0; number < island->touch_count; number++) {
         double impulse = impulses[island->joint_row_count + number];

@@ -12,8 +12,8 @@
 // J v = - dt / 2 (dJ/dt) v, as SHAKE has it (Ryckaert, Ciccotti and Berendsen, J. Comput. Phys. 23, 1977); without that
 // a pendulum loses (w dt)² / 2 of its energy in a step. An island gets no more energy by this than its rows take from
 // the velocities with which the step began: those of a point that follows its circle are half a step behind it, and
-// pay for it; those of a taut straight chain, whose rows are singular, pay nothing for what no impulse can give. A
-// limit that holds, as a taut rope does, bends too, if that presses it on.
+// pay for it; those of a taut straight chain, whose rows are singular, get no energy. A limit that holds, as a taut
+// rope does, also gets the curvature term if that loads it more.
 
 #include "joint_velocities.h"
 #include "mixed_lcp.h"

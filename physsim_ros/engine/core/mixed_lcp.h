@@ -9,7 +9,7 @@
 // Solve rows with bounds. `solution` has the first guess of `sides`.
 void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
-// Come closer to the targets, which E keeps a solution from.
+// Make one step of iterative refinement against E, which keeps a solution from its targets.
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
 #endif

@@ -28,7 +28,7 @@ typedef struct Mover {
     Body *body;
     const cpShape *shape; // the only one that counts; NULL is all of the body
     bool movable;         // forces move it
-    bool met;             // it has met another one, and moves on with that
+    bool met;             // it has met another one, and is merged into its island
     int island;           // first member of the island of what has met
     int next;             // following member of the island; -1 is none
     int leader;           // what the island of this first member moves as; -1 is none

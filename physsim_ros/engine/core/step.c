@@ -74,13 +74,13 @@ static void step(World *world) {
     add_totals(world);
     finish_moves(world);
     find_pushes(world);
-    find_free(world);
-    keep_awake(world);
     if (world->reports_contacts) {
         report_contacts(world);
     } else {
         forget_contacts(world);
     }
+    find_free(world);
+    keep_awake(world);
     take_out_impacts(world);
 }
 

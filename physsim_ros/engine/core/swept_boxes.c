@@ -130,7 +130,7 @@ void cut_horizons(Sweep *sweep, const int *bodies, int count) {
         sweep->followed[bodies[number]] = true;
         fast += sweep->movers[bodies[number]].corners;
     }
-    // It would be so for each.
+    // If all fit the budget together, each does.
     if (fast * all <= budget) {
         return;
     }

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import re
 
-from physsim_ros.model.checks import flag
+from physsim_ros.model.checks import flag, Whole
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies
 from physsim_ros.simulation.request_queue import TakeBack, Unread
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
+from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import PageSession, TEACHER, UNNAMED
 from physsim_ros.sketchpad.rights import locks_of, Right
 
@@ -36,6 +37,8 @@ def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     if name != page.unnamed and re.fullmatch(rf'{UNNAMED}\d+|{TEACHER}', name):
         raise BadProperty(f'{name} may be another person, who has no name', field='name')
     page.person = name
+    # A page that was loaded again does not know.
+    page.answered = page.shared.results.last_of(name)
     page.answer_page(origin, f'you are {name}')
 
 
@@ -44,8 +47,19 @@ def note_answer(
     page: PageSession, origin: Origin, lesson: str, answer: str, *, right: bool
 ) -> None:
     """Note an answer to a lesson, which a teacher sees."""
-    page.answered = {'lesson': lesson, 'answer': answer[:LONGEST_ANSWER], 'right': right}
+    with reaching('the results'):
+        page.answered = page.shared.results.note(
+            page.person, lesson, answer[:LONGEST_ANSWER], right=right
+        )
     page.answer_page(origin, 'the answer is noted')
+
+
+@message('forget_results', 'page', Right.TEACH)
+def forget_results(page: PageSession, origin: Origin) -> None:
+    """Forget the results of lessons in this world."""
+    with reaching('the results'):
+        page.shared.results.forget()
+    page.answer_page(origin, 'the results are forgotten')
 
 
 @message('raise_hand', 'page', Right.DRAW, raised=flag)
@@ -53,6 +67,13 @@ def raise_hand(page: PageSession, origin: Origin, *, raised: bool) -> None:
     """Raise a hand, or lower it."""
     page.raised = raised
     page.answer_page(origin, 'your hand is raised' if raised else 'your hand is down')
+
+
+@message('lower_hand', 'page', Right.TEACH, page=Whole(1, 2**31))
+def lower_hand(session: PageSession, origin: Origin, page: int) -> None:
+    """Have the page of a number lower its hand."""
+    session.shared.send({'type': 'lower_hand'}, page)
+    session.answer_page(origin, 'the hand is lowered')
 
 
 @message('say', 'page', Right.TEACH, text=fields.text)

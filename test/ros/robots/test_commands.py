@@ -127,8 +127,9 @@ def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:
     assert flat.node.simulation.requests.gesture == before
 
 
-def test_publishers_of_both_types_are_told_and_one_is_heard_then_the_other(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize('dies', [False, True])
+def test_publishers_of_both_types_are_told_and_one_is_heard_as_long_as_it_speaks(
+    monkeypatch: pytest.MonkeyPatch, dies: bool
 ) -> None:
     # One participant has one type for a topic.
     others = Context(), Context()
@@ -154,8 +155,11 @@ def test_publishers_of_both_types_are_told_and_one_is_heard_then_the_other(
         client.spin_until(lambda: drives(plain, 0.2))
         told = [event for event in client.events if event.field == 'cmd_vel']
         assert [event.code for event in told] == ['bad_property']
-        plain.destroy_publisher(plain.publisher)
+        if not dies:
+            plain.destroy_publisher(plain.publisher)
         client.spin_until(lambda: drives(stamped, -0.1))
+        told = [event for event in client.events if event.field == 'cmd_vel']
+        assert len(told) == 1
 
 
 def test_a_publisher_of_another_type_than_commands_is_told_once(

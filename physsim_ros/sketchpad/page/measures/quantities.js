@@ -4,8 +4,10 @@
  * of plots and the columns of tables.
  */
 
-import {degrees, digits, threeDigits, twoPlaces} from '../rounding.js';
-import {localized, t} from '../strings.js';
+  const columns = Object.values(QUANTITIES);
+  // Spreadsheets read a hyphen as the minus.
+  const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
+import {t} from '../strings.js';
 import {DEGREE, rotated} from '../vectors.js';
 
 /** @import {Body, Point, Sample, WorldState} from '../types.js' */
@@ -127,14 +129,13 @@ export const QUANTITIES = {
 /**
  * @param {{name: string, body: Body, samples: Sample[]}[]} records
  * @param {number[]} gravity
- * @returns {string} a table of all quantities (CSV), the bodies one below the other; where numbers have a comma, columns
- *   are parted by semicolons, as spreadsheets in that language expect
+ * @returns {string} a table of all quantities (CSV), the bodies one below the other
  */
 export function tableOf(records, gravity) {
-  const columns = Object.values(QUANTITIES), separator = localized('.') === '.' ? ',' : ';';
+  const columns = Object.values(QUANTITIES);
   // Spreadsheets read a hyphen as the minus.
   const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
   const rows = records.flatMap(({name, body, samples}) => samples.map((sample) =>
-    [...columns.map(({of}) => cell(of(sample, body, gravity))), `"${name.replaceAll('"', '""')}"`]));
-  return [[...columns.map(({label}) => label), t('Body')], ...rows].map((row) => `${row.join(separator)}\n`).join('');
+    [...columns.map(({of}) => cell(of(sample, body, gravity))), name]));
+  return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);
 }

@@ -206,7 +206,6 @@ export class Gallery {
       .then((response) => response.json().catch(() => ({ok: false, code: '', message: t('The server refused this file')})),
         () => ({ok: false, code: '', message: t('Not done: the server is not reachable')}));
     if (ok) {
-      await this.app.connection.ask('service', {name: 'reset'});
       this.name = '';
       this.dismiss();
       this.app.room.frameNext();
