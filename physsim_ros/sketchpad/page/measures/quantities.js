@@ -4,9 +4,8 @@
  * of plots and the columns of tables.
  */
 
-  const columns = Object.values(QUANTITIES);
-  // Spreadsheets read a hyphen as the minus.
-  const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
+import {csvOf} from '../csv.js';
+import {degrees, digits, threeDigits, twoPlaces} from '../rounding.js';
 import {t} from '../strings.js';
 import {DEGREE, rotated} from '../vectors.js';
 
