@@ -57,7 +57,7 @@ export class Lessons {
   /** @param {{name: string, title: string}} lesson */
   open({name, title}) {
     const {connection, gallery} = this.app;
-    gallery.follow(connection.openLesson(name), t(title));
+    return gallery.follow(connection.openLesson(name), t(title));
   }
 
   get isFolded() {
