@@ -83,6 +83,7 @@ export class Arrows {
     /** @type {{name: string, kind: string, force: Point, size: string, from: Point, to: Point}[]} */
     this.drawn = []; // forces, as they are drawn
     this.legend = elementOf('legend');
+    this.legend.dataset.corner = CORNERS[0];
     /** The scales in the legend, by their unit. @type {Record<string, HTMLElement>} */
     this.bars = {};
     this.hint = createElement('span');
@@ -135,7 +136,7 @@ export class Arrows {
       const [xmin, ymax] = camera.toWorld(x, y), [xmax, ymin] = camera.toWorld(x + width, y + height);
       return world.isFree([xmin, ymin, xmax, ymax]);
     };
-    const now = legend.dataset.corner ?? CORNERS[0];
+    const now = legend.dataset.corner ?? '';
     legend.dataset.corner = [now, ...CORNERS].find(isFree) ?? now;
   }
 
