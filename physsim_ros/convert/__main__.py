@@ -13,8 +13,9 @@ from typing import Any
 
 from physsim_ros.convert import flatland, irsim, rube, tiled
 from physsim_ros.convert.conversion import Conversion
-from physsim_ros.files import advice_on_xml, CONVERTED, kind_of, load_mapping, load_world
-from physsim_ros.model.errors import Refusal
+from physsim_ros.files import advice_on_xml, CONVERTED, kind_of, load_world
+from physsim_ros.model.errors import BadWorldFile, Refusal
+import yaml
 
 _CONVERTERS: Mapping[str, Callable[[Mapping[str, Any], Path], Conversion]] = {
     'flatland': flatland.convert,
@@ -35,8 +36,9 @@ def convert(source: Path) -> Conversion:
     text = source.read_text(encoding='utf-8')
     if advice := advice_on_xml(text):
         raise Refusal(advice)
-    content = load_mapping(text, field=source.name)
-    kind = kind_of(content)
+    # These programs take what a world file does not, as a key that is there twice.
+    content = yaml.safe_load(text)
+    kind = kind_of(content) if isinstance(content, Mapping) else ''
     if kind not in _CONVERTERS:
         raise Refusal(f'{source.name} is no world of {", ".join(CONVERTED)}')
     try:
@@ -61,8 +63,9 @@ def main(arguments: list[str] | None = None) -> int:
         with target.open('x', encoding='utf-8') as file:
             file.write(conversion.text())
         load_world(target)
-    except (OSError, UnicodeDecodeError, Refusal) as error:
-        print(error, file=sys.stderr)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, Refusal) as error:
+        written = f'{target} is written, but ' if isinstance(error, BadWorldFile) else ''
+        print(f'{written}{error}', file=sys.stderr)
         return 1
     bodies, joints = len(conversion.bodies), len(conversion.joints)
     print(f'{target}: {bodies} bodies, {joints} joints')

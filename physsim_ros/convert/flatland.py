@@ -26,19 +26,20 @@ from physsim_ros.convert.conversion import (
     pose_of,
     shape_of,
 )
-from physsim_ros.files import load_mapping
 from physsim_ros.model.transform import Pose
+import yaml
 
 Content = Mapping[str, Any]
 
 # Properties of a footprint by their names here.
 _MATERIAL = {'density': 'density', 'friction': 'friction', 'elasticity': 'restitution'}
+_MOST = {'density': 1e12, 'friction': 10.0, 'elasticity': 1.0}
 # Kinds of joints here.
 _JOINTS = {'revolute': 'axle', 'weld': 'pin'}
 _WORLD_KEYS = ('properties', 'layers', 'models')
 _MODEL_KEYS = ('bodies', 'footprints', 'joints', 'plugins')
 # Kinds of drives here; flatland moves models by velocities, without wheels.
-_DRIVES = {'DiffDrive': 'differential', 'TricycleDrive': 'car'}
+_DRIVES = {'DiffDrive': 'differential', 'TricycleDrive': 'car', 'Bicycle': 'car'}
 
 
 def convert(content: Content, folder: Path) -> Conversion:
@@ -94,6 +95,10 @@ def _add_body(
     conversion: Conversion, body: Content, place: Pose, model: str, robot: Content | None
 ) -> str:
     prints: Sequence[Content] = body.get('footprints') or ()
+    solid = [each for each in prints if not _is_sensor(each)]
+    if solid and len(solid) < len(prints):
+        conversion.leave_out('left out: a footprint that is a sensor of a solid body')
+    prints = solid or prints
     shape, origin = shape_of([_piece_of(each) for each in prints], conversion)
     properties: dict[str, object] = {}
     first = prints[0]
@@ -103,10 +108,11 @@ def _add_body(
         ('elasticity', 'restitution'),
     ):
         if theirs in first:
-            properties[ours] = float(first[theirs])
+            # Box2D has no greatest friction.
+            properties[ours] = min(float(first[theirs]), _MOST[ours])
     if properties.get('density') == 0.0:
         del properties['density']
-    if all(each.get('sensor') or each.get('collision') is False for each in prints):
+    if not solid and robot is None:
         properties['sensor'] = True
     if robot is not None:
         properties = {**properties, 'robot': robot}
@@ -116,6 +122,10 @@ def _add_body(
         properties['color'] = [float(value) for value in body['color']]
     name = model if robot is not None else f'{model}_{body["name"]}'
     return conversion.add_body(name, shape, composed(place, origin), **properties)
+
+
+def _is_sensor(footprint: Content) -> bool:
+    return bool(footprint.get('sensor', footprint.get('is_sensor')))
 
 
 def _piece_of(footprint: Content) -> Piece:
@@ -188,4 +198,5 @@ def _laser_of(plugin: Content, name: str) -> dict[str, object]:
 
 
 def _load(path: Path) -> Content:
-    return load_mapping(path.read_text('utf-8'), field=path.name)
+    content: Content = yaml.safe_load(path.read_text('utf-8'))
+    return content

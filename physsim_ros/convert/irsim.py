@@ -24,8 +24,14 @@ Content = Mapping[str, Any]
 _DRIVES = {'diff': 'differential', 'omni': 'omni', 'acker': 'car'}
 _GROUP_KEYS = (
     *('number', 'distribution', 'kinematics', 'shape', 'state', 'goal', 'vel_max', 'behavior'),
-    *('sensors', 'name', 'color'),
+    *('sensors', 'name', 'color', 'unobstructed', 'plot'),
 )
+_WORLD_KEYS = (
+    *('name', 'width', 'height', 'offset', 'step_time', 'sample_time', 'collision_mode'),
+    *('control_mode', 'mdownsample', 'plot'),
+)
+# Greatest speed and turn rate, where a group does not set them.
+_SPEEDS = (1.0, 1.0)
 _MOST_POINTS = 3
 
 
@@ -33,7 +39,7 @@ def convert(content: Content, _folder: Path) -> Conversion:
     """Return the world of a file of ir-sim."""
     world = content['world']
     conversion = Conversion(settings={'gravity': [0.0, 0.0], 'floor_friction': 0.6})
-    conversion.leave_out_keys(world, ('width', 'height', 'offset', 'step_time'), 'the world')
+    conversion.leave_out_keys(world, _WORLD_KEYS, 'the world')
     x, y = (float(value) for value in world.get('offset', (0.0, 0.0)))
     width, height = float(world.get('width', 10.0)), float(world.get('height', 10.0))
     conversion.settings['bounds'] = [x, y, x + width, y + height]
@@ -49,8 +55,12 @@ def _add_group(conversion: Conversion, group: Content, kind: str) -> None:
     number = int(group.get('number', 1))
     poses = _poses(conversion, group, number)
     for i, pose in enumerate(poses):
-        shape, radius = _shape_of(_nth(group.get('shape', {'name': 'circle', 'radius': 0.2}), i))
-        properties: dict[str, object] = {}
+        described = _nth(group.get('shape', {'name': 'circle', 'radius': 0.2}), i)
+        if described.get('random_shape'):
+            conversion.leave_out(f'left out: a {kind} with a random shape')
+            continue
+        shape, radius = _shape_of(described)
+        properties: dict[str, object] = {'sensor': True} if group.get('unobstructed') else {}
         kinematics = group.get('kinematics')
         actor = _actor_of(conversion, group, i, pose) if kinematics else None
         if kind == 'robot':
@@ -113,14 +123,14 @@ def _actor_of(
 ) -> dict[str, object] | None:
     goal, behavior = group.get('goal'), _nth(group.get('behavior'), i)
     if not goal or not behavior:
-        if goal:
-            conversion.leave_out('left out: a goal without a behaviour')
+        if goal or behavior:
+            conversion.leave_out('left out: a goal without a behaviour, or one without a goal')
         return None
     x, y, *_ = (float(value) for value in _nth(goal, i))
     name = behavior.get('name', 'dash')
     if name not in ('dash', 'rvo', 'orca'):
         conversion.leave_out(f'behaviour {name} becomes a straight path')
-    speed = float(group.get('vel_max', (1.0, 1.0))[0])
+    speed = float(group.get('vel_max', _SPEEDS)[0])
     repeat = 'to_and_fro' if behavior.get('loop') else 'once'
     here, there = [pose[0], pose[1]], [x, y]
     if name in ('rvo', 'orca') and group.get('kinematics', {}).get('name') == 'omni':
@@ -133,10 +143,9 @@ def _robot_of(
 ) -> dict[str, object]:
     name = (kinematics or {}).get('name', 'diff')
     drive: dict[str, object] = {'kind': _DRIVES[name], 'track': 2 * radius}
-    if 'vel_max' in group:
-        speed, turn = (float(value) for value in group['vel_max'])
-        drive['max_speed'] = speed
-        drive |= {'diff': {'max_turn': turn}, 'acker': {'steering': min(turn, 1.5)}}.get(name, {})
+    speed, turn = (float(value) for value in group.get('vel_max', _SPEEDS))
+    drive['max_speed'] = speed
+    drive |= {'diff': {'max_turn': turn}, 'acker': {'steering': min(turn, 1.5)}}.get(name, {})
     shape = _nth(group.get('shape', {}), 0)
     if name == 'acker' and shape.get('wheelbase'):
         drive['wheelbase'] = float(shape['wheelbase'])

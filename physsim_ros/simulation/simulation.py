@@ -27,7 +27,7 @@ from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
-from physsim_ros.simulation.world import forces_now
+from physsim_ros.simulation.world import forces_now, loaded
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -273,6 +273,18 @@ class Simulation(FrameMaker):
             self.stop_driving()
             done = past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
+
+    def open_world(self, state: WorldState) -> str:
+        """
+        Begin with another state, at time 0; `undo` reverts it. Return a message.
+
+        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        """
+        with self._jump():
+            self.past.open_world(state)
+            self.requests.hands.clear()
+            self.stop_driving()
+        return loaded(state)
 
     def undo(self) -> str:
         """

@@ -44,6 +44,7 @@ class Parameters(TypedDict, total=False):
     frame_id: str
     world_file: str
     world_dir: str
+    lesson_dir: str
     physics_rate: float
     publish_rate: float
     speed: float

@@ -29,7 +29,9 @@ bodies:
   - name: base
     type: dynamic
     color: [1, 1, 0, 0.5]
-    footprints: [{type: circle, radius: 0.1, density: 2.0}]
+    footprints:
+      - {type: circle, radius: 0.1, density: 2.0, friction: 1e6}
+      - {type: polygon, sensor: true, points: [[0, 0], [0.1, 0], [0.1, 0.1]]}
 plugins:
   - {type: DiffDrive, name: drive, body: base}
   - {type: Laser, name: laser, topic: scan, body: base, range: 8.0, update_rate: 20.0,
@@ -63,7 +65,13 @@ robot:
     behavior: {name: dash}
     sensors: [{type: lidar2d, range_min: 0, range_max: 5, angle_range: 3.14, number: 90}]
     plot: {show_trail: true}
+    plot: {show_trail: false}
+    keyboard: {}
 obstacle:
+  - shape: {name: linestring, vertices: [[5, 5], [4, 0]]}
+    state: [0, 0, 0]
+    unobstructed: true
+  - shape: {name: polygon, random_shape: true}
   - number: 2
     distribution: {name: manual}
     shape: [{name: circle, radius: 1.0}, {name: rectangle, length: 2.0, width: 1.0}]
@@ -147,6 +155,7 @@ def test_a_world_of_flatland_has_walls_a_robot_and_a_door(tmp_path, capsys):
     robot = bodies['burger/0'].body.robot
     assert bodies['burger/0'].pose == pytest.approx((1.0, 2.0, math.pi / 2), abs=1e-6)
     assert robot.namespace == 'tb'
+    assert bodies['burger/0'].body.friction == 10.0
     (laser,) = robot.sensors
     assert (laser.beams, laser.range, laser.rate) == (101, (0.0, 8.0), 20.0)
     assert bodies['door_frame/0'].body.anchored
@@ -173,15 +182,16 @@ def test_a_map_of_flatland_is_that_of_the_world_file(tmp_path, capsys):
 def test_a_world_of_irsim_has_a_robot_that_goes_and_obstacles(tmp_path, capsys):
     bodies, world, printed = converted(tmp_path, 'robot_world.yaml', IRSIM, capsys)
 
-    assert sorted(bodies) == ['obstacle/0', 'obstacle/1', 'robot/0']
+    assert sorted(bodies) == ['obstacle/0', 'obstacle/1', 'obstacle/2', 'robot/0']
     assert world.settings.bounds == (0.0, 0.0, 12.0, 10.0)
     robot = bodies['robot/0'].body
     assert (robot.robot.drive.max_speed, robot.robot.drive.max_turn) == (1.5, 2.0)
     assert robot.robot.sensors[0].angle == pytest.approx((-1.57, 1.57))
     assert robot.actor.points == ((1.0, 1.0), (9.0, 9.0))
-    assert bodies['obstacle/1'].body.anchored
-    assert bodies['obstacle/1'].pose == (6.0, 8.0, 0.5)
-    assert 'left out: plot of a robot' in printed
+    assert bodies['obstacle/2'].body.anchored
+    assert bodies['obstacle/0'].body.sensor
+    assert bodies['obstacle/2'].pose == (6.0, 8.0, 0.5)
+    assert 'left out: keyboard of a robot' in printed
 
 
 def test_a_map_of_tiled_has_tiles_and_objects_a_tile_wide_a_metre(tmp_path, capsys):
@@ -264,7 +274,7 @@ def test_what_cannot_be_converted_is_told(tmp_path, capsys, text, told):
         ('<html/>', 'this is XML'),
         ('{image: a.pgm, resolution: 0.1, origin: [0, 0, 0]}', 'name it as `map:`'),
         (FLATLAND, 'a world of flatland: python -m physsim_ros.convert'),
-        (IRSIM, 'a world of ir-sim'),
+        (IRSIM.replace('plot: {show_trail: false}', ''), 'a world of ir-sim'),
         (json.dumps(TILED), 'a world of Tiled'),
         (json.dumps(RUBE), 'a world of R.U.B.E.'),
         ('strokes: []', 'a drawing'),

@@ -24,7 +24,7 @@ from physsim_ros.sketchpad.server.class_server import Seats, World
 import pytest
 
 from .chromium import circle, Sheet
-from ..outside import Outside, PATIENCE
+from ..outside import Outside, PATIENCE, Program
 
 # Colours of the picture of the first seat.
 COLORS = """() => {
@@ -34,6 +34,7 @@ COLORS = """() => {
     for (let i = 0; i < data.length; i += 4) seen.add([...data.slice(i, i + 3)].join());
     return [...seen].map((each) => each.split(',').map(Number));
 }"""
+RESULT = ('answer', 'right', 'tries')
 WORLDS = [World(pupil=f'http://p/{each}', teacher=f'http://t/{each}') for each in range(2)]
 
 
@@ -119,6 +120,12 @@ def test_an_error_that_nobody_expected_is_answered(
     assert json.load(fetch(f'{base}/seats', Cookie=cookie))['seats'] == []
 
 
+def place(sheet: Sheet, number: int) -> str:
+    """Return the place of the card of a seat."""
+    value: str = sheet.page.locator('#seats li').nth(number).evaluate('card => card.style.order')
+    return value
+
+
 def come(chromium: Any, address: str, name: str) -> Sheet:
     """Come to the class as a pupil, and wait for the world."""
     sheet = Sheet(chromium, address)
@@ -130,15 +137,21 @@ def come(chromium: Any, address: str, name: str) -> Sheet:
     return sheet
 
 
-def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
-    chromium: Any, outside: Outside
-) -> None:
+@pytest.fixture
+def run_class(outside: Outside) -> tuple[Program, str, str]:
+    """Give a test a class of two worlds: its program, the address of pupils, and a teacher's."""
     outside.environment['XDG_DATA_HOME'] = str(outside.directory)
     arguments = ['--pupils', 2, '--port', 0, '--ros-args', '-p', 'world_file:=free_fall']
     program = outside.start_installed('physsim_class', *arguments)
     lines = [program.wait_for('/login?token=') for _ in range(2)]
     pupils, teacher = (re.search(r'http\S+', line)[0] for line in lines)
+    return program, pupils, teacher
 
+
+def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
+    chromium: Any, run_class: tuple[Program, str, str]
+) -> None:
+    program, pupils, teacher = run_class
     anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
     before = anna.names()
     anna.drag(*circle(0.0, 3.0, 0.6))
@@ -155,31 +168,80 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     sheet = Sheet(chromium, teacher)
     links = sheet.page.get_by_role('listitem').get_by_role('link')
     links.nth(1).wait_for()
-    assert links.all_inner_texts() == ['Anna', 'Ben']
+    sheet.until(lambda: links.all_inner_texts() == ['Anna', 'Ben'], 'who is where')
+    sheet.press('Pupils come here')
     assert sheet.page.locator('#pupils').inner_text() == pupils
-    # A lesson for all, and what comes of it.
+    sheet.press('Close')
+    # A lesson for all.
     sheet.page.get_by_label('Lesson').select_option('slope')
     sheet.press('Open the lesson for all')
     anna.page.locator('#lesson').get_by_text('4. Down a slope').wait_for()
-    anna.page.get_by_role('textbox', name='Your answer').fill('4.9')
-    anna.press('Check')
-    anna.press('Raise your hand')
     card = sheet.page.locator('#seats li').first
     card.get_by_text('4. Down a slope').wait_for()
-    card.get_by_text('4.9 m/s² ✓ right').wait_for()
-    card.get_by_text('hand raised').wait_for()
     sheet.page.get_by_label('Message to all').fill('Five minutes left')
     sheet.press('Send')
     ben.page.get_by_text('Teacher: Five minutes left').wait_for()
     # The picture shows the block of ice.
-    color = sheet.page.evaluate(COLORS)
-    assert [118, 183, 178] in color
+    sheet.until(lambda: [118, 183, 178] in sheet.page.evaluate(COLORS), 'a picture')
     with sheet.context.expect_page() as opened:
         links.first.click()
+    opened.value.locator('.whose').get_by_text('World of Anna').wait_for()
     opened.value.get_by_role('button', name='People').click()
     opened.value.get_by_role('listitem').get_by_text('Anna').wait_for()
+    # That code would lead to this world, and not to the class.
+    assert not opened.value.get_by_role('img', name='QR code').count()
     opened.value.get_by_role('button', name='Freeze all pupils').click()
     anna.page.get_by_text('Your teacher has frozen this world.').wait_for()
+    card.get_by_text('frozen').wait_for()
+    # One undo takes the lesson back.
+    ben.press('Undo')
+    ben.page.locator('#lesson').get_by_text('1. Free fall').wait_for()
     for each in (sheet, anna, ben):
         each.close()
     assert program.interrupt() == 0
+
+
+def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
+    chromium: Any, run_class: tuple[Program, str, str]
+) -> None:
+    program, pupils, teacher = run_class
+    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
+    sheet = Sheet(chromium, teacher)
+    sheet.page.get_by_text('2 of 2 here').wait_for()
+    anna.page.get_by_role('textbox', name='Your answer').fill('1.01')
+    anna.press('Check')
+    card = sheet.page.locator('#seats li').first
+    card.get_by_text('1.01 s ✓ right').wait_for()
+    ben.press('Raise your hand')
+    sheet.page.get_by_text('2 of 2 here · hands raised: 1').wait_for()
+    # Hands come first, the earliest before others; then people by their names.
+    sheet.until(lambda: [place(sheet, each) for each in range(2)] == ['1', '0'], 'an order')
+    anna.press('Raise your hand')
+    sheet.page.get_by_text('hands raised: 2').wait_for()
+    assert [place(sheet, each) for each in range(2)] == ['1', '0']
+    sheet.page.locator('#seats li').nth(1).get_by_role('button', name='Lower the hand').click()
+    ben.page.get_by_role('button', name='Raise your hand', pressed=False).wait_for()
+    sheet.until(lambda: [place(sheet, each) for each in range(2)] == ['0', '1'], 'an order')
+    card.get_by_role('button', name='More').click()
+    sheet.page.get_by_label('Message to Anna').fill('Well done')
+    sheet.page.get_by_role('dialog').get_by_role('button', name='Send').click()
+    anna.page.get_by_text('Teacher: Well done').wait_for()
+    assert not ben.page.get_by_text('Well done').count()
+    # Without their page a pupil is not here; the result stays.
+    anna.page.reload()
+    card.get_by_text('1.01 s ✓ right').wait_for()
+    anna.close()
+    card.get_by_text('not here').wait_for()
+    sheet.press('Results')
+    sheet.page.get_by_role('row', name='Anna').get_by_text('1.01 ✓').wait_for()
+    with sheet.page.expect_download() as table:
+        sheet.press('Save table (CSV)')
+    head, row = Path(table.value.path()).read_text('utf-8-sig').splitlines()
+    assert head.split(',')[:4] == ['Name', *(f'1. Free fall: {each}' for each in RESULT)]
+    assert row.startswith('Anna,1.01,1,1,')
+    sheet.press('Close')
+    ben.close()
+    assert sheet.errors == []
+    assert program.interrupt() == 0
+    sheet.page.get_by_text('The class is not reachable').wait_for()
+    sheet.context.close()

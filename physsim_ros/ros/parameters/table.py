@@ -57,6 +57,12 @@ class NodeSettings(Checked):
         'created when first needed',
         READ_ONLY,
     ] = ''
+    lesson_dir: Annotated[
+        str,
+        text,
+        'lessons are read in this directory, too; empty means `lessons` in `world_dir`',
+        READ_ONLY,
+    ] = ''
     physics_rate: Annotated[
         float,
         Within(60.0, 10000.0, 'Hz'),

@@ -15,6 +15,7 @@ from contextlib import suppress
 from itertools import pairwise
 import json
 import os
+from pathlib import Path
 import subprocess
 import sys
 
@@ -113,7 +114,8 @@ def _worlds(process: subprocess.Popen[str], count: int) -> list[World]:
         # Other lines are for people.
         if line.startswith('{'):
             content = json.loads(line)
-            worlds.append(World(pupil=content['pupil'], teacher=content['teacher']))
+            results = Path(content['results'])
+            worlds.append(World(content['pupil'], content['teacher'], results))
     return worlds
 
 

@@ -132,9 +132,7 @@ export class Connection {
    * @returns {Promise<boolean>} whether it is open
    */
   async openWorld(name) {
-    if (!(await this.ask('open', {name})).ok) return false;
-    await this.ask('service', {name: 'reset'});
-    return true;
+    return (await this.ask('open', {name})).ok;
   }
 
   /**

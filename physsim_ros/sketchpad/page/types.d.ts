@@ -214,11 +214,28 @@ export interface Answer {
 export interface Classmate {
   page: number;
   name: string;
+  /** Number of the colour. */
+  color: number;
   role: string;
   /** The last answer to a lesson. */
-  answered: {lesson: string, answer: string, right: boolean} | null;
+  answered: Result | null;
   /** Whether a hand is raised. */
   raised: boolean;
+}
+
+/** An answer to a lesson. */
+export interface Result {
+  person: string;
+  /** Title of the lesson. */
+  lesson: string;
+  answer: string;
+  right: boolean;
+  /** [s since 1970] */
+  at: number;
+  /** Up to the first right one. */
+  tries: number;
+  /** Number of the world in the class. */
+  world?: number;
 }
 
 /** What a stroke is read as. */

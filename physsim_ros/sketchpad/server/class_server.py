@@ -16,6 +16,7 @@ import asyncio
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
+from pathlib import Path
 import secrets
 import sys
 from typing import NamedTuple
@@ -27,6 +28,7 @@ from physsim_ros.sketchpad.message import json_object
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
+from physsim_ros.sketchpad.server.page_handlers import ResultList
 from physsim_ros.sketchpad.server.website import BoundedServer, Site
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
@@ -45,10 +47,12 @@ class World(NamedTuple):
 
     :ivar pupil: to draw
     :ivar teacher: to teach
+    :ivar results: file of the results of lessons
     """
 
     pupil: str
     teacher: str
+    results: Path = Path('nowhere')
 
 
 class Seats:
@@ -99,8 +103,9 @@ class ClassServer:
         self._application = self._site.application(
             'class.html',
             [
-                (r'/ws/(\d+)', _Watch, {'seats': seats}),
+                (r'/ws/([0-9]{1,4})', _Watch, {'seats': seats}),
                 ('/seats', _SeatList, {'seats': seats, 'address': partial(self.url, Role.DRAW)}),
+                ('/results', ResultList, {'files': [world.results for world in seats.worlds]}),
                 ('/join', _Join, {'seats': seats}),
             ],
             ErrorBoundary(lambda text: sys.stderr.write(f'{text}\n')),

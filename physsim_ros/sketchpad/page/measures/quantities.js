@@ -4,6 +4,7 @@
  * of plots and the columns of tables.
  */
 
+import {csvOf} from '../csv.js';
 import {degrees, threeDigits, twoPlaces} from '../rounding.js';
 import {localized, t} from '../strings.js';
 import {DEGREE, rotated} from '../vectors.js';
@@ -125,13 +126,12 @@ export const QUANTITIES = {
 /**
  * @param {{name: string, body: Body, samples: Sample[]}[]} records
  * @param {number[]} gravity
- * @returns {string} a table of all quantities (CSV), the bodies one below the other; where numbers have a comma, columns
- *   are parted by semicolons, as spreadsheets in that language expect
+ * @returns {string} a table of all quantities (CSV), the bodies one below the other
  */
 export function tableOf(records, gravity) {
-  const columns = Object.values(QUANTITIES), separator = localized('.') === '.' ? ',' : ';';
+  const columns = Object.values(QUANTITIES);
   const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : localized(String(value));
   const rows = records.flatMap(({name, body, samples}) => samples.map((sample) =>
-    [...columns.map(({of}) => cell(of(sample, body, gravity))), `"${name.replaceAll('"', '""')}"`]));
-  return [[...columns.map(({label}) => label), t('Body')], ...rows].map((row) => `${row.join(separator)}\n`).join('');
+    [...columns.map(({of}) => cell(of(sample, body, gravity))), name]));
+  return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);
 }

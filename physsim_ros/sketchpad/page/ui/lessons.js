@@ -23,10 +23,6 @@ export class Lessons {
     this.card = elementOf('lesson', HTMLDetailsElement);
     /** @type {string | undefined} */
     this.shown = ''; // title of the lesson of the card
-    /** @type {?{lesson: string, answer: string, right: boolean}} the last one of this page */
-    this.answered = null;
-    // The server knows this page as a new one.
-    app.connection.on('welcome', () => this.answered && app.connection.send('answered', this.answered));
     /** @type {Set<string>} */
     this.solved = new Set(JSON.parse(localStorage.getItem(SOLVED) ?? '[]'));
     app.connection.on('scene', ({lesson}) => lesson?.title === this.shown || this.#show(lesson));
@@ -57,7 +53,7 @@ export class Lessons {
   /** @param {{name: string, title: string}} lesson */
   open({name, title}) {
     const {connection, gallery} = this.app;
-    gallery.follow(connection.openLesson(name), t(title));
+    return gallery.follow(connection.openLesson(name), t(title));
   }
 
   /** @param {?Lesson | undefined} lesson whose card is made anew */
@@ -86,8 +82,7 @@ export class Lessons {
       const value = numberOf(typed), right = Math.abs(value - figure) <= within;
       result.className = right ? 'right' : '';
       result.textContent = right ? t('Right!') : Number.isNaN(value) ? t('That is not a number.') : t('Not yet. Measure again, or look at the hint.');
-      this.answered = {lesson: title, answer: typed, right};
-      if (typed) this.app.connection.send('answered', this.answered);
+      if (typed) this.app.connection.send('answered', {lesson: title, answer: typed, right});
       // Who has tried may look.
       solution.hidden = false;
       solution.open = right;
