@@ -19,7 +19,8 @@
 // body and never turns it round: the slip that is left is the root of a scalar equation, found by Newton's method as
 // Moré and Sorensen do ("Computing a trust region step", 1983).
 //
-// Cost: 60 ns a body, 0.3 µs for one that slips. Without it nothing stops, nothing drives (`test/laws/test_floor.py`).
+// Cost: 60 ns a body, 0.3 µs for one that slips; where there are conveyors, a query of their boxes for each body.
+// Without it nothing stops, nothing drives (`test/laws/test_floor.py`).
 
 #include "boxes.h"
 #include "outline.h"
