@@ -118,6 +118,10 @@ class Card {
     dialog.show(worldOf(person), ...person ? [sayForm((text) => done('say', {text}), t('Message to {name}', {name: person}))] : [], inRow(
       textButton(frozen ? t('Let them draw again') : t('Freeze'), () => done('freeze', {frozen: !frozen})),
       textButton(t('Pause'), () => done('service', {name: 'pause'})),
+      ...this.seated ? [textButton(t('Free this seat'), async () => {
+        await fetch('/free', {method: 'POST', body: JSON.stringify({seat: cards.indexOf(this)})});
+        dialog.close();
+      })] : [],
       ...this.raisedAt ? [textButton(t('Lower the hand'), () => {
         this.lowerHand();
         dialog.close();
