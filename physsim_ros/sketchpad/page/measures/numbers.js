@@ -30,7 +30,7 @@ export class Numbers {
     this.ahead = null;
     this.line = createElement('p');
     this.momentum = createElement('p');
-    this.turning = createElement('p'); // moment of inertia and angular momentum
+    this.turning = createElement('p', {className: 'pairs'}); // moment of inertia and angular momentum
     this.pairs = createElement('p', {className: 'pairs'}); // friction with what the body touches
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': word}));
     this.labels = ENERGIES.map((word) => createElement('span', {}, word));
@@ -38,7 +38,7 @@ export class Numbers {
     this.inputs = new Map(TYPED.map(([key]) => [key, numberField(null, (value) => this.#type(key, value), {inputMode: key === 'mass' ? 'decimal' : 'text'})]));
     this.typed = createElement('details', {className: 'typed'}, createElement('summary', {}, t('Enter numbers')),
       createElement('div', {}, ...TYPED.map(([key, label]) => createElement('label', {}, label, /** @type {Node} */ (this.inputs.get(key))))));
-    this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum, this.turning,
+    this.element = createElement('section', {className: 'numbers', 'aria-label': t('Numbers')}, this.line, this.momentum,
       ...this.labels.flatMap((label, i) => [label, this.bars[i], this.values[i]]));
     app.connection.on('open', () => { this.ahead = null; });
     // A change is in each frame that comes after its answer.
