@@ -12,7 +12,7 @@ SOURCED := $(shell [ "$$ROS_DISTRO" = jazzy ] && python3 -c 'import rclpy' 2>/de
 
 ifeq ($(SOURCED),yes)
   PYTHON ?= python3
-  EXTRAS := class
+  EXTRAS := viewer,class
   VENV_OPTIONS := --system-site-packages
   STAMP := $(VENV)/.made-for-sourced-jazzy
 else
@@ -168,10 +168,10 @@ $(STAMP): setup.py
 	@touch $@ $(BUILT)
 
 # What the package needs to run: the environment, and the core as its sources are now. The folder is newer where one was
-# renamed or is no more.
-$(BUILT): $(STAMP) $(CORE) physsim_ros/engine/core
-	@$(BIN)/python setup.py --quiet build_ext --inplace
-	@touch $@
+# renamed or is no more. pip has just compiled the core where it has made the environment: make does not look again.
+$(BUILT): $(CORE) physsim_ros/engine/core | $(STAMP)
+	@if [ ! -e $@ ] || [ -n "$$(find $^ -maxdepth 0 -newer $@)" ]; then \
+	  $(BIN)/python setup.py --quiet build_ext --inplace && touch $@; fi
 
 $(TOOLS): $(BUILT) setup.py
 	@[ -e $@ ] || echo 'Packages for tests and tools, some 50; a minute the first time.'

@@ -13,6 +13,7 @@ import shlex
 import sys
 
 from cffi import FFI
+import setuptools
 from setuptools import Extension, find_packages, setup
 from setuptools.command.build_ext import build_ext
 
@@ -94,7 +95,8 @@ def write_declarations(path: Path) -> None:
     """
     Write the declarations of the headers as a module of Python that cffi makes of them.
 
-    Read from the headers at each start, they take a tenth of a second.
+    It has the hash of all sources, as the core has it, by which both are compared. Read from the
+    headers at each start, the declarations take a tenth of a second.
     """
     texts = [(SOURCE / CORE / name).read_text('utf-8') for name in ('chipmunk.h', 'core.h')]
     lines = ''.join(texts).splitlines(keepends=True)
@@ -102,6 +104,13 @@ def write_declarations(path: Path) -> None:
     ffi.cdef(''.join(line for line in lines if not line.startswith('#')))
     ffi.set_source(f'{PACKAGE}.engine.core.{path.stem}', None, compiler_verbose=0)
     ffi.emit_python_code(str(path))
+    with path.open('a', encoding='utf-8') as file:
+        file.write(f'SOURCES = {HASH!r}\n')
+
+
+SETUPTOOLS = int(setuptools.__version__.partition('.')[0])
+# Rerun, for recordings, and Arrow as recent as Rerun wants it: 650 MB.
+VIEWER = ['pyarrow', 'rerun-sdk>=0.41,<0.42']
 
 
 def _environment(name: str) -> list[str]:
@@ -128,7 +137,9 @@ setup(
     author_email=EMAIL,
     maintainer=AUTHOR,
     maintainer_email=EMAIL,
-    license='Apache-2.0',
+    # PEP 639, since setuptools 77; that of Ubuntu 24.04 is older.
+    **{'license' if SETUPTOOLS < 77 else 'license_expression': 'Apache-2.0'},
+    license_files=['LICENSE', 'NOTICE'],
     url=HOME or None,
     project_urls={
         'Source': HOME,
@@ -140,6 +151,7 @@ setup(
     else {},
     keywords=['ROS 2', 'robotics', 'physics', 'simulation', 'pytest', 'Pymunk', 'Rerun'],
     classifiers=[
+        'Development Status :: 4 - Beta',
         'Framework :: Pytest',
         'Intended Audience :: Developers',
         'Intended Audience :: Education',
@@ -168,7 +180,7 @@ setup(
     cmdclass={'build_ext': BuildCore},
     package_data={
         PACKAGE: ['py.typed'],
-        f'{PACKAGE}.drawing.strokes': ['evidence.csv'],
+        f'{PACKAGE}.drawing.strokes': ['evidence.csv', 'judge.csv'],
         f'{PACKAGE}.ros.programs': ['*.xml'],
         f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*'],
     },
@@ -193,32 +205,40 @@ setup(
         # Calls the core; Pymunk needs it, too.
         'cffi>=1.17',
         'numpy>=2',
-        # Reads the images of maps; Rerun needs it, too. Earlier ones have known holes.
+        # Reads the images of maps. Earlier ones have known holes.
         'Pillow>=12.3',
-        # As recent as Rerun wants it.
-        'pyarrow',
         'pymunk>=7.3,<8',
         'PyYAML',
-        'rerun-sdk>=0.41,<0.42',
         # Serves the page; needs nothing itself. Earlier ones have known holes.
         'tornado>=6.5.10,<7',
     ],
     extras_require={
-        # ROS 2 Jazzy as wheels. Without fastrtps importing rclpy fails: it brings the only
-        # middleware there is.
+        # ROS 2 Jazzy as wheels, with the viewer. Without fastrtps importing rclpy fails: it brings
+        # the only middleware there is.
         'jazzy': [
             'ros-jazzy-common-interfaces',
             'ros-jazzy-rclpy[fastrtps]',
+            *VIEWER,
         ],
+        # Windows and recordings of Rerun. `Simulation`, `gym` and `sweeps` do without.
+        'viewer': VIEWER,
         # `make docs release`. 8.2 of sphinx brings the pages of modules.
-        'docs': ['furo', 'gymnasium>=1.0,<2', 'myst-parser>=4', 'sphinx>=8.2,<9', 'twine'],
+        'docs': [
+            # Writes the cheat sheet to print.
+            'fpdf2>=2.8,<3',
+            'furo',
+            'gymnasium>=1.1,<2',
+            'myst-parser>=4',
+            'sphinx>=8.2,<9',
+            'twine',
+        ],
         # QR codes of the addresses of a class.
         'class': ['segno>=1.6,<2'],
         # Environments for learning (`physsim_ros.gym`).
-        'gym': ['gymnasium>=1.0,<2'],
+        'gym': ['gymnasium>=1.1,<2'],
         'test': [
             # That of environments.
-            'gymnasium>=1.0,<2',
+            'gymnasium>=1.1,<2',
             # That of a class.
             'segno>=1.6,<2',
             # Runs sweeps in processes of a cluster.

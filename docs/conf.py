@@ -18,6 +18,10 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
+# Both are found by the line above.
+from tools.tables.cheat_sheet import write_pdf  # noqa: E402
+from tools.tables.search_words import with_entries  # noqa: E402
+
 project = 'physsim_ros'
 author = 'physsim_ros maintainers'
 project_copyright = '2026 physsim_ros maintainers'
@@ -65,6 +69,9 @@ FRONTS = ('api/physsim_ros', 'api/physsim_ros.testing')
 autodoc_typehints = 'description'
 autodoc_typehints_description_target = 'documented'
 
+# Beside its page on the site.
+CHEAT_SHEET = 'cheat_sheet.pdf'
+
 # Links of README lead from the repository; those of its pages from here.
 MOVED = {
     '](docs/': '](',
@@ -74,12 +81,16 @@ MOVED = {
 
 
 def amend_source(_app: object, name: str, source: list[str]) -> None:
-    """Put README on the first page, and keep modules out of the table of contents."""
+    """Put README on the first page, modules out of the contents, and words into the index."""
+    source[0] = with_entries(name, source[0])
     if name == 'index':
         readme = (ROOT / 'README.md').read_text(encoding='utf-8')
         for old, new in MOVED.items():
             readme = readme.replace(old, new)
         source[0] = f'{readme}\n{source[0]}'
+    elif name == 'cheat_sheet':
+        link = f'<a href="{CHEAT_SHEET}">{CHEAT_SHEET}</a>'
+        source[0] = source[0].replace(f'docs/_build/html/{CHEAT_SHEET}', link)
     elif name == 'api/modules':
         # The theme writes its whole table of contents on each page: with hundreds of modules in
         # it the site takes five times as long.
@@ -100,7 +111,14 @@ def skip_exported(
     return skip or (what == 'module' and exported and page not in FRONTS)
 
 
+def write_cheat_sheet(app: Any, error: Exception | None) -> None:
+    """Write the cheat sheet beside its page, to print."""
+    if error is None and app.builder.format == 'html':
+        write_pdf(Path(app.outdir, CHEAT_SHEET))
+
+
 def setup(app: Any) -> None:
-    """Connect what Sphinx calls for each page and each member."""
+    """Connect what Sphinx calls for each page and each member, and after the last."""
+    app.connect('build-finished', write_cheat_sheet)
     app.connect('source-read', amend_source)
     app.connect('autodoc-skip-member', skip_exported)

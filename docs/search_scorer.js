@@ -1,14 +1,16 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// How the search of the site ranks: pages whose title has the word, then what looks things up, then what teaches, then
-// what tells of the inside, then pages of modules, which are made from docstrings. Sphinx's own figures are in
-// searchtools.js; what differs is objNameMatch (11 there), objPartialMatch (6), title (15) and score.
+// How the search of the site ranks: entries of tools/tables/search_words.py, pages whose title has the word, then
+// guides, then reference, then design notes and decisions, then pages of modules, which are made from docstrings.
+// Sphinx's own figures are in searchtools.js; what differs is objNameMatch (11 there), objPartialMatch (6), title (15)
+// and score.
 var RANKS = [
-  [/^interface\/(properties|parameters|topics)/, 40],
-  [/^(robots|drawing|time|testing|python|actors|viewers)$/, 35],
+  [/^(robots|drawing|time|testing|python|actors|viewers|questions|howto|installation|learning|classroom)$/, 40],
+  [/^tutorials\//, 35],
   [/^interface/, 30],
-  [/^(decisions\/|changelog|figures|glossary)/, -30],
+  [/^(architecture|page_protocol|security)/, -15],
+  [/^(decisions\/|changelog|figures|glossary|contributing)/, -30],
   [/^api\//, -100],
 ];
 var Scorer = {

@@ -22,6 +22,7 @@ PARAMETERS = {
     'sketchpad': ('serve', 'the page, whose address is printed: serve or none'),
     'sketchpad_port': (8765, 'port of the page; if it is taken, one of the next 20'),
     'viewer': ('auto', 'Rerun: none, spawn, web, connect or auto'),
+    'record_file': ('', 'a .rrd file to record into'),
 }
 
 
@@ -40,6 +41,11 @@ def generate_launch_description() -> LaunchDescription:
         ),
         DeclareLaunchArgument(
             'rviz', default_value='false', description='whether RViz is started'
+        ),
+        DeclareLaunchArgument(
+            'use_sim_time',
+            default_value='true',
+            description="whether RViz has the world's time, which goes back in a rewind",
         ),
         DeclareLaunchArgument(
             'namespace',
@@ -63,6 +69,7 @@ def generate_launch_description() -> LaunchDescription:
         package='rviz2',
         executable='rviz2',
         arguments=['-d', PathJoinSubstitution([config, 'physsim.rviz'])],
+        parameters=[{'use_sim_time': LaunchConfiguration('use_sim_time')}],
         condition=IfCondition(LaunchConfiguration('rviz')),
     )
     return LaunchDescription([*arguments, world, rviz])

@@ -107,5 +107,6 @@ def test_the_launch_file_is_understood_by_ros_2_launch() -> None:
     pytest.importorskip('launch_ros', reason='launch and launch_ros have no wheels')
     description = runpy.run_path(str(LAUNCH))['generate_launch_description']()
     names = {each.name for each in description.get_launch_arguments()}
-    others = {'params_file', 'namespace', 'rviz'}
-    assert names == {'world_file', 'sketchpad', 'sketchpad_port', 'viewer', *others}
+    others = {'params_file', 'namespace', 'rviz', 'use_sim_time'}
+    given = {'world_file', 'sketchpad', 'sketchpad_port', 'viewer', 'record_file'}
+    assert names == given | others

@@ -38,9 +38,19 @@ def test_the_page_prints_what_it_says_and_imports_no_ros() -> None:
 
 
 def test_the_page_names_all_names() -> None:
-    table = {name for row in re.findall(r'^\| (`.*?) \|', PAGE, re.MULTILINE)
+    # Those of the fields of requests are generated.
+    written, _, _ = PAGE.partition('## Fields of requests')
+    table = {name for row in re.findall(r'^\| (`.*?) \|', written, re.MULTILINE)
              for name in re.findall(r'`(\w+)`', row)}  # fmt: skip
     assert sorted({*table, 'Request', 'Shape'}) == sorted(physsim_ros.__all__)
+
+
+def test_worlds_environments_and_sweeps_do_without_rerun() -> None:
+    pytest.importorskip('gymnasium')
+    lacking = "import sys\nsys.modules.update({'rerun': None, 'pyarrow': None})\n"
+    used = 'import physsim_ros.gym, physsim_ros.sweeps\nphyssim_ros.Simulation().run(0.1)\n'
+
+    assert run_python('-c', lacking + USE_ALL + used) == ''
 
 
 def test_the_package_imports_nothing_before_a_name_is_used() -> None:

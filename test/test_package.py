@@ -137,16 +137,15 @@ def test_pip_is_told_what_rosdep_cannot_bring(distribution):
         'cffi',
         'numpy',
         'pillow',
-        'pyarrow',
         'pymunk',
         'pyyaml',
-        'rerun-sdk',
         'tornado',
     }
     assert set(always) == named
     assert '1.26.4' not in always['numpy']
     assert '8.0.0' not in always['pymunk']
-    assert extras == {f'extra == "{name}"' for name in ('class', 'docs', 'gym', 'jazzy', 'test')}
+    names = ('class', 'docs', 'gym', 'jazzy', 'test', 'viewer')
+    assert extras == {f'extra == "{name}"' for name in names}
 
 
 def test_pip_and_ros_are_told_the_same_version_and_licence(distribution):
@@ -193,7 +192,7 @@ def test_the_source_distribution_has_what_builds_the_package_and_no_tests(packed
     with tarfile.open(packed[0]) as archive:
         names = {name.partition('/')[2] for name in archive.getnames()}
 
-    assert {'README.md', 'LICENSE', 'package.xml', 'pyproject.toml', 'setup.py'} <= names
+    assert {'README.md', 'LICENSE', 'NOTICE', 'package.xml', 'pyproject.toml', 'setup.py'} <= names
     assert {path.relative_to(ROOT).as_posix() for path in ROOT.glob('tools/build/*.py')} <= names
     assert _sources_of_the_core() <= {Path(name).name for name in names}
     assert not [name for name in names if name.startswith('test/') or name.endswith('.so')]

@@ -9,7 +9,8 @@ body lies at its centre of mass. A joint that is drawn before its second body is
 background until then.
 
 Law: a movable body that is drawn over the background end of a drawn joint becomes the second body
-of that joint. Otherwise the two bodies of one machine would collide.
+of that joint. Otherwise the two bodies of one machine would collide. An axle whose body another
+axle joins at the same place holds both on the background, and stays.
 """
 
 from __future__ import annotations
@@ -184,20 +185,25 @@ def _dynamic_body(name: str, shape: Shape, pose: Pose, settings: DrawingSettings
 
 
 def requests_with_waiting_joints(
-    requests: tuple[Request, ...], scene: SceneQuery
+    requests: tuple[Request, ...], scene: SceneQuery, snap: float
 ) -> tuple[Request, ...]:
-    """Return requests, followed by those that join each spawned body to its waiting joints."""
+    """
+    Return requests, followed by those that join each spawned body to its waiting joints.
+
+    :param snap: the greatest distance of axles that are at one place [m]
+    """
     spawned = [each for each in requests if isinstance(each, Spawn) and _moves(each)]
-    return (*requests, *(join for body in spawned for join in _joins_of(body, scene)))
+    return (*requests, *(join for body in spawned for join in _joins_of(body, scene, snap)))
 
 
-def _joins_of(body: Spawn, scene: SceneQuery) -> Iterator[Join]:
+def _joins_of(body: Spawn, scene: SceneQuery, snap: float) -> Iterator[Join]:
     waiting = [
         joint
         for joint in scene.joints
         if joint.b == WORLD
         and (joint.kind.schema.along_line or joint.kind in _AT_POINT)
         and split_name(joint.name)[0] == DRAWN
+        and not _holds_two(joint, scene, snap)
     ]
     if not waiting:
         return
@@ -214,6 +220,14 @@ def _joins_of(body: Spawn, scene: SceneQuery) -> Iterator[Join]:
             a=joint.a,
             b=body.name,
         )
+
+
+def _holds_two(joint: Joint, scene: SceneQuery, snap: float) -> bool:
+    """Return whether another axle at the place of an axle joins its body to a second one."""
+    if joint.kind is not JointKind.AXLE:
+        return False
+    others = scene.axles_at(scene.pivot(joint), snap)
+    return any(joint.a in (each.a, each.b) and WORLD not in (each.a, each.b) for each in others)
 
 
 def _points(joint: Joint, end: Point, scene: SceneQuery) -> tuple[Point, ...]:

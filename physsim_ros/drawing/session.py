@@ -20,6 +20,7 @@ from physsim_ros.drawing.body_requests import requests_with_waiting_joints
 from physsim_ros.drawing.click import ClickResult, Tool
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.figure import (
     Figure,
     likeliest_group,
@@ -28,7 +29,13 @@ from physsim_ros.drawing.strokes.figure import (
     MOST_STROKES,
 )
 from physsim_ros.drawing.strokes.meanings import Outcome
-from physsim_ros.drawing.strokes.reading import Guess, not_recognised, Reading, reading_of
+from physsim_ros.drawing.strokes.reading import (
+    Guess,
+    not_recognised,
+    Reading,
+    reading_of,
+    recognise_form,
+)
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.tools import Gesture
 from physsim_ros.model.arrays import Floats
@@ -124,8 +131,10 @@ class DrawingSession:
         self.preview = NO_PREVIEW
         placed = _in_world(samples, frame, scene)
         drawn = resample_stroke(placed)
+        features = Features.of(drawn)
         figure = Figure.read(
-            drawn,
+            features,
+            recognise_form(features),
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
@@ -175,7 +184,7 @@ class DrawingSession:
         """
         figure.chosen = number
         reading = reading_of(figure.guesses, number, amends=figure.gestures)
-        requests = requests_with_waiting_joints(reading.requests, figure.scene)
+        requests = requests_with_waiting_joints(reading.requests, figure.scene, self.settings.snap)
         figure.requests = requests
         return replace(reading, requests=requests)
 

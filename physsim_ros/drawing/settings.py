@@ -25,8 +25,8 @@ class DrawingSettings(Checked):
     snap: Annotated[
         float,
         Within(0.0, 10.0, 'm'),
-        'ends of strokes, and clicks, move onto bodies, ends of walls and first corners within '
-        'this distance',
+        'distance within which ends of strokes, and clicks, move onto bodies, ends of walls and '
+        'first corners',
     ] = 0.15
     sketch_confidence: Annotated[
         float,
@@ -37,7 +37,7 @@ class DrawingSettings(Checked):
     regroup: Annotated[
         float,
         Within(0.0, 10.0, 's'),
-        'strokes within this time of one another are read together; 0: each alone',
+        'strokes within this time of one another are read together; 0 reads each alone',
     ] = 0.8
     beautify: Annotated[
         float,

@@ -8,6 +8,7 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 (`drawing`). Start with `world_file`, then `world_reader` and `world_writer`.
 """
 
+from physsim_ros.files.foreign import advice_on_xml, CONVERTED, kind_of
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import (
@@ -40,15 +41,18 @@ from physsim_ros.files.world_writer import text_of, yaml_line
 from physsim_ros.files.yaml12 import load_mapping
 
 __all__ = [
+    'CONVERTED',
     'MOST_BYTES',
     'PROPERTIES',
     'SETTINGS',
     'BadDrawing',
     'OwnWorlds',
+    'advice_on_xml',
     'check_world_name',
     'drawings',
     'find_world',
     'hides_shipped',
+    'kind_of',
     'load_drawing',
     'load_mapping',
     'load_world',

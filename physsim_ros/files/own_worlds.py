@@ -13,7 +13,7 @@ from pathlib import Path
 
 from physsim_ros.files.regular_file import make_directory
 from physsim_ros.files.resources import is_plain
-from physsim_ros.files.world_file import is_shipped
+from physsim_ros.files.world_file import is_shipped, user_lessons
 from physsim_ros.model.errors import BadWorldFile, Exists
 
 # Length of a name [characters].
@@ -42,12 +42,15 @@ class OwnWorlds:
     The worlds in the user's directory.
 
     :param directory: of the worlds
+    :param lessons: directory of the lessons; None is `user_lessons`
 
     :ivar directory: of the worlds
+    :ivar lessons: directory of the lessons
     """
 
-    def __init__(self, directory: Path) -> None:
+    def __init__(self, directory: Path, lessons: Path | None = None) -> None:
         self.directory = directory
+        self.lessons = lessons or user_lessons(directory)
 
     def check_free(self, name: str, *, replace: bool = False) -> None:
         """

@@ -15,6 +15,7 @@ from collections.abc import Collection
 from pathlib import Path
 import re
 
+from physsim_ros.files.foreign import advice_on, advice_on_xml
 from physsim_ros.files.map_file import with_map_walls
 from physsim_ros.files.regular_file import make_directory, read_file, write_file
 from physsim_ros.files.resources import files_by_name, is_plain, shipped, user_directory
@@ -24,6 +25,7 @@ from physsim_ros.files.world_writer import text_of
 from physsim_ros.files.yaml12 import load_entries
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import (
+    BadProperty,
     BadWorldFile,
     Malformed,
     Refusal,
@@ -60,21 +62,28 @@ def user_lessons(world_dir: Path) -> Path:
     return world_dir / 'lessons'
 
 
-def find_world(name: str, *, world_dir: Path | None = None, confined: bool = False) -> Path:
+def find_world(
+    name: str,
+    *,
+    world_dir: Path | None = None,
+    lesson_dir: Path | None = None,
+    confined: bool = False,
+) -> Path:
     """
     Return the file of a name or path.
 
     :param name: a path, absolute or below the world directory, or the plain name of a world or
         lesson
     :param world_dir: directory of the user's worlds; None is `user_worlds`
-    :param confined: whether only that directory and shipped files may be read
+    :param lesson_dir: directory of the user's lessons; None is `user_lessons`
+    :param confined: whether only these directories and shipped files may be read
     :raises BadWorldFile: there is no such file, or it lies elsewhere
     """
     if not name:
         raise BadWorldFile('parameter world_file names no file', field='world_file')
     world_dir = world_dir or user_worlds()
     file = f'{name}{_SUFFIX}' if is_plain(name) else name
-    own = (world_dir, user_lessons(world_dir))
+    own = (world_dir, lesson_dir or user_lessons(world_dir))
     ours = (shipped_worlds(), shipped_lessons())
     paths = [world_dir / file]
     if Path(file).name == file:
@@ -93,7 +102,7 @@ def find_world(name: str, *, world_dir: Path | None = None, confined: bool = Fal
             raise BadWorldFile(f'{name} is not a regular file', field='world_file')
         if found:
             if confined:
-                _check_place(path.resolve(), name, (world_dir, *ours))
+                _check_place(path.resolve(), name, (*own, *ours))
             return path
     known = sorted({plain for each in (*own, *ours) for plain in worlds_in(each)})
     # Peers on the graph are not told the directories of this machine.
@@ -141,7 +150,11 @@ def load_world(
         raise _unreadable(path.name, error) from error
     try:
         settings = settings or WorldSettings()
+        if advice := advice_on_xml(text):
+            raise BadProperty(advice)
         content = load_entries(text, field=path.name)
+        if advice := advice_on(content):
+            raise BadProperty(advice)
         if 'map' in content:
             content = with_map_walls(content, path.parent, settings.max_bodies)
         return state_from(content, settings, physics_rate, parameters)

@@ -55,9 +55,27 @@ def check_episode(saved: object) -> SavedEpisode:
     return cast('SavedEpisode', OfClass(SavedEpisode)(saved, 'saved'))
 
 
+def _robot_of(task: Task) -> Robot:
+    """
+    Return the robot of a task, in a world of its own.
+
+    :raises BadProperty: the period of the task does not divide into steps of its physics rate
+    :raises UnknownBody: the robot is not in the world
+    """
+    simulation = Simulation(
+        physics_rate=task.physics_rate,
+        publish_rate=1.0 / task.period,
+        history=0.0,
+        # None within an episode: nobody goes back, but to a saved moment.
+        checkpoints=task.longest,
+    )
+    simulation.begin(task.world)
+    return Robot(simulation, task.robot)
+
+
 class RobotEnv(Env[Observation, Action]):
     """
-    One world in which an agent has a task.
+    One world in which an agent has a task. A copy, and a pickle, is the saved moment of it.
 
     :param task: of the agent
     :param render_mode: 'rgb_array' has `render` return pictures; None none
@@ -78,20 +96,24 @@ class RobotEnv(Env[Observation, Action]):
             _RENDER_MODE(render_mode, 'render_mode')
         self.render_mode = render_mode
         self.metadata = {**self.metadata, 'render_fps': max(1, round(1.0 / task.period))}
-        simulation = Simulation(
-            physics_rate=task.physics_rate,
-            publish_rate=1.0 / task.period,
-            history=0.0,
-            # None within an episode: nobody goes back, but to a saved moment.
-            checkpoints=task.longest,
-        )
-        simulation.begin(task.world)
-        self.robot = Robot(simulation, task.robot)
+        self.robot = _robot_of(task)
         # Each environment samples by a generator of its own.
         self.action_space = deepcopy(task.action_space)
         self.observation_space = deepcopy(task.observed(self.robot))
         self._longest = round(task.longest / task.period)
         self._steps = 0
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what copies and pickles are made of: the world is a saved episode, by `save`."""
+        own = {name: each for name, each in self.__dict__.items() if name not in {'task', 'robot'}}
+        # Generators of a shallow copy are its own, too.
+        return {'task': self.task, 'robot': self.save(), **deepcopy(own)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        """Continue as another environment did, to the bit."""
+        self.__dict__.update(state)
+        self.robot = _robot_of(self.task)
+        self.restore(state['robot'])
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None

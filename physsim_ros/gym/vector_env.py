@@ -5,46 +5,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
+from functools import partial
 from typing import Any, cast
 
-from gymnasium.vector import AutoresetMode, VectorEnv
-from gymnasium.vector.utils import batch_space, concatenate, create_empty_array, iterate
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
+from gymnasium.vector.utils import concatenate, create_empty_array
 import numpy as np
-from numpy.typing import NDArray
 from physsim_ros.gym.robot_env import check_episode, RobotEnv, SavedEpisode
-from physsim_ros.gym.task import Action, Observation, Task
+from physsim_ros.gym.task import Observation, Task
 from physsim_ros.model.checks import Whole
 
 _COUNT = Whole(1, 10_000)
-# Of all worlds.
-_Flags = NDArray[np.bool_]
 
 
-class RobotVectorEnv(VectorEnv[Observation, Action, NDArray[Any]]):
+class RobotVectorEnv(SyncVectorEnv):
     """
-    Many worlds of one task, stepped one after the other.
+    Many worlds of one task, stepped one after the other, by Gymnasium's own `SyncVectorEnv`.
 
-    World k of a reset with a seed has the episodes of a `RobotEnv` that is reset with seed + k. An
-    episode that has ended begins anew in the next step, whose action is ignored.
+    World k of a reset with a seed has the episodes of a `RobotEnv` that is reset with seed + k.
 
     :param task: of the agent
-    :param count: number of worlds
-    :raises BadProperty: it is none, or too many
+    :param num_envs: number of worlds
+    :param render_mode: 'rgb_array' has `render` return a picture of each; None none
+    :param autoreset_mode: an episode that has ended begins anew in the next step, whose action is
+        ignored; in the same step; or (disabled) by a reset with a mask
+    :raises BadProperty: the number is out of range, or there is no such render mode
+    :raises ValueError: there is no such autoreset mode
 
-    :ivar envs: the environment of each world
+    :ivar envs: the environment of each world, a `RobotEnv`
     """
 
-    def __init__(self, task: Task, count: int) -> None:
-        self.num_envs = _COUNT(count, 'count')
-        self.envs = [RobotEnv(task) for _ in range(count)]
-        first = self.envs[0]
-        self.metadata = {**first.metadata, 'autoreset_mode': AutoresetMode.NEXT_STEP}
-        self.single_action_space = first.action_space
-        self.single_observation_space = first.observation_space
-        self.action_space = batch_space(first.action_space, count)
-        self.observation_space = batch_space(first.observation_space, count)
-        self._ended = np.zeros(count, np.bool_)
+    def __init__(
+        self,
+        task: Task,
+        num_envs: int = 1,
+        *,
+        render_mode: str | None = None,
+        autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
+    ) -> None:
+        _COUNT(num_envs, 'num_envs')
+        make = partial(RobotEnv, task, render_mode=render_mode)
+        super().__init__([make] * num_envs, autoreset_mode=autoreset_mode)
 
     def reset(
         self,
@@ -53,43 +55,30 @@ class RobotVectorEnv(VectorEnv[Observation, Action, NDArray[Any]]):
         options: dict[str, Any] | None = None,
     ) -> tuple[Observation, dict[str, Any]]:
         """
-        Begin an episode in each world.
+        Begin an episode in each world, or in some.
 
         :param seed: of world k it is seed + k; or the seed of each; None is the next one of each
-        :param options: none is known
-        :return: the first observations, and under `seed` the seeds of the noise, (count,) int64
-        :raises ValueError: there are not as many seeds as worlds
+        :param options: under 'reset_mask' (num_envs,) bool: the worlds in which one begins
+        :return: the observations of all worlds, and under 'seed' the seeds of the noise of those
+            in which an episode has begun, by the flags under '_seed'
+        :raises ValueError: there are not as many seeds or flags as worlds, or no flag is set
+        :raises TypeError: the flags are no array of bool
         """
-        if seed is None or isinstance(seed, int):
-            seed = [None if seed is None else seed + k for k in range(self.num_envs)]
-        pairs = [*zip(self.envs, seed, strict=True)]
-        begun = [env.reset(seed=each, options=options) for env, each in pairs]
-        self._ended[:] = False
-        observations, infos = zip(*begun, strict=True)
-        return self._batch(observations), _infos(infos)
-
-    def step(
-        self, actions: Action
-    ) -> tuple[Observation, NDArray[np.float64], _Flags, _Flags, dict[str, Any]]:
-        """
-        Act for a period in each world, or begin an episode where the last one has ended.
-
-        :param actions: of all worlds
-        :return: observations, rewards, whether episodes are over, whether they are cut off, and
-            under `seed` the seeds of those that began, by the flags under `_seed`
-        """
-        each_action = iterate(self.action_space, actions)
-        of_worlds = [*zip(self.envs, self._ended.tolist(), each_action, strict=True)]
-        steps = [_begun(env) if ended else env.step(action) for env, ended, action in of_worlds]
-        observations, rewards, overs, cuts, infos = zip(*steps, strict=True)
-        over, cut = np.array(overs, np.bool_), np.array(cuts, np.bool_)
-        self._ended = over | cut
-        return self._batch(observations), np.array(rewards, float), over, cut, _infos(infos)
+        # Gymnasium 1.4 takes `reset_mask` out of the caller's own options.
+        result: tuple[Observation, dict[str, Any]] = super().reset(
+            seed=seed if seed is None or isinstance(seed, int) else [*seed],
+            options=None if options is None else {**options},
+        )
+        return result
 
     def save(self) -> tuple[tuple[SavedEpisode, bool], ...]:
         """Return the moment of each world, and whether its episode has ended."""
-        ended = self._ended.tolist()
-        return tuple((env.save(), end) for env, end in zip(self.envs, ended, strict=True))
+        ended = self._autoreset_envs.tolist()
+        return tuple((env.save(), end) for env, end in zip(self._robots, ended, strict=True))
+
+    @property
+    def _robots(self) -> list[RobotEnv]:
+        return cast('list[RobotEnv]', self.envs)
 
     def restore(self, saved: Sequence[tuple[SavedEpisode, bool]]) -> Observation:
         """
@@ -99,27 +88,11 @@ class RobotVectorEnv(VectorEnv[Observation, Action, NDArray[Any]]):
         :raises Malformed: one is no saved episode; then no world has changed
         """
         episodes = [check_episode(episode) for episode, _ in saved]
-        pairs = [*zip(self.envs, episodes, strict=True)]
-        observations = [env.restore(episode) for env, episode in pairs]
-        self._ended = np.array([ended for _, ended in saved])
-        return self._batch(observations)
-
-    def _batch(self, observations: Iterable[Observation]) -> Observation:
-        """Return the observations of all worlds as one of `observation_space`."""
+        pairs = [*zip(self._robots, episodes, strict=True)]
+        # Attributes of Gymnasium 1.1 to 1.4: the observation of each world, which stays where it
+        # is not reset, and whether its episode has ended.
+        self._env_obs = [env.restore(episode) for env, episode in pairs]
+        self._autoreset_envs = np.array([ended for _, ended in saved])
         space = self.single_observation_space
         batch = cast('Observation', create_empty_array(space, self.num_envs))
-        return concatenate(space, [*observations], batch)
-
-
-def _begun(env: RobotEnv) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
-    """Return the first step of a new episode."""
-    observation, info = env.reset()
-    return observation, 0.0, False, False, info
-
-
-def _infos(infos: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    """Return the `info` of all worlds, as Gymnasium has it of those whose episodes began."""
-    began = np.array(['seed' in info for info in infos])
-    if not began.any():
-        return {}
-    return {'seed': np.array([info.get('seed', 0) for info in infos]), '_seed': began}
+        return concatenate(space, self._env_obs, batch)

@@ -32,7 +32,7 @@ class AppliedForce(Checked):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    force: Annotated[Point, Vector(HEAVIEST, 'N', 'greater'), 'in the directions of its `axes`']
+    force: Annotated[Point, Vector(HEAVIEST, 'N', 'greater'), 'x and y along its `axes`']
     at: Annotated[
         Point | None,
         check_point,

@@ -59,11 +59,13 @@ class Properties(Checked):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    mass: Annotated[float | None, Within(LIGHTEST, HEAVIEST, 'kg'), 'excludes `density`'] = None
+    mass: Annotated[
+        float | None, Within(LIGHTEST, HEAVIEST, 'kg'), 'not together with `density`'
+    ] = None
     density: Annotated[
         float | None,
         Within(LIGHTEST, HEAVIEST, 'kg/m²'),
-        'excludes `mass`; by default parameter `density`',
+        'not together with `mass`; by default parameter `density`',
     ] = None
     friction: Annotated[
         float | None, Within(0.0, 10.0), 'coefficient of friction; by default parameter `friction`'
@@ -91,15 +93,19 @@ class Properties(Checked):
         'makes a sensor a conveyor: velocity of its surface in the axes of the body',
     ] = None
     robot: Annotated[
-        Robot | None, Robot.from_value, 'makes it a robot: the name of a shipped one, or a mapping'
+        Robot | None,
+        Robot.from_value,
+        'makes the body a robot: the name of a shipped robot, or a mapping',
     ] = None
     actor: Annotated[
-        Actor | None, actor_from, 'moves it on its own: a mapping of a path or a model of people'
+        Actor | None,
+        actor_from,
+        'moves the body on its own: a mapping of a path or a pedestrian model',
     ] = None
     forces: Annotated[
         tuple[AppliedForce, ...] | None,
         forces_from,
-        'constant forces on it, a list of mappings; `[]` is none',
+        'constant forces on the body, a list of mappings; `[]` is none',
     ] = None
     label: Annotated[
         str | None,

@@ -22,7 +22,7 @@ from physsim_ros.model.texts import name_meant, nearest_name
 
 # Greatest ratio of a gear, and the inverse of the least: between the fastest and the slowest wheel
 # of a clock it is 1e6.
-_MOST_RATIO = 1e6
+MOST_RATIO = 1e6
 # Greatest phase of a gear [rad]: exact to a nanometre at an arm of a metre.
 _MOST_PHASE = 1e6
 
@@ -37,8 +37,8 @@ AS_DRAWN = 'as drawn'
 
 
 def _ratio(value: object, name: str) -> float:
-    ratio = Within(-_MOST_RATIO, _MOST_RATIO)(value, name)
-    if abs(ratio) < 1.0 / _MOST_RATIO:
+    ratio = Within(-MOST_RATIO, MOST_RATIO)(value, name)
+    if abs(ratio) < 1.0 / MOST_RATIO:
         raise BadProperty(f'{name} is {ratio:g}; it must not be 0', field=name)
     return ratio
 
@@ -126,7 +126,7 @@ class JointKind(StrEnum):
         'rope',
         Schema(
             2,
-            'pulls where its ends would part further than its length',
+            'keeps its ends at most `length` apart',
             own=('length',),
             words=('string', 'cord', 'cable', 'chain', 'slide'),
             along_line=True,
@@ -136,7 +136,7 @@ class JointKind(StrEnum):
         'slider',
         Schema(
             2,
-            'has `a` move along a line relative to `b`, without turning',
+            'lets `a` slide along a line fixed to `b`, without rotating',
             own=('lower', 'upper'),
             words=('prismatic', 'groove', 'rail', 'piston'),
             least_distance=SMALLEST,
@@ -147,7 +147,7 @@ class JointKind(StrEnum):
         'gear',
         Schema(
             1,
-            'has `a` turn with `b`',
+            'couples the rotations of `a` and `b`',
             own=('ratio', 'phase'),
             words=('cog', 'gears'),
         ),
@@ -212,11 +212,11 @@ class JointProperties(Checked):
     max_torque: Annotated[
         float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', 1000.0
     ] = None
-    stiffness: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N/m'), 'force for a strain', 100.0
-    ] = None
+    stiffness: Annotated[float | None, Within(0.0, HEAVIEST, 'N/m'), 'force per strain', 100.0] = (
+        None
+    )
     damping: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against a rate', 0.0
+        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against the rate of strain', 0.0
     ] = None
     rest_length: Annotated[
         float | None, Within(0.0, LARGEST, 'm'), 'length of a spring without force', AS_DRAWN
@@ -228,7 +228,7 @@ class JointProperties(Checked):
         float | None,
         _ratio,
         'turns of `a` for one of `b`; negative for opposite directions; '
-        f'{brief(1 / _MOST_RATIO)} .. {brief(_MOST_RATIO)}, either sign',
+        f'{brief(1 / MOST_RATIO)} .. {brief(MOST_RATIO)}, either sign',
         1.0,
     ] = None
     phase: Annotated[
@@ -240,12 +240,12 @@ class JointProperties(Checked):
     max_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
-        'greatest force of the joint; of a torque, at an arm of 1 m',
+        'greatest force of the joint; for torques, N m',
     ] = None
     break_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
-        'force above which the joint is removed; of a torque, at an arm of 1 m',
+        'force above which the joint is removed; for torques, N m',
     ] = None
     collide: Annotated[
         bool | None, flag, 'whether the joined bodies collide with each other', False

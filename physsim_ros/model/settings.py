@@ -30,7 +30,13 @@ LIMIT = 'limit'
 MOST_SAMPLES = 10_000
 
 
-def _bounds(value: object, name: str) -> Bounds:
+def rectangle(value: object, name: str) -> Bounds:
+    """
+    Return the bounds of a rectangle [m].
+
+    :raises Malformed: a number is not finite, or there are more or fewer than four
+    :raises BadProperty: it is no list of numbers, one is out of range, or a min not below its max
+    """
     left, bottom, right, top = Row((Within(-LARGEST, LARGEST, 'm'),) * 4)(value, name)
     if not (left < right and bottom < top):
         raise BadProperty(
@@ -55,26 +61,26 @@ class WorldSettings(Checked):
     iterations: Annotated[
         int,
         Whole(1, 1000),
-        'solver iterations of a step, shared out among its four sub-steps; more make tall stacks '
+        'solver iterations of a step, divided among its four sub-steps; more make tall stacks '
         'stiffer',
     ] = 16
     bounds: Annotated[
         Bounds | None,
-        _bounds,
+        rectangle,
         'walls around the world: xmin, ymin, xmax, ymax, each '
-        f'{-LARGEST:g} .. {LARGEST:g} [m]; without it there are none',
+        f'{-LARGEST:g} .. {LARGEST:g} [m]; empty is no walls',
     ] = None
     density: Annotated[float, Within(LIGHTEST, HEAVIEST, 'kg/m²'), 'default of new bodies'] = 1.0
     friction: Annotated[float, Within(0.0, 10.0), 'default coefficient of new bodies'] = 0.5
     elasticity: Annotated[
         float, Within(0.0, 1.0), 'default coefficient of restitution of new bodies'
     ] = 0.5
-    # Not part of the text, so that digests of worlds without a floor are those of ever.
+    # Not part of the text, so that older digests stay valid.
     floor_friction: Annotated[
         float,
         Within(0.0, 10.0),
-        'coefficient of friction between bodies and the floor of a world that is seen from above; '
-        '0 is a world that is seen from the side',
+        'coefficient of friction between bodies and the floor of a world seen from above; 0 for a '
+        'world seen from the side',
     ] = field(default=0.0, repr=False)
     seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of all noise of robots'] = field(
         default=0, repr=False
@@ -83,7 +89,7 @@ class WorldSettings(Checked):
         Point | None,
         Row((Within(-90.0, 90.0, 'deg'), Within(-180.0, 180.0, 'deg'))),
         'latitude and longitude of the origin, -90 .. 90 and -180 .. 180 [deg], for receivers of '
-        'satellite navigation: x is east there, y north; without it they have no fix',
+        'satellite navigation: x points east, y north; without a datum they have no fix',
     ] = field(default=None, repr=False)
     command_timeout: Annotated[
         float,

@@ -75,9 +75,9 @@ class FrameLoop:
         self._take_commands()
         frames: tuple[Frame, ...] = ()
         request_time = _RequestTime(self._rest_ns)
-        # While time goes back, no command counts, and controllers may be silent.
+        # In a rewind commands are ignored, and no controller is awaited.
         if self._simulation.speed < 0.0 or not self._fleet.is_waiting:
-            # Parts of a seek or an amendment are no frames, which controllers answer one by one.
+            # A short seek is finished first: its parts are no frames for controllers to answer.
             self.finish_short_seek()
             frames = self._simulation.advance(
                 now_ns,

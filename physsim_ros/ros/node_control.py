@@ -70,6 +70,8 @@ class NodeControl:
         self._outputs = outputs
         self._files = world_files
         self._live = live
+        # The world whose bodies are locked: the one that was loaded last when they were.
+        self._locked_in = simulation.loaded
         self.services = {
             'play': Service(lambda: self._run_at(1.0)),
             'pause': Service(lambda: self._run_at(0.0)),
@@ -93,6 +95,11 @@ class NodeControl:
         return self._files.directory
 
     @property
+    def lesson_dir(self) -> Path:
+        """Return the directory of the user's lessons."""
+        return self._files.lessons
+
+    @property
     def drawing_settings(self) -> DrawingSettings:
         """Return the settings of drawing."""
         return parameters.drawing_settings(self.values)
@@ -109,8 +116,14 @@ class NodeControl:
 
     @property
     def locked_bodies(self) -> tuple[str, ...]:
-        """Return patterns of the names of bodies that pupils do not change."""
+        """Return patterns of the names of bodies that pupils do not change, in this world."""
+        if self._locked_in is not self.simulation.loaded:
+            return ()
         return parameters.listed_names(self.values['sketchpad_locked'])
+
+    def note_locked(self) -> None:
+        """Note that `sketchpad_locked` is about the world of now."""
+        self._locked_in = self.simulation.loaded
 
     def set_parameter(self, name: str, value: Any) -> None:
         """
@@ -144,10 +157,21 @@ class NodeControl:
 
         :raises PhysSimError: it is refused
         """
+        return self._perform_with(world, self.services[service].perform)
+
+    def open_world(self, world: str) -> str:
+        """
+        Begin with the world of a name, at time 0; undo reverts it.
+
+        :raises PhysSimError: it is refused, and nothing has changed
+        """
+        return self._perform_with(world, self._files.open_world)
+
+    def _perform_with(self, world: str, action: Callable[[], str]) -> str:
         before = self.values['world_file']
         self.set_parameter('world_file', world)
         try:
-            return self.services[service].perform()
+            return action()
         except Exception:
             self.set_parameter('world_file', before)
             raise

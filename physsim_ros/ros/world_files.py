@@ -9,7 +9,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from physsim_ros.files import find_world, hides_shipped, load_world, save_world, user_worlds
+from physsim_ros.files import (
+    find_world,
+    hides_shipped,
+    load_world,
+    save_world,
+    user_lessons,
+    user_worlds,
+)
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.texts import counted
@@ -25,6 +32,7 @@ class WorldFiles:
     :param values: of the parameters of the node, by name, always up to date
 
     :ivar directory: of the user's worlds
+    :ivar lessons: directory of the user's lessons
     """
 
     def __init__(self, simulation: Simulation, values: Mapping[str, Any]) -> None:
@@ -32,6 +40,7 @@ class WorldFiles:
         self._values = values
         # Absolute, whatever the working directory will be.
         self.directory = Path(values['world_dir'] or user_worlds()).absolute()
+        self.lessons = Path(values['lesson_dir'] or user_lessons(self.directory)).absolute()
 
     def begin_with(self) -> None:
         """
@@ -43,19 +52,24 @@ class WorldFiles:
 
     def load(self, *, confined: bool) -> str:
         """
-        Replace the world by the file, and return a message about it.
+        Replace the world by the file, and return a message about it; time goes on.
 
         :param confined: whether only files below `world_dir` and the shipped worlds may be read
         :raises Refusal: there is no such file, or it is refused
         """
-        try:
-            state, path = self._read(confined=confined)
-        except BadWorldFile as refusal:
-            if not confined:
-                raise
-            # Peers on the graph, who may name any file here, are not told what it holds.
-            raise BadWorldFile(refusal.brief, field='world_file') from refusal
+        state, path = self._read(confined=confined)
         return f'{self._simulation.load(state)} from {path.name}'
+
+    def open_world(self) -> str:
+        """
+        Begin with the world of the file, at time 0, and return a message about it.
+
+        Only files below `world_dir` and the shipped worlds may be read.
+
+        :raises Refusal: there is no such file, or it is refused
+        """
+        state, path = self._read(confined=True)
+        return f'{self._simulation.open_world(state)} from {path.name}'
 
     def save(self) -> str:
         """
@@ -76,12 +90,23 @@ class WorldFiles:
         return message
 
     def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
-        path = find_world(self._values['world_file'], world_dir=self.directory, confined=confined)
-        simulation = self._simulation
-        state = load_world(
-            path,
-            settings=simulation.settings,
-            physics_rate=simulation.physics_rate,
-            parameters=SPECS,
-        )
+        name, simulation = self._values['world_file'], self._simulation
+        try:
+            path = find_world(
+                name,
+                world_dir=self.directory,
+                lesson_dir=self.lessons,
+                confined=confined,
+            )
+            state = load_world(
+                path,
+                settings=simulation.settings,
+                physics_rate=simulation.physics_rate,
+                parameters=SPECS,
+            )
+        except BadWorldFile as refusal:
+            if not confined:
+                raise
+            # Peers on the graph, who may name any file here, are not told what it holds.
+            raise BadWorldFile(refusal.brief, field='world_file') from refusal
         return state, path

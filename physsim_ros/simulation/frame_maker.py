@@ -98,6 +98,17 @@ class FrameMaker:
         """Return the frame of now, which is made when it is first read."""
         return self.view.frame
 
+    def at_shown_moment(self) -> Past:
+        """
+        Apply the requests that wait, and return the past, its cursor at the moment that is shown.
+
+        A cached frame may be shown while the cursor is elsewhere: what acts on the past, or reads
+        the world, comes by here.
+        """
+        self.requests.apply_waiting()
+        self.playback.seek_shown()
+        return self.past
+
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> bool:
         """
         Apply the requests up to a seek.
@@ -156,7 +167,7 @@ class FrameMaker:
     def _advance_period(self) -> None:
         """Apply the requests that wait, and advance by one publish period."""
         self._drive_on()
-        self.requests.apply_waiting()
+        self.at_shown_moment()
         self.requests.release_grips()
         self.playback.clock.restart()
         finish(self.playback.play(self.playback.steps_to_period))

@@ -8,7 +8,8 @@ Laws: entries are applied in the order of their arrival, and each is answered on
 hands and drives only if refused. A move of a hand replaces the waiting move of that hand, unless a
 request of another kind came between them; so does a seek the waiting seek. Requests that read or
 change the world wait for the end of a seek; all entries wait for the end of an amendment. Requests
-beyond a limit, in count and in memory, are refused; answers beyond twice that count are counted.
+beyond a limit, in count and in memory, are refused; answers beyond twice that count are only
+counted.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ from physsim_ros.simulation.playback import Playback
 __all__ = ['Amend', 'RequestQueue', 'TakeBack', 'Unread', 'Wait']
 
 # Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000
-# bodies. Up to twice that number of answers are told one by one.
+# bodies. Up to twice that number of answers are kept one by one.
 MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
 
 

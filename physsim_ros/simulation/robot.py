@@ -12,10 +12,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.requests import Command, DriveRobot
+from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Robot as RobotDescription
 from physsim_ros.model.robots.sensors import Laser
 from physsim_ros.model.texts import nearest_name
@@ -84,8 +83,7 @@ class Robot:
 
         :raises Malformed: a number is not finite
         """
-        poses, twists = np.array(((x, y, yaw),)), np.zeros((1, 3))
-        self.simulation.perform(Command(names=(self.name,), poses=poses, twists=twists))
+        self.simulation.place(self.name, x, y, yaw)
 
     def scan(self, sensor: str = '') -> Floats:
         """

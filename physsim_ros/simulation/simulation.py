@@ -15,18 +15,19 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from numbers import Integral
 
+import numpy as np
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
 from physsim_ros.model.checks import number, OfClass, shown, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, InPast
-from physsim_ros.model.requests import DriveRobot, Request, Restore
+from physsim_ros.model.requests import Command, DriveRobot, Request, Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Frame, Snapshot
 from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
-from physsim_ros.simulation.world import forces_now
+from physsim_ros.simulation.world import forces_now, loaded
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -127,10 +128,10 @@ class Simulation(FrameMaker):
         :raises Refusal: it is out of range
         """
         length = self.past.steps_of('history', seconds)
-        self.playback.seek_shown()
+        past = self.at_shown_moment()
         # The times of a paused world are told anew.
         self.playback.changed = True
-        if not self.past.cursor.keep_within(length):
+        if not past.cursor.keep_within(length):
             self.playback.note_jump()
             self.requests.report_oldest()
 
@@ -164,11 +165,23 @@ class Simulation(FrameMaker):
         :raises Refusal: and nothing is changed
         """
         OfClass(Request)(request, 'request')
-        self.requests.apply_waiting()
+        self.at_shown_moment()
         gesture = self.requests.begin_gesture() if gesture is None else gesture
         message = self.requests.apply_now(request, gesture).message
         self.playback.changed = True
         return message
+
+    def place(self, name: str, x: float, y: float, yaw: float = 0.0) -> None:
+        """
+        Put a body at a pose in the world [m, m, rad], at rest unless it is anchored.
+
+        :raises UnknownBody: there is no such body
+        :raises Malformed: a number is not finite
+        """
+        rigid = self.at_shown_moment().cursor.world.space.bodies.by_name.get(name)
+        # An anchored body takes a pose only.
+        twists = np.zeros((0 if rigid is not None and rigid.body.anchored else 1, 3))
+        self.perform(Command(names=(name,), poses=np.array(((x, y, yaw),)), twists=twists))
 
     def begin(self, state: WorldState) -> None:
         """Begin with a state, at time 0 and without a past; `reset` returns to it."""
@@ -194,8 +207,7 @@ class Simulation(FrameMaker):
         to its next impact: the engine solves contacts in the order in which it found them, which
         is not in a state.
         """
-        self.requests.apply_waiting()
-        return self.world.save()
+        return self.at_shown_moment().cursor.world.save()
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """
@@ -221,13 +233,13 @@ class Simulation(FrameMaker):
 
         :raises InPast: the past is shown
         """
-        self.requests.apply_waiting()
+        past = self.at_shown_moment()
         if self.frame.past:
             raise InPast('the past is shown; go to its end first', field='history')
         self.requests.hands.clear()
         self.requests.release_grips()
         frame = self.frame
-        checkpoint = self.past.cursor.add_keyframe()
+        checkpoint = past.cursor.add_keyframe()
         return SavedMoment(
             checkpoint=checkpoint,
             loaded=self.loaded,
@@ -256,11 +268,23 @@ class Simulation(FrameMaker):
         :param seed: of all noise from then on; None is that of the state
         :raises BadProperty: the seed is out of range
         """
-        with self._jump():
+        with self._jump() as past:
             self.requests.hands.clear()
             self.stop_driving()
-            done = self.past.reset(seed)
+            done = past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
+
+    def open_world(self, state: WorldState) -> str:
+        """
+        Begin with another state, at time 0; `undo` reverts it. Return a message.
+
+        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        """
+        with self._jump():
+            self.past.open_world(state)
+            self.requests.hands.clear()
+            self.stop_driving()
+        return loaded(state)
 
     def undo(self) -> str:
         """
@@ -268,8 +292,8 @@ class Simulation(FrameMaker):
 
         :raises OutOfHistory: there is none that is kept
         """
-        with self._jump():
-            undone = self.past.undo()
+        with self._jump() as past:
+            undone = past.undo()
         return f'undid {undone}, back at {self.playback.time}'
 
     def redo(self) -> str:
@@ -278,8 +302,8 @@ class Simulation(FrameMaker):
 
         :raises OutOfHistory: nothing was undone, or a request was applied since
         """
-        with self._jump():
-            redone = self.past.redo()
+        with self._jump() as past:
+            redone = past.redo()
         return f'redid {redone}, at {self.playback.time}'
 
     def return_to_course(self, number: int) -> str:
@@ -289,8 +313,8 @@ class Simulation(FrameMaker):
         :param number: of the course
         :raises OutOfHistory: the course is no longer kept; nothing is changed
         """
-        with self._jump():
-            if self.past.return_to_course(number):
+        with self._jump() as past:
+            if past.return_to_course(number):
                 self.requests.hands.clear()
         return f'on course {number}, at {self.playback.time}'
 
@@ -310,10 +334,9 @@ class Simulation(FrameMaker):
         return self.requests.seek(stamp)
 
     @contextmanager
-    def _jump(self) -> Iterator[None]:
+    def _jump(self) -> Iterator[Past]:
         """Have the block move the cursor, from the moment that is shown after all requests."""
-        self.requests.apply_waiting()
+        past = self.at_shown_moment()
         self.playback.frames_due = 0
-        self.playback.seek_shown()
-        yield
+        yield past
         self.playback.note_jump()

@@ -34,12 +34,15 @@ class Opened:
     :ivar role: its rights
     :ivar person: number of the person at it
     :ivar key: with which a page is that person again
+    :ivar received: identifier of the last message of that person's page before; '' where there
+        was none
     :ivar watches: whether it is a teacher's page of a class, which is nobody in this world
     """
 
     role: Role
     person: int
     key: str
+    received: str = ''
     watches: bool = False
 
 

@@ -18,7 +18,6 @@ from typing import Any
 
 from physsim_ros.files import OwnWorlds, state_from, text_of
 from physsim_ros.model.errors import Busy, Refusal
-from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
@@ -27,7 +26,8 @@ from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UP
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession, Shared
 from physsim_ros.sketchpad.past import BodyPasts, PastTouches, timeline_content, TimelineReport
-from physsim_ros.sketchpad.rights import check_locked, check_right, Right, Role
+from physsim_ros.sketchpad.results import Results, results_file
+from physsim_ros.sketchpad.rights import check_moment, check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
 from physsim_ros.sketchpad.server.server import Server
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -66,13 +66,15 @@ class Sketchpad:
         self._inbox = Inbox(wake)
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts(world.simulation.forces_now)
-        own_worlds = OwnWorlds(world.world_dir)
+        own_worlds = OwnWorlds(world.world_dir, world.lesson_dir)
         self._autosave = Autosave(world.world_dir, self._world_text)
+        results = Results(results_file(world.world_dir))
         self._server = Server(
             address=address,
             port=port,
             own_worlds=own_worlds,
             autosave=self._autosave,
+            results=results_file(world.world_dir),
             inbox=self._inbox,
             boundary=self._boundary,
         )
@@ -83,9 +85,12 @@ class Sketchpad:
             PastTouches(world.simulation, self._server.send),
             own_worlds,
             self._autosave,
+            results,
             self._server.list_worlds,
         )
         self._sessions: dict[int, PageSession] = {}
+        # Numbers of the colours of people, by name.
+        self._colors: dict[str, int] = {}
         # The last one; None before the first.
         self._frame: Frame | None = None
         self._sent_recording = world.recording_address
@@ -173,12 +178,22 @@ class Sketchpad:
             self._sent_recording = self._world.recording_address
             self._server.send({'type': 'recording', 'rerun': self._sent_recording})
 
+    def _choose_colors(self) -> None:
+        """Choose a number for the colour of each person, the least that no other one has."""
+        present = {session.person for session in self._sessions.values()}
+        colors = {name: color for name, color in self._colors.items() if name in present}
+        for name in present - colors.keys():
+            colors[name] = min(set(range(len(present))) - set(colors.values()))
+        self._colors = colors
+
     def _send_class(self) -> None:
         """Tell all pages who is there, and what a teacher has frozen and locked, if it changed."""
+        self._choose_colors()
         people = [
             {
                 'page': number,
                 'name': session.person,
+                'color': self._colors[session.person],
                 'role': session.role.value,
                 'answered': session.answered or None,
                 'raised': session.raised,
@@ -218,7 +233,7 @@ class Sketchpad:
 
         def load() -> str:
             settings, rate = simulation.settings, simulation.physics_rate
-            return simulation.load(state_from(upload.content, settings, rate))
+            return simulation.open_world(state_from(upload.content, settings, rate))
 
         def answers() -> list[Answer]:
             answer = answer_of(origin, load, self._boundary)
@@ -228,7 +243,7 @@ class Sketchpad:
         try:
             with self._boundary.message(origin.topic):
                 check_right(Right.CHANGE, upload.role, frozen=self._world.is_frozen)
-                check_locked(upload.role, (DeleteAll(),), self._world)
+                check_moment(upload.role, self._world)
                 self._world.submit_call(answers, Wait.FOR_SEEK)
         except Refusal as refusal:
             upload.reply(Answer.refused(refusal, topic=origin.topic))
@@ -245,6 +260,7 @@ class Sketchpad:
                 'type': 'welcome',
                 'client': str(number),
                 'person': opened.key,
+                'received': opened.received,
                 'version': VERSION,
                 'physics_rate': simulation.physics_rate,
                 'frame_id': self._world.values['frame_id'],

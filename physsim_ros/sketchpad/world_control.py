@@ -39,6 +39,10 @@ class WorldControl(Protocol):
         """Return the directory of the user's worlds."""
 
     @property
+    def lesson_dir(self) -> Path:
+        """Return the directory of the user's lessons."""
+
+    @property
     def drawing_settings(self) -> DrawingSettings:
         """Return the settings of drawing."""
 
@@ -77,6 +81,13 @@ class WorldControl(Protocol):
     def perform_on(self, service: str, world: str) -> str:
         """
         Perform `load_world` or `save_world` on the world of a name.
+
+        :raises PhysSimError: it is refused, and nothing has changed
+        """
+
+    def open_world(self, world: str) -> str:
+        """
+        Begin with the world of a name, at time 0; undo reverts it.
 
         :raises PhysSimError: it is refused, and nothing has changed
         """

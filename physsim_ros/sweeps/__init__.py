@@ -4,13 +4,14 @@
 """
 Sweeps: one controller in many worlds, by seeds and parameters, on as many processors as there are.
 
-An experiment runs a case; `sweep` runs all, by the `map` of an executor, of a cluster, or of
-Python. Not here: how they are spread, which `concurrent.futures` and Dask do. Start with
-`experiment`. docs/learning.md has an example.
+An experiment runs a case; `sweep` runs all, each in a process of its own, on this machine or by
+the `map` of an executor or a cluster. Not here: how cases are spread over other machines, which
+Dask does. Start with `experiment`. docs/learning.md has an example.
 """
 
-from physsim_ros.sweeps.experiment import Case, cases_of, Experiment, Run, sweep
+from physsim_ros.sweeps.experiment import Case, Experiment, Run
 from physsim_ros.sweeps.report import picture_of_runs, save_failures, table_of_runs
+from physsim_ros.sweeps.sweep import cases_of, runs_of, sweep
 
 __all__ = [
     'Case',
@@ -18,6 +19,7 @@ __all__ = [
     'Run',
     'cases_of',
     'picture_of_runs',
+    'runs_of',
     'save_failures',
     'sweep',
     'table_of_runs',

@@ -2,19 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-An experiment: a controller drives a robot of a world until it fails, or the time is over; a sweep.
+An experiment: a controller drives a robot of a world until it fails, or the time is over.
 
 Law: a run depends on the experiment and its case alone, to the bit, in whatever process. It
 pickles, as an experiment and a case do whose functions are defined in a module.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from inspect import Parameter, signature
-import itertools
 from pathlib import Path
 import traceback
-from typing import Annotated, Any, Protocol
+from typing import Annotated, Any
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
@@ -76,6 +75,33 @@ class Run:
         return float(np.hypot(steps[:, 0], steps[:, 1]).sum())
 
 
+@dataclass(frozen=True, slots=True)
+class End:
+    """
+    The end of an attempt whose process is gone.
+
+    :param calls: of the controller, the last of which did not return
+    :param failure: how the process ended
+    """
+
+    calls: int
+    failure: str
+
+
+class _EndedError(Exception):
+    """An attempt is where an earlier one ended."""
+
+
+def _end_at(call: int, end: End | None) -> None:
+    """End an attempt before the call at which an earlier one ended."""
+    if end is not None and call == end.calls:
+        raise _EndedError(end.failure)
+
+
+def _unheard(_: int) -> None:
+    """Have nobody be told of calls."""
+
+
 def has_bumped(robot: Robot) -> str:
     """Return a failure where a robot has touched something."""
     return 'crashed' if robot.bumped else ''
@@ -114,6 +140,12 @@ class Experiment(Checked):
         'simulation time from the world that is kept of a failed run to its failure; while it is '
         'shorter than the timeout of the drive, the robot runs on into it by itself',
     ] = 0.4
+    cpu_limit: Annotated[
+        float, Within(1.0, LONGEST, 's'), 'CPU time after which a sweep ends a run, as failed'
+    ] = 600.0
+    wall_limit: Annotated[
+        float, Within(0.1, LONGEST, 's'), 'wall time after which a sweep ends a run, as failed'
+    ] = 3600.0
 
     def check(self, case: Case) -> None:
         """
@@ -141,11 +173,22 @@ class Experiment(Checked):
 
     def run(self, case: Case) -> Run:
         """
-        Run a case.
+        Run a case in this process.
 
-        An error of `begin` or of the controller is the failure of its run, and ends no other one.
+        An error of `begin` or of the controller is the failure of its run, and so is an exit.
 
         :raises Refusal: the world cannot be simulated, or has no such robot; and as `check`
+        """
+        return self.attempt(case)
+
+    def attempt(
+        self, case: Case, note_call: Callable[[int], object] = _unheard, end: End | None = None
+    ) -> Run:
+        """
+        Run a case, as `run`, in a process that may not outlive it.
+
+        :param note_call: is told the count of the controller's calls before each; 0 is its making
+        :param end: at which the run is over, as an earlier attempt was; None is none
         """
         self.check(case)
         simulation = Simulation(
@@ -158,12 +201,17 @@ class Experiment(Checked):
         simulation.begin(replace(self.world, settings=settings))
         robot = Robot(simulation, self.robot)
         way, failure, score = [robot.truth().pose[:2]], '', float('nan')
+        last = round(self.seconds / self.period)
         try:
+            note_call(0)
+            _end_at(0, end)
             if self.begin is not None:
                 self.begin(robot, np.random.default_rng(case.seed))
             way = [robot.truth().pose[:2]]
             control = self.controller(**case.parameters)
-            for _ in range(round(self.seconds / self.period)):
+            for call in range(1, last + 1):
+                note_call(call)
+                _end_at(call, end)
                 control(robot)
                 simulation.run(self.period)
                 way.append(robot.truth().pose[:2])
@@ -172,7 +220,9 @@ class Experiment(Checked):
                     break
             if self.score is not None:
                 score = float(self.score(robot))
-        except (Exception, StepFailed) as error:  # noqa: BLE001 - a result; other runs go on
+        except _EndedError as error:
+            failure = str(error)
+        except (Exception, StepFailed, SystemExit) as error:  # noqa: BLE001 - a result
             failure = _in_one_line(error)
         seconds = simulation.step / self.physics_rate
         return Run(
@@ -207,41 +257,3 @@ def _world_at(simulation: Simulation, seconds: float) -> WorldState:
         name = snapshot.scene.names[row]
         simulation.perform(DriveRobot(name=name, velocity=(ahead, aside, turn)))
     return simulation.save()
-
-
-class Map(Protocol):
-    """As `map` of Python, that of an executor of `concurrent.futures`, and others."""
-
-    def __call__(self, run: Callable[[Case], Run], cases: Sequence[Case], /) -> Iterable[Run]:
-        """Return the results of a function for each case, in the order of the cases."""
-
-
-def cases_of(seeds: Iterable[int], **parameters: Sequence[Any]) -> list[Case]:
-    """
-    Return a case for each seed and each combination of parameters.
-
-    :param seeds: of the noise
-    :param parameters: values of each parameter, by its name
-    """
-    seeds = list(seeds)
-    combinations: Iterable[Mapping[str, Any]] = (
-        dict(zip(parameters, values, strict=True))
-        for values in itertools.product(*parameters.values())
-    )
-    return [Case(seed=seed, parameters=each) for each in combinations for seed in seeds]
-
-
-def sweep(experiment: Experiment, cases: Iterable[Case], spread: Map = map) -> list[Run]:
-    """
-    Run all cases, and return what came of them, in their order.
-
-    :param experiment: that is run
-    :param cases: of it, as by `cases_of`
-    :param spread: `map` runs one after the other; `map` of a process pool executor on all
-        processors; for those of a Dask cluster see docs/learning.md
-    :raises Refusal: before the first run, as `Experiment.check`; and as `Experiment.run`
-    """
-    cases = list(cases)
-    for case in cases:
-        experiment.check(case)
-    return list(spread(experiment.run, cases))

@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance import picture_of
-from physsim_ros.files import save_world
 from physsim_ros.model.texts import abbreviated
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sweeps.experiment import Experiment, Run
+from physsim_ros.sweeps.rows import save_failure
 
 # Ways of runs that ended well, and of those that failed.
 _WELL, _FAILED = (0.15, 0.45, 0.85, 0.35), (0.85, 0.15, 0.15, 0.8)
@@ -101,13 +101,5 @@ def save_failures(runs: Iterable[Run], folder: Path) -> list[Path]:
     :param folder: for the files; it is made where it is not there
     :raises BadWorldFile: a file cannot be written
     """
-    return [
-        save_world(
-            run.before,
-            f'run_{number}_seed_{run.case.seed}',
-            world_dir=folder,
-            physics_rate=run.physics_rate,
-        )
-        for number, run in enumerate(runs)
-        if run.before is not None
-    ]
+    saved = (save_failure(number, run, folder) for number, run in enumerate(runs))
+    return [path for path in saved if path is not None]

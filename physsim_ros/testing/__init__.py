@@ -38,10 +38,15 @@ if TYPE_CHECKING:
         point,
         polygon,
     )
-    from physsim_ros.testing.world import PhysSim
+    from physsim_ros.testing.world import own_world, PhysSim
 else:
     # The modules that import ROS, by the name that each is imported for; `messages` by others.
-    _WITH_ROS = {'PhysSim': 'world', 'own_context': 'context', 'shared_context': 'context'}
+    _WITH_ROS = {
+        'PhysSim': 'world',
+        'own_context': 'context',
+        'own_world': 'world',
+        'shared_context': 'context',
+    }
 
     def __getattr__(name: str) -> Any:
         """Import a name when it is first used (PEP 562)."""
@@ -71,6 +76,7 @@ __all__ = [
     'joint',
     'marker',
     'own_context',
+    'own_world',
     'physsim',
     'point',
     'polygon',

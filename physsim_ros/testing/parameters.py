@@ -44,6 +44,7 @@ class Parameters(TypedDict, total=False):
     frame_id: str
     world_file: str
     world_dir: str
+    lesson_dir: str
     physics_rate: float
     publish_rate: float
     speed: float
@@ -56,6 +57,7 @@ class Parameters(TypedDict, total=False):
     map_resolution: float
     robot_tf: Literal['prefixed', 'namespaced', 'none']
     robots_in_past: Literal['follow', 'freeze']
+    drive_timeout: float
     lockstep: float
     viewer: Literal['none', 'spawn', 'web', 'connect', 'auto']
     viewer_url: str

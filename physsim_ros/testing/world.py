@@ -5,8 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 import math
 from pathlib import Path
 from typing import Any, Self, Unpack
@@ -15,8 +15,10 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.testing.changed_world import ChangedWorld
 from physsim_ros.testing.client import RequestClient, SettlingExecutor
+from physsim_ros.testing.context import own_context
 from physsim_ros.testing.parameters import Parameters
 from physsim_ros.testing.values import refusals_as_refused, Refused
+import pytest
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -267,3 +269,19 @@ class PhysSim(ChangedWorld):
         self.node.destroy_node()
         if kind is None:
             self._executor.raise_error()
+
+
+@contextmanager
+def own_world(**parameters: Unpack[Parameters]) -> Iterator[PhysSim]:
+    """
+    Yield a world with its own context and domain, where the fixture is one for the whole test.
+
+    :param parameters: of its node
+    :raises PhysSimError: a parameter is unknown, or its value is refused
+    """
+    with (
+        pytest.MonkeyPatch.context() as monkeypatch,
+        own_context(monkeypatch) as context,
+        PhysSim(context, **parameters) as world,
+    ):
+        yield world

@@ -5,12 +5,15 @@
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.meanings import Context
 from physsim_ros.drawing.strokes.reading import (
     guess_meanings,
     is_likely,
     not_recognised,
     Reading,
     reading_of,
+    recognise_form,
 )
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
@@ -22,7 +25,9 @@ def interpret_stroke(samples: Floats, scene: SceneQuery, settings: DrawingSettin
 
     :raises Refusal: no guess is likely enough, or the likeliest cannot be built
     """
-    guesses = guess_meanings(resample_stroke(samples), scene, settings)
+    drawn = Features.of(resample_stroke(samples))
+    context = Context(features=drawn, scene=scene, settings=settings)
+    guesses = guess_meanings(recognise_form(drawn), context)
     if not is_likely(guesses, settings):
         raise not_recognised(guesses)
     return reading_of(guesses, 0)

@@ -22,7 +22,14 @@ import numpy as np
 from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.reading import guess_meanings, MOST_GUESSES, reading_of
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.meanings import Context
+from physsim_ros.drawing.strokes.reading import (
+    guess_meanings,
+    MOST_GUESSES,
+    reading_of,
+    recognise_form,
+)
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import Refusal
@@ -72,7 +79,9 @@ def digest_of_readings(strokes: Iterable[tuple[Floats, SceneQuery]]) -> str:
     total = hashlib.sha256()
     for samples, scene in strokes:
         try:
-            guesses = guess_meanings(resample_stroke(samples), scene, DrawingSettings())
+            drawn = Features.of(resample_stroke(samples))
+            context = Context(features=drawn, scene=scene, settings=DrawingSettings())
+            guesses = guess_meanings(recognise_form(drawn), context)
         except Refusal as refusal:
             total.update(repr(refusal).encode())
             continue

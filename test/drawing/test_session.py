@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 import itertools
 import math
@@ -13,7 +14,7 @@ import math
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Reading, submit_reading
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import NotRecognised, UnknownBody
+from physsim_ros.model.errors import NothingThere, NotRecognised, UnknownBody
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.requests import Configure, Join, MoveBodies, Request, Spawn
 from physsim_ros.model.robots import Robot
@@ -210,6 +211,64 @@ def test_an_x_of_two_strokes_anchors_the_body_and_leaves_no_trace(lines: Sequenc
     assert body.total_mass == before
 
 
+@pytest.mark.parametrize('seed', range(12))
+def test_two_lines_that_cross_within_both_are_an_x(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    at, there = rng.uniform(0.18, 0.82, 2)
+    turn, angle = rng.uniform(0.0, 7.0), rng.uniform(0.5, math.pi - 0.5)
+    share = np.linspace(0.0, 1.0, 30)
+    lines = [
+        length * np.outer(share - middle, (math.cos(heading), math.sin(heading)))
+        for length, middle, heading in zip(
+            rng.uniform(0.6, 1.0, 2), (at, there), (turn, turn + angle), strict=True
+        )
+    ]
+    desk = Desk()
+    desk.spawn(spawning('a/0', Disc(radius=1.5)))
+
+    assert [desk.draw_samples(line).meaning for line in lines] == ['hatching', 'anchor']
+
+
+SHAFT, TIP, BARBS = [(0.0, 0.0), (3.0, 0.0)], (3.05, 0.0), ((2.3, 0.45), (2.35, -0.4))
+HEADS: dict[str, list[Way]] = {
+    'two barbs': [[TIP, BARBS[0]], [TIP, BARBS[1]]],
+    'two barbs towards the tip': [[BARBS[0], TIP], [BARBS[1], TIP]],
+    'barbs in one stroke, then the side between them': [[BARBS[0], TIP, BARBS[1]], [*BARBS]],
+    'closed': [[BARBS[0], TIP, BARBS[1], BARBS[0]]],
+    'closed, from the tip on': [[TIP, *BARBS, TIP]],
+    'filled': [[BARBS[0], TIP, BARBS[1], BARBS[0], (2.6, -0.25), (2.6, 0.2), (2.9, 0.0)]],
+}
+
+
+@pytest.mark.parametrize('shaft_first', [True, False])
+@pytest.mark.parametrize('head', HEADS.values(), ids=HEADS)
+def test_an_arrow_of_several_strokes_turns_gravity_and_leaves_nothing_else(
+    head: list[Way], shaft_first: bool
+) -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    for stroke in [SHAFT, *head] if shaft_first else [*head, SHAFT]:
+        # A head that is filled is nothing by itself.
+        with suppress(NotRecognised, NothingThere):
+            desk.draw(stroke)
+
+    x, y = desk.scene.settings.gravity
+    assert math.atan2(y, x) == pytest.approx(0.0, abs=0.1)
+    assert desk.shapes == []
+
+
+@pytest.mark.parametrize('corners', [4, 5, 6, 60])
+def test_a_line_and_a_body_at_its_end_are_no_arrow(corners: int) -> None:
+    desk = Desk()
+    desk.spawn(Configure(changes={'gravity': (0.0, -9.81)}))
+    angle = np.linspace(0.0, 2.0 * math.pi, corners + 1)
+    desk.draw(SHAFT)
+    desk.draw(0.3 * np.column_stack((np.cos(angle), np.sin(angle))) + (3.3, 0.0))
+
+    assert desk.scene.settings.gravity == (0.0, -9.81)
+    assert len(desk.shapes) == 2
+
+
 @pytest.mark.parametrize('gap', [-0.1, 0.0, 0.3, 0.5])
 def test_a_shaft_that_ends_short_of_its_head_or_beyond_is_an_arrow_that_turns_gravity(
     gap: float,
@@ -278,6 +337,40 @@ def test_what_was_not_recognised_can_be_built_instead() -> None:
 
     assert reading.meaning == 'disc'
     assert desk.shapes == ['Disc']
+
+
+def plank(angle: float) -> Floats:
+    """Return the outline of a plank about the origin, 4 m long, turned by an angle [rad]."""
+    way = np.array([(-2.0, -0.15), (2.0, -0.15), (2.0, 0.15), (-2.0, 0.15), (-2.0, -0.15)])
+    cos, sin = math.cos(angle), math.sin(angle)
+    return np.asarray(way @ np.array([(cos, sin), (-sin, cos)]))
+
+
+@pytest.mark.parametrize('blades', [1, 2, 3, 4])
+def test_an_axle_drawn_on_each_blade_of_a_rotor_holds_all_on_the_background(blades: int) -> None:
+    desk = Desk()
+    for number in range(blades):
+        desk.draw(plank(number * math.pi / blades), after=2.0)
+        desk.draw(circle(0.0, 0.02 * number, 0.11), after=2.0)
+
+    joints = [{each.a, each.b} for each in desk.scene.joints]
+    assert [each.kind for each in desk.scene.joints] == [JointKind.AXLE] * blades
+    held = {'world'}
+    for _ in joints:
+        held = held.union(*(each for each in joints if each & held))
+    assert held == {'world', *(each.name for each in desk.scene.bodies)}
+
+
+def test_one_axle_goes_through_all_movable_bodies_at_its_place() -> None:
+    desk = Desk()
+    for number in range(3):
+        desk.draw(plank(number * math.pi / 3), after=2.0)
+    reading = desk.draw(circle(0.0, 0.0, 0.11), after=2.0)
+
+    assert reading.message == 'an axle between drawn/2, drawn/1 and drawn/0'
+    assert [(each.a, each.b) for each in desk.scene.joints] == [
+        ('drawn/2', 'drawn/1'), ('drawn/1', 'drawn/0'),
+    ]  # fmt: skip
 
 
 def test_an_axle_drawn_before_its_wheel_waits_for_it() -> None:

@@ -154,3 +154,16 @@ def test_a_world_goes_on_from_a_checkpoint_to_the_bit():
     world.resume(key)
     world.step(300)
     assert world.digest() == first
+
+
+@pytest.mark.parametrize('replaced', [False, True])
+def test_a_joint_that_is_made_under_the_name_of_another_has_no_force_yet(replaced):
+    world = pair()
+    join(world, 'spring', [(0.0, 0.0), (0.0, 3.0)], a='a/0', b='world')
+    world.step(5)
+    assert world.snapshot().forces[0] > 0.0
+    if not replaced:
+        world.apply(UnjoinAll())
+    join(world, 'rod', [(0.8, 0.0), (0.8, 2.0)], a='a/1', b='world')
+
+    assert world.snapshot().forces.tolist() == [0.0]

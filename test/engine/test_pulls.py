@@ -8,6 +8,7 @@ import math
 import numpy as np
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.simulation.world import World
 import pytest
 
@@ -54,3 +55,34 @@ def test_joints_have_no_vectors_where_nobody_watches():
     world.step(4)
     assert world.snapshot().pulls.shape == (0, 2)
     assert world.snapshot().forces.shape == (1,)
+
+
+@pytest.mark.parametrize('kind', [JointKind.ROPE, JointKind.ROD, JointKind.PIN, JointKind.AXLE])
+def test_the_first_force_of_a_joint_is_the_weight(kind):
+    world = World(settings=WorldSettings())
+    spawn(world, 'a/0', BOX, (0.0, 0.0, 0.0), mass=1.0)
+    points = [(0.0, 0.0), (0.0, 1.0)][: kind.points]
+    join(world, kind, points, a='a/0', b='world')
+    for _ in range(3):
+        world.step(1)
+        assert world.snapshot().forces == pytest.approx([9.81], abs=1e-6)
+
+
+def test_the_first_force_of_an_axle_beside_a_bar_is_a_quarter_of_its_weight():
+    world = World(settings=WorldSettings())
+    spawn(world, 'a/0', Box(width=1.0, height=1e-3), (0.5, 0.0, 0.0), mass=1.0)
+    join(world, JointKind.AXLE, [(0.0, 0.0)], a='a/0', b='world')
+    world.step(1)
+    # While it turns by 1e-4 rad.
+    assert world.snapshot().forces == pytest.approx([9.81 / 4], rel=1e-3)
+
+
+@pytest.mark.parametrize('shape', [Disc(radius=0.5), BOX])
+def test_the_first_force_of_a_contact_is_the_weight(shape):
+    world = World(settings=WorldSettings(bounds=(-9.0, 0.0, 9.0, 9.0)))
+    spawn(world, 'a/0', shape, (0.0, 0.5, 0.0), mass=1.0)
+    world.reports_contacts = True
+    world.step(1)
+    (pressed,) = np.abs(world.contacts(world.snapshot()).impulses[:, 1]) / world.dt
+    # A box also takes back what it turned by rounding.
+    assert pressed == pytest.approx(9.81, rel=0.01)

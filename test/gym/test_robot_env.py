@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from copy import copy, deepcopy
 import pickle
 from typing import Any
 import warnings
@@ -129,6 +130,25 @@ def test_a_saved_episode_continues_to_the_bit(other: bool) -> None:
         assert observation in env.observation_space
         branches.append(played(env, 100, actions=actions))
     assert branches[0] == branches[1] == branches[3] != branches[2]
+
+
+def pickled(env: RobotEnv) -> RobotEnv:
+    copied: RobotEnv = pickle.loads(pickle.dumps(env))  # noqa: S301
+    return copied
+
+
+@pytest.mark.parametrize('copied', [copy, deepcopy, pickled])
+def test_a_copy_of_an_environment_continues_to_the_bit_on_its_own(copied: Any) -> None:
+    env = RobotEnv(task(), render_mode='rgb_array')
+    env.reset(seed=5)
+    env.action_space.seed(3)
+    played(env, 17)
+    other = copied(env)
+    assert other.robot.simulation is not env.robot.simulation
+    assert other.render_mode == 'rgb_array'
+    told = played(env, 100, actions=1)
+    assert other.action_space.sample().tolist() == env.action_space.sample().tolist()
+    assert played(other, 100, actions=1) == told
 
 
 def test_a_task_pickles_and_environments_of_it_have_generators_of_their_own() -> None:

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import gymnasium
+from gymnasium.vector import AutoresetMode, SyncVectorEnv
 import numpy as np
 from physsim_ros.gym import RobotEnv, RobotVectorEnv
 from physsim_ros.model.errors import BadProperty, Malformed
@@ -58,7 +60,7 @@ def test_saved_worlds_continue_to_the_bit_ended_ones_too() -> None:
     steps = [env.robot.simulation.step for env in many.envs]
     with pytest.raises(ValueError, match='zip'):
         many.restore(saved[:-1])
-    with pytest.raises(ValueError, match='zip'):
+    with pytest.raises(ValueError, match='num_envs'):
         many.reset(seed=[1])
     assert [env.robot.simulation.step for env in many.envs] == steps
     with pytest.raises(Malformed, match='saved must be of class SavedEpisode, not None'):
@@ -79,5 +81,68 @@ def test_worlds_tell_the_seeds_of_the_episodes_that_begin() -> None:
 
 @pytest.mark.parametrize('count', [0, -1, 2.5, 10**9])
 def test_a_number_of_worlds_that_cannot_be_is_refused(count: int) -> None:
-    with pytest.raises(BadProperty, match='count'):
+    with pytest.raises(BadProperty, match='num_envs'):
         RobotVectorEnv(task(), count)
+
+
+@pytest.mark.parametrize('mode', AutoresetMode)
+def test_each_autoreset_mode_is_that_of_gymnasium(mode: AutoresetMode) -> None:
+    short = task(longest=0.3)
+    mine = RobotVectorEnv(short, COUNT, autoreset_mode=mode)
+    other = SyncVectorEnv([lambda: RobotEnv(short)] * COUNT, autoreset_mode=mode)
+    told: list[list[object]] = [[], []]
+    for vector, tells in zip((mine, other), told, strict=True):
+        assert vector.metadata['autoreset_mode'] == mode
+        tells.append(repr(vector.reset(seed=5)))
+        for step in range(7):
+            *results, infos = vector.step(actions(step))
+            tells.append(repr((results, infos)))
+            over = results[2] | results[3]
+            if mode is AutoresetMode.DISABLED and over.any():
+                tells.append(repr(vector.reset(options={'reset_mask': over})))
+    assert told[0] == told[1]
+
+
+def test_a_mask_resets_its_worlds_alone_and_stays_in_the_options_of_the_caller() -> None:
+    many = RobotVectorEnv(task(), COUNT, autoreset_mode='Disabled')
+    many.reset(seed=1)
+    before, *_ = many.step(actions(0))
+    steps = [env.robot.simulation.step for env in many.envs]
+    options = {'reset_mask': np.array([False, True, False])}
+    for _ in range(2):
+        after, infos = many.reset(seed=[None, 9, None], options=options)
+        assert [env.robot.simulation.step for env in many.envs] == [steps[0], 0, steps[2]]
+        assert after[[0, 2]].tolist() == before[[0, 2]].tolist()
+        assert after[1].tolist() == RobotEnv(task()).reset(seed=9)[0].tolist()
+        assert infos['_seed'].tolist() == [False, True, False]
+    saved = many.save()
+    other = RobotVectorEnv(task(), COUNT, autoreset_mode='Disabled')
+    other.restore(saved)
+    for vector in (many, other):
+        told, _ = vector.reset(seed=3, options={'reset_mask': np.array([True, False, False])})
+        assert told[1].tolist() == after[1].tolist()
+    with pytest.raises(TypeError, match='reset_mask'):
+        many.reset(options={'reset_mask': [True] * COUNT})
+
+
+def test_worlds_are_made_by_the_registry_of_gymnasium_and_seen() -> None:
+    name = 'physsim_test/Corridor-v0'
+    gymnasium.register(
+        name, RobotEnv, vector_entry_point=RobotVectorEnv, kwargs={'task': task(longest=0.5)}
+    )
+    try:
+        alone = gymnasium.make(name, render_mode='rgb_array')
+        assert alone.reset(seed=2)[0].shape == (36,)
+        for mode, kind in (('vector_entry_point', RobotVectorEnv), ('sync', SyncVectorEnv)):
+            many = gymnasium.make_vec(
+                name, num_envs=2, vectorization_mode=mode, render_mode='rgb_array'
+            )
+            assert isinstance(many.unwrapped, kind)
+            assert (many.num_envs, many.render_mode) == (2, 'rgb_array')
+            observed, _ = many.reset(seed=2)
+            assert observed.shape == (2, 36)
+            assert [picture.shape[2] for picture in many.render()] == [3, 3]
+            assert many.get_attr('np_random_seed') == (2, 3)
+            many.close()
+    finally:
+        del gymnasium.registry[name]

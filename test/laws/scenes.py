@@ -41,7 +41,7 @@ def walls(sim, left, bottom, right, top):
 
 
 def steps(sim, count):
-    """Yield what is so after each of so many steps."""
+    """Yield a snapshot after each step."""
     for _ in range(count):
         sim.world.step(1)
         yield sim.world.snapshot()

@@ -198,25 +198,50 @@ def _gaps(sim, seconds):
 
 
 @pytest.mark.parametrize('kinematic', [True, False])
+@pytest.mark.parametrize('max_speed', [1.34, 2.0])
 @pytest.mark.parametrize(
-    ('count', 'radius', 'seconds'), [(2, 4.0, 7.0), (12, 4.0, 8.0), (30, 8.0, 20.0)]
+    ('count', 'radius', 'seconds'),
+    [(2, 4.0, 7.0), (5, 4.0, 7.0), (8, 4.0, 7.5), (12, 4.0, 8.0), (20, 4.0, 9.0), (30, 8.0, 20.0)],
 )
 def test_pedestrians_of_orca_cross_a_circle_without_contact(
-    report, count, radius, seconds, kinematic
+    report, count, radius, seconds, max_speed, kinematic
 ):
     sim = _floor()
     angles = np.arange(count) * math.tau / count
     starts = radius * np.column_stack((np.cos(angles), np.sin(angles)))
     for number, (x, y) in enumerate(starts.tolist()):
-        over = {'kind': 'orca', 'points': [[-x, -y]]}
+        over = {'kind': 'orca', 'points': [[-x, -y]], 'max_speed': max_speed}
         made = {'mass': 75.0, 'kinematic': kinematic, 'actor': over}
         spawn(sim, f'person/{number}', PERSON, (x, y, 0.0), **made)
 
     least = _gaps(sim, seconds).min()
 
-    report.check(52, f'gap of {count} of ORCA', min(least - 0.5, 0.0), 0.0, 1e-4, 'm')
+    report.check(52, f'gap of {count} of ORCA', min(least - 0.5, 0.0), 0.0, 1e-9, 'm')
     last = sim.world.snapshot().poses[:, :2]
     assert np.hypot(*(last + starts).T).max() < 0.3
+
+
+STANDING = {
+    'post': (Disc(radius=0.3), {'anchored': True}),
+    'pillar': (Box(width=0.5, height=0.5), {'anchored': True}),
+    'cart': (Box(width=0.5, height=0.5), {'kinematic': True}),
+    'crate': (Box(width=0.5, height=0.5), {'mass': 5.0}),
+    'person': (PERSON, {'mass': 70.0, 'actor': {'kind': 'social_force', 'points': [[0.0, 0.0]]}}),
+}
+
+
+@pytest.mark.parametrize('heading', [0.0, 0.5, 2.0])
+@pytest.mark.parametrize('kind', ['social_force', 'orca'])
+@pytest.mark.parametrize('what', STANDING)
+def test_a_pedestrian_passes_what_stands_exactly_in_its_way(what, kind, heading):
+    sim = _floor()
+    shape, properties = STANDING[what]
+    spawn(sim, 'what/0', shape, (0.0, 0.0, heading), **properties)
+    goal = 4.0 * math.cos(heading), 4.0 * math.sin(heading)
+    walks = {'kind': kind, 'points': [goal]}
+    row = spawn(sim, 'person/0', PERSON, (-goal[0], -goal[1], 0.0), mass=70.0, actor=walks)
+    sim.world.step(round(30.0 / DT))
+    assert math.dist(sim.world.snapshot().poses[row, :2], goal) < 0.3
 
 
 def test_a_pedestrian_of_orca_walks_round_what_does_not_give_way():

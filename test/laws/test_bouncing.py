@@ -9,7 +9,9 @@ import numpy as np
 from physsim_ros.model.shapes import Box, Disc, Polygon
 import pytest
 
-from .scenes import DT, G, NOWHERE, run, simulation, spawn, steps, turned, walls
+from .scenes import DT, energy, floor, G, NOWHERE, run, simulation, spawn, steps, turned, walls
+
+TRIANGLE = ((0.3, 0.0), (-0.2, 0.25), (-0.2, -0.25))
 
 
 @pytest.mark.parametrize('side', [0, 40, 270])
@@ -106,6 +108,42 @@ def test_a_gas_of_polygons_keeps_its_energy(report, seed):
     ratio = run(sim, 20.0).kinetic_energy / start.kinetic_energy
     # Without the block solver they gain 3 to 6 %.
     report.check(21, '25 polygons, e = 1, 20 s at 2 m/s, energy', ratio, 1.0, 1e-3, '–')
+
+
+@pytest.mark.parametrize('friction', [0.2, 0.5, 1.5])
+@pytest.mark.parametrize('tilt', [0.3, 0.7, 1.1])
+def test_an_elastic_stick_with_friction_gains_no_energy(report, tilt, friction):
+    sim = simulation(elasticity=1.0, friction=friction)
+    floor(sim)
+    stick = Box(width=1.0, height=0.1)
+    spawn(sim, 'stick/0', stick, (0.0, 1.5, tilt), velocity=(2.0, 0.0))
+
+    there = energy(sim.world.snapshot())
+    most = max(energy(now) for now in steps(sim, 1200))
+
+    law = 'elastic stick with friction, 5 s, energy gained'
+    report.check(21, law, max(most / there - 1.0, 0.0), 0.0, 2e-3, '–')
+
+
+@pytest.mark.parametrize('seed', range(8))
+def test_a_gas_of_elastic_shapes_with_friction_gains_no_energy(report, seed):
+    pick = np.random.default_rng(seed)
+    sim = simulation(elasticity=1.0, friction=0.5, gravity=NOWHERE)
+    walls(sim, -2.0, -2.0, 2.0, 2.0)
+    shapes = (Box(width=0.8, height=0.2), Disc(radius=0.25), Polygon(outline=TRIANGLE))
+    for number in range(6):
+        place = (-1.3 + 1.3 * (number % 3), -1.0 + 1.6 * (number // 3), pick.uniform(-3.0, 3.0))
+        said = {
+            'velocity': (pick.uniform(-4.0, 4.0), pick.uniform(-4.0, 4.0)),
+            'spin': pick.uniform(-6.0, 6.0),
+        }
+        spawn(sim, f'shape/{number}', shapes[number % 3], place, **said)
+
+    there = sim.world.snapshot().kinetic_energy
+    most = max(now.kinetic_energy for now in steps(sim, 480))
+
+    law = 'six elastic shapes with friction, 2 s, energy gained'
+    report.check(21, law, max(most / there - 1.0, 0.0), 0.0, 1e-4, '–')
 
 
 def test_a_gas_of_discs_keeps_its_energy(report):

@@ -171,6 +171,9 @@ def _impulse(velocity, masses, arms, normal, elasticity, friction):
     """
     Return the impulse on the second of two bodies, by Newton's restitution and Coulomb's cone.
 
+    Where that would give energy to the bodies (Kane and Levinson 1985), it is the impulse of the
+    greatest restitution that gives none.
+
     :param velocity: of the first at the contact, as seen from the second [m/s]
     :param masses: of each: mass [kg], moment [kg m²]
     :param arms: of each, from its centre to the contact [m]
@@ -190,14 +193,28 @@ def _impulse(velocity, masses, arms, normal, elasticity, friction):
     matrix = np.array(
         [[share(one, other) for other in (normal, tangent)] for one in (normal, tangent)]
     )
-    along, across = np.linalg.solve(matrix, [(1 + elasticity) * approach, slip])
-    if abs(across) <= friction * along:
+
+    def solved(share):
+        """Return the impulse of a share of the elasticity, the coupling, the energy given [J]."""
+        wanted = (1 + share * elasticity) * approach
+        along, across = np.linalg.solve(matrix, [wanted, slip])
         coupling = abs(matrix[0, 1]) / math.sqrt(matrix[0, 0] * matrix[1, 1])
-        return along * normal + across * tangent, coupling
-    # It slides: the impulse lies on the cone, on the side of the slip.
-    slide = math.copysign(friction, across)
-    along = (1 + elasticity) * approach / (matrix[0, 0] + slide * matrix[0, 1])
-    return along * normal + slide * along * tangent, 0.0
+        if abs(across) > friction * along:
+            # It slides: the impulse lies on the cone, on the side of the slip.
+            slide = math.copysign(friction, across)
+            along, coupling = wanted / (matrix[0, 0] + slide * matrix[0, 1]), 0.0
+            across = slide * along
+        impulse = np.array([along, across])
+        energy = impulse @ (matrix @ impulse / 2 - (approach, slip))
+        return along * normal + across * tangent, coupling, energy
+
+    impulse, coupling, energy = solved(1.0)
+    low, high = (0.0, 1.0) if energy > 1e-9 else (1.0, 1.0)
+    while high - low > 1e-9:
+        share = (low + high) / 2
+        low, high = (low, share) if solved(share)[2] > 0.0 else (share, high)
+        impulse, coupling, _ = solved(low)
+    return impulse, coupling
 
 
 # How far the paths are off centre [m], how the box that comes with a corner is tilted [°], and how

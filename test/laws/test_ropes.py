@@ -1,7 +1,12 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Law 42: a rope on a drum holds up to the limit of the capstan equation."""
+"""
+Laws 42 and 59: ropes on drums and in circles.
+
+A rope on a drum holds up to the limit of the capstan equation. A rope whose length is changed
+pulls along itself, so that the angular momentum of a ball that circles on it stays.
+"""
 
 import itertools
 import math
@@ -9,7 +14,7 @@ import math
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
-from .scenes import join, run, simulation, spawn
+from .scenes import angular_momentum, energy, G, join, NOWHERE, run, simulation, spawn
 
 FRICTION = 0.3
 # Euler and Eytelwein: the greatest ratio of two loads on a rope that lies on half of a drum [1].
@@ -77,3 +82,45 @@ def test_a_rope_slips_under_a_load_above_the_capstan_limit():
 
     # Coulomb friction all along the drum lets the load sink by 0.26 m, a drum without by 2.3 m.
     assert 0.1 < sunk < 1.5
+
+
+# Count of changes by which the length goes from one to the other [1], and frames between them.
+CHANGES = [(120, 1), (20, 6), (5, 30), (1, 60)]
+
+
+@pytest.mark.parametrize(('start', 'end'), [(2.0, 1.0), (1.0, 1.5)])
+@pytest.mark.parametrize(('count', 'frames'), CHANGES)
+def test_a_rope_that_changes_its_length_keeps_angular_momentum(report, count, frames, start, end):
+    sim, speed = simulation(gravity=NOWHERE), 2.0
+    spawn(sim, 'ball/0', Disc(radius=0.1), (start, 0.0, 0.0), mass=1.0, velocity=(0.0, speed))
+    for number in range(count + 1):
+        length = start + (end - start) * number / count
+        points = [tuple(sim.world.snapshot().poses[0, :2].tolist()), (0.0, 0.0)]
+        join(sim, 'rope/0', 'rope', points, a='ball/0', b='world', length=length)
+        run(sim, frames / 60)
+
+    last = run(sim, 4.0)
+
+    radius = math.hypot(*last.poses[0, :2])
+    report.check(59, 'ball on a rope of another length, radius', radius, end, 1e-3, 'm')
+    turning = angular_momentum(last) / (start * speed)
+    # A longer rope is slack until an impact, which is timed to a sub-step.
+    tolerance = 1e-5 if end < start else 2e-3
+    report.check(59, 'ball on a rope of another length, v r', turning, 1.0, tolerance, '–')
+    if end < start:
+        work = energy(last) / (speed**2 / 2)
+        report.check(59, 'ball that is drawn in, energy', work, (start / end) ** 2, 0.01, '–')
+
+
+def test_a_weight_that_a_rope_lifts_comes_to_rest(report):
+    sim = simulation()
+    spawn(sim, 'weight/0', Disc(radius=0.1), (0.0, -2.0, 0.0), mass=3.0)
+    for number in range(10):
+        length = 2.0 - 0.1 * number
+        points = [tuple(sim.world.snapshot().poses[0, :2].tolist()), (0.0, 0.0)]
+        join(sim, 'rope/0', 'rope', points, a='weight/0', b='world', length=length)
+        last = run(sim, 0.1)
+
+    report.check(59, 'weight that is lifted, height', last.poses[0, 1], -1.1, 1e-3, 'm')
+    report.check(59, 'weight that is lifted, speed', last.twists[0, 1], 0.0, 1e-3, 'm/s')
+    report.check(59, 'weight that is lifted, force', last.forces[0], 3.0 * G, 0.3, 'N')

@@ -3,9 +3,11 @@
 
 """A course that was left is kept, shown as a ghost, and returned to, to the same bits."""
 
+from dataclasses import replace
+
 import numpy as np
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.errors import Failed, OutOfHistory
+from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Command, Delete, Request
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.tree import MOST_COURSES
@@ -312,3 +314,48 @@ def test_a_request_that_fails_in_the_past_keeps_no_line(monkeypatch):
 
     assert sim.past.tree.tip.users == users
     assert not sim.past.tree.left
+
+
+def test_another_world_is_opened_at_time_0_and_one_undo_reverts_it():
+    sim = Simulation()
+    sim.perform(spawning('a/0', BOX, (0.0, 1.0, 0.0)))
+    run(sim, 1.0)
+    before = sim.world.digest()
+    other = Simulation()
+    other.perform(spawning('b/0', BOX, (0.0, 1.0, 0.0)))
+    other.perform(spawning('c/0', BOX, (3.0, 1.0, 0.0)))
+    assert sim.open_world(other.save()) == 'loaded 2 bodies'
+    assert (sim.status.now, sim.world.scene.names, sim.status.undo) == (
+        0.0,
+        ('b/0', 'c/0'),
+        'undo open world',
+    )
+    run(sim, 0.5)
+    sim.reset()
+    assert sim.world.scene.names == ('b/0', 'c/0')
+    sim.undo()
+    sim.seek(0)
+    sim.undo()
+    assert (sim.world.digest(), sim.status.redo) == (before, 'redo open world')
+    sim.redo()
+    assert (sim.status.now, sim.world.scene.names, sim.status.undo) == (
+        0.0,
+        ('b/0', 'c/0'),
+        'undo open world',
+    )
+
+
+def test_a_world_that_is_refused_changes_nothing():
+    sim = Simulation()
+    sim.perform(spawning('a/0', BOX, (0.0, 1.0, 0.0)))
+    run(sim, 1.0)
+    before, users = sim.world.digest(), sim.past.tree.tip.users
+    too_large = replace(
+        sim.save(),
+        settings=replace(sim.world.settings, max_bodies=1),
+        bodies=2 * sim.save().bodies,
+    )
+    with pytest.raises(Refusal):
+        sim.open_world(too_large)
+    assert (sim.world.digest(), sim.past.tree.tip.users) == (before, users)
+    assert sim.status.undo == 'undo spawn a/0'

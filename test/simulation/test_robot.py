@@ -60,6 +60,22 @@ def test_a_robot_drives_until_told_otherwise():
     assert robot.odom().pose != robot.truth().pose
 
 
+def test_a_body_is_placed_at_rest_whether_it_is_anchored_or_not():
+    simulation = Simulation()
+    for name, properties in (
+        ('post/0', Properties(anchored=True)),
+        ('ball/0', Properties(velocity=(3.0, 0.0))),
+    ):
+        simulation.perform(Spawn(name=name, shape=Disc(radius=0.1), properties=properties))
+        simulation.place(name, 5.0, 2.0, 0.5)
+        snapshot = simulation.frame.snapshot
+        row = snapshot.row(name)
+        assert snapshot.poses[row].tolist() == [5.0, 2.0, 0.5]
+        assert not snapshot.twists[row].any()
+    with pytest.raises(UnknownBody, match="nearest is 'ball/0'"):
+        simulation.place('bal/0', 0.0, 0.0)
+
+
 def test_a_scan_measures_the_wall_ahead():
     robot = corridor()
     robot.place(0.0, 0.0, math.pi)

@@ -75,12 +75,24 @@ new MutationObserver((changes) => {
 STATE = """() => ({...window.heard, ...window.physsim && {
     time: physsim.time, speed: physsim.speed, bodies: Object.keys(physsim.bodies),
     status: document.querySelector('[role=status]').textContent}})"""
+# Has pointer events come to the canvas that the protocol of the browser's tools cannot make: many
+# at once, of the eraser of a stylus, of one finger of two. A browser does not capture such a
+# pointer.
+POINTER = """([kind, buttons, id, places]) => {
+    const canvas = document.querySelector('canvas');
+    canvas.setPointerCapture = () => {};
+    const button = Math.log2(buttons) | 0;
+    for (const [type, x, y] of places) canvas.dispatchEvent(new PointerEvent(`pointer${type}`, {
+        pointerId: id, pointerType: kind, clientX: x, clientY: y, bubbles: true,
+        button: type === 'move' ? -1 : button, buttons: type === 'up' ? 0 : buttons}));
+}"""
 SPACE = """() => {
     for (const type of ['keydown', 'keyup']) {
         const event = new KeyboardEvent(type, {key: ' ', bubbles: true, cancelable: true});
         document.activeElement.dispatchEvent(event);
     }
 }"""
+UNFOLDED = "localStorage['physsim-panel'] ??= '1';"
 # Press Pause at the first frame after a time [s].
 PAUSE_AFTER = """seconds => {
     const look = () => {
@@ -128,6 +140,7 @@ class Sheet:
 
     :param browser: that opens it
     :param address: with the token
+    :param unfolded: whether panels are shown in full, as somebody has chosen in this browser
     :param options: of its browser context
 
     :cvar opened: pages of the test that runs
@@ -135,10 +148,12 @@ class Sheet:
 
     opened: ClassVar[list[Sheet]] = []
 
-    def __init__(self, browser: Any, address: str, **options: Any) -> None:
+    def __init__(
+        self, browser: Any, address: str, *, unfolded: bool = True, **options: Any
+    ) -> None:
         self.context = browser.new_context(**{'viewport': VIEWPORT} | options)
         self.context.set_default_timeout(MILLISECONDS)
-        self.context.add_init_script(DELAYS + LISTENER)
+        self.context.add_init_script(DELAYS + LISTENER + (UNFOLDED if unfolded else ''))
         self.page = self.context.new_page()
         self.errors: list[str] = []
         self.page.on('pageerror', lambda error: self.errors.append(str(error)))
@@ -288,6 +303,10 @@ class Fingers:
     def lift(self) -> None:
         """Lift all of them."""
         self._send('touchEnd', ())
+
+    def cancel(self) -> None:
+        """Have the system take all of them for a palm."""
+        self._send('touchCancel', ())
 
     def _send(self, kind: str, places: Sequence[Sequence[float]]) -> None:
         points = [{'x': x, 'y': y, 'id': number} for number, (x, y) in enumerate(places)]

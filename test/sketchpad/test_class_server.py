@@ -14,17 +14,18 @@ import re
 import socket
 import threading
 from typing import Any
-from urllib.parse import urlsplit
+from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.ros.programs.physsim_class import shares
 from physsim_ros.sketchpad import ClassServer, Role
+from physsim_ros.sketchpad.server import seats as seats_module
 from physsim_ros.sketchpad.server import website
-from physsim_ros.sketchpad.server.class_server import Seats, World
+from physsim_ros.sketchpad.server.seats import machine_of, Seats, World
 import pytest
 
 from .chromium import circle, Sheet
-from ..outside import Outside, PATIENCE
+from ..outside import Outside, PATIENCE, Program
 
 # Colours of the picture of the first seat.
 COLORS = """() => {
@@ -34,6 +35,7 @@ COLORS = """() => {
     for (let i = 0; i < data.length; i += 4) seen.add([...data.slice(i, i + 3)].join());
     return [...seen].map((each) => each.split(',').map(Number));
 }"""
+RESULT = ('answer', 'right', 'tries')
 WORLDS = [World(pupil=f'http://p/{each}', teacher=f'http://t/{each}') for each in range(2)]
 
 
@@ -50,6 +52,54 @@ def test_a_browser_comes_back_to_its_world_and_gets_no_other_one() -> None:
         seats.join('Anna', '')
 
 
+def test_a_machine_has_few_seats_however_often_it_asks() -> None:
+    seats = Seats([*WORLDS, *WORLDS], most_of_machine=2)
+    keys = [seats.join(f'Pupil {each}', '', address='192.168.0.7')[1] for each in range(2)]
+    with pytest.raises(WorldFull, match='this machine'):
+        seats.join('Pupil 3', '', 'forged', address='192.168.0.7')
+    # With a key it comes back, and others come.
+    assert seats.join('Anna', '', keys[1], address='192.168.0.7') == (1, keys[1])
+    assert seats.join('Ben', '', address='192.168.0.8')[0] == 2
+    seats.free(0)
+    assert seats.names == ['', 'Anna', 'Ben', '']
+    number, key = seats.join('Pupil 1', keys[0], address='192.168.0.7')
+    assert (number, key == keys[0]) == (0, False)
+    many = Seats([*WORLDS, *WORLDS], most_of_machine=0)
+    assert [many.join('A', '', address='10.0.0.1')[0] for _ in range(4)] == [0, 1, 2, 3]
+
+
+def test_a_machine_has_a_network_of_ipv6() -> None:
+    assert machine_of('2001:db8::1') == machine_of('2001:db8::ffff:2') != machine_of('2001:db9::1')
+    assert machine_of('::ffff:10.0.0.1') == machine_of('10.0.0.1') == '10.0.0.1'
+    assert machine_of('fe80::1%eth0') == machine_of('fe80::2')
+
+
+def test_seats_outlive_a_restart_and_a_newcomer_gets_an_empty_one_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / 'physsim_ros' / 'class_8800.json'
+    seats = Seats([*WORLDS, *WORLDS], path)
+    keys = [seats.join(name, '', address=f'10.0.0.{name}')[1] for name in 'ABC']
+    seats.free(0)
+    assert path.stat().st_mode & 0o777 == 0o600
+
+    again = Seats([*WORLDS, *WORLDS], path)
+    assert again.names == ['', 'B', 'C', '']
+    assert again.join('C', keys[2]) == (2, keys[2])
+    assert [again.join(name, '')[0] for name in 'XY'] == [0, 3]
+    # The seat of who has not come back is the last one.
+    assert again.join('Z', '')[0] == 1
+    with pytest.raises(WorldFull):
+        again.join('B', keys[1])
+    # Of a smaller class, of another day, and of a file that somebody has spoilt.
+    assert Seats(WORLDS, path).names == ['X', 'Z']
+    monkeypatch.setattr(seats_module, 'SEAT_AGE', -1)
+    assert Seats(WORLDS, path).names == ['', '']
+    for content in ('', '[', '{}', '[1]', '[{"name": 3}]', '[{"other": ""}]', '[{"at": "a"}]'):
+        path.write_text(content)
+        assert Seats(WORLDS, path).names == ['', '']
+
+
 @pytest.mark.parametrize(('pupils', 'processes'), [(1, 2), (5, 2), (20, 2), (30, 4), (3, 8)])
 def test_worlds_are_shared_out_evenly_from_one(pupils: int, processes: int) -> None:
     parts = shares(pupils, processes)
@@ -60,17 +110,23 @@ def test_worlds_are_shared_out_evenly_from_one(pupils: int, processes: int) -> N
 
 
 @pytest.fixture
-def class_address(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[str]:
-    """Give a test the address of pupils of a class, which is served on a thread."""
+def class_server(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[ClassServer]:
+    """Give a test the server of a class, on a thread."""
     monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
     monkeypatch.setitem(website.LIMITS, 'body_timeout', 0.2)
     is_over = threading.Event()
     server = ClassServer(WORLDS, address='127.0.0.1', port=0)
     thread = threading.Thread(target=server.run, args=(is_over.is_set,))
     thread.start()
-    yield server.url(Role.DRAW)
+    yield server
     is_over.set()
     thread.join()
+
+
+@pytest.fixture
+def class_address(class_server: ClassServer) -> str:
+    """Give a test the address of pupils of a class."""
+    return class_server.url(Role.DRAW)
 
 
 def fetch(url: str, method: str = 'GET', body: str = '', **headers: str) -> HTTPResponse:
@@ -106,7 +162,7 @@ def test_requests_without_a_body_do_not_shut_the_class_page(
 def test_an_error_that_nobody_expected_is_answered(
     class_address: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError('by zero')
 
     monkeypatch.setattr(Seats, 'join', fail)
@@ -117,6 +173,60 @@ def test_an_error_that_nobody_expected_is_answered(
     assert b'failure 1 in the log' in failed.read()
     assert 'ZeroDivisionError: by zero' in capsys.readouterr().err
     assert json.load(fetch(f'{base}/seats', Cookie=cookie))['seats'] == []
+
+
+def test_a_browser_without_its_key_has_its_seat_by_a_cookie_and_a_teacher_frees_it(
+    class_server: ClassServer,
+) -> None:
+    address = class_server.url(Role.DRAW)
+    base = address.partition('/login')[0]
+    cookies = {
+        role: fetch(class_server.url(role)).headers['Set-Cookie'].partition(';')[0]
+        for role in (Role.DRAW, Role.TEACH)
+    }
+
+    def post(path: str, body: dict[str, object], cookie: str) -> HTTPResponse:
+        return fetch(f'{base}{path}', 'POST', json.dumps(body), Origin=base, Cookie=cookie)
+
+    first = post('/join', {'name': 'Anna'}, cookies[Role.DRAW])
+    seat = first.headers['Set-Cookie'].partition(';')[0]
+    assert 'HttpOnly' in first.headers['Set-Cookie']
+    key = json.load(first)['key']
+    for _ in range(3):
+        again = post('/join', {'name': 'Anna'}, f'{cookies[Role.DRAW]}; {seat}')
+        assert json.load(again)['key'] == key
+    assert post('/join', {'name': 'Ben'}, cookies[Role.DRAW]).status == 200
+    assert post('/join', {'name': 'Cleo'}, cookies[Role.DRAW]).status == 409
+
+    assert post('/free', {'seat': 0}, cookies[Role.DRAW]).status == 403
+    for wrong in ({}, {'seat': 2}, {'seat': -1}, {'seat': '0'}, {'seat': True}):
+        assert post('/free', wrong, cookies[Role.TEACH]).status == 400
+    assert json.load(post('/free', {'seat': 0}, cookies[Role.TEACH])) == {'seats': ['', 'Ben']}
+    assert post('/join', {'name': 'Cleo'}, cookies[Role.DRAW]).status == 200
+
+
+@pytest.mark.parametrize('number', ['9' * 5000, '9999', '-1', '٣', '0x1', '1' + '0' * 300])
+def test_a_socket_to_no_seat_is_refused_and_no_error(
+    class_server: ClassServer, number: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    address = class_server.url(Role.TEACH)
+    base = address.partition('/login')[0]
+    cookie = fetch(address).headers['Set-Cookie'].partition(';')[0]
+    upgrade = {
+        'Upgrade': 'websocket',
+        'Connection': 'Upgrade',
+        'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==',
+        'Sec-WebSocket-Version': '13',
+    }
+    answer = fetch(f'{base}/ws/{quote(number)}', Origin=base, Cookie=cookie, **upgrade)
+    assert answer.status in (101, 404)
+    assert 'failure' not in capsys.readouterr().err
+
+
+def place(sheet: Sheet, number: int) -> str:
+    """Return the place of the card of a seat."""
+    value: str = sheet.page.locator('#seats li').nth(number).evaluate('card => card.style.order')
+    return value
 
 
 def come(chromium: Any, address: str, name: str) -> Sheet:
@@ -130,15 +240,21 @@ def come(chromium: Any, address: str, name: str) -> Sheet:
     return sheet
 
 
-def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
-    chromium: Any, outside: Outside
-) -> None:
+@pytest.fixture
+def run_class(outside: Outside) -> tuple[Program, str, str]:
+    """Give a test a class of two worlds: its program, the address of pupils, and a teacher's."""
     outside.environment['XDG_DATA_HOME'] = str(outside.directory)
     arguments = ['--pupils', 2, '--port', 0, '--ros-args', '-p', 'world_file:=free_fall']
     program = outside.start_installed('physsim_class', *arguments)
     lines = [program.wait_for('/login?token=') for _ in range(2)]
     pupils, teacher = (re.search(r'http\S+', line)[0] for line in lines)
+    return program, pupils, teacher
 
+
+def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
+    chromium: Any, run_class: tuple[Program, str, str]
+) -> None:
+    program, pupils, teacher = run_class
     anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
     before = anna.names()
     anna.drag(*circle(0.0, 3.0, 0.6))
@@ -155,31 +271,80 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     sheet = Sheet(chromium, teacher)
     links = sheet.page.get_by_role('listitem').get_by_role('link')
     links.nth(1).wait_for()
-    assert links.all_inner_texts() == ['Anna', 'Ben']
+    sheet.until(lambda: links.all_inner_texts() == ['Anna', 'Ben'], 'who is where')
+    sheet.press('Pupils come here')
     assert sheet.page.locator('#pupils').inner_text() == pupils
-    # A lesson for all, and what comes of it.
+    sheet.press('Close')
+    # A lesson for all.
     sheet.page.get_by_label('Lesson').select_option('slope')
     sheet.press('Open the lesson for all')
     anna.page.locator('#lesson').get_by_text('4. Down a slope').wait_for()
-    anna.page.get_by_role('textbox', name='Your answer').fill('4.9')
-    anna.press('Check')
-    anna.press('Raise your hand')
     card = sheet.page.locator('#seats li').first
     card.get_by_text('4. Down a slope').wait_for()
-    card.get_by_text('4.9 m/s² ✓ right').wait_for()
-    card.get_by_text('hand raised').wait_for()
     sheet.page.get_by_label('Message to all').fill('Five minutes left')
     sheet.press('Send')
     ben.page.get_by_text('Teacher: Five minutes left').wait_for()
     # The picture shows the block of ice.
-    color = sheet.page.evaluate(COLORS)
-    assert [118, 183, 178] in color
+    sheet.until(lambda: [118, 183, 178] in sheet.page.evaluate(COLORS), 'a picture')
     with sheet.context.expect_page() as opened:
         links.first.click()
+    opened.value.locator('.whose').get_by_text('World of Anna').wait_for()
     opened.value.get_by_role('button', name='People').click()
     opened.value.get_by_role('listitem').get_by_text('Anna').wait_for()
+    # That code would lead to this world, and not to the class.
+    assert not opened.value.get_by_role('img', name='QR code').count()
     opened.value.get_by_role('button', name='Freeze all pupils').click()
     anna.page.get_by_text('Your teacher has frozen this world.').wait_for()
+    card.get_by_text('frozen').wait_for()
+    # One undo takes the lesson back.
+    ben.press('Undo')
+    ben.page.locator('#lesson').get_by_text('1. Free fall').wait_for()
     for each in (sheet, anna, ben):
         each.close()
     assert program.interrupt() == 0
+
+
+def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
+    chromium: Any, run_class: tuple[Program, str, str]
+) -> None:
+    program, pupils, teacher = run_class
+    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
+    sheet = Sheet(chromium, teacher)
+    sheet.page.get_by_text('2 of 2 here').wait_for()
+    anna.page.get_by_role('textbox', name='Your answer').fill('1.01')
+    anna.press('Check')
+    card = sheet.page.locator('#seats li').first
+    card.get_by_text('1.01 s ✓ right').wait_for()
+    ben.press('Raise your hand')
+    sheet.page.get_by_text('2 of 2 here · hands raised: 1').wait_for()
+    # Hands come first, the earliest before others; then people by their names.
+    sheet.until(lambda: [place(sheet, each) for each in range(2)] == ['1', '0'], 'an order')
+    anna.press('Raise your hand')
+    sheet.page.get_by_text('hands raised: 2').wait_for()
+    assert [place(sheet, each) for each in range(2)] == ['1', '0']
+    sheet.page.locator('#seats li').nth(1).get_by_role('button', name='Lower the hand').click()
+    ben.page.get_by_role('button', name='Raise your hand', pressed=False).wait_for()
+    sheet.until(lambda: [place(sheet, each) for each in range(2)] == ['0', '1'], 'an order')
+    card.get_by_role('button', name='More').click()
+    sheet.page.get_by_label('Message to Anna').fill('Well done')
+    sheet.page.get_by_role('dialog').get_by_role('button', name='Send').click()
+    anna.page.get_by_text('Teacher: Well done').wait_for()
+    assert not ben.page.get_by_text('Well done').count()
+    # Without their page a pupil is not here; the result stays.
+    anna.page.reload()
+    card.get_by_text('1.01 s ✓ right').wait_for()
+    anna.close()
+    card.get_by_text('not here').wait_for()
+    sheet.press('Results')
+    sheet.page.get_by_role('row', name='Anna').get_by_text('1.01 ✓').wait_for()
+    with sheet.page.expect_download() as table:
+        sheet.press('Save table (CSV)')
+    head, row = Path(table.value.path()).read_text('utf-8-sig').splitlines()
+    assert head.split(',')[:4] == ['Name', *(f'1. Free fall: {each}' for each in RESULT)]
+    assert row.startswith('Anna,1.01,1,1,')
+    sheet.press('Close')
+    ben.close()
+    assert sheet.errors == []
+    assert program.interrupt() == 0
+    sheet.page.get_by_text('The class is not reachable').wait_for()
+    sheet.context.close()

@@ -5,13 +5,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+import json
+import math
 from pathlib import Path
+import time
+from typing import Any
 from urllib.parse import quote
 
 from physsim_ros.files import shipped_lessons
 from physsim_ros.sketchpad import Role
+from physsim_ros.sketchpad.results import Results, results_file
 from physsim_ros.sketchpad.rights import MOST_PATTERNS
 from physsim_ros.sketchpad.server.access import Access
+from physsim_ros.testing import PhysSim
 import pytest
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.parameter import Parameter
@@ -125,6 +132,100 @@ def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
         assert pupil.ask(kind, **fields)['ok'], kind
     assert boss.ask('lock', names=[])['ok']
     assert pupil.ask('delete', names=['a/0'])['ok']
+
+
+def test_time_brings_no_locked_body_back_or_away_but_for_a_teacher(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    assert pupil.spawn('b/0', 4.0)['ok']
+    browser.physsim.run(0.5)
+    assert boss.spawn('a/0')['ok']
+    assert pupil.spawn('b/1', 8.0)['ok']
+    browser.physsim.run(0.5)
+    assert boss.ask('lock', names=['a/*'])['ok']
+    moments = [('service', {'name': name}) for name in ('undo', 'redo', 'reset', 'clear')]
+    moments += [('course', {'course': 1}), ('open', {'name': 'demo'})]
+    for kind, fields in moments:
+        assert pupil.ask(kind, **fields)['code'] == 'frozen', (kind, fields)
+    before = browser.physsim.node.simulation.world.digest()
+    # Before the body was there, a stroke, a click and a hand would begin a course without it.
+    assert pupil.ask('seek', time=0.25)['ok']
+    assert 'a/0' not in browser.physsim.names
+    for kind, fields in (
+        *moments,
+        ('delete', {'names': ['b/0']}),
+        ('grab', {'point': [4, 5]}),
+        ('stroke', {'points': [[0, 0, 0], [2, 0, 0.3], [2, 1, 0.6]]}),
+        ('click', {'tool': 'delete', 'point': [4, 5]}),
+        ('take_back', {}),
+    ):
+        assert pupil.ask(kind, **fields)['code'] == 'frozen', (kind, fields)
+    assert browser.open_world('format: 1')['code'] == 'frozen'
+    assert pupil.ask('let_go')['ok']
+    assert pupil.ask('seek', time=1.0)['ok']
+    assert browser.physsim.node.simulation.world.digest() == before
+    assert boss.ask('service', name='reset')['ok']
+    assert browser.physsim.names == ()
+
+
+def test_what_is_locked_is_not_taken_back_by_who_made_it(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    circle = [[x, y, t] for x, y, t in ring()]
+    for ask, lock in (
+        (lambda: pupil.spawn('a/0'), 'a/0'),
+        (lambda: pupil.ask('change', name='a/0', properties={'friction': 0.1}), 'a/0'),
+        (lambda: pupil.ask('move_bodies', names=['a/0'], by=[1, 0]), 'a/*'),
+        (lambda: pupil.ask('click', tool='pin', point=[1, 5]), 'a/0'),
+        (lambda: pupil.ask('click', tool='anchor', point=[1, 5]), 'a/0'),
+        (lambda: pupil.ask('stroke', points=circle), 'drawn/*'),
+    ):
+        assert ask()['ok']
+        assert boss.ask('lock', names=[lock])['ok']
+        before = browser.physsim.node.simulation.world.digest()
+        assert pupil.ask('take_back')['code'] == 'frozen'
+        assert pupil.ask('instead')['ok'] is False
+        assert browser.physsim.node.simulation.world.digest() == before
+        assert boss.ask('lock', names=[])['ok']
+    assert boss.ask('lock', names=['c/0'])['ok']
+    assert pupil.ask('take_back')['ok']
+
+
+def ring() -> Iterator[tuple[float, float, float]]:
+    """Yield x, y [m] and time [s] of a circle that is drawn."""
+    for number in range(41):
+        turn = math.tau * number / 40
+        yield 20 + math.cos(turn), 20 + math.sin(turn), 0.03 * number
+
+
+def test_a_pupil_by_the_name_of_a_teacher_is_not_the_teacher(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    assert boss.ask('person', name='Ms Smith')['ok']
+    assert boss.spawn('a/0')['ok']
+    assert pupil.ask('person', name='Ms Smith')['ok']
+    assert pupil.ask('take_back')['code'] == 'out_of_history'
+    assert pupil.spawn('b/0', 4.0)['ok']
+    assert boss.ask('take_back')['ok']
+    assert browser.physsim.names == ('b/0',)
+
+
+def test_a_lock_belongs_to_its_world(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+
+    def locked() -> list[str]:
+        told: list[str] = boss.of_type('class')[-1]['locked']
+        return told
+
+    assert pupil.spawn('drawn/0')['ok']
+    assert boss.ask('lock', names=['drawn/*'])['ok']
+    boss.until(lambda: locked() == ['drawn/*'])
+    assert boss.ask('open', name='demo')['ok']
+    boss.until(lambda: locked() == [])
+    assert pupil.spawn('drawn/0', 40.0)['ok']
+    assert pupil.ask('service', name='reset')['ok']
+    # Back in the world of the lock.
+    for _ in range(3):
+        assert boss.ask('service', name='undo')['ok']
+    boss.until(lambda: locked() == ['drawn/*'])
+    assert pupil.ask('delete', names=['drawn/0'])['code'] == 'frozen'
 
 
 @pytest.mark.parametrize('role', [Role.DRAW, Role.VIEW])
@@ -257,10 +358,15 @@ def test_a_teacher_sees_answers_to_lessons_and_hands_and_says_something_to_all(
 
     def seen() -> list[tuple[object, bool]]:
         last = boss.of_type('class')[-1:]
-        return [(each['answered'], each['raised']) for told in last for each in told['people']]
+        people = [each for told in last for each in told['people'] if each['answered']]
+        return [(each['answered']['answer'], each['raised']) for each in people]
 
-    answered = {'lesson': 'Free fall', 'answer': '1.02', 'right': True}
+    answered = '1.02'
     boss.until(lambda: (answered, True) in seen())
+    number = int(pupil.of_type('welcome')[0]['client'])
+    assert boss.ask('lower_hand', page=number)['ok']
+    pupil.last('lower_hand')
+    assert not boss.of_type('lower_hand')
     assert pupil.ask('raise_hand', raised=False)['ok']
     boss.until(lambda: (answered, False) in seen())
     assert boss.ask('say', text='Five minutes left')['ok']
@@ -273,6 +379,78 @@ def test_a_teacher_sees_answers_to_lessons_and_hands_and_says_something_to_all(
     assert pupil.ask('say', text='no')['code'] == 'teacher_only'
     # A pupil is nobody's teacher by name.
     assert pupil.ask('person', name='Teacher')['code'] == 'bad_property'
+
+
+def test_results_stay_and_an_answer_that_was_right_is_not_lost(
+    browser: Browser, tmp_path: Path
+) -> None:
+    anna, boss = browser.open_page(), browser.cookie_of(Role.TEACH)
+    assert anna.ask('person', name='Anna')['ok']
+    before = time.time() - 1.0
+    tried = (('Free fall', '9', False), ('Free fall', '1.01', True), ('Free fall', '3', False))
+    for lesson, answer, right in (*tried, ('Lever', '2', False)):
+        assert anna.ask('answered', lesson=lesson, answer=answer, right=right)['ok']
+
+    def results() -> list[dict[str, Any]]:
+        return json.loads(browser.fetch('/results', cookie=boss).body)['results']
+
+    first, second = results()
+    assert before < first.pop('at') < time.time() + 1.0
+    assert first == {
+        'world': 1,
+        'person': 'Anna',
+        'lesson': 'Free fall',
+        'answer': '1.01',
+        'right': True,
+        'tries': 2,
+    }
+    assert (second['lesson'], second['right'], second['tries']) == ('Lever', False, 1)
+    assert browser.fetch('/results').code == 403
+    # Another page of the same person; another start of the world.
+    anna.close()
+    again = browser.open_page()
+    assert again.ask('person', name='Anna')['ok']
+    again.until(lambda: again.of_type('class')[-1]['people'][0]['answered'])
+    assert again.of_type('class')[-1]['people'][0]['answered']['lesson'] == 'Lever'
+    kept = Results(results_file(tmp_path))
+    assert kept.last_of('Anna')['lesson'] == 'Lever'
+    assert kept.note('Anna', 'Lever', '1', right=True)['tries'] == 2
+    assert teacher(browser).ask('forget_results')['ok']
+    assert results() == []
+
+
+def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path) -> None:
+    for text in ('', '{', '[1]', '{}', '[{}]', '\udcff'):
+        results_file(tmp_path).write_text(text, errors='surrogateescape')
+        assert (
+            Results(results_file(tmp_path)).note('Anna', 'Lever', '1', right=False)['tries'] == 1
+        )
+
+
+def test_lessons_of_another_directory_reach_the_world(
+    start: Callable[..., PhysSim], tmp_path: Path
+) -> None:
+    lesson = (shipped_lessons() / 'slope.yaml').read_text()
+    (tmp_path / 'teacher').mkdir()
+    (tmp_path / 'teacher' / 'mine.yaml').write_text(lesson.replace('Down a slope', 'Mine'))
+    world = start(sketchpad='serve', sketchpad_port=0, lesson_dir=str(tmp_path / 'teacher'))
+    browser = Browser(world)
+    pupil = browser.open_page()
+
+    def title() -> str:
+        scene = pupil.of_type('scene')[-1]
+        return scene['lesson']['title'] if scene['lesson'] else ''
+
+    assert 'Mine' in [each['title'] for each in pupil.last('worlds')['lessons']]
+    assert pupil.ask('open', name='mine')['ok']
+    browser.physsim.run(0.1)
+    pupil.until(lambda: title() == 'Mine')
+    assert browser.fetch('/world/mine.yaml').code == 200
+    # One gesture, at time 0.
+    assert pupil.ask('service', name='undo')['ok']
+    browser.physsim.run(0.1)
+    pupil.until(lambda: not title())
+    browser.close()
 
 
 def test_a_page_that_watches_a_class_is_nobody_in_its_world(browser: Browser) -> None:

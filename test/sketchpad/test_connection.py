@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from typing import Any
 
+import pytest
+
 from .chromium import circle, Sheet, started_world
 from ..outside import Outside
 
@@ -41,6 +43,53 @@ def test_the_page_comes_back_when_its_socket_was_cut(chromium: Any, address: str
     sheet.page.reload()
     sheet.wait('heard.people')
     assert sheet.page.evaluate('heard.people') == people
+    sheet.close()
+
+
+@pytest.mark.parametrize('lost', ['requests', 'answers'])
+def test_a_socket_that_is_silent_is_told_and_what_was_drawn_meanwhile_is_there_once(
+    chromium: Any, address: str, lost: str
+) -> None:
+    sheet = Sheet(chromium, 'about:blank')
+    # Three times as fast. An alert may be shown for less time than a busy machine takes to look.
+    sheet.page.add_init_script(
+        """const waits = setInterval;
+        window.setInterval = (call, pause) => waits(call, pause / 3);
+        window.alerts = '';
+        const look = () => { alerts += document.querySelector('[role=alert]')?.textContent; };
+        new MutationObserver(look).observe(document, {childList: true, subtree: true});"""
+    )
+    is_dead, sockets, drawn = False, [], []
+
+    def pass_on(socket: Any) -> None:
+        number, server = len(sockets), socket.connect_to_server()
+        sockets.append(socket)
+
+        def send_out(text: str) -> None:
+            if is_dead and number == 0:
+                drawn.extend([text] if '"stroke"' in text else [])
+                if lost == 'requests' or 'ping' in text:
+                    return
+            server.send(text)
+
+        socket.on_message(send_out)
+        server.on_message(lambda text: (is_dead and number == 0) or socket.send(text))
+
+    sheet.page.route_web_socket('**/ws*', pass_on)
+    sheet.page.goto(address)
+    sheet.begin()
+    before = sheet.names()
+    with sheet.dragging(*circle(1.0, 5.0, 0.8)):
+        is_dead = True
+    sheet.wait_for_new(before)
+    assert drawn
+    assert len(sockets) == 2
+    assert 'does not answer' in sheet.page.evaluate('alerts')
+    assert sheet.page.get_by_role('alert').is_hidden()
+    # After its answer no other one would come.
+    sheet.press('Play')
+    sheet.wait('physsim.speed === 1')
+    assert len(sheet.names()) == len(before) + 1
     sheet.close()
 
 

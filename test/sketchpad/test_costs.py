@@ -83,6 +83,8 @@ MESSAGES: list[tuple[str, dict[str, Any]]] = [
     ('person', {'name': 'Anna'}),
     ('answered', {'lesson': 'Free fall', 'answer': '1' * 1000, 'right': False}),
     ('raise_hand', {'raised': True}),
+    ('lower_hand', {'page': 2}),
+    ('forget_results', {}),
     ('say', {'text': 'Five minutes left'}),
     ('list', {}),
     ('clear_of', {'person': 'Anna'}),

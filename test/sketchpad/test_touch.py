@@ -5,13 +5,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 import math
 from typing import Any
 
 import numpy as np
 import pytest
 
-from .chromium import circle, Fingers, Sheet, Stylus
+from .chromium import circle, Fingers, POINTER, Sheet, started_world, Stylus
+from ..outside import Outside
 
 
 def test_a_second_finger_turns_the_body_that_is_placed(chromium: Any, address: str) -> None:
@@ -58,7 +60,10 @@ def test_a_finger_draws_and_two_fingers_zoom(chromium: Any, address: str) -> Non
     sheet.close()
 
 
-def test_a_palm_does_not_end_the_stroke_of_a_stylus(chromium: Any, address: str) -> None:
+@pytest.mark.parametrize('ends', [Fingers.lift, Fingers.cancel])
+def test_a_palm_does_not_end_the_stroke_of_a_stylus(
+    chromium: Any, address: str, ends: Callable[[Fingers], None]
+) -> None:
     sheet = Sheet(chromium, address, has_touch=True)
     sheet.begin()
     before = sheet.names()
@@ -68,12 +73,86 @@ def test_a_palm_does_not_end_the_stroke_of_a_stylus(chromium: Any, address: str)
     stylus.put(places[0])
     stylus.move(places[1:8])
     palm.put((900, 600))
-    stylus.move(places[8:])
+    stylus.move(places[8:12])
     palm.move((910, 605))
-    palm.lift()
+    ends(palm)
+    stylus.move(places[12:])
     stylus.lift(places[-1])
     sheet.wait_for_new(before)
     assert sheet.place(0.0, 0.0) == corner
+    sheet.close()
+
+
+def test_a_hand_lets_go_though_its_second_finger_was_cancelled(
+    chromium: Any, address: str
+) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    sheet.press('Hand')
+    fingers = Fingers(sheet)
+    fingers.put(sheet.place(4.0, 0.5))
+    fingers.move(sheet.place(4.0, 4.0))
+    sheet.wait('Math.abs(physsim.bodies["box/0"][1] - 4) < 0.1')
+    sheet.page.evaluate(POINTER, ['touch', 1, 99, [['down', 900, 300], ['cancel', 900, 300]]])
+    fingers.lift()
+    # A hand that holds it would keep it there.
+    sheet.press('Play')
+    sheet.wait('physsim.bodies["box/0"][1] < 1')
+    sheet.close()
+
+
+def test_a_long_stroke_is_thinned_out(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    before = sheet.names()
+    (x, y), count = sheet.place(1.0, 6.0), 9000
+    turns = np.linspace(0.0, math.tau, count)
+    places = [['move', x + 70 * math.cos(turn), y + 70 * math.sin(turn)] for turn in turns]
+    places = [['down', x + 70, y], *places, ['up', x + 70, y]]
+    sheet.page.evaluate(POINTER, ['mouse', 1, 99, places])
+    sheet.wait_for_new(before)
+    sheet.page.get_by_role('status').get_by_text('Circle added').wait_for()
+    sheet.close()
+
+
+def test_the_eraser_of_a_stylus_erases_and_its_button_selects(chromium: Any, address: str) -> None:
+    sheet = Sheet(chromium, address, has_touch=True)
+    sheet.begin()
+    corner = sheet.place(0.0, 0.0)
+    # Right through a body, and past the others.
+    (x, y), (end_x, _) = sheet.place(-5.0, 3.0), sheet.place(-3.0, 3.0)
+    across = [['down', x, y - 60], ['move', x, y], ['move', end_x, y], ['up', end_x, y]]
+    sheet.page.evaluate(POINTER, ['pen', 32, 99, across])
+    sheet.wait('Object.keys(physsim.bodies).join() === "ball/0,box/0"')
+    sheet.press('Undo')
+    sheet.wait('Object.keys(physsim.bodies).length === 3')
+    (left, high), (right, low) = sheet.place(3.0, 2.0), sheet.place(5.0, -0.3)
+    loop = [(left, high), (right, high), (right, low), (left, low), (left, high)]
+    around = [['down', *loop[0]], *(['move', *place] for place in loop), ['up', *loop[-1]]]
+    sheet.page.evaluate(POINTER, ['pen', 2, 99, around])
+    sheet.page.get_by_role('complementary', name='Body').get_by_text('box/0').wait_for()
+    assert sheet.names() == {'ball/0', 'box/0', 'shelf/0'}
+    sheet.press('Close')
+    assert sheet.place(0.0, 0.0) == corner
+    sheet.close()
+
+
+def test_a_body_beyond_the_bounds_and_a_world_of_many_kilometres_are_framed(
+    chromium: Any, outside: Outside
+) -> None:
+    world = 'format: 1\nbounds: [-4000, 0, 4000, 3000]\nbodies:\n'
+    bodies = '- {name: far/0, circle: {radius: 9}, at: [9000, -2000], anchored: true}'
+    _, address = started_world(outside, world=world + bodies)
+    sheet = Sheet(chromium, address)
+    sheet.wait('Object.keys(physsim.bodies).length === 1')
+    for point in ((-4000.0, 0.0), (4000.0, 3000.0)):
+        x, y = sheet.place(*point)
+        assert 0 < x < 1200
+        assert 0 < y < 800
+    assert sheet.place(9000.0, -2000.0)[0] > 1200
+    sheet.press('Frame the world')
+    assert 0 < sheet.place(9000.0, -2000.0)[0] < 1200
+    assert sheet.place(-4000.0, 0.0)[0] > 0
     sheet.close()
 
 

@@ -13,7 +13,10 @@ PACKAGE = ROOT / 'physsim_ros'
 DOCS = ROOT / 'docs'
 DOCUMENTS = [
     path
-    for path in (ROOT / 'README.md', ROOT / 'CONTRIBUTING.md', *sorted(DOCS.rglob('*.md')))
+    for path in (
+        *(ROOT / f'{name}.md' for name in ('README', 'CONTRIBUTING', 'QUALITY_DECLARATION')),
+        *sorted(DOCS.rglob('*.md')),
+    )
     if '_build' not in path.parts
 ]
 # Folders in which paths of documents begin.

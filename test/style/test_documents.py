@@ -14,6 +14,7 @@ from physsim_ros.model.joints import JOINT_KEYS, JointProperties
 from physsim_ros.model.names import LONGEST_NAME
 from physsim_ros.model.shapes import MOST_POINTS
 import pytest
+from tools.tables import cheat_sheet, search_words
 
 from .sources import DOCS, DOCUMENTS, PACKAGE, ROOT, spans
 
@@ -22,19 +23,24 @@ pytestmark = pytest.mark.linter
 
 def test_what_pip_is_to_bring_is_what_the_package_asks_for():
     tree = ast.parse((ROOT / 'setup.py').read_text(encoding='utf-8'))
-    (asked,) = (
+    (always,) = (
         ast.literal_eval(keyword.value)
         for call in ast.walk(tree)
         if isinstance(call, ast.Call)
         for keyword in call.keywords
         if keyword.arg == 'install_requires'
     )
+    (viewer,) = (
+        ast.literal_eval(node.value)
+        for node in tree.body
+        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == 'VIEWER'
+    )
     text = (DOCS / 'installation.md').read_text(encoding='utf-8')
     (line,) = re.findall(r"^pip install ('numpy.*)$", text, re.MULTILINE)
 
     # rosdep's is recent enough.
     known = {'PyYAML'}
-    assert {word.strip("'") for word in line.split()} == set(asked) - known
+    assert {word.strip("'") for word in line.split()} == {*always, *viewer} - known
 
 
 @pytest.mark.parametrize('document', DOCUMENTS, ids=lambda path: path.name)
@@ -99,6 +105,25 @@ def test_what_repeats_declarations_is_as_they_are():
     # `make tables` writes them.
     for path, text in documents.files().items():
         assert path.read_text(encoding='utf-8') == text, path
+
+
+def test_the_cheat_sheet_has_every_stroke_and_tool_of_the_page():
+    strokes, tools = (
+        (cheat_sheet.PAGE / name).read_text('utf-8')
+        for name in ('ui/strokes.js', 'tools/tools.js')
+    )
+
+    assert len(cheat_sheet.strokes()) == strokes.count('\n  [t(')
+    assert len(cheat_sheet.keys()['Tools']) == tools.count('\n  tool(')
+    assert all(cheat_sheet.keys().values())
+
+
+def test_words_of_the_search_lead_to_pages_and_headings_that_are_there():
+    for page, heading in search_words.WORDS:
+        text = (DOCS / f'{page}.md').read_text('utf-8')
+
+        assert not heading or f'\n## {heading}\n' in text
+        assert search_words.with_entries(page, text).count('```{index}') >= 1
 
 
 def test_the_table_of_codes_has_every_refusal():

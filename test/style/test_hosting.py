@@ -42,6 +42,14 @@ def test_hadolint_finds_nothing_in_the_container():
     assert done.stdout == ''
 
 
+@pytest.mark.skipif(shutil.which('actionlint') is None, reason='actionlint is not installed')
+@pytest.mark.parametrize('workflow', WORKFLOWS, ids=lambda path: path.name)
+def test_actionlint_finds_nothing_in_a_workflow(workflow):
+    done = subprocess.run(['actionlint', workflow], capture_output=True, text=True, check=False)
+
+    assert done.stdout == ''
+
+
 def test_the_container_starts_a_program_of_the_package_with_parameters_that_there_are():
     parameters = pytest.importorskip('physsim_ros.ros.parameters', reason='there is no ROS')
     text = CONTAINER.read_text(encoding='utf-8')

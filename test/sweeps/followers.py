@@ -6,6 +6,10 @@
 from __future__ import annotations
 
 import math
+import os
+import signal
+import sys
+import threading
 from typing import Any
 
 import numpy as np
@@ -45,6 +49,66 @@ def stumbling(**_: Any) -> Any:
             raise ZeroDivisionError('no idea what to do')
 
     return control
+
+
+def _exit() -> None:
+    sys.exit(3)
+
+
+def _end_at_once() -> None:
+    os._exit(4)
+
+
+def _kill() -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def _hang() -> None:
+    while True:
+        pass
+
+
+def _sleep() -> None:
+    threading.Event().wait()
+
+
+def _raise() -> None:
+    raise ValueError('boom')
+
+
+# How a controller ends its process, or does not.
+ENDS = {
+    '': lambda: None,
+    'exit': _exit,
+    'end at once': _end_at_once,
+    'kill': _kill,
+    'hang': _hang,
+    'sleep': _sleep,
+    'raise': _raise,
+}
+
+
+class Fated:
+    """
+    Drives on for a second, and ends in a way.
+
+    :param fate: a key of `ENDS`
+    :param calls: of the controller until then; 0 is as it is made
+    """
+
+    def __init__(self, fate: str, calls: int = 10) -> None:
+        self.fate = fate
+        self.calls = calls
+        self._end_at(0)
+
+    def __call__(self, robot: Robot) -> None:
+        robot.drive(0.1)
+        self.calls -= 1
+        self._end_at(0)
+
+    def _end_at(self, calls: int) -> None:
+        if self.calls == calls:
+            ENDS[self.fate]()
 
 
 def skewed(robot: Robot, rng: np.random.Generator) -> None:

@@ -9,7 +9,9 @@ from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 import multiprocessing
+import os
 from pathlib import Path
+import threading
 from typing import Any
 
 import numpy as np
@@ -21,13 +23,14 @@ from physsim_ros.sweeps import (
     Experiment,
     picture_of_runs,
     Run,
+    runs_of,
     save_failures,
     sweep,
     table_of_runs,
 )
 import pytest
 
-from .followers import experiment, stumbling, way_right
+from .followers import experiment, Fated, stumbling, way_right
 
 ROOT = Path(__file__).parents[2]
 CASES = cases_of(range(4), gain=(0.0, 8.0))
@@ -64,6 +67,8 @@ def test_a_controller_without_gain_crashes_and_one_with_it_does_not(runs: list[R
 
 
 def test_processes_have_the_same_runs_to_the_bit(runs: list[Run]) -> None:
+    assert told(sweep(experiment(), CASES, processes=3)) == told(runs)
+    assert told([experiment().run(case) for case in CASES]) == told(runs)
     with ProcessPoolExecutor(2, multiprocessing.get_context('fork')) as pool:
         assert told(sweep(experiment(), CASES, pool.map)) == told(runs)
 
@@ -83,10 +88,17 @@ def test_a_cluster_has_the_same_runs_to_the_bit(
         distributed.Client(cluster) as client,
     ):
 
-        def spread(run: Callable[[Case], Run], cases: Any) -> Any:
-            return client.gather(client.map(run, cases))
+        def spread(run: Callable[[Any], Any], cases: Any) -> Any:
+            futures = client.map(run, cases)
+            return (future.result() for future in distributed.as_completed(futures))
 
         assert told(sweep(experiment(), CASES, spread)) == told(runs)
+        fated = experiment(controller=Fated, seconds=1.5, cpu_limit=1.0)
+        cases = cases_of(range(1), fate=('kill', 'exit', ''))
+        failures = [run.failure for run in sweep(fated, cases, spread)]
+        assert failures[0] == 'killed by SIGKILL'
+        assert failures[1].startswith('SystemExit: 3')
+        assert failures[2] == ''
 
 
 def test_a_table_tells_who_crashed_and_why(runs: list[Run]) -> None:
@@ -149,6 +161,123 @@ def test_an_error_of_a_controller_is_the_failure_of_its_run_alone() -> None:
     assert failed.before is not None
     assert np.isnan(failed.score)
     assert 'score' not in table_of_runs([failed, other])
+
+
+FAILURES = {
+    'exit': 'SystemExit: 3 (_exit, line ',
+    'raise': 'ValueError: boom (_raise, line ',
+    'kill': 'killed by SIGKILL',
+    'end at once': 'its process ended with exit code 4',
+    'hang': 'took more than 1 s of CPU time',
+    'sleep': 'took more than 0.5 s',
+    '': '',
+}
+
+
+@pytest.mark.parametrize('fate', FAILURES)
+def test_the_end_of_a_process_is_the_failure_of_its_run_with_the_world_before(fate: str) -> None:
+    limits = {'wall_limit': 0.5} if fate == 'sleep' else {'cpu_limit': 1.0}
+    fated = experiment(controller=Fated, seconds=1.5, **limits)
+    well, ended, after = sweep(fated, cases_of(range(1), fate=('', fate, '')))
+    assert ended.failure.startswith(FAILURES[fate])
+    assert well.failure == after.failure == ''
+    if not fate:
+        return
+    # The tenth call does not return; the world is that of 0.4 s before.
+    assert ended.seconds == pytest.approx(0.9)
+    assert np.array_equal(ended.way, well.way[:10])
+    assert ended.before is not None
+    simulation = Simulation(publish_rate=10.0)
+    simulation.begin(ended.before)
+    pose = Robot(simulation, 'robot/0').truth().pose
+    assert pose[:2] == pytest.approx(well.way[5], abs=1e-12)
+
+
+def test_a_controller_that_ends_its_process_as_it_is_made_leaves_the_world_of_the_beginning() -> (
+    None
+):
+    fated = experiment(controller=Fated, seconds=0.5)
+    (run,) = sweep(fated, cases_of(range(1), fate=('kill',), calls=(0,)))
+    assert run.failure == 'killed by SIGKILL'
+    assert run.seconds == 0.0
+    assert run.before is not None
+
+
+def test_what_a_controller_starts_ends_with_its_run() -> None:
+    class Starts(Fated):
+        """Starts a process that does not end by itself."""
+
+        def __call__(self, robot: Robot) -> None:
+            if os.fork() == 0:
+                threading.Event().wait()
+            super().__call__(robot)
+
+    starting = experiment(controller=Starts, seconds=0.3)
+    (run,) = sweep(starting, cases_of(range(1), fate=('',)))
+    assert run.failure == ''
+
+
+def test_sixty_runs_outlive_the_deaths_of_every_third_and_are_told_as_they_end(
+    tmp_path: Path,
+) -> None:
+    fated = experiment(controller=Fated, begin=None, seconds=0.2)
+    cases = cases_of(range(60), fate=('',), calls=(1,))
+    cases = [
+        replace(case, parameters={**case.parameters, 'fate': ('', 'kill', 'exit')[case.seed % 3]})
+        for case in cases
+    ]
+    first = runs_of(fated, cases, processes=4, folder=tmp_path)
+    some = [next(first) for _ in range(20)]
+    first.close()
+    ended = sweep(fated, cases, processes=4, folder=tmp_path)
+    assert [bool(run.failure) for run in ended] == [case.seed % 3 > 0 for case in cases]
+    assert [run.case for run in ended] == cases
+    assert told([run for _, run in some]) == told([ended[number] for number, _ in some])
+    assert len((tmp_path / 'runs.jsonl').read_text().splitlines()) == 61
+
+
+def test_a_second_call_continues_a_folder_with_the_same_runs(tmp_path: Path) -> None:
+    scored = experiment(score=way_right, seconds=4.0)
+    runs = sweep(scored, CASES)
+    sweep(scored, CASES[2:5], folder=tmp_path)
+    path = tmp_path / 'runs.jsonl'
+    # A line that was cut off as its writer was killed.
+    path.write_bytes(path.read_bytes()[:-20])
+    started: list[int] = []
+
+    def spread(run: Callable[[Any], Any], cases: Any) -> Any:
+        started.extend(number for number, _ in cases)
+        return map(run, cases)
+
+    again = sweep(scored, CASES, spread, folder=tmp_path)
+    assert started == [0, 1, 4, 5, 6, 7]
+    assert told(again[:2]) == told(runs[:2])
+    assert [run.score for run in again] == [run.score for run in runs]
+    assert [run.way.tolist() for run in again] == [run.way.tolist() for run in runs]
+    assert [run.failure for run in again] == [run.failure for run in runs]
+    for kept, run in zip(again, runs, strict=True):
+        assert (kept.before is None) == (run.before is None)
+    sweep(scored, CASES, never_spread, folder=tmp_path)
+    for changes in ({'seconds': 5.0}, {'controller': Fated}, {'begin': None}):
+        with pytest.raises(Refusal, match='another experiment') as caught:
+            sweep(experiment(**{'score': way_right, **changes}), [], folder=tmp_path)
+        assert caught.value.field == 'folder'
+
+
+def never_spread(_: object, cases: Any) -> Any:
+    assert not cases
+    return ()
+
+
+def test_a_folder_with_something_else_is_refused(tmp_path: Path) -> None:
+    (tmp_path / 'runs.jsonl').write_text('seed,failure\n')
+    with pytest.raises(Refusal, match='no file of runs'):
+        sweep(experiment(), [], folder=tmp_path)
+
+
+def test_a_refusal_of_a_run_is_raised_where_the_sweep_is() -> None:
+    with pytest.raises(UnknownBody):
+        sweep(experiment(robot='robot/7'), [Case(parameters={'gain': 1.0})])
 
 
 def test_cases_are_all_combinations_of_parameters_each_with_all_seeds() -> None:

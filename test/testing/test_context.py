@@ -7,19 +7,34 @@ from __future__ import annotations
 
 from collections.abc import Callable
 import json
+import os
 from pathlib import Path
 import subprocess
 import sys
 
-from physsim_ros.testing import box, PhysSim
+from hypothesis import given, settings
+from hypothesis.strategies import floats
+from physsim_ros.testing import box, disc, own_world, PhysSim
 import pytest
 
 from ..client import Client
 
 
+@pytest.fixture(params=['', 'ROS_LOCALHOST_ONLY=1', 'ROS_STATIC_PEERS=127.0.0.1'])
+def variable(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> tuple[str, ...]:
+    """Set an environment variable that lets nodes be heard, before a test has its world."""
+    named: tuple[str, ...] = tuple(request.param.split('=')) if request.param else ()
+    if named:
+        monkeypatch.setenv(*named)
+    return named
+
+
 def test_no_other_process_hears_a_world_or_is_heard_by_it(
-    physsim: PhysSim, monkeypatch: pytest.MonkeyPatch
+    variable: tuple[str, str], physsim: PhysSim, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    if variable:
+        # The other process has it still.
+        monkeypatch.setenv(*variable)
     client = Client(physsim)
     path = Path(__file__).parents[1] / 'elsewhere' / 'intruder.py'
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'SUBNET')
@@ -47,3 +62,21 @@ def test_two_worlds_of_one_process_do_not_see_each_other(
     physsim.step(3)
     assert (physsim.names, other.names) == (('a/0',), ('b/0',))
     assert other.time == 0.0
+
+
+def test_a_property_of_many_worlds_has_one_for_each_example() -> None:
+    worlds: list[PhysSim] = []
+
+    @settings(max_examples=3, deadline=None, derandomize=True)
+    @given(height=floats(1.0, 10.0))
+    def falls(height: float) -> None:
+        with own_world(gravity=[0.0, -1.0]) as physsim:
+            physsim.spawn(disc('ball/0', at=(0.0, height)))
+            physsim.run(1.0)
+            assert physsim.pose('ball/0').y == pytest.approx(height - 0.5, abs=1e-6)
+            assert physsim.time == 1.0
+            worlds.append(physsim)
+
+    falls()
+    assert len(worlds) == 3
+    assert 'ROS_AUTOMATIC_DISCOVERY_RANGE' not in os.environ

@@ -260,5 +260,5 @@ def test_the_tests_in_the_documents_pass(pytester: pytest.Pytester) -> None:
     tests = [block for block in blocks if 'def test_' in block]
     for number, test in enumerate(tests):
         (pytester.path / f'test_{number}.py').write_text(test)
-    assert len(tests) == 4
-    pytester.runpytest_subprocess().assert_outcomes(passed=4)
+    assert len(tests) == 5
+    pytester.runpytest_subprocess().assert_outcomes(passed=5)

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import weakref
 
@@ -54,6 +55,19 @@ def test_a_full_queue_drops_the_oldest_frames_and_keeps_all_answers(tmp_path, mo
     counts = rows(path)
     assert counts['/events'] == 101
     assert counts[BOX] >= 11
+
+
+def test_where_rerun_is_missing_it_is_told_what_to_install(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, 'rerun', None)
+    told = []
+    endpoint = FileEndpoint(tmp_path / 'it.rrd', overwrite=True)
+    output = Output(endpoint, ErrorBoundary(), told.append)
+
+    reason = 'rerun is not installed: install physsim_ros with its extra [viewer]'
+    assert output.wait_until_tried() == reason
+    assert output.join()
+    assert [(each.code, reason in each.message) for each in told] == [('record_failed', True)]
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_closing_gives_up_on_one_that_takes_nothing(tmp_path):

@@ -58,13 +58,6 @@ def _spike(samples: Floats, rng: Random) -> Floats:
     return result
 
 
-def _stale(samples: Floats, rng: Random) -> Floats:
-    """Put a first sample where the pen was before."""
-    angle, far = rng.uniform(0, 7), rng.uniform(0.3, 1.5) * _size(samples)
-    before = np.add(samples[:1], (far * math.cos(angle), far * math.sin(angle), -0.01))
-    return np.vstack((before, samples))
-
-
 def _resampled(count: int) -> Callable[[Floats, Random], Floats]:
     def samples_of(samples: Floats, _rng: Random) -> Floats:
         at = np.linspace(0.0, len(samples) - 1.0, count)
@@ -131,7 +124,7 @@ def _sharp_only(figure: Figure, _rng: Random) -> Figure | None:
 
 def all_arrive(hand: Hand, _rng: Random) -> Hand:
     """Let all samples arrive."""
-    return replace(hand, first_step=0.0, dropped=0.0, simplified=0.0)
+    return replace(hand, first_step=0.0, batch=1, dropped=0.0, simplified=0.0)
 
 
 def _size(samples: Floats) -> float:
@@ -141,7 +134,6 @@ def _size(samples: Floats) -> float:
 FAULTS: dict[str, Fault] = {
     'a pen that rests': Fault(samples=_resting),
     'a spike': Fault(hand=all_arrive, samples=_spike),
-    'a stale first sample': Fault(hand=all_arrive, samples=_stale),
     '10 samples': Fault(figure=_few_turns_only, hand=all_arrive, samples=_resampled(10)),
     '10,000 samples': Fault(hand=all_arrive, samples=_resampled(10_000)),
     'tremor of 2 %': Fault(hand=lambda hand, rng: replace(hand, tremor=rng.uniform(0.015, 0.02))),
@@ -164,6 +156,11 @@ FAULTS: dict[str, Fault] = {
     ),
     'a finger on a tablet': Fault(
         hand=lambda hand, rng: replace(hand, first_step=rng.uniform(0.15, 0.35))
+    ),
+    'a finger on a busy page': Fault(
+        hand=lambda hand, rng: replace(
+            hand, first_step=rng.uniform(0.15, 0.35), batch=int(rng.integers(3, 9))
+        )
     ),
     'few samples': Fault(
         hand=lambda hand, rng: replace(

@@ -22,7 +22,7 @@ import numpy as np
 from physsim_ros.drawing.strokes import evidence
 from physsim_ros.drawing.strokes.evidence import Candidate, CONSTANT, TABLE
 from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.joining import joined_strokes
+from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags
@@ -90,7 +90,9 @@ def examples(count: int, half: str) -> Iterator[Example]:
         except Refusal:
             continue
     for thing, strokes in joined_things(count, half):
-        whole = joined_strokes([resample_stroke(each).points for each in strokes])
+        paths = [resample_stroke(each).points for each in strokes]
+        arrow = joined_arrow(paths)
+        whole = joined_strokes(paths) if arrow is None else arrow
         yield _example(whole, thing.kind, whole[0] if thing.tail is None else thing.tail)
 
 

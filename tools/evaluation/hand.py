@@ -29,6 +29,7 @@ class Hand:
     unsteady: float  # of the pen's speed
     pixel: float  # to which samples are rounded; 0 is none
     first_step: float  # length within which a touch screen sends nothing after the first sample
+    batch: int  # samples that arrive with one time
     dropped: float  # share of the samples that are lost
     simplified: float  # greatest distance of samples left out from the line through the others
     slant: float = 0.0  # shear of all that is drawn

@@ -64,15 +64,19 @@ def hand(rng: Random, figure: Figure, half: str = 'report') -> Hand:
         unsteady=_habit(rng, 0.0, 0.4, half),
         pixel=float(rng.choice([0.0, rng.uniform(0.0025, 0.012)])),
         first_step=0.0,
+        batch=1,
         dropped=0.0,
         simplified=0.0,
     )
-    # A finger on a tablet goes 61 to 71 pixels before the screen calls it a stroke.
-    first_step = rng.uniform(0.1, 0.3) if rng.random() < 0.25 else 0.0
+    # A finger on a tablet goes 61 to 71 pixels before the screen calls it a stroke. A busy page
+    # gets several samples at once.
+    first_step = rng.uniform(0.0, 0.35) if rng.random() < 0.5 else 0.0
+    batch = int(rng.integers(2, 6)) if rng.random() < 0.25 else 1
     sending = rng.random()
     somebody = replace(
         somebody,
         first_step=first_step,
+        batch=batch,
         dropped=rng.uniform(0.2, 0.7) if sending < 0.3 else 0.0,
         simplified=rng.uniform(0.004, 0.01) if sending > 0.85 else 0.0,
     )
@@ -301,7 +305,14 @@ def _received(samples: Floats, somebody: Hand, rng: Random) -> Floats:
     kept[[0, -1]] = True
     if somebody.simplified:
         kept &= _simplified(samples[:, :2], somebody.simplified * somebody.size)
-    return samples[kept]
+    times = samples[:, 2].copy()
+    if somebody.first_step:
+        # The screen reports the touch late, too: its first step takes no longer than others.
+        times[0] = max(times[int(late.argmax())] - 1.0 / somebody.rate, times[0])
+    # All samples of a batch have the time of its last one.
+    last = -(-np.arange(len(times)) // somebody.batch) * somebody.batch
+    times = times[np.minimum(last, len(times) - 1)]
+    return np.column_stack((samples[:, :2], times))[kept]
 
 
 def _simplified(points: Floats, tolerance: float) -> NDArray[np.bool_]:

@@ -30,7 +30,6 @@ PEOPLE: dict[str, Fault] = {
         name: FAULTS[name]
         for name in (
             'a pen that rests',
-            'a stale first sample',
             'tremor of 2 %',
             'gap to 11.5 %',
             'ends that cross',
@@ -38,7 +37,10 @@ PEOPLE: dict[str, Fault] = {
         )
     },
     SEVERAL: Fault(),
-    **{name: FAULTS[name] for name in ('a finger on a tablet', 'few samples')},
+    **{
+        name: FAULTS[name]
+        for name in ('a finger on a tablet', 'a finger on a busy page', 'few samples')
+    },
 }
 # Typical distance by which a stroke is beside its place [m]: two pixels of a page of 1,600.
 _AIM = 0.02

@@ -176,6 +176,7 @@ def _drawn_wrong(
         size=where[1],
         place=tuple(where[0].tolist()),
         first_step=person.first_step,
+        batch=person.batch,
         dropped=person.dropped,
         simplified=person.simplified,
     )
@@ -184,7 +185,7 @@ def _drawn_wrong(
         yield f'{meant} > {read or "refused"}'
 
 
-def _line(*points: tuple[float, float]) -> Floats:
+def _line(*points: tuple[float, float] | Floats) -> Floats:
     return np.array(points, dtype=np.float64)
 
 
@@ -234,8 +235,45 @@ def _shaft_and_head(rng: Random, half: str) -> list[Floats]:
     return (strangers if half == 'strangers' else arrows).shaft_and_head(rng)
 
 
-def _gravity_arrow(rng: Random, half: str) -> Thing:
-    ways = _placed_at_random(rng, *_shaft_and_head(rng, half))
+def _closed_head(rng: Random, head: Floats) -> list[Floats]:
+    """Return a head with a side between its barbs, begun at any of its corners."""
+    first = int(rng.integers(3))
+    corners = np.roll(head, first, axis=0)
+    return [np.vstack((corners, corners[0] + rng.normal(0.0, 0.02, 2)))]
+
+
+def _filled_head(rng: Random, head: Floats) -> list[Floats]:
+    """Return a head that is filled to and fro, after its outline or without it."""
+    one, tip, other = head
+    share = np.linspace(1.0, 0.1, int(rng.integers(5, 9)))[:, None]
+    sides = np.where(np.arange(len(share))[:, None] % 2, one - tip, other - tip)
+    filling = tip + share * sides
+    outline = _closed_head(rng, head)[0]
+    return [np.vstack((outline, filling)) if rng.random() < 0.5 else filling]
+
+
+def _head_of_two(rng: Random, head: Floats) -> list[Floats]:
+    """Return a head of two barbs, or of both barbs and the side between them."""
+    one, tip, other = head
+    if rng.random() < 0.3:
+        return [head, _line(one, other) + rng.normal(0.0, 0.02, (2, 2))]
+    barbs = [_line(tip, end) + rng.normal(0.0, 0.015, (2, 2)) for end in (one, other)]
+    return [barb[::-1] if rng.random() < 0.3 else barb for barb in barbs]
+
+
+def _other_arrow(head_of: Callable[[Random, Floats], list[Floats]]) -> Callable[..., Thing]:
+    """Return what draws an arrow whose head is another one than two barbs in one stroke."""
+
+    def thing(rng: Random, half: str) -> Thing:
+        shaft, head = _shaft_and_head(rng, half)
+        return _gravity_arrow(rng, half, [shaft, *head_of(rng, head)])
+
+    return thing
+
+
+def _gravity_arrow(rng: Random, half: str, parts: list[Floats] | None = None) -> Thing:
+    parts = _shaft_and_head(rng, half) if parts is None else parts
+    ways = _placed_at_random(rng, *parts)
     shaft = ways[0][-1] - ways[0][0]
 
     def right(snapshot: Snapshot) -> bool:
@@ -245,8 +283,8 @@ def _gravity_arrow(rng: Random, half: str) -> Thing:
 
     if shaft[1] < -0.7 * float(np.hypot(*shaft)):
         # Gravity is downwards already.
-        return _gravity_arrow(rng, half)
-    ordered = ways if rng.random() < 0.7 else ways[::-1]
+        return _gravity_arrow(rng, half, parts)
+    ordered = ways if rng.random() < 0.7 else [*ways[1:], ways[0]]
     return Thing(ways=ordered, right=right, kind='arrow', tail=ways[0][0])
 
 
@@ -304,6 +342,20 @@ def _marked_circle(rng: Random, _half: str) -> Thing:
     return Thing(ways=ways, right=lambda snapshot: _shapes(snapshot) == {Disc: 1})
 
 
+def _line_with_bob(rng: Random, half: str) -> Thing:
+    """Return a line and a body at its end, which are no arrow: a pendulum."""
+    shaft, _ = _shaft_and_head(rng, half)
+    size = rng.uniform(0.15, 0.5)
+    bob = (figures.disc, figures.rectangle, figures.polygon)[rng.integers(3)](rng)
+    outline = bob.way / np.hypot(*np.ptp(bob.way, axis=0)) * size
+    outline = np.add(np.vstack((outline, outline[:1])), (0.5 + 0.3 * size, 0.0))
+    ways = _placed_at_random(rng, shaft, outline)
+    return Thing(
+        ways=ways if rng.random() < 0.5 else ways[::-1],
+        right=lambda snapshot: snapshot.scene.settings.gravity == (0.0, -9.81),
+    )
+
+
 def _shapes(snapshot: Snapshot) -> dict[type, int]:
     """Return the number of bodies of each shape; joints count as such."""
     found = Counter(type(body.shape) for body in snapshot.scene.bodies)
@@ -320,4 +372,9 @@ THINGS: dict[str, Callable[[Random, str], Thing]] = {
     'two walls that cross': _crossing_walls,
     'two walls that meet': _meeting_walls,
     'circle with a line through it': _marked_circle,
+    # Behind the others, whose random numbers depend on their places.
+    'arrow with a closed head': _other_arrow(_closed_head),
+    'arrow with a filled head': _other_arrow(_filled_head),
+    'arrow in three strokes': _other_arrow(_head_of_two),
+    'line with a bob at its end': _line_with_bob,
 }

@@ -15,18 +15,21 @@ from pathlib import Path
 import textwrap
 from typing import Any
 
+import physsim_ros
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.actors import ACTORS, Start
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
+from physsim_ros.model.requests import Request
 from physsim_ros.model.robots import DRIVES, Odometry, Robot
 from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.parameters import NodeSettings, Spec, SPECS
 from physsim_ros.sketchpad.message import KINDS, Optional
 from physsim_ros.sketchpad.rights import Right
+from tools.tables import cheat_sheet
 
 ROOT = Path(__file__).parents[2]
 # Columns of a comment in YAML.
@@ -64,7 +67,9 @@ def files() -> dict[Path, str]:
             'keys of an actor': _actor_keys(),
         },
         'interface/parameters': {'parameters': _parameters()},
+        'python': {'fields of requests': _request_fields()},
         'page_protocol': {'messages of a page': _page_messages()},
+        'cheat_sheet': {'keys of the page': cheat_sheet.tables()},
     }
     pages = {ROOT / 'docs' / f'{name}.md': parts for name, parts in tables.items()}
     types = ROOT / 'physsim_ros' / 'testing' / 'parameters.py'
@@ -168,6 +173,27 @@ def _actor_keys() -> str:
         parts.append(_titled(f'**{title}**', _COLUMNS, rows))
     parts.append(_titled('**`start`**', _COLUMNS, _fields_of(Start)))
     return ''.join(parts) + '\n'
+
+
+def _request_fields() -> str:
+    """Return a table for each request of the front, in the order of the alphabet."""
+    kinds = (getattr(physsim_ros, name) for name in sorted(physsim_ros.__all__))
+    requests = [each for each in kinds if isinstance(each, type) and issubclass(each, Request)]
+    parts = []
+    for kind in requests:
+        if kind is not Request:
+            sentence = (kind.__doc__ or '').strip().partition('\n')[0].rstrip('.')
+            rows = [_row_of_python(each) for each in kind.FIELDS.values()]
+            columns = ('field', 'default', 'meaning')
+            parts.append(_titled(f'**`{kind.__name__}`**: {sentence}.', columns, rows))
+    return ''.join(parts) + '\n'
+
+
+def _row_of_python(each: Declaration) -> tuple[str, str, str]:
+    """Return a row with the default as a program has it."""
+    is_plain = isinstance(each.default, str | int | float | tuple | None)
+    default = f'`{each.default!r}`' if is_plain else ''
+    return f'`{each.name}`', 'needed' if each.default is MISSING else default, each.sentence
 
 
 def _by_kinds(

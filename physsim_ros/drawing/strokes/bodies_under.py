@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+import itertools
 import math
 
 import numpy as np
@@ -79,12 +80,31 @@ def _is_dynamic(name: str, scene: SceneQuery) -> bool:
     return name != WORLD and scene.body(name).dynamic
 
 
-def axle_pivot(center: Point, context: Context) -> tuple[Point, tuple[str, ...]]:
+def axle_pairs(center: Point, context: Context) -> tuple[Point, list[tuple[str, str]]]:
     """
-    Return the pivot of an axle [m], and the one or two bodies that it joins, the topmost first.
+    Return the pivot of an axle [m], and the pairs of bodies to be joined there, the upper first.
+
+    An axle goes through all movable bodies at its place, or through one and the body below. Where
+    these are joined already, it holds the lowest of them on the background.
 
     :param center: of the circle that was drawn, on a body [m]
     """
+    point, under = _axle_of_two(center, context)
+    scene, snap = context.scene, context.settings.snap
+    if len(under) == 2 and all(scene.body(name).dynamic for name in under):
+        deeper = (each for each in scene.bodies_at(point) if each not in under)
+        under = *under, *(each for each in deeper if scene.body(each).dynamic)
+    if len(under) == 1 or scene.body(under[-1]).dynamic:
+        under = *under, WORLD
+    joined = [{each.a, each.b} for each in scene.axles_at(point, snap)]
+    pairs = list(itertools.pairwise(under))
+    missing = [pair for pair in pairs if {*pair} not in joined]
+    # The background holds what nothing else is left to be joined to.
+    return point, [pair for pair in missing if pair[1] != WORLD] or missing or pairs[-1:]
+
+
+def _axle_of_two(center: Point, context: Context) -> tuple[Point, tuple[str, ...]]:
+    """Return the pivot of an axle [m], and the one or two topmost bodies there."""
     scene, snap = context.scene, context.settings.snap
     under = crossed_pair(center, context)
     if len(under) == 1 or scene.body(under[1]).anchored:

@@ -18,7 +18,13 @@ import math
 import numpy as np
 from physsim_ros.drawing.strokes.corner_detection import ARM
 from physsim_ros.drawing.strokes.evidence import falls
-from physsim_ros.drawing.strokes.geometry import COUNT, path_length, smoothed, turns
+from physsim_ros.drawing.strokes.geometry import (
+    COUNT,
+    intersections,
+    path_length,
+    smoothed,
+    turns,
+)
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, norms
@@ -173,23 +179,10 @@ def loop_roundness(points: Floats, crossing: Crossing) -> float:
 
 def crossings_of(points: Floats) -> list[Crossing]:
     """Return the self-crossings of a polyline; neighbouring ones are merged."""
-    x, y = points[::_STRIDE].T
-    start_x, start_y, step_x, step_y = x[:-1, None], y[:-1, None], np.diff(x), np.diff(y)
-    # Intersection of every pair of segments, as shares of their lengths: rows by the first
-    # segment, columns by the second.
-    away_x, away_y = start_x.T - start_x, start_y.T - start_y
-    sine = step_x[:, None] * step_y - step_y[:, None] * step_x
-    # Parallel segments do not cross; their rounding errors are excluded.
-    lengths = np.hypot(step_x, step_y)
-    near = _PAIRS & (np.abs(sine) > 1e-6 * lengths[:, None] * lengths)
-    sine = np.where(near, sine, 1.0)
-    one = (away_x * step_y - away_y * step_x) / sine
-    other = (away_x * step_y[:, None] - away_y * step_x[:, None]) / sine
-    meet = np.argwhere(near & (one >= 0) & (one < 1) & (other >= 0) & (other < 1))
+    few = points[::_STRIDE]
     found: list[Crossing] = []
-    for i, j in meet.tolist():
-        first, last = i + float(one[i, j]), j + float(other[i, j])
-        place = np.array((x[i] + one[i, j] * step_x[i], y[i] + one[i, j] * step_y[i]))
-        if all(abs(_STRIDE * first - a) + abs(_STRIDE * last - b) > _MERGED for _, a, b in found):
-            found.append((place, _STRIDE * first, _STRIDE * last))
+    for place, i, j in intersections(few, few, pairs=_PAIRS):
+        first, last = _STRIDE * i, _STRIDE * j
+        if all(abs(first - a) + abs(last - b) > _MERGED for _, a, b in found):
+            found.append((place, first, last))
     return found

@@ -20,17 +20,34 @@ from dataclasses import dataclass, replace
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.geometry import COUNT, size_of
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.geometry import COUNT, few_points, size_of
 from physsim_ros.drawing.strokes.joining import (
     connected,
-    few_points,
+    joined_arrow,
     joined_strokes,
     touch,
     touching,
 )
-from physsim_ros.drawing.strokes.meanings import CLOSED, DELETION, DISC, OPEN, POLYGON, RECTANGLE
-from physsim_ros.drawing.strokes.reading import Guess, guess_meanings, is_likely
-from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
+from physsim_ros.drawing.strokes.meanings import (
+    CLOSED,
+    Context,
+    DELETION,
+    DISC,
+    Form,
+    GRAVITY,
+    OPEN,
+    POLYGON,
+    RECTANGLE,
+)
+from physsim_ros.drawing.strokes.reading import (
+    Guess,
+    guess_meanings,
+    is_likely,
+    recognise_form,
+)
+from physsim_ros.drawing.strokes.signs import x
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
@@ -43,8 +60,11 @@ MOST_STROKES = 8
 MOST_TIME = 0.01
 # Meanings of open lines that join nothing.
 _LOOSE = frozenset({'wall', 'hatching'})
-# Meanings that several strokes never have together.
-_SINGLE = OPEN | {DELETION}
+# Meanings that several strokes may have together; those of an arrow alone.
+_ARROWS = frozenset({GRAVITY, 'velocity'})
+# Meanings of the heads of arrows, closed and filled, without their shafts.
+_HEADS = frozenset({POLYGON, DELETION})
+_JOINED = CLOSED | _ARROWS | {'anchor', 'motor'}
 # The least share of the middle half of a line that lies on a solid whose mark it is.
 _ON_SOLID = 0.6
 
@@ -76,7 +96,8 @@ class Figure:
     @classmethod
     def read(
         cls,
-        drawn: Stroke,
+        drawn: Features,
+        forms: Sequence[Form],
         *,
         strokes: tuple[Floats, ...],
         began: float,
@@ -87,9 +108,11 @@ class Figure:
         """
         Return a figure with the guesses at its meaning; the first one is taken if it is likely.
 
-        :param drawn: its strokes as one
+        :param drawn: features of its strokes as one
+        :param forms: that these may have
         """
-        guesses = guess_meanings(drawn, scene, settings)
+        context = Context(features=drawn, scene=scene, settings=settings)
+        guesses = guess_meanings(forms, context)
         likely = is_likely(guesses, settings)
         return cls(
             strokes=strokes,
@@ -118,6 +141,16 @@ class Figure:
         return not self.meaning or self.meaning in OPEN
 
     @property
+    def is_arrow(self) -> bool:
+        """Return whether it is a straight arrow."""
+        return self.meaning in _ARROWS
+
+    @property
+    def is_part(self) -> bool:
+        """Return whether it may be a part of a figure of several strokes."""
+        return self.is_line or self.is_arrow or self.meaning in _HEADS
+
+    @property
     def is_solid(self) -> bool:
         """Return whether it is a body of its own."""
         return self.meaning in {DISC, RECTANGLE, POLYGON}
@@ -144,41 +177,72 @@ def likeliest_group(
     :param last: the new one, of a single stroke
     :param clock: returns a time [s]; after `MOST_TIME` the stroke is read by itself
     """
-    if not last.is_line:
-        return None
     began = clock()
     for group in _groups(figures, last, settings):
         if clock() > began + MOST_TIME:
             return None
-        walls = {
-            each.name
-            for figure in group
-            for each in figure.requests
-            if isinstance(each, Spawn) and figure.meaning == 'wall'
-        }
-        joints = [_leaves_its_bodies(figure, walls) for figure in group]
-        if all(joints):
-            # Rods from body to body to body are a truss, no polygon.
-            continue
-        strokes = tuple(stroke for figure in group for stroke in figure.strokes)
-        whole = Figure.read(
-            # One more stroke may close a gap: its ends do not tell.
-            replace(resample_stroke(joined_strokes(strokes)), relatability=0.0),
-            strokes=strokes,
-            began=group[0].began,
-            ended=last.ended,
-            scene=group[0].scene,
-            settings=settings,
-        )
-        if whole.chosen is None or whole.meaning in _SINGLE:
-            continue
-        if not whole.requests:
-            # Two walls that cross are no x in the open.
-            continue
-        if whole.meaning in CLOSED or not any(joints):
+        whole = _as_one(group, settings)
+        if whole is not None:
             whole.gestures = tuple(number for figure in group for number in figure.gestures)
             return whole
     return None
+
+
+def _as_one(group: Sequence[Figure], settings: DrawingSettings) -> Figure | None:
+    """Return figures as one, or None where that is no better than each by itself."""
+    walls = {
+        each.name
+        for figure in group
+        for each in figure.requests
+        if isinstance(each, Spawn) and figure.meaning == 'wall'
+    }
+    joints = [_leaves_its_bodies(figure, walls) for figure in group]
+    if all(joints):
+        # Rods from body to body to body are a truss, no polygon.
+        return None
+    for path, forms, meanings in _paths_together(group, settings):
+        whole = Figure.read(
+            path,
+            forms,
+            strokes=tuple(stroke for figure in group for stroke in figure.strokes),
+            began=group[0].began,
+            ended=group[-1].ended,
+            scene=group[0].scene,
+            settings=settings,
+        )
+        # Two walls that cross are no x in the open: it has no requests.
+        better = whole.meaning in meanings and bool(whole.requests)
+        if better and (whole.meaning in CLOSED or not any(joints)):
+            return whole
+    return None
+
+
+def _paths_together(
+    group: Sequence[Figure], settings: DrawingSettings
+) -> Iterator[tuple[Features, Sequence[Form], AbstractSet[str]]]:
+    """Yield the paths that figures may be together, their forms, and the meanings to look for."""
+    strokes = tuple(stroke for figure in group for stroke in figure.strokes)
+    cross = x.of_lines(strokes)
+    if cross is not None:
+        yield _joined(joined_strokes(strokes)), (cross,), _JOINED
+        return
+    arrow = joined_arrow(strokes)
+    if arrow is not None:
+        path = _joined(arrow)
+        yield path, recognise_form(path), _ARROWS
+    # A solid, or a scribble, is part of an arrow alone; several lines may be an arrow so far.
+    *before, last = group
+    if last.is_line and all(
+        each.is_line or _is_side(last, each, settings) or (each.is_arrow and len(each.strokes) > 1)
+        for each in before
+    ):
+        path = _joined(joined_strokes(strokes))
+        yield path, recognise_form(path), _JOINED
+
+
+def _joined(path: Floats) -> Features:
+    """Return strokes that are joined as one: one more may close a gap, its ends do not tell."""
+    return Features.of(replace(resample_stroke(path), relatability=0.0))
 
 
 def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSettings) -> bool:
@@ -218,10 +282,12 @@ def _groups(
     figures: Sequence[Figure], last: Figure, settings: DrawingSettings
 ) -> Iterator[list[Figure]]:
     """Yield the last figures that may be one with the new one, the most figures first."""
+    if not last.is_part:
+        return
     group = [last]
     for figure in reversed(figures):
         count = sum(len(each.strokes) for each in (figure, *group))
-        part = figure.is_line or _is_side(last, figure, settings)
+        part = figure.is_part or _is_side(last, figure, settings)
         if not part or count > MOST_STROKES or not _follows(figure, group[0], settings):
             break
         group.insert(0, figure)

@@ -15,14 +15,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache, partial
 import math
+from typing import Literal
 
 import numpy as np
-from physsim_ros.model.arrays import Floats
+from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.transform import cross, dots, norms, Point
 
 _atan2 = np.frompyfunc(math.atan2, 2, 1)
 # Sine of the least angle between lines that meet: 17 degrees.
-_LEAST_SINE = 0.3
+LEAST_SINE = 0.3
 
 
 def headings(vectors: Floats) -> Floats:
@@ -79,7 +80,51 @@ def meeting_point(one: Floats, along: Floats, other: Floats, beside: Floats) -> 
     """
     sine = float(cross(along, beside))
     # The intersection of nearly parallel lines is ill-conditioned.
-    return one + along * (cross(other - one, beside) / sine) if abs(sine) > _LEAST_SINE else None
+    return one + along * (cross(other - one, beside) / sine) if abs(sine) > LEAST_SINE else None
+
+
+def intersections(
+    one: Floats, other: Floats, *, pairs: Flags | Literal[True] = True
+) -> list[tuple[Floats, float, float]]:
+    """
+    Return the places where two polylines cross [m], each with its place along both [points].
+
+    :param pairs: (n, k) bool: the segments of both that count; True: all
+    """
+    (x, y), (step_x, step_y) = one[:-1].T[..., None], np.diff(one, axis=0).T[..., None]
+    (u, v), (step_u, step_v) = other[:-1].T, np.diff(other, axis=0).T
+    away_x, away_y = u - x, v - y
+    sine = step_x * step_v - step_y * step_u
+    # Parallel segments do not cross; their rounding errors are excluded.
+    near = pairs & (np.abs(sine) > 1e-6 * np.hypot(step_x, step_y) * np.hypot(step_u, step_v))
+    sine = np.where(near, sine, 1.0)
+    # As shares of the lengths of segments.
+    first = (away_x * step_v - away_y * step_u) / sine
+    last = (away_x * step_y - away_y * step_x) / sine
+    meet = near & (first >= 0) & (first < 1) & (last >= 0) & (last < 1)
+    places = [(i, j, float(first[i, j]), float(last[i, j])) for i, j in np.argwhere(meet).tolist()]
+    return [(one[i] + a * (one[i + 1] - one[i]), i + a, j + b) for i, j, a, b in places]
+
+
+def convex_hull(points: Floats) -> Floats:
+    """
+    Return the corners of the convex hull of points, counter-clockwise.
+
+    Andrew's monotone chain (Andrew, 1979).
+    """
+    ordered = sorted(set(map(point_of, points)))
+    hull: list[Point] = []
+    for way in (ordered, ordered[::-1]):
+        start = len(hull)
+        for x, y in way:
+            while len(hull) > start + 1:
+                (a, b), (c, d) = hull[-2:]
+                if (c - a) * (y - b) - (d - b) * (x - a) > 0.0:
+                    break
+                hull.pop()
+            hull.append((x, y))
+        hull.pop()
+    return np.array(hull)
 
 
 def stretched(points: Floats, along: Floats, factor: float) -> Floats:
@@ -105,6 +150,8 @@ def least_squares(columns: Floats, target: Floats) -> tuple[float, float]:
 
 # Number of points of a resampled stroke: a dozen for each side of a five-pointed star.
 COUNT = 128
+# Stride of the points between which strokes are compared: 1.6 % of the length.
+_FEW = 2
 # The least width of an outline after stretching, in shares of its length, and the greatest factor.
 WIDE, WIDEST = 0.3, 10.0
 
@@ -118,6 +165,11 @@ def spaced(path: Floats, count: int) -> Floats:
     points = np.empty((count, 2))
     points[:, 0], points[:, 1] = np.interp(at, length, x), np.interp(at, length, y)
     return points
+
+
+def few_points(stroke: Floats) -> Floats:
+    """Return the points of a resampled stroke between which distances are taken."""
+    return stroke[::_FEW]
 
 
 def size_of(points: Floats) -> float:

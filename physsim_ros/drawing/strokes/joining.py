@@ -4,10 +4,9 @@
 """
 Several strokes as one: which touch each other, and their order as if the pen had not been lifted.
 
-Law: the shape of a figure does not depend on the order and the directions of its strokes. A shaft
-and a head are joined as an arrow in one stroke, whose pen returns from the first barb to the tip.
-Of other strokes each is followed by the one that begins nearest to its end; the first one is that
-with the shortest ways between all.
+Law: the shape of a figure does not depend on the order and the directions of its strokes. Each is
+followed by the one that begins nearest to its end; the first one is that with the shortest ways
+between all. A shaft and a head, open, closed or filled, are joined as an arrow in one stroke.
 """
 
 from __future__ import annotations
@@ -18,14 +17,20 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.fitting import segment_distances
-from physsim_ros.drawing.strokes.geometry import angles, path_length, size_of
+from physsim_ros.drawing.strokes.geometry import (
+    angles,
+    convex_hull,
+    COUNT,
+    few_points,
+    path_length,
+    size_of,
+    spaced,
+)
 from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.transform import norms
+from physsim_ros.model.transform import cross, dots, norms
 
 # The greatest distance of strokes that touch, in shares of the larger one's size.
 _TOUCHING = 0.15
-# Stride of the points of a stroke between which distances are taken: 1.6 % of its length.
-_STRIDE = 2
 # The length by which a stroke may end short of another that it is to meet, in shares of its own;
 # the number of points on it; the number of those at an end of a stroke that give its direction.
 _BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
@@ -33,6 +38,9 @@ _BEYOND, _POINTS_BEYOND, _END = 0.2, 10, 8
 # length), the greatest angle between barbs [rad], the least length of the shorter barb by that of
 # the longer, and its greatest length and the greatest gap before the tip, in lengths of the shaft.
 _STRAIGHT, _WIDEST, _BALANCE, _LONGEST, _NECK = 0.8, 2.3, 0.35, 1.1, 0.35
+# A closed head: its least length by that of the hull around it, whose greatest distance from a
+# triangle, in lengths of its longer side.
+_ROUND, _OFF = 0.7, 0.16
 # The number of points along the way between two strokes, which is then no jump of the pen.
 _BETWEEN = 32
 
@@ -47,10 +55,6 @@ def joined_strokes(strokes: Sequence[Floats]) -> Floats:
     paths = list(strokes)
     if len(paths) < 2:
         return paths[0]
-    if len(paths) == 2:
-        arrow = _arrow(*paths) or _arrow(*reversed(paths))
-        if arrow is not None:
-            return np.vstack(arrow)
     ways = [
         _nearest_next(first, paths[:at] + paths[slice(at + 1, None)])
         for at, path in enumerate(paths)
@@ -61,8 +65,57 @@ def joined_strokes(strokes: Sequence[Floats]) -> Floats:
     return np.vstack([ordered[0], *itertools.chain(*zip(gaps, ordered[1:], strict=True))])
 
 
-def _arrow(shaft: Floats, head: Floats) -> list[Floats] | None:
-    """Return the parts of an arrow from its tail on, or None where two strokes are no arrow."""
+def joined_arrow(strokes: Sequence[Floats]) -> Floats | None:
+    """
+    Return a shaft and the strokes of a head as an arrow in one stroke, or None.
+
+    The pen returns from the first barb to the tip, or goes round a head that is closed.
+
+    :param strokes: each (n, 2) float64: evenly spaced [m]
+    :return: (n, 2) float64, from the tail on [m]
+    """
+    if len(strokes) < 2:
+        return None
+    order = sorted(range(len(strokes)), key=lambda at: -math.dist(strokes[at][0], strokes[at][-1]))
+    for at in order:
+        shaft = strokes[at]
+        if math.dist(shaft[0], shaft[-1]) < _STRAIGHT * path_length(shaft):
+            continue
+        head = joined_strokes([*strokes[:at], *strokes[slice(at + 1, None)]])
+        parts = _open_headed(shaft, head) or _closed_headed(shaft, head)
+        if parts is not None:
+            return np.vstack(parts)
+    return None
+
+
+def _closed_headed(shaft: Floats, head: Floats) -> list[Floats] | None:
+    """Return the parts of an arrow whose head is a triangle, filled or not, or None."""
+    chord, middle = math.dist(shaft[0], shaft[-1]), head.mean(axis=0)
+    if math.dist(shaft[0], middle) < math.dist(shaft[-1], middle):
+        shaft = shaft[::-1]
+    outline = convex_hull(head)
+    if path_length(head) < _ROUND * path_length(np.vstack((outline, outline[:1]))):
+        return None
+    along = (shaft[-1] - shaft[0]) / chord
+    outline = np.roll(outline, -int(dots(outline, along).argmax()), axis=0)
+    tip = outline[0]
+    aside = cross(along, outline - tip)
+    barbs = outline[[int(aside.argmax()), int(aside.argmin())]]
+    less, more = sorted(norms(barbs - tip).tolist())
+    gap = float(segment_distances(shaft[-1:], tip, barbs.mean(axis=0))[0])
+    if not _BALANCE * more < less or more > _LONGEST * chord or gap > _NECK * chord:
+        return None
+    sides = (barbs[0], tip, barbs[0]), (tip, barbs[1], barbs[1])
+    off = segment_distances(outline, *(np.array(each)[:, None] for each in sides)).min(axis=0)
+    if float(off.max()) > _OFF * more:
+        return None
+    shaft = shaft[: int(norms(shaft - tip).argmin()) + 1]
+    neck = np.linspace(shaft[-1], tip, _BETWEEN)[1:-1]
+    return [shaft, neck, spaced(np.vstack((outline, tip)), COUNT)]
+
+
+def _open_headed(shaft: Floats, head: Floats) -> list[Floats] | None:
+    """Return the parts of an arrow with two barbs from its tail on, or None."""
     chord, bend = math.dist(shaft[0], shaft[-1]), segment_distances(head, head[0], head[-1])
     tip = int(bend.argmax())
     less, more = sorted(norms(head[[0, -1]] - head[tip]).tolist())
@@ -142,8 +195,3 @@ def _extended(stroke: Floats) -> Floats:
         ahead *= step / max(float(norms(ahead)), 1e-300)
         parts.append(points[0] + np.arange(1, _POINTS_BEYOND + 1)[:, None] * ahead)
     return np.vstack(parts)
-
-
-def few_points(stroke: Floats) -> Floats:
-    """Return the points of a stroke between which distances are taken."""
-    return stroke[::_STRIDE]

@@ -9,6 +9,7 @@ Law: an outcome that the world cannot have is refused here, before any request i
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 import math
 
 import numpy as np
@@ -20,7 +21,6 @@ from physsim_ros.drawing.strokes.meanings import Context, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.joints import JointKind, JointProperties
-from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.transform import Point
 
@@ -142,14 +142,12 @@ def chain(context: Context) -> Outcome:
     )
 
 
-def join_at(kind: JointKind, point: Point, under: tuple[str, ...], context: Context) -> Join:
-    """
-    Return the request for an axle or a pin of one or two bodies.
-
-    :param under: names of the bodies, the topmost first
-    """
-    a, b = under if len(under) == 2 else (under[0], WORLD)
-    return Join(name=context.scene.next_joint(), kind=kind, points=(point,), a=a, b=b)
+def joins_at(
+    kind: JointKind, point: Point, pairs: Iterable[tuple[str, str]], context: Context
+) -> Iterator[Join]:
+    """Yield the requests for axles or pins of pairs of bodies at a point."""
+    for name, (a, b) in zip(context.scene.new_joints(), pairs, strict=False):
+        yield Join(name=name, kind=kind, points=(point,), a=a, b=b)
 
 
 def circle_outline(center: Point, radius: float) -> Floats:

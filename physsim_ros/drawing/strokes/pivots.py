@@ -18,10 +18,11 @@ from physsim_ros.drawing.strokes.evidence import falls
 from physsim_ros.drawing.strokes.meanings import Context, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
+from physsim_ros.model.names import WORLD
 from physsim_ros.model.transform import Point
 
 # The greatest diameter of an axle, in side lengths of a square of the body's area: on one body;
-# on two that bodies_under.
+# on two that overlap.
 _LARGEST, _LARGEST_ON_TWO = 0.5, 0.75
 # The least number of corners of a polygon that may be a small circle.
 _LEAST_CORNERS = 5
@@ -64,13 +65,12 @@ def axle_meaning(center: Point, radius: float, context: Context, *, weight: floa
 
 
 def _build_axle(center: Point, radius: float, context: Context) -> Outcome:
-    point, under = bodies_under.axle_pivot(center, context)
-    request = outcomes.join_at(JointKind.AXLE, point, under, context)
-    between = ' and '.join(under) if len(under) == 2 else f'{under[0]} and the background'
+    point, pairs = bodies_under.axle_pairs(center, context)
+    names = [pairs[0][0], *('the background' if b == WORLD else b for _, b in pairs)]
     return Outcome(
-        requests=(request,),
-        subject=under[0],
-        message=f'an axle between {between}',
+        requests=tuple(outcomes.joins_at(JointKind.AXLE, point, pairs, context)),
+        subject=names[0],
+        message=f'an axle between {", ".join(names[:-1])} and {names[-1]}',
         outline=outcomes.circle_outline(point, radius),
     )
 
@@ -102,7 +102,7 @@ def _weld_share(corners: Floats, under: tuple[str, ...], context: Context) -> fl
 def _weld_bodies(point: Point, under: tuple[str, ...], context: Context) -> Outcome:
     a, b = under
     return Outcome(
-        requests=(outcomes.join_at(JointKind.PIN, point, under, context),),
+        requests=tuple(outcomes.joins_at(JointKind.PIN, point, [(a, b)], context)),
         subject=a,
         message=f'a pin between {a} and {b}',
         outline=context.drawn.points,

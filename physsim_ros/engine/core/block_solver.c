@@ -15,11 +15,12 @@
 // what forces do not move: the outermost contacts of each normal, between which the others have nothing to add. With
 // them all contacts of these bodies and of those that they touch in turn, up to `MOST_POINTS`: the ground that carries
 // a body which is hit, a short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a part of a
-// pile throw its light bodies out. Energy: Newton's law of restitution for several points at once can create energy, as
-// where a light body is pinched between a heavy one and the ground. Such an impact is mixed with the inelastic one of
-// the same points, to the share at which it gains none: the energy of such a mix is a quadratic of the share. Cost: 1
-// µs for each pair of bodies that hit each other so. Without it laws 8 (bodies that fall flat) and 21 (elastic polygons
-// keep their energy) fail; without its bound of energy law 34 (random crowds).
+// pile throw its light bodies out. Energy: Newton's law of restitution can create energy, with several points at once
+// as where a light body is pinched between a heavy one and the ground, with one where friction turns the slip round (T.
+// R. Kane and D. A. Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest share of its
+// restitution with which it gains none. Cost: 1 µs for each pair of bodies that hit each other so. Without it laws 8
+// (bodies that fall flat) and 21 (elastic polygons keep their energy) fail; without its bound of energy laws 6 (oblique
+// impacts) and 34 (random crowds).
 
 #include "impact_propagation.h"
 #include "lcp.h"
@@ -52,6 +53,7 @@ typedef struct Island {
 typedef struct Point {
     cpContact *contact;
     cpBody *a, *b;
+    Twist *of_a, *of_b; // velocities of the bodies after the impulses, which other points of the bodies share
     Vec normal;
     bool begins;
     double friction;
@@ -209,7 +211,25 @@ static void apply(const World *world, cpBody *body, Vec impulse, Vec arm) {
     body->w += cross(arm, impulse) * body->i_inv / world->own->kept;
 }
 
-static int list_points(const Island *island, Point *points) {
+// The velocities of the bodies of an impact.
+typedef struct Velocities {
+    const cpBody *bodies[2 * MOST_POINTS];
+    Twist twists[2 * MOST_POINTS];
+    int count;
+} Velocities;
+
+static Twist *velocity_of(Velocities *velocities, const cpBody *body) {
+    int number = 0;
+    while (number < velocities->count && velocities->bodies[number] != body) {
+        number++;
+    }
+    if (number == velocities->count) {
+        velocities->bodies[velocities->count++] = body;
+    }
+    return velocities->twists + number;
+}
+
+static int list_points(const Island *island, Velocities *velocities, Point *points) {
     int count = 0;
     for (int number = 0; number < island->count; number++) {
         cpArbiter *each = island->contacts[number];
@@ -220,6 +240,8 @@ static int list_points(const Island *island, Point *points) {
             points[count++] = (Point){contact,
                                       each->body_a,
                                       each->body_b,
+                                      velocity_of(velocities, each->body_a),
+                                      velocity_of(velocities, each->body_b),
                                       each->n,
                                       begins,
                                       each->u,
@@ -232,7 +254,7 @@ static int list_points(const Island *island, Point *points) {
 }
 
 static void push(const Point *point, Vec impulse) {
-    Twist *a = &body_of(point->a)->without, *b = &body_of(point->b)->without;
+    Twist *a = point->of_a, *b = point->of_b;
     a->v = sub(a->v, scaled(impulse, point->a->m_inv));
     a->w -= cross(point->contact->r1, impulse) * point->a->i_inv;
     b->v = add(b->v, scaled(impulse, point->b->m_inv));
@@ -242,8 +264,7 @@ static void push(const Point *point, Vec impulse) {
 // Make the impulse of a point better, as `cpArbiterApplyImpulse` does; return the change of velocity [m/s].
 static double improve(const Point *point) {
     cpContact *contact = point->contact;
-    Twist a = body_of(point->a)->without, b = body_of(point->b)->without;
-    Vec v = add(sub(velocity_at(b, contact->r2), velocity_at(a, contact->r1)), point->slip),
+    Vec v = add(sub(velocity_at(*point->of_b, contact->r2), velocity_at(*point->of_a, contact->r1)), point->slip),
         tangent = perpendicular(point->normal);
     double normal = contact->jnAcc, along = contact->jtAcc;
     contact->jnAcc = greatest(normal - (contact->bounce + dot(v, point->normal)) * contact->nMass, 0.0);
@@ -259,11 +280,17 @@ enum { ROUNDS = 200 };
 // Change of velocity below which a round is the last one [m/s].
 static const double settled = 1e-12;
 
+// Energy of an impact below which it is rounding, as a share of what its impulses exchange.
+static const double rounding = 1e-9;
+// Guesses at the share of its restitution with which an impact gains no energy, at most, and how well it is found.
+enum { GUESSES = 24 };
+static const double least_share = 1e-9;
+
 static Vec impulse_of(const Point *point) {
     return vec(point->contact->jnAcc - point->added, point->contact->jtAcc - point->added_t);
 }
 
-// Find the impulses of the points, and the velocities `without` of their bodies after them.
+// Find the impulses of the points, and the velocities of their bodies after them.
 static void find_impulses(const World *world, Point *points, int count) {
     double matrix[LCP_ROWS][LCP_ROWS] = {{0}}, rates[LCP_ROWS] = {0}, impulses[LCP_ROWS] = {0};
     for (int row = 0; row < count; row++) {
@@ -278,8 +305,8 @@ static void find_impulses(const World *world, Point *points, int count) {
     bool solved = solve_lcp(count, matrix, rates, impulses);
     for (int row = 0; row < count; row++) {
         Point *point = points + row;
-        body_of(point->a)->without = free_twist(world, point->a);
-        body_of(point->b)->without = free_twist(world, point->b);
+        *point->of_a = free_twist(world, point->a);
+        *point->of_b = free_twist(world, point->b);
         if (solved) {
             point->contact->jnAcc = impulses[row];
         }
@@ -300,64 +327,78 @@ static void find_impulses(const World *world, Point *points, int count) {
     }
 }
 
-// The energy that the impulses give to the bodies [J]; < 0 is lost.
+// Velocities of a body just before and just after an impact: those of the end of the step, less what its acceleration
+// adds from the impact on, and less the half-step lead while it flies.
+static Twist at_impact(const World *world, const Body *body, Twist end, bool flies) {
+    double share = 2.0 * (body->since + body->left) / world->dt + (flies ? 1.0 : 0.0);
+    return body->dynamic ? twist_sum(end, body->lead, -share) : end;
+}
+
+static Twist before_impact(const World *world, const cpBody *body) {
+    return at_impact(world, body_of(body), free_twist(world, body), body_of(body)->free);
+}
+
+static Twist after_impact(const World *world, const cpBody *body, Twist end) {
+    return at_impact(world, body_of(body), end, body_of(body)->parts);
+}
+
+// The energy that the impulses give to the bodies [J]; < 0 is lost. What is gained by rounding counts as nothing.
 static double gain_of(const World *world, const Point *points, int count) {
-    double gain = 0.0;
+    double gain = 0.0, size = 0.0;
     for (int row = 0; row < count; row++) {
         const Point *point = points + row;
-        Vec before = surface_velocity(point, free_twist(world, point->a), free_twist(world, point->b));
-        Vec after = surface_velocity(point, body_of(point->a)->without, body_of(point->b)->without);
+        Vec before = surface_velocity(point, before_impact(world, point->a), before_impact(world, point->b));
+        Vec after = surface_velocity(point, after_impact(world, point->a, *point->of_a),
+                                     after_impact(world, point->b, *point->of_b));
         gain += dot(impulse_of(point), add(before, after)) / 2.0;
+        size += length(impulse_of(point)) * (length(before) + length(after)) / 2.0;
     }
-    return gain;
+    return fabs(gain) > rounding * size ? gain : 0.0;
 }
 
-// The greatest share of the elastic impact that gains no energy, the rest of it being inelastic (0 .. 1): the root of a
-// quadratic, since the energy is one of the impulses. `apart` is the energy of the difference of the two.
-static double share_of(double elastic_gain, double inelastic_gain, double apart) {
-    if (inelastic_gain >= 0.0) {
-        return 0.0;
-    }
-    double slope = elastic_gain - inelastic_gain - apart;
-    double root = sqrt(slope * slope - 4.0 * apart * inelastic_gain);
-    // The form of the formula that does not subtract numbers that are alike.
-    return clamped(slope > 0.0 ? -2.0 * inelastic_gain / (slope + root) : (root - slope) / (2.0 * apart), 0.0, 1.0);
-}
-
-// Mix an impact that would gain energy with an inelastic one.
-static void lose_gain(const World *world, Point *points, int count, double gain) {
-    Vec elastic[MOST_POINTS], velocity[MOST_POINTS];
-    double bounce[MOST_POINTS], apart = 0.0;
+// Find the impulses with a share of the restitution; return the energy that they give to the bodies [J].
+static double gain_with(const World *world, Point *points, int count, const double *bounce, double share) {
     for (int row = 0; row < count; row++) {
-        const Point *point = points + row;
-        elastic[row] = vec(point->contact->jnAcc, point->contact->jtAcc);
-        velocity[row] = surface_velocity(point, body_of(point->a)->without, body_of(point->b)->without);
-        bounce[row] = point->contact->bounce;
-        point->contact->bounce = 0.0;
+        points[row].contact->bounce = share * bounce[row];
     }
     find_impulses(world, points, count);
+    return gain_of(world, points, count);
+}
+
+// Find the impulses with the greatest share of the restitution that gains no energy: its root by the false position
+// (Illinois; Dowell and Jarratt, "A modified regula falsi method for computing the root of an equation", 1971).
+static void lose_gain(const World *world, Point *points, int count, double gain) {
+    double bounce[MOST_POINTS], low = 0.0, high = 1.0, above = gain;
     for (int row = 0; row < count; row++) {
-        const Point *point = points + row;
-        Vec inelastic = vec(point->contact->jnAcc, point->contact->jtAcc);
-        Vec after = surface_velocity(point, body_of(point->a)->without, body_of(point->b)->without);
-        apart += dot(sub(elastic[row], inelastic), sub(velocity[row], after)) / 2.0;
+        bounce[row] = points[row].contact->bounce;
     }
-    double share = share_of(gain, gain_of(world, points, count), apart);
-    for (int row = 0; row < count; row++) {
-        cpContact *contact = points[row].contact;
-        contact->bounce = share * bounce[row];
-        contact->jnAcc += share * (elastic[row].x - contact->jnAcc);
-        contact->jtAcc += share * (elastic[row].y - contact->jtAcc);
+    double below = gain_with(world, points, count, bounce, low);
+    int side = 0;
+    for (int guess = 0; guess < GUESSES && below < 0.0 && high - low > least_share; guess++) {
+        double share = low + (high - low) * below / (below - above);
+        double found = gain_with(world, points, count, bounce, share);
+        if (found > 0.0) {
+            high = share;
+            above = found;
+            below = side > 0 ? below / 2.0 : below;
+            side = 1;
+        } else {
+            low = share;
+            below = found;
+            above = side < 0 ? above / 2.0 : above;
+            side = -1;
+        }
     }
+    gain_with(world, points, count, bounce, low);
 }
 
 // Set the impulses of an island, and add those of contacts that begin to velocities.
 static void solve(const World *world, const Island *island) {
     Point points[MOST_POINTS];
-    int count = list_points(island, points);
+    Velocities velocities = {.count = 0};
+    int count = list_points(island, &velocities, points);
     find_impulses(world, points, count);
-    // A single point follows Newton's law, also where friction adds to its energy (Kane and Levinson 1985).
-    double gain = count > 1 ? gain_of(world, points, count) : 0.0;
+    double gain = gain_of(world, points, count);
     if (gain > 0.0) {
         lose_gain(world, points, count, gain);
     }

@@ -151,15 +151,18 @@ static void add_arbiter(World *world, Report *report, const cpArbiter *arbiter) 
     if (arbiter->count > 0 && (pair->points == 0 || is_higher(normal, pair->highest))) {
         pair->highest = normal;
     }
+    Vec impulse = vec(0.0, 0.0);
     for (int number = 0; number < arbiter->count; number++) {
         const cpContact *point = arbiter->contacts + number;
-        Vec impulse = add(scaled(arbiter->n, point->jnAcc), scaled(perpendicular(arbiter->n), point->jtAcc));
         Vec place = add(add(arbiter->body_a->p, point->r1), add(arbiter->body_b->p, point->r2));
-        pair->impulse = add(pair->impulse, scaled(impulse, sign));
+        impulse = add(impulse, scaled(arbiter->n, point->jnAcc));
+        impulse = add(impulse, scaled(perpendicular(arbiter->n), point->jtAcc));
         pair->normals = add(pair->normals, normal);
         pair->places = add(pair->places, scaled(place, 0.5));
         pair->points++;
     }
+    double share = reported_share(body_of(arbiter->body_a), body_of(arbiter->body_b), impulse);
+    pair->impulse = add(pair->impulse, scaled(impulse, sign * share));
 }
 
 // Sensors, and kinematic bodies among themselves, overlap without points; Chipmunk lists them only here.
@@ -298,7 +301,7 @@ void core_take_contacts(World *world) {
     world->contact_count = 0;
     for (int slot = 0; slot < report->room; slot++) {
         const Pair *pair = report->pairs + slot;
-        // What the background touches has no row in a scene.
+        // Pairs of the background with itself are left out.
         if (pair->counts && pair->in_frame && pair->a < world->body_count - 1) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
         }

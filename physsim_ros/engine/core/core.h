@@ -38,7 +38,7 @@ typedef struct Body {
     uint8_t anchored;      // it does not move at all
     uint8_t sensor;        // its contacts have no effect
     uint8_t joined;        // a joint ends on it
-    uint8_t sprung;        // an island of joints that hangs on a spring and on what forces do not move
+    uint8_t sprung;        // in an island of joints that hangs by a spring from something fixed
     uint8_t on_spring;     // a spring pulls it, and forces move it
     uint8_t expires;       // the steps of Python end with it
     cpVect offset;         // the engine's origin in the body's frame [m]
@@ -67,11 +67,11 @@ typedef struct Body {
     Pose begin;      // as the step begins
     Twist twist;     // with which Chipmunk begins
     Twist under;     // mean velocity of the floor under it
-    Twist without;   // velocity that it would have after the step without contacts, on a floor
+    Twist without;   // velocity after the step without contacts, on a floor; scratch of block_solver.c
     double left;     // of the step after continuous collision has stopped it [s]
     Twist carried;   // way with what has stopped it, in that time [m, rad]
-    double since;    // its first impact, until it was stopped or the step ended [s]
-    uint8_t parts;   // its impact lets it fly
+    double since;    // time from its first impact to the end of its motion [s]
+    uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
     double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
 } Body;
 
@@ -94,12 +94,12 @@ typedef struct AppliedForce {
 typedef struct Robot {
     // These fields are set by Python.
     int32_t body;
-    int32_t wheel_count;
+    int32_t wheel_count; // that drive; without them it is towed
     Twist wheels[4];     // speed of the rim of each wheel, by the velocity of the floor
     double acceleration; // greatest of the rim of a wheel [m/s²]
     double curvature;    // greatest of its way [1/m]
     cpVect center;       // of mass in the frame of the body [m]
-    double slip[2];      // drift of the odometry: of the way [√m], and of the heading [rad/√m]
+    double slip[2];      // deviation of the odometry after 1 m of way: of the way [√m], of the heading [rad/√m]
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     // These fields are state; velocities are as seen from the robot.
     int64_t until;        // step at which the command ends
@@ -188,7 +188,7 @@ typedef struct Row {
     int32_t kind;
     int32_t part, component; // which impulse of which constraint is that of the row
     double lower, upper;     // [m, rad]
-    double below, above;     // λ by that impulse, where x is below its bounds, and where it is not
+    double below, above;     // factors from Chipmunk's impulse to λ, where x is below the lower bound, and elsewhere
     double most;             // greatest absolute value of λ in a step [N s, N m s]
     double stiffness;        // of a spring [N/m]
     double damping;          // of a spring, with what its stiffness adds to it [N s/m]
@@ -202,6 +202,7 @@ typedef struct Part {
     int32_t kind;
     cpConstraint *constraint;
     cpVect total; // impulse on the second body of the joint in the last step, world axes; of a torque, the first number
+    cpVect closing; // impulse with which positions were closed in this sub-step, as Chipmunk would store it
 } Part;
 
 // A joint; its parts follow one another, and so do its rows.
@@ -213,11 +214,12 @@ typedef struct Joint {
     double most;        // impulse in a step beyond which it breaks [N s, N m s]
     uint8_t has_axis;   // the direction from its first to its second point is an axis of the second body
     uint8_t presses;    // its first part may push the bodies apart
-    uint8_t unstepped;  // its first step is to come
+    uint8_t unstepped;  // its first step is to come, or it is being drawn together since it was made
     uint8_t broken;     // in the last step
     int32_t a, b;       // places of its bodies in the table
     int32_t first_part, part_count;
     int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring without damping
+    double apart; // of an unstepped one: how far its rows were out of their bounds before the step [m, rad]
 } Joint;
 
 // Functions of Chipmunk, from Pymunk's own library.

@@ -1,7 +1,7 @@
 // Copyright 2026 physsim_ros maintainers
 // SPDX-License-Identifier: Apache-2.0
 
-// First touch: contacts that begin are those of their impact, not of the end of the step.
+// First touch: a contact that begins has normal and points of the moment of its impact, not of the end of the step.
 //
 // Problem: Chipmunk finds a contact where the step ends, up to a safe depth inside. Until then the line of centres of
 // two discs has turned, by v dt / (2 r) at most; a disc that hits a corner has come past it; a body that slides over

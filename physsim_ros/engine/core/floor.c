@@ -11,6 +11,11 @@
 // the floor; one that slips has the mean of its velocities before and after as it is moved (velocity Verlet), the rest
 // of friction as a force.
 //
+// Towed. Problem: the axle of a trailer rolls where it is drawn, and does not slide sideways. Method: of the velocities
+// at which the middle of the axle does not move along it (a nonholonomic constraint; de Luca and Oriolo, "Modelling and
+// control of nonholonomic mechanical systems", 1995) the floor has that which a push along the axle alone leads to, as
+// Gauss' principle of least constraint has it; the limit surface bounds the push.
+//
 // Limit surface. Problem: a body that slides and turns at once has less friction either way than one that only slides
 // or only turns; two separate limits would give it too much. Method: the limit surface of Goyal, Ruina and Papadopoulos
 // ("Planar sliding with dry friction", 1991), approximated by the ellipsoid of Howe and Cutkosky ("Practical
@@ -19,14 +24,16 @@
 // body and never turns it round: the slip that is left is the root of a scalar equation, found by Newton's method as
 // Moré and Sorensen do ("Computing a trust region step", 1983).
 //
-// Cost: 60 ns a body, 0.3 µs for one that slips. Without it nothing stops, nothing drives (`test/laws/test_floor.py`).
+// Cost: 60 ns a body, 0.3 µs for one that slips; where there are conveyors, a query of their boxes for each body.
+// Without it nothing stops, nothing drives (`test/laws/test_floor.py`).
 
+#include "boxes.h"
 #include "outline.h"
 #include "stages.h"
 
 static const double standard_gravity = 9.81; // of weights on the floor [m/s²]
 // The share of the push of the last step that the next one expects where the floor stands still. With all of it, bodies
-// would stay pressed against each other by friction alone, for ever; so they lose a fiftieth in each step.
+// would stay pressed against each other by friction alone, for ever; so 2 % of the push decays in each step.
 static const double relaxed = 0.98;
 // The greatest push that is expected, by the limit of friction: more is an impact, which is over.
 static const double most_expected = 2.0;
@@ -70,37 +77,89 @@ static Twist friction(Twist slip, Surface surface) {
                    -slip.w * surface.around / (left + surface.around)};
 }
 
-// The velocity at the centre of mass of a body of the conveyor under it: of several that which was spawned last.
-static Twist conveyed(const World *world, const Body *body) {
-    Twist velocity = {0};
-    for (int place = 0; place < world->body_count; place++) {
-        const Body *conveyor = world->bodies + place;
-        if ((conveyor->surface.x == 0.0 && conveyor->surface.y == 0.0) || conveyor == body) {
-            continue;
-        }
-        Rotation by = rotation(conveyor->begin.yaw);
-        Vec around = sub(body->begin.p, conveyor->begin.p), local = rotated_back(around, by);
-        for (const cpShape *shape = conveyor->engine->shapeList; shape != NULL; shape = shape->next) {
-            if (covers(shape, local)) {
-                Vec surface = rotated(conveyor->surface, by);
-                velocity = (Twist){add(velocity_at(conveyor->twist, around), surface), conveyor->twist.w};
-            }
-        }
-    }
-    return velocity;
+// The conveyors of a world, in the order of their bodies, and the boxes about them.
+typedef struct Conveyors {
+    const Body **list;
+    int count;
+    Tree tree;
+} Conveyors;
+
+static bool is_conveyor(const Body *body) {
+    return body->surface.x != 0.0 || body->surface.y != 0.0;
 }
 
-static bool has_conveyors(const World *world) {
+static Conveyors conveyors_of(World *world) {
+    Arena *arena = &world->own->arena;
+    Conveyors conveyors = {.count = 0};
     for (int place = 0; place < world->body_count; place++) {
-        if (world->bodies[place].surface.x != 0.0 || world->bodies[place].surface.y != 0.0) {
-            return true;
+        conveyors.count += is_conveyor(world->bodies + place);
+    }
+    conveyors.list = TAKE(arena, const Body *, conveyors.count);
+    Box *boxes = TAKE(arena, Box, conveyors.count);
+    int count = 0;
+    for (int place = 0; place < world->body_count; place++) {
+        const Body *body = world->bodies + place;
+        if (is_conveyor(body)) {
+            Vec reach = vec(body->reach, body->reach);
+            boxes[count] = (Box){sub(body->begin.p, reach), add(body->begin.p, reach)};
+            conveyors.list[count++] = body;
         }
     }
-    return false;
+    conveyors.tree = tree_of(boxes, count, arena);
+    return conveyors;
 }
 
-// Bring a body to the velocity of the floor under it: its mean in the step, and that at its end.
-static void pull(World *world, Body *body, Twist mean, Twist end) {
+// The conveyor under a body: of several that which was spawned last; -1 is none.
+typedef struct Under {
+    const Conveyors *conveyors;
+    const Body *body;
+    int last;
+} Under;
+
+static bool find_under(int number, void *data) {
+    Under *under = data;
+    const Body *conveyor = under->conveyors->list[number];
+    Rotation by = rotation(conveyor->begin.yaw);
+    Vec local = rotated_back(sub(under->body->begin.p, conveyor->begin.p), by);
+    const cpShape *shape = conveyor != under->body && number > under->last ? conveyor->engine->shapeList : NULL;
+    for (; shape != NULL; shape = shape->next) {
+        under->last = covers(shape, local) ? number : under->last;
+    }
+    return true;
+}
+
+// The velocity at the centre of mass of a body of the conveyor under it.
+static Twist conveyed(const Conveyors *conveyors, const Body *body) {
+    Under under = {conveyors, body, -1};
+    tree_query(&conveyors->tree, (Box){body->begin.p, body->begin.p}, find_under, &under);
+    if (under.last < 0) {
+        return (Twist){0};
+    }
+    const Body *conveyor = conveyors->list[under.last];
+    Vec surface = rotated(conveyor->surface, rotation(conveyor->begin.yaw));
+    Vec around = sub(body->begin.p, conveyor->begin.p);
+    return (Twist){add(velocity_at(conveyor->twist, around), surface), conveyor->twist.w};
+}
+
+// The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
+// middle of the axle, at the origin of the body, does not move along it.
+static Twist rolling(const Robot *towed, const cpBody *engine, Twist twist, double yaw) {
+    Rotation by = rotation(yaw);
+    Vec arm = rotated(negated(towed->center), by), along = rotated(vec(0.0, 1.0), by);
+    double lever = cross(arm, along), inverse = engine->m_inv + engine->i_inv * lever * lever;
+    double impulse = -dot(along, velocity_at(twist, arm)) / inverse;
+    return (Twist){add(twist.v, scaled(along, impulse * engine->m_inv)), twist.w + impulse * engine->i_inv * lever};
+}
+
+// A velocity of the centre of mass as that of the origin, seen from the body.
+static Twist seen_from(const Robot *robot, Twist twist, double yaw) {
+    Rotation by = rotation(yaw);
+    return (Twist){rotated_back(velocity_at(twist, rotated(negated(robot->center), by)), by), twist.w};
+}
+
+// Bring a body to the velocity of the floor under it: its mean in the step, and that at its end. Below a towed body
+// these are the velocities at which its axle rolls.
+static void pull(World *world, Body *body, Robot *towed, Twist mean, Twist end) {
     cpBody *engine = body->engine;
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
@@ -115,7 +174,16 @@ static void pull(World *world, Body *body, Twist mean, Twist end) {
     Twist expected = {scaled(body->push.v, share), body->push.w * share};
     double size = greatest(sqrt(square(expected, surface)) / most_expected, 1.0);
     expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
-    Twist slip = twist_sum(twist_sum(after, expected, 1.0), end, -1.0);
+    Twist next = twist_sum(after, expected, 1.0);
+    if (towed != NULL) {
+        double yaw = body->begin.yaw, turn = next.w * dt;
+        end = rolling(towed, engine, next, yaw + turn);
+        Twist sum = twist_sum(before, end, 1.0);
+        mean = rolling(towed, engine, (Twist){scaled(sum.v, 0.5), sum.w / 2.0}, yaw + turn / 2.0);
+        towed->rolling = seen_from(towed, end, yaw + turn);
+        towed->mean = seen_from(towed, mean, yaw + turn / 2.0);
+    }
+    Twist slip = twist_sum(next, end, -1.0);
     body->slides = square(slip, surface) > 1.0;
     Twist change = body->slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
     Twist as_moved = mean;
@@ -138,16 +206,18 @@ void pull_by_floor(World *world) {
         return;
     }
     roll_wheels(world);
-    bool conveyors = has_conveyors(world);
+    Conveyors conveyors = conveyors_of(world);
     // Robots are listed in the order of the bodies, and so are actors.
-    const Robot *robot = world->robots, *last = world->robots + world->robot_count;
+    Robot *robot = world->robots, *last = world->robots + world->robot_count;
     const Actor *actor = world->actors, *last_actor = world->actors + world->actor_count;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         Twist mean = {0}, end = {0};
+        Robot *towed = NULL;
         if (robot < last && robot->body == place) {
-            mean = robot->under;
-            end = robot->end;
+            towed = robot->wheel_count == 0 ? robot : NULL;
+            mean = towed == NULL ? robot->under : mean;
+            end = towed == NULL ? robot->end : end;
             robot++;
         }
         if (actor < last_actor && actor->body == place) {
@@ -156,8 +226,8 @@ void pull_by_floor(World *world) {
             actor++;
         }
         if (body->floor_friction > 0.0) {
-            Twist belt = conveyors ? conveyed(world, body) : (Twist){0};
-            pull(world, body, twist_sum(mean, belt, 1.0), twist_sum(end, belt, 1.0));
+            Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
+            pull(world, body, towed, twist_sum(mean, belt, 1.0), twist_sum(end, belt, 1.0));
         }
     }
 }

@@ -15,6 +15,11 @@
 // contacts or joints tie to nothing that stands are in free fall as one, without the impulses of the step before; a
 // search for that moment only.
 //
+// Reports. Problem: an impulse that ends a flight takes back the lead, too, so that what carries a body at rest from
+// now on would report half a sub-step of weight too much, once. Method: of such an impulse that share is reported with
+// which the true velocity goes into the velocity of the engine, along the impulse; at most the momenta of both leads
+// are taken off.
+//
 // Cost: a comparison of velocities before and after each step.
 
 #include "stages.h"
@@ -159,6 +164,28 @@ void begin_half_step(World *world) {
             body->engine->t = body->wrench.w;
         }
     }
+}
+
+static bool is_flying(const Body *body) {
+    return body->free && body->dynamic;
+}
+
+double reported_share(const Body *a, const Body *b, Vec impulse) {
+    const Body *bodies[2] = {a, b};
+    double load = 0.0, all = 0.0, taken_back = 0.0, size = length(impulse);
+    for (int end = 0; end < 2; end++) {
+        const Body *body = bodies[end], *other = bodies[1 - end];
+        if (is_flying(body) && size > 0.0) {
+            Vec against = is_flying(other) ? vec(0.0, 0.0) : other->twist.v;
+            // Without the impulse, the true velocity and that of the engine would be these.
+            Vec true_end = add(body->twist.v, body->lead.v), engine_end = add(true_end, body->lead.v);
+            double lead = body->parts ? 0.0 : fabs(dot(body->lead.v, impulse)) / size;
+            load += fabs(dot(sub(lead > 0.0 ? true_end : engine_end, against), impulse));
+            all += fabs(dot(sub(engine_end, against), impulse));
+            taken_back += body->engine->m * lead;
+        }
+    }
+    return taken_back > 0.0 && all > 0.0 ? greatest(load / all, 1.0 - taken_back / size) : 1.0;
 }
 
 void find_free(World *world) {

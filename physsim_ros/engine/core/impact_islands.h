@@ -6,10 +6,10 @@
 
 #include "swept_boxes.h"
 
-// Whether two bodies have no joint between them, nor a group, by which they pass through each other.
+// Whether two bodies collide: no joint between them, and no group, excludes that.
 bool may_meet(const Body *a, const Body *b);
 
-// Have bodies that meet in the coming step move on as one, from bodies whose motions could meet others unseen.
+// Merge bodies that meet in the coming step into islands, starting from `fast`: bodies that could pass through others.
 void join_impacts(Sweep *sweep, const int *fast, int count);
 
 #endif

@@ -29,8 +29,8 @@ static const double elastic = 0.75;
 static const double grazing = 1e-12;
 // Approach velocities of this ratio are equal but for rounding.
 static const double alike = 1.0 - 1e-9;
-// Approach that a deferred contact permits, in velocities of the impact. That changes the velocity of a body of any
-// mass by two at most: two for each body and the contact's own approach make five.
+// Approach that a deferred contact permits, in velocities of the impact: the impact changes the velocity of each body
+// by two at most, whatever its mass, and the contact's own approach is one more.
 static const double permitted = 5.0;
 // Share of the impact next to a contact that its impulse of the last step has to stop, so that it is under load.
 static const double load_share = 0.05;

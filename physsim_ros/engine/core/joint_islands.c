@@ -206,6 +206,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
     island->joint_of_row = TAKE(arena, int, island->joint_row_count);
     island->impulses = TAKE(arena, double *, island->joint_row_count);
     island->last = TAKE(arena, double, island->row_count);
+    island->closing = TAKE(arena, double *, island->joint_row_count);
     island->ends = TAKE(arena, Ends, island->row_count);
     island->groups = TAKE(arena, int, island->row_count);
     int *places = TAKE(arena, int, most);
@@ -217,8 +218,10 @@ static void lay_out(World *world, Island *island, int *numbers) {
             island->rows[row] = world->rows + joint->first_row + each;
             island->joint_of_row[row] = number;
             const Row *of_joint = island->rows[row];
-            island->impulses[row] = impulse_at(world->parts + of_joint->part, of_joint->component);
+            Part *part = world->parts + of_joint->part;
+            island->impulses[row] = impulse_at(part, of_joint->component);
             island->last[row] = *island->impulses[row];
+            island->closing[row] = of_joint->component == 0 ? &part->closing.x : &part->closing.y;
             island->ends[row] = ends;
             island->groups[row] = group;
         }

@@ -26,6 +26,7 @@ typedef struct Island {
     int *joint_of_row;
     double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
     double *last;      // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]
+    double **closing;  // (joint_row_count): where those of the positions are stored [N s, N m s]
     Bearing *touches;
     cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
     bool *jointed;   // (body_count)

@@ -9,6 +9,14 @@
 
 // Length of the arm with which a pin pulls a slider across its line [m]; any will do.
 static const double across_arm = 1.0;
+// The constraint of a slider that limits its way, after those across its line and of its turn.
+enum { LIMIT_PART = 2 };
+// An unstepped joint has come together where its rows are no more than this out of their bounds [m, rad]: ten times the
+// slop of limits.
+static const double drawn_apart = 1e-3;
+// The least speed at which it is drawn together [m/s, rad/s], a quarter of the greatest (`joint_positions.c`): a joint
+// that comes nearer more slowly is held apart by others.
+static const double drawn_least = 5.0;
 
 double *impulse_at(const Part *part, int component) {
     switch (part->kind) {
@@ -55,6 +63,16 @@ static Pose ahead(const cpBody *body, double dt) {
     return moved(pose_of(body), twist_of(body), dt);
 }
 
+// Put the point from which a limit measures on the axis through the first anchor, as far behind the second one as it
+// was, so that it acts along the axis however far the anchor is off its line.
+static void put_behind(const Joint *joint, const Anchors *anchors, cpSlideJoint *limit) {
+    Vec axis = vec(joint->axis[0], joint->axis[1]), across = perpendicular(axis);
+    Vec second = vec(joint->anchor_b[0], joint->anchor_b[1]);
+    double behind = dot(axis, sub(limit->anchorA, second));
+    double beside = dot(across, rotated_back(anchors->apart, anchors->of_b));
+    limit->anchorA = add(second, add(scaled(axis, behind), scaled(across, beside)));
+}
+
 void prepare_parts(World *world) {
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
@@ -68,6 +86,9 @@ void prepare_parts(World *world) {
         Vec across = perpendicular(rotated(vec(joint->axis[0], joint->axis[1]), anchors.of_b));
         Vec beside = sub(add(anchors.arm_b, anchors.apart), scaled(across, across_arm));
         pin->anchorA = rotated_back(beside, anchors.of_b);
+        if (joint->part_count > LIMIT_PART) {
+            put_behind(joint, &anchors, (cpSlideJoint *)world->parts[joint->first_part + LIMIT_PART].constraint);
+        }
     }
 }
 
@@ -128,17 +149,23 @@ static bool is_axial(const Part *part) {
     return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING;
 }
 
-// The impulse of a part on the second body of its joint; of one that acts on the turn of the bodies, the first number.
-static Vec pull_of(const World *world, const Joint *joint, const Part *part) {
-    Vec impulse = impulse_of(part);
-    if (!is_axial(part)) {
-        return impulse;
-    }
+// The unit vector along which an axial part pushes the second body of its joint.
+static Vec line_of(const World *world, const Joint *joint, const Part *part) {
     // The anchors of all three kinds lie in the same place.
     const cpPinJoint *axial = (cpPinJoint *)part->constraint;
-    Vec line =
-        joint->has_axis ? by_axis(world, joint, part) : between(part->constraint, axial->anchorA, axial->anchorB);
-    return scaled(line, impulse.x);
+    return joint->has_axis ? by_axis(world, joint, part) : between(part->constraint, axial->anchorA, axial->anchorB);
+}
+
+static bool is_linear(const Part *part) {
+    return part->kind == PART_PIVOT || is_axial(part);
+}
+
+// The impulse of a part on the second body of its joint; of one that acts on the turn of the bodies, the first number.
+static Vec pull_of(const World *world, const Joint *joint, const Part *part) {
+    Vec impulse = add(impulse_of(part), part->closing);
+    impulse = is_axial(part) ? scaled(line_of(world, joint, part), impulse.x) : impulse;
+    const Body *a = world->bodies + joint->a, *b = world->bodies + joint->b;
+    return is_linear(part) ? scaled(impulse, reported_share(a, b, impulse)) : impulse;
 }
 
 void begin_totals(World *world) {
@@ -152,6 +179,7 @@ void add_totals(World *world) {
         const Joint *joint = world->joints + number;
         for (Part *part = world->parts + joint->first_part, *end = part + joint->part_count; part < end; part++) {
             part->total = add(part->total, pull_of(world, joint, part));
+            part->closing = vec(0.0, 0.0);
         }
     }
 }
@@ -163,11 +191,38 @@ void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8
         const Part *first = world->parts + joint->first_part;
         pulls[number] = vec(0.0, 0.0);
         for (const Part *part = first; part < first + joint->part_count; part++) {
-            bool is_linear = part->kind == PART_PIVOT || is_axial(part);
-            pulls[number] = is_linear ? add(pulls[number], part->total) : pulls[number];
+            pulls[number] = is_linear(part) ? add(pulls[number], part->total) : pulls[number];
         }
-        pressing[number] = joint->presses && joint->part_count > 0 && *impulse_at(first, 0) > 0.0;
+        pressing[number] =
+            joint->presses && joint->part_count > 0 && dot(first->total, line_of(world, joint, first)) > 0.0;
     }
+}
+
+// How far the row of a joint that is furthest out of its bounds is out of them [m, rad].
+static double apart_by(const World *world, const Joint *joint) {
+    Pose a = pose_of(world->bodies[joint->a].engine), b = pose_of(world->bodies[joint->b].engine);
+    Anchors anchors = anchors_at(joint, a, b);
+    Jacobian jacobian;
+    double most = 0.0;
+    for (const Row *row = world->rows + joint->first_row, *end = row + joint->row_count; row < end; row++) {
+        double x = row_at(row, joint, &anchors, a, b, &jacobian);
+        bool holds = row->kind != ROW_SPRING;
+        most = greatest(most, holds ? greatest(x - row->upper, row->lower - x) : 0.0);
+    }
+    return most;
+}
+
+void find_gaps(World *world) {
+    for (int number = 0; number < world->joint_count; number++) {
+        Joint *joint = world->joints + number;
+        joint->apart = joint->unstepped ? apart_by(world, joint) : 0.0;
+    }
+}
+
+// Whether an unstepped joint has come nearer in the step, and is still apart.
+static bool is_drawn(const World *world, const Joint *joint) {
+    double apart = apart_by(world, joint);
+    return apart > drawn_apart && joint->apart - apart > drawn_least * SUB_STEPS * world->dt;
 }
 
 void find_broken(World *world) {
@@ -177,7 +232,7 @@ void find_broken(World *world) {
         // The first step of a joint takes back the half-step lead of a body that was in free flight: that impulse is no
         // load.
         joint->broken = !joint->unstepped && joint->most < INFINITY && greatest_impulse(world, joint) > joint->most;
-        joint->unstepped = false;
+        joint->unstepped = joint->unstepped && is_drawn(world, joint);
         world->has_broken = world->has_broken || joint->broken;
     }
 }

@@ -9,7 +9,9 @@
 //
 // The displacement then changes velocities as far as their energy falls by it (the velocity update of position based
 // dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007). This is how a straight chain stops what falls on it: its
-// rows have no velocity, only a gap of second order. A gap thus never becomes energy.
+// rows have no velocity, only a gap of second order. A gap thus never becomes energy. The impulses of that change are
+// reported, but the next step does not start from them: where rows contradict each other they are of any size, cancel
+// in these poses alone, and a step that started from them after a turn of its bodies would gain the difference.
 
 #include "joint_positions.h"
 #include "mixed_lcp.h"
@@ -48,7 +50,7 @@ typedef struct Displacement {
     double sum, squares, widest; // of gaps and overlaps: sum, sum of squares, and the greatest [m, rad]
 } Displacement;
 
-// The iterate of least squares so far.
+// The iterate with the least sum of squared gaps so far.
 typedef struct Best {
     double squares;
     Pose *poses;
@@ -207,12 +209,42 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
     change_velocities(solve, changes, share);
     for (int row = 0; row < island->joint_row_count; row++) {
         double sign = sign_of(island->rows[row], move->excess[row]);
-        *island->impulses[row] += impulses[row] * share / solve->dt / sign;
+        *island->closing[row] = impulses[row] * share / solve->dt / sign;
     }
     for (int number = 0; number < island->touch_count; number++) {
         double impulse = impulses[island->joint_row_count + number];
         island->touches[number].point->jnAcc += impulse * share / solve->dt;
     }
+}
+
+// Have momenta turn with the rows along which joints that were just made or changed were drawn together.
+//
+// A displacement is a motion, whose impulse λ / dt begins along J and ends along J + dt dJ/dt, so that momenta change
+// by
+// -(dJ/dt)ᵀ λ. A ball on a rope that is shortened keeps its angular momentum by this, and the rope does work. Between
+// joints that contradict each other λ is of any size, and would give energy.
+static void turn_momenta(Solve *solve, const Displacement *move, const double *impulses) {
+    const Island *island = solve->island;
+    Jacobian *now = TAKE(solve->arena, Jacobian, island->row_count);
+    Jacobian *later = TAKE(solve->arena, Jacobian, island->row_count);
+    Pose *ahead = TAKE(solve->arena, Pose, island->body_count);
+    Twist *changes = TAKE(solve->arena, Twist, island->body_count);
+    for (int body = 0; body < island->body_count; body++) {
+        ahead[body] = moved(solve->poses[body], solve->velocities[body], solve->dt);
+    }
+    read_rows(island, ahead, move->excess, later);
+    read_rows(island, solve->poses, move->excess, now);
+    for (int row = 0; row < island->joint_row_count; row++) {
+        bool drawn = island->joints[island->joint_of_row[row]]->unstepped;
+        double impulse = drawn ? impulses[row] / solve->dt : 0.0;
+        add_momenta(now[row], island->ends[row], impulse, changes);
+        add_momenta(later[row], island->ends[row], -impulse, changes);
+    }
+    for (int body = 0; body < island->body_count; body++) {
+        changes[body].v = scaled(changes[body].v, island->inverses[body].mass);
+        changes[body].w *= island->inverses[body].moment;
+    }
+    change_velocities(solve, changes, 1.0);
 }
 
 void solve_positions(Solve *solve) {
@@ -246,6 +278,7 @@ void solve_positions(Solve *solve) {
     }
     if (moved) {
         memcpy(solve->poses, best.poses, (size_t)island->body_count * sizeof(Pose));
+        turn_momenta(solve, &move, best.impulses);
         remove_velocity(solve, &move, best.impulses);
     }
     arena_release(solve->arena, mark);

@@ -27,7 +27,7 @@ Solve joint_solve(World *world, const Island *island);
 // Read the rows of joints at some poses: C, and J as the first of `jacobians`.
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians);
 
-// λ of a row by the impulse that Chipmunk stores.
+// The factor from the impulse that Chipmunk stores to λ of a row.
 static inline double sign_of(const Row *row, double excess) {
     return excess < 0.0 ? row->below : row->above;
 }

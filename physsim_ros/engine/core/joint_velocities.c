@@ -20,8 +20,8 @@
 // J v = - dt / 2 (dJ/dt) v, as SHAKE has it (Ryckaert, Ciccotti and Berendsen, J. Comput. Phys. 23, 1977); without that
 // a pendulum loses (w dt)² / 2 of its energy in a step. An island gets no more energy by this than its rows take from
 // the velocities with which the step began: those of a point that follows its circle are half a step behind it, and
-// pay for it; those of a taut straight chain, whose rows are singular, pay nothing for what no impulse can give. A
-// limit that holds, as a taut rope does, bends too, if that presses it on.
+// pay for it; those of a taut straight chain, whose rows are singular, get no energy. A limit that holds, as a taut
+// rope does, also gets the curvature term if that loads it more.
 
 #include "joint_velocities.h"
 #include "mixed_lcp.h"
@@ -74,7 +74,7 @@ static double softness_of(const Solve *solve, int row) {
     }
     Ends ends = solve->island->ends[row];
     const Inverse *inverses = solve->island->inverses;
-    double own = inverse_effective_mass(solve->jacobians[row], inverses[ends.a], inverses[ends.b]);
+    double own = softness_unit(solve->jacobians[row], inverses[ends.a], inverses[ends.b]);
     return 1.0 / (solve->dt * of_joint->damping * own);
 }
 
@@ -163,8 +163,8 @@ static void begin_contacts(const Solve *solve, Impact *impact, double *soft, dou
         impact->bounce[number] = -touch->point->bounce;
         impact->free_slips[number] = rate(across, ends, without) + touch->slide;
         Twist begun[] = {body_of(island->engine[ends.a])->twist, body_of(island->engine[ends.b])->twist};
-        double own = inverse_effective_mass(across, island->inverses[ends.a], island->inverses[ends.b]);
-        double stopped = own * touch->friction * (prior[left] + prior[right]);
+        double unit = softness_unit(across, island->inverses[ends.a], island->inverses[ends.b]);
+        double stopped = unit * touch->friction * (prior[left] + prior[right]);
         impact->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + touch->slide) - stopped, 0.0);
     }
 }

@@ -8,7 +8,7 @@
 
 enum { LCP_ROWS = 8 };
 
-// Find λ of a linear complementarity problem; return whether there is one of a size that can be.
+// Find λ of a linear complementarity problem; return false if there is none, or one too large to be an impulse.
 bool solve_lcp(int count, double matrix[LCP_ROWS][LCP_ROWS], const double *rates, double *impulses);
 
 #endif

@@ -18,17 +18,17 @@ static const double share_of_rounding = 1e-9;
 // Exchanges, at most: a belt that is spanned over its wheels takes some ten in a step in which a link meets a wheel.
 enum { ROUNDS = 40 };
 
-// The diagonal of J M⁻¹ Jᵀ of a row.
-static double own_of(const System *system, const Problem *problem, int row) {
+// What the softness of a row is a share of.
+static double unit_of(const System *system, const Problem *problem, int row) {
     Ends ends = system->ends[row];
-    return inverse_effective_mass(problem->jacobians[row], system->inverses[ends.a], system->inverses[ends.b]);
+    return softness_unit(problem->jacobians[row], system->inverses[ends.a], system->inverses[ends.b]);
 }
 
 static void factor(System *system, const Problem *problem, const int8_t *sides) {
     for (int row = 0; row < system->row_count; row++) {
-        double own = sides[row] == 0 ? own_of(system, problem, row) : 0.0;
+        double unit = sides[row] == 0 ? unit_of(system, problem, row) : 0.0;
         Jacobian used = sides[row] == 0 ? problem->jacobians[row] : (Jacobian){0};
-        set_row(system, row, used, own > 0.0 ? problem->softness[row] * own : 1.0);
+        set_row(system, row, used, unit > 0.0 ? problem->softness[row] * unit : 1.0);
     }
     ldl_factor(&system->factors);
 }
@@ -50,7 +50,7 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
         }
         solution->wrong[row] = outside > slack || beyond > rounding;
         if (solution->wrong[row]) {
-            double distance = greatest(beyond, outside * own_of(system, problem, row));
+            double distance = greatest(beyond, outside * unit_of(system, problem, row));
             sides[row] = (int8_t)(outside <= slack ? 0 : impulse < lower ? -1 : 1);
             *furthest = distance > most || solution->wrong_count == 0 ? row : *furthest;
             most = greatest(most, distance);
@@ -93,7 +93,7 @@ static Problem drawn(const System *system, const Problem *problem, Arena *arena)
     if (problem->prior != NULL) {
         double *wanted = TAKE(arena, double, system->row_count);
         for (int row = 0; row < system->row_count; row++) {
-            double stiffness = problem->softness[row] * own_of(system, problem, row);
+            double stiffness = problem->softness[row] * unit_of(system, problem, row);
             wanted[row] = problem->wanted[row] + stiffness * problem->prior[row];
         }
         drawn.wanted = wanted;
@@ -135,7 +135,7 @@ void refine(System *system, const Problem *problem, Solution *solution, Arena *a
         Ends ends = system->ends[row];
         left[row] = problem->wanted[row] - rate(problem->jacobians[row], ends, solution->changes);
         if (problem->springs != NULL && problem->springs[row]) {
-            left[row] -= problem->softness[row] * own_of(system, problem, row) * solution->impulses[row];
+            left[row] -= problem->softness[row] * unit_of(system, problem, row) * solution->impulses[row];
         }
     }
     solve_active(system, solution->sides, left, impulses, changes);

@@ -12,7 +12,7 @@ void solve_problem(System *system, const Problem *problem, Solution *solution, A
 // Solve them with other targets from the sides of the last solution, whose factors the system has.
 void solve_again(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
-// Refine a solution against the targets that E keeps it from (one step of iterative refinement).
+// Make one step of iterative refinement against E, which keeps a solution from its targets.
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
 #endif

@@ -27,11 +27,9 @@ static Vec acceleration(const World *world, const Body *body) {
 
 // The velocity at which two bodies part in a point, as the step begins, and the acceleration of that.
 static double true_parting(const World *world, const cpArbiter *arbiter, const cpContact *point, double *rate) {
-    const Body *a = body_of(arbiter->body_a), *b = body_of(arbiter->body_b);
-    Twist of_a = twist_sum(twist_of(a->engine), a->lead, a->free ? -1.0 : 0.0);
-    Twist of_b = twist_sum(twist_of(b->engine), b->lead, b->free ? -1.0 : 0.0);
-    *rate = dot(sub(acceleration(world, b), acceleration(world, a)), arbiter->n);
-    return dot(sub(velocity_at(of_b, point->r2), velocity_at(of_a, point->r1)), arbiter->n);
+    const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
+    *rate = dot(sub(acceleration(world, body_of(b)), acceleration(world, body_of(a))), arbiter->n);
+    return dot(sub(velocity_at(true_twist(b), point->r2), velocity_at(true_twist(a), point->r1)), arbiter->n);
 }
 
 // Have an impact take place when it did; return whether the bodies part. The velocity of a body in free flight leads by
@@ -80,8 +78,7 @@ static Twist way_left(const Body *body, double dt) {
     return twist_sum(twist_sum((Twist){0}, mean, left), gone, -1.0);
 }
 
-// The way that a body has still to go, if it could pass through the smallest thing there is on it: of others, the sweep
-// would find nothing.
+// The remaining way of a body that could tunnel through the thinnest body of the world; else none.
 static Twist far_way(const World *world, const Body *body) {
     Twist way = way_left(body, world->dt);
     bool is_far = length(way.v) + fabs(way.w) * body->turning_radius > world->own->least_depth;

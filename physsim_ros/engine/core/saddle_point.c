@@ -185,9 +185,10 @@ double mass_product(const System *system, const Twist *u, const Twist *v) {
     return sum;
 }
 
-double inverse_effective_mass(Jacobian jacobian, Inverse a, Inverse b) {
-    return dot(jacobian.a.v, jacobian.a.v) * a.mass + jacobian.a.w * jacobian.a.w * a.moment +
-           dot(jacobian.b.v, jacobian.b.v) * b.mass + jacobian.b.w * jacobian.b.w * b.moment;
+double softness_unit(Jacobian jacobian, Inverse a, Inverse b) {
+    double linear = dot(jacobian.a.v, jacobian.a.v) * a.mass + dot(jacobian.b.v, jacobian.b.v) * b.mass;
+    double angular = jacobian.a.w * jacobian.a.w * a.moment + jacobian.b.w * jacobian.b.w * b.moment;
+    return linear > 0.0 ? linear : angular;
 }
 
 void set_row(System *system, int row, Jacobian jacobian, double stiffness) {

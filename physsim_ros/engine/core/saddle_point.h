@@ -42,7 +42,7 @@ typedef struct Problem {
     const Jacobian *jacobians;
     const double *wanted;        // target - J v [m/s, rad/s]
     const double *lower, *upper; // of λ [N s, N m s]
-    const double *softness;      // E as a share of the diagonal of J M⁻¹ Jᵀ
+    const double *softness;      // E as a share of `softness_unit`
     const double *prior;         // λ that E draws a solution to; NULL is 0
     const bool *springs;         // rows whose softness is meant; that of others is to vanish. NULL is none
 } Problem;
@@ -79,8 +79,9 @@ static inline void add_momenta(Jacobian jacobian, Ends ends, double impulse, Twi
 // Return u M v of two changes of velocities [J].
 double mass_product(const System *system, const Twist *u, const Twist *v);
 
-// The diagonal of J M⁻¹ Jᵀ of a row [1/kg, 1/(kg m²)].
-double inverse_effective_mass(Jacobian jacobian, Inverse a, Inverse b);
+// What the softness of a row is a share of [1/kg, 1/(kg m²)]: J M⁻¹ Jᵀ as if the row acted at the centres of mass, so
+// that rows between the same bodies are equally soft, and share a load that statics leaves open equally.
+double softness_unit(Jacobian jacobian, Inverse a, Inverse b);
 
 // Set J and E of a row in the matrix.
 void set_row(System *system, int row, Jacobian jacobian, double stiffness);

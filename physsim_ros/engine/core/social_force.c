@@ -17,8 +17,8 @@
 
 // Least half axis [m], so that the force of two at one place is finite.
 static const double least_axis = 0.01;
-// Others push by this to the right of straight away [rad], where the paper has fluctuations: two who meet head on stop
-// before each other without.
+// What is straight ahead pushes by this to the right of straight away [rad], where the paper has fluctuations: who
+// meets another one or an obstacle head on stops before it without. What is beside the way pushes straight away.
 static const double swerve = 0.1;
 
 // The acceleration by another pedestrian at `apart` from it, which walks with a velocity.
@@ -38,6 +38,13 @@ static Vec wall_repulsion(const SocialForce *model, double distance, Vec outward
     return scaled(outwards, size);
 }
 
+// A force that pushes away from something, turned to the right as far as that is ahead.
+static Vec swerved(Vec force, Vec desired) {
+    double size = length(force) * length(desired);
+    double ahead = size > 0.0 ? greatest(-dot(force, desired) / size, 0.0) : 0.0;
+    return rotated(force, rotation(swerve * ahead));
+}
+
 static Vec of_disc(const SocialForce *model, const Disc *self, const Disc *other, Vec desired) {
     Vec apart = sub(self->place, other->place);
     double distance = length(apart);
@@ -45,9 +52,9 @@ static Vec of_disc(const SocialForce *model, const Disc *self, const Disc *other
         return (Vec){0};
     }
     if (!other->walks) {
-        return wall_repulsion(model, distance - other->radius, scaled(apart, 1.0 / distance));
+        return swerved(wall_repulsion(model, distance - other->radius, scaled(apart, 1.0 / distance)), desired);
     }
-    Vec force = rotated(repulsion(model, apart, other->velocity), rotation(swerve));
+    Vec force = swerved(repulsion(model, apart, other->velocity), desired);
     bool seen = -dot(desired, force) >= model->cosine_of_sight * length(desired) * length(force);
     return seen ? force : scaled(force, model->behind);
 }
@@ -66,7 +73,7 @@ Vec walk_by_social_force(const World *world, const Surroundings *around, const A
         const cpShape *wall = around->walls[number];
         Nearest nearest;
         if (!passes_through(self->body, body_of(wall->body)) && sees_wall(world, wall, self->place, &nearest)) {
-            force = add(force, wall_repulsion(model, nearest.distance, nearest.outwards));
+            force = add(force, swerved(wall_repulsion(model, nearest.distance, nearest.outwards), desired));
         }
     }
     Vec velocity = add(self->velocity, scaled(force, dt));

@@ -38,7 +38,7 @@ void tighten_boxes(World *world);
 // Constraints are put where the step needs them (`joint_parts.c`).
 void prepare_parts(World *world);
 
-// Between narrow phase and solver: contacts that begin (`first_touch.c`), the most that is a load (`impact_loads.c`),
+// Between narrow phase and solver: contacts that begin (`first_touch.c`), the greatest load (`impact_loads.c`),
 // contacts next to an impact (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);
 void bound_loads(World *world);
@@ -52,11 +52,14 @@ void solve_joints(World *world);
 // The impulses of impacts, from which the next step does not start (`impact_loads.c`).
 void take_out_impacts(World *world);
 void begin_totals(World *world);
+void find_gaps(World *world);
 void add_totals(World *world);
 void find_broken(World *world);
 
-// Which bodies the step only accelerated (`half_step.c`), and which do not fall asleep (`sleeping.c`).
+// Mark bodies in free flight (`half_step.c`), and keep slow movers awake (`sleeping.c`).
 void find_free(World *world);
+// The share of an impulse on two bodies in this sub-step that does not take back a half-step lead; before `find_free`.
+double reported_share(const Body *a, const Body *b, Vec impulse);
 void forgive_trembling(World *world);
 void keep_awake(World *world);
 

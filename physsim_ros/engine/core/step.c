@@ -75,13 +75,13 @@ static void step(World *world) {
     add_totals(world);
     finish_moves(world);
     find_pushes(world);
-    find_free(world);
-    keep_awake(world);
     if (world->reports_contacts) {
         report_contacts(world);
     } else {
         forget_contacts(world);
     }
+    find_free(world);
+    keep_awake(world);
     take_out_impacts(world);
 }
 
@@ -92,6 +92,7 @@ int32_t core_step(World *world, int32_t count) {
         arena_reset(&world->own->arena);
         damp_resting(world);
         begin_totals(world);
+        find_gaps(world);
         move_actors(world);
         world->frame_steps += world->reports_contacts;
         for (world->own->sub_step = 0; world->own->sub_step < SUB_STEPS; world->own->sub_step++) {

@@ -58,7 +58,7 @@ Surroundings look_around(World *world) {
     Surroundings around = {.discs = TAKE(arena, Disc, world->body_count),
                            .walls = TAKE(arena, const cpShape *, wall_count)};
     for (int list = 0; list < 2; list++) {
-        around.planes[list] = TAKE(arena, HalfPlane, world->body_count + wall_count);
+        around.planes[list] = TAKE(arena, HalfPlane, 2 * world->body_count + wall_count);
     }
     const Actor *actor = world->actors, *last = actor + world->actor_count;
     for (int place = 0; place < world->body_count; place++) {

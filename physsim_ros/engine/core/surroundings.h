@@ -28,7 +28,7 @@ typedef struct Surroundings {
     int disc_count;
     const cpShape **walls;
     int wall_count;
-    HalfPlane *planes[2]; // room for one of each of these, twice
+    HalfPlane *planes[2]; // room for two of each disc and one of each wall, twice
 } Surroundings;
 
 // The nearest point of a wall.

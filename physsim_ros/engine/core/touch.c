@@ -48,7 +48,7 @@ void prepare_contact(cpArbiter *arbiter) {
         double at = cross(point->r1, tangent), bt = cross(point->r2, tangent);
         point->nMass = 1.0 / (mass + a->i_inv * an * an + b->i_inv * bn * bn);
         point->tMass = 1.0 / (mass + a->i_inv * at * at + b->i_inv * bt * bt);
-        Vec parting = sub(velocity_at(twist_of(b), point->r2), velocity_at(twist_of(a), point->r1));
+        Vec parting = sub(velocity_at(true_twist(b), point->r2), velocity_at(true_twist(a), point->r1));
         point->bounce = dot(parting, normal) * arbiter->e;
     }
 }

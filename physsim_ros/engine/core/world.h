@@ -70,6 +70,13 @@ static inline Twist twist_of(const cpBody *body) {
     return (Twist){body->v, body->w};
 }
 
+// The velocity of a body without its half-step lead, before the engine has solved.
+static inline Twist true_twist(const cpBody *body) {
+    Twist lead = body_of(body)->lead, twist = twist_of(body);
+    bool flies = body_of(body)->free;
+    return flies ? (Twist){{twist.v.x - lead.v.x, twist.v.y - lead.v.y}, twist.w - lead.w} : twist;
+}
+
 static inline void set_twist(cpBody *body, Twist twist) {
     body->v = twist.v;
     body->w = twist.w;

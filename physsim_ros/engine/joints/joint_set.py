@@ -65,7 +65,7 @@ class JointSet:
         self._springs: Springs | None = None
         # Names of the joints whose first step was to come when the table was dropped.
         self._unstepped: set[str] = set()
-        # The impulses of each joint in the step before, from the same table.
+        # The impulses of each joint in the step before, by name, from the same table.
         self._totals: dict[str, Floats] = {}
 
     def names_on(self, body: str) -> tuple[str, ...]:
@@ -93,6 +93,8 @@ class JointSet:
         old = self.by_name.get(joint.name)
         if old is not None:
             self._remove_constraints(old)
+            if (old.joint.kind, old.joint.a, old.joint.b) != (joint.kind, joint.a, joint.b):
+                self._totals.pop(joint.name, None)
         self._add_constraints(joint)
         for body in (joint.a, joint.b):
             self._on.setdefault(body, {})[joint.name] = None
@@ -102,12 +104,14 @@ class JointSet:
     def remove(self, name: str) -> None:
         """Remove a joint for good."""
         self._remove_constraints(self.by_name[name])
+        self._totals.pop(name, None)
         del self.by_name[name], self._serials[name]
 
     def clear(self) -> None:
         """Remove all joints from the engine, before its bodies are used in another space."""
         self._pm_space.remove(*self._constraints())
         self._drop_table()
+        self._totals.clear()
         self.by_name.clear()
         self._on.clear()
         self._serials.clear()

@@ -34,8 +34,8 @@ class Odometry(Checked):
     slip: Annotated[
         Point,
         Row((Within(0.0, 1.0),) * 2),
-        'standard deviations of its drift, 0 .. 1: of the way after 1 m [m], of the heading after '
-        '1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
+        'standard deviations of its drift, 0 .. 1: of the path after 1 m [m], of the heading '
+        'after 1 m or 1 rad [rad]; 0 is exact as long as no wheel slips',
     ] = (0.0, 0.0)
 
 
@@ -86,14 +86,14 @@ class Robot(Checked):
     sensors: Annotated[
         tuple[Sensor, ...],
         ListOf(sensor_from, 'mappings', MOST_SENSORS),
-        f'a list of mappings, at most {MOST_SENSORS}; each on a topic of its own',
+        f'a list of mappings, at most {MOST_SENSORS}; each with its own topic',
     ] = ()
     namespace: Annotated[
         str | None,
         check_namespace,
         'namespace of topics; may be empty; by default the name of the body, with `_` for `/`. '
-        'No two robots of a world have the same one, or a topic or frame in common (a sensor '
-        '`x/odom` in `tb`, a robot in `tb/x`)',
+        'Robots of a world must differ in namespaces, topics and frames (a sensor `x/odom` in '
+        '`tb` and a robot in `tb/x` collide)',
     ] = None
 
     def __post_init__(self) -> None:

@@ -45,17 +45,22 @@ class NodeSettings(Checked):
     world_file: Annotated[
         str,
         text,
-        'world that is loaded at the start and by `~/load_world`, and written by '
-        '`~/save_world`: a path, or the name of a world or lesson in `world_dir`, else of a '
-        'shipped one. Paths are relative to `world_dir`; at the start, to the working directory '
-        'first',
+        'world to load at the start and by `~/load_world`, and to write by `~/save_world`: a '
+        'path, or the name of a world or lesson in `world_dir` or, failing that, of a shipped '
+        'one. Paths are relative to `world_dir`; at the start, the working directory comes first',
     ] = ''
     world_dir: Annotated[
         str,
         text,
-        'once the node runs, worlds are read and written only below this directory; empty means '
+        'a running node reads and writes worlds only below this directory; empty means '
         '`$XDG_DATA_HOME/physsim_ros/worlds`, usually `~/.local/share/physsim_ros/worlds`, '
         'created when first needed',
+        READ_ONLY,
+    ] = ''
+    lesson_dir: Annotated[
+        str,
+        text,
+        'lessons are read in this directory, too; empty means `lessons` in `world_dir`',
         READ_ONLY,
     ] = ''
     physics_rate: Annotated[
@@ -67,13 +72,13 @@ class NodeSettings(Checked):
     publish_rate: Annotated[
         float,
         Within(1.0, 10000.0, 'Hz'),
-        'frames published a second; must divide `physics_rate`',
+        'frames published per second; must divide `physics_rate`',
         READ_ONLY,
     ] = 60.0
     speed: Annotated[
         float,
         SPEED,
-        'simulated seconds a second; 0 is paused, negative goes back',
+        'simulated seconds per second; 0 is paused, negative goes back',
     ] = 1.0
     fast_speed: Annotated[
         float,
@@ -94,7 +99,7 @@ class NodeSettings(Checked):
         float,
         Within(LEAST_MEMORY, MOST_MEMORY, 'MB'),
         'memory of the past: requests, checkpoints, frames, other courses, undone requests; '
-        'when it is full, the oldest is dropped, and an event (`history`) says so',
+        'when it is full, the oldest data is dropped, and the event `history` says so',
     ] = DEFAULT_MEMORY
     publish_clock: Annotated[
         bool,
@@ -115,21 +120,26 @@ class NodeSettings(Checked):
     robot_tf: Annotated[
         str,
         OneOf(tuple(mode.value for mode in RobotTf)),
-        'transforms of robots: `prefixed` (on `/tf`, frames named below the namespace), '
-        '`namespaced` (plain names on `<namespace>/tf`) or `none`; without tf2_msgs there are '
-        'none',
+        'transforms of robots: `prefixed` (on `/tf`, with the namespace in frame names), '
+        '`namespaced` (plain names on `<namespace>/tf`) or `none`; they need tf2_msgs',
         READ_ONLY,
     ] = 'prefixed'
     robots_in_past: Annotated[
         str,
         OneOf(('follow', 'freeze')),
-        'topics of robots and `clock` while the past is shown: `follow` (they show it) or '
+        'topics of robots and `clock` while the past is shown: `follow` (they replay it) or '
         '`freeze` (they are silent)',
     ] = 'follow'
+    drive_timeout: Annotated[
+        float,
+        Within(-1.0, 1e6, 's'),
+        'simulation time after which a robot stops without another command on `cmd_vel`; 0 is '
+        'never, -1 is the `timeout` of each drive',
+    ] = -1.0
     lockstep: Annotated[
         float,
         Within(0.0, 3600.0, 's'),
-        'longest wait of wall time, after each scan, for a `TwistStamped` with the stamp of the '
+        'longest wait after each scan, in wall time, for a `TwistStamped` with the stamp of the '
         'scan or a later one; 0 is no wait',
     ] = 0.0
     viewer: Annotated[
@@ -149,19 +159,19 @@ class NodeSettings(Checked):
     record_file: Annotated[
         str,
         text,
-        '`.rrd` file, written in addition to any viewer and indexed when the node ends; an older '
-        'recording of that name is replaced, any other file is not',
+        '`.rrd` file to write in addition to any viewer, indexed when the node ends; it replaces '
+        'an older recording of that name, but no other file',
         READ_ONLY,
     ] = ''
     sketchpad: Annotated[
         str,
         OneOf(('none', 'serve')),
-        '`serve` serves the page in the browser, to draw on',
+        '`serve` serves the page to browsers',
     ] = 'none'
     sketchpad_address: Annotated[
         str,
         text,
-        'address that the page is served on; any other than loopback exposes it to the network',
+        'address to serve the page on; any address but loopback exposes it to the network',
         READ_ONLY,
     ] = '127.0.0.1'
     sketchpad_port: Annotated[

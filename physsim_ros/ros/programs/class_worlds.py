@@ -14,12 +14,12 @@ import json
 import os
 import sys
 
-from physsim_ros.files import user_worlds
+from physsim_ros.files import user_lessons, user_worlds
 from physsim_ros.model.errors import PhysSimError
 from physsim_ros.ros.node import PhysSimNode
 from physsim_ros.ros.programs.process import begin_process, end_process
 from physsim_ros.ros.programs.real_time_loop import run_worlds
-from physsim_ros.sketchpad import Role
+from physsim_ros.sketchpad import results_file, Role
 import rclpy
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
@@ -49,6 +49,8 @@ def main() -> None:
             'viewer': 'none',
             'publish_clock': False,
             'history_memory': HISTORY_MEMORY,
+            # Of the teacher: a pupil's own directory has none.
+            'lesson_dir': str(user_lessons(user_worlds())),
             'world_dir': str(user_worlds() / 'class' / f'pupil_{number}'),
         }
         return [Parameter(name, value=value) for name, value in values.items()]
@@ -65,7 +67,11 @@ def main() -> None:
     for number, node in zip(numbers, nodes, strict=True):
         sketchpad = node.outputs.sketchpad
         if sketchpad is not None:
-            addresses = {'pupil': sketchpad.url(), 'teacher': sketchpad.url(Role.TEACH)}
+            addresses = {
+                'pupil': sketchpad.url(),
+                'teacher': sketchpad.url(Role.TEACH),
+                'results': str(results_file(node.control.world_dir)),
+            }
             sys.stdout.write(json.dumps({'number': number, **addresses}) + '\n')
     sys.stdout.flush()
     run_worlds(nodes, lambda: watch.requested or os.getppid() != parent)

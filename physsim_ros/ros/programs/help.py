@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+import re
 import shutil
 import textwrap
 
@@ -15,6 +16,8 @@ from physsim_ros.ros.parameters import Spec, SPECS
 
 # Width of the column of names, and least width of that of meanings [characters].
 _NAMES, _MEANINGS = 22, 40
+# Sign behind which a title goes into detail.
+_LATER = re.compile('[:;] ')
 # Last paragraph of the help.
 _ELSEWHERE = """\
 config/physsim.yaml sets all of them (--params-file). A running world describes
@@ -37,8 +40,10 @@ def physsim_help() -> str:
 
 
 def _files_table(title: str, files: Mapping[str, Path]) -> str:
-    """Return a table of files, each with the sentence that it begins with; '' if there is none."""
-    return _table(title, {name: title_of(path) for name, path in files.items()})
+    """Return a table of files with the beginnings of their titles; '' if there is none."""
+    titles = {name: title_of(path) for name, path in files.items()}
+    # What follows a colon or semicolon tells more than a list needs.
+    return _table(title, {name: _LATER.split(said)[0] for name, said in titles.items()})
 
 
 def _table(title: str, meanings: Mapping[str, str]) -> str:

@@ -5,8 +5,9 @@
 Commands of a robot: `cmd_vel`, as `Twist`, as `TwistStamped`, or of a car as Ackermann drive.
 
 The type is that of the publisher, as the graph has it. A process takes one type for a topic: where
-it has other nodes, nothing is subscribed to before a publisher is there. Of what comes between two
-frames the last one counts.
+it has other nodes, nothing is subscribed to before a publisher is there. Of publishers of several
+types one is heard as long as it speaks: one that died without a shutdown stays on the graph for
+some 20 s. Of what comes between two frames the last one counts.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
 import math
+import time
 from typing import Any
 
 from geometry_msgs.msg import Twist, TwistStamped
@@ -38,6 +40,9 @@ _ACKERMANN = 'ackermann_msgs/msg/AckermannDriveStamped'
 _Heard = tuple[type, ReliabilityPolicy]
 # Of a burst the last ones count.
 _DEPTH = 10
+# Silence of the type that is heard after which another one is, where there are both [s]: twice the
+# timeout of the shipped drives, in which a command is due.
+_SILENCE = 1.0
 # Commands in a row that are carried out before a refusal of a code that was told is told again:
 # some seconds at the usual 10 to 30 Hz, so that a publisher that errs now and then does not flood.
 _STEADY = 50
@@ -87,6 +92,9 @@ class Commands:
         self._deaf = ''
         # Whether the last command had a stamp of 0, which is none.
         self._unstamped = False
+        # Type that was chosen last, and steady time of that or of the last command [s].
+        self._kind: type | None = None
+        self._spoke = math.inf
         # Type and bytes of the last command.
         self._last: tuple[type, bytes] | None = None
         # Name of the topic on the graph, and number of its publishers at the last look; None where
@@ -145,6 +153,8 @@ class Commands:
         count = self._count_publishers()
         heard, deaf = self._choose(self._node.get_publishers_info_by_topic(self.topic))
         changed = heard != self._heard
+        if heard is not None and heard[0] is not self._kind:
+            self._kind, self._spoke = heard[0], time.monotonic()
         if changed:
             of_other_type = heard and self._heard and heard[0] is not self._heard[0]
             self.close()
@@ -169,10 +179,13 @@ class Commands:
         reliable, best_effort = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
         if not types:
             return None if self._expected is None else (self._expected, reliable), deaf
-        kind = self._heard[0] if self._heard and self._heard[0] in types else types[0]
+        place = types.index(self._kind) if self._kind in types else 0
+        if len(types) > 1 and time.monotonic() > self._spoke + _SILENCE:
+            place = (place + 1) % len(types)
+        kind = types[place]
         if len(types) > 1:
-            words = ' and of '.join(each.__name__ for each in types)
-            deaf = f'publishers of {words} are there; {kind.__name__} is heard'
+            words = ' and of '.join(sorted(each.__name__ for each in types))
+            deaf = f'publishers of {words} are there; one is heard as long as it speaks'
         # Best effort hears publishers of both reliabilities, and may lose a message.
         is_lossy = any(
             each.qos_profile.reliability == best_effort
@@ -245,7 +258,7 @@ class Commands:
             self._subscription = None
 
     def _receive(self, kind: type, data: bytes) -> None:
-        self._last = kind, data
+        self._last, self._spoke = (kind, data), time.monotonic()
         if kind is not Twist:
             with suppress(rclpy_implementation.RMWError):
                 message: Any = deserialize_message(data, kind)

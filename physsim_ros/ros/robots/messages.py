@@ -119,6 +119,8 @@ def range_message(view: StampedView, row: int, finder: RangeFinder) -> Range:
         min_range=least,
         max_range=greatest,
         range=read_sensor(view, row, finder),
+        # 0 is an unknown variance.
+        variance=max(finder.noise**2, LEAST_VARIANCE),
     )
 
 

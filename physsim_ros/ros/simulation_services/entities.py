@@ -206,9 +206,15 @@ def _matching(names: tuple[str, ...], pattern: str) -> list[bool]:
     """
     if not pattern or not names:
         return [True] * len(names)
-    import pyarrow as pa  # noqa: PLC0415 - few need it
-    import pyarrow.compute as pc  # noqa: PLC0415
-
+    try:
+        import pyarrow as pa  # noqa: PLC0415 - few need it
+        import pyarrow.compute as pc  # noqa: PLC0415
+    except ModuleNotFoundError as error:
+        raise coded(
+            'a filter needs pyarrow: install physsim_ros with its extra [viewer]',
+            Result.RESULT_FEATURE_UNSUPPORTED,
+            field='filter',
+        ) from error
     try:
         matches: list[bool] = pc.match_substring_regex(pa.array(names), pattern).to_pylist()
     except (pa.ArrowInvalid, UnicodeError) as error:

@@ -151,7 +151,7 @@ class SimulationStates:
         """
         self._worlds.check_loaded()
         if self._control.simulation.speed != 0:
-            raise coded('time is running; pause first', Result.RESULT_INCORRECT_STATE)
+            raise coded('time is running; pause first', Result.RESULT_OPERATION_FAILED)
         if not 1 <= steps <= MOST_STEPS:
             raise coded(
                 f'steps is {steps}; a call has 1 to {MOST_STEPS}',

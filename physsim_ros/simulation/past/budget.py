@@ -96,7 +96,7 @@ class Budget:
     :raises Malformed: it is not a finite number
 
     :ivar used: memory of the past at the last count [bytes]
-    :ivar told: whether an event has told that the past was shortened
+    :ivar told: whether users know that the past was shortened
     """
 
     def __init__(self, megabytes: float) -> None:

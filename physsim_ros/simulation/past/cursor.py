@@ -5,9 +5,9 @@
 The cursor: a world at a moment of the line of events in force.
 
 Laws: a world that continues from a moment of the past makes the same bits as before, until a
-request changes its course. Long work, a seek or an amendment of the past, is made in parts. While
-it is under way it counts as done: moment and settings are those to which it leads, and a reader of
-the world finishes it. Another seek replaces a seek; an amendment is finished first.
+request changes its course. Long work, a seek or an amendment of the past, is made in parts.
+Meanwhile `moment` and the settings are those of the goal, and reading `world` finishes the work.
+Another seek replaces a seek; an amendment is finished first.
 """
 
 from __future__ import annotations

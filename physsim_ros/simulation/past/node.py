@@ -197,7 +197,8 @@ class Line:
         which the step was shown
     :param course: number of its course
     :param era: number of resets before it
-    :param words: phrase for the gesture that was undone in it; '' is none
+    :param words: phrase for the gesture that was undone in it, or for the reset after it; '' is
+        none
 
     :ivar ghost: frames that it has shown, in the order of time, since it parted from the line that
         replaced it

@@ -272,13 +272,37 @@ class Past:
         if is_begun and state.settings.seed == self.cursor.settings.seed:
             # Nothing has happened since the beginning.
             return False
-        self.tree.drop_undone()
-        tree.resets.append(tree.line(self.cursor.moment))
-        self.cursor.begin(state)
+        self._begin_anew(state, 'reset')
+        return True
+
+    def open_world(self, state: WorldState) -> None:
+        """
+        Begin with another state, at time 0; undo reverts it.
+
+        :raises Refusal: it is too large, or cannot be simulated; nothing is changed
+        """
+        self._begin_anew(state, 'open world')
+
+    def _begin_anew(self, state: WorldState, words: str) -> None:
+        """
+        Put a line in force that begins with a state, at time 0.
+
+        :param words: phrase for it, which undo has
+        :raises Refusal: the state is refused; nothing is changed
+        """
+        tree = self.tree
+        before = tree.line(self.cursor.moment)
+        before.words = words
+        try:
+            self.cursor.begin(state)
+        except Refusal:
+            tree.drop(before)
+            raise
+        tree.drop_undone()
+        tree.resets.append(before)
         self.frames.drop_from(0)
         self._courses += 1
         tree.course, tree.era = self._courses, tree.era + 1
-        return True
 
     def words(self, moment: Moment) -> tuple[str, str]:
         """
@@ -291,7 +315,7 @@ class Past:
         if gesture := tree.last_gesture(serial):
             first, count = gesture
             return first.phrase(count), redo
-        return 'reset' if tree.undoes_reset(serial) else '', redo
+        return tree.resets[-1].words if tree.undoes_reset(serial) else '', redo
 
     def undo(self) -> str:
         """
@@ -330,6 +354,7 @@ class Past:
         if tree.era == era:
             tree.drop(left)
         else:
+            left.words = words
             tree.resets.append(left)
         return words
 

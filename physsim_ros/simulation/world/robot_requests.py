@@ -33,7 +33,8 @@ def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     :raises BadProperty: it is no robot
     """
     rigid, robot = robot_of_name(live.space, request.name)
-    until = live.step_after(robot.drive.timeout)
+    timeout = robot.drive.timeout if request.timeout is None else request.timeout
+    until = live.step_after(timeout)
     live.space.drive(rigid, request.velocity, NEVER if until is None else until)
     return Answer(subject=request.name, message=f'drives {request.name}')
 
@@ -73,15 +74,12 @@ def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
 
 def check_robot(space: Space, body: Body) -> None:
     """
-    Refuse a robot that has joints, or a topic or frame of another one.
+    Refuse a robot that has a topic or frame of another one.
 
-    :raises BadProperty: it has joints
     :raises Exists: its namespace or another of its names is taken
     """
     if body.robot is None:
         return
-    if space.joints.has_joints(body.name):
-        raise BadProperty(f'{body.name} has joints; it cannot be a robot', field='robot')
     # Only of robots below one another, or of one namespace, can names be the same.
     below, related = _prefix_of(body.robot, body.name), [body]
     for name, rigid in space.bodies.by_name.items():

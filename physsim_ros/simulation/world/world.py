@@ -62,10 +62,14 @@ def restore(live: LiveSpace, request: Restore) -> Answer:
     :raises WorldFull: the state is too large; nothing is changed
     :raises BadProperty: springs are too stiff for the steps; nothing is changed
     """
-    state = request.state
-    live.begin(state, live.step_count)
+    live.begin(request.state, live.step_count)
+    return Answer(message=loaded(request.state))
+
+
+def loaded(state: WorldState) -> str:
+    """Return the message about a state that was loaded."""
     joints = f' and {counted(len(state.joints), "joint")}' if state.joints else ''
-    return Answer(message=f'loaded {counted(len(state.bodies), "body")}{joints}')
+    return f'loaded {counted(len(state.bodies), "body")}{joints}'
 
 
 # The handler of each type of request. It checks everything, then changes the space; one that makes

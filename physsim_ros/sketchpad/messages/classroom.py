@@ -5,16 +5,18 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
-from physsim_ros.model.checks import flag
+from physsim_ros.model.checks import flag, Whole
 from physsim_ros.model.errors import BadProperty, NothingThere
 from physsim_ros.model.requests import DeleteBodies
 from physsim_ros.simulation.request_queue import TakeBack, Unread
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
-from physsim_ros.sketchpad.page_session import PageSession, TEACHER, UNNAMED
-from physsim_ros.sketchpad.rights import locks_of, Right
+from physsim_ros.sketchpad.messages.files import reaching
+from physsim_ros.sketchpad.page_session import author_of, PageSession, TEACHER, UNNAMED
+from physsim_ros.sketchpad.rights import locks_of, Right, Role
 
 # Lengths of an answer to a lesson and of a message to all [characters]; the rest is left out.
 LONGEST_ANSWER, LONGEST_MESSAGE = 24, 200
@@ -36,6 +38,8 @@ def choose_name(page: PageSession, origin: Origin, name: str) -> None:
     if name != page.unnamed and re.fullmatch(rf'{UNNAMED}\d+|{TEACHER}', name):
         raise BadProperty(f'{name} may be another person, who has no name', field='name')
     page.person = name
+    # A page that was loaded again does not know.
+    page.answered = page.shared.results.last_of(name)
     page.answer_page(origin, f'you are {name}')
 
 
@@ -44,8 +48,19 @@ def note_answer(
     page: PageSession, origin: Origin, lesson: str, answer: str, *, right: bool
 ) -> None:
     """Note an answer to a lesson, which a teacher sees."""
-    page.answered = {'lesson': lesson, 'answer': answer[:LONGEST_ANSWER], 'right': right}
+    with reaching('the results'):
+        page.answered = page.shared.results.note(
+            page.person, lesson, answer[:LONGEST_ANSWER], right=right
+        )
     page.answer_page(origin, 'the answer is noted')
+
+
+@message('forget_results', 'page', Right.TEACH)
+def forget_results(page: PageSession, origin: Origin) -> None:
+    """Forget the results of lessons in this world."""
+    with reaching('the results'):
+        page.shared.results.forget()
+    page.answer_page(origin, 'the results are forgotten')
 
 
 @message('raise_hand', 'page', Right.DRAW, raised=flag)
@@ -53,6 +68,13 @@ def raise_hand(page: PageSession, origin: Origin, *, raised: bool) -> None:
     """Raise a hand, or lower it."""
     page.raised = raised
     page.answer_page(origin, 'your hand is raised' if raised else 'your hand is down')
+
+
+@message('lower_hand', 'page', Right.TEACH, page=Whole(1, 2**31))
+def lower_hand(session: PageSession, origin: Origin, page: int) -> None:
+    """Have the page of a number lower its hand."""
+    session.shared.send({'type': 'lower_hand'}, page)
+    session.answer_page(origin, 'the hand is lowered')
 
 
 @message('say', 'page', Right.TEACH, text=fields.text)
@@ -65,7 +87,12 @@ def say(page: PageSession, origin: Origin, text: str) -> None:
 @message('take_back', '~/undo')
 def take_back(page: PageSession, origin: Origin) -> None:
     """Undo the last gesture of the person at this page, where it stands alone; time stays."""
-    queue, author = page.world.simulation.requests, page.person
+    # The last one may wait.
+    page.world.current_snapshot()
+    simulation, author = page.world.simulation, page.author
+    last = simulation.past.tree.last_gesture_of(author)
+    page.check_taken_back(() if last is None else (last.gesture,))
+    queue = simulation.requests
     queue.submit(TakeBack(), topic=origin.topic, asker=origin.asker, author=author)
 
 
@@ -88,11 +115,13 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
     """Delete the bodies and joints that a person has added, as far as the history reaches."""
 
     def deletion() -> DeleteBodies:
-        bodies, joints = page.world.simulation.past.added_by(person)
+        past = page.world.simulation.past
+        added = [past.added_by(author_of(person, role)) for role in (Role.DRAW, Role.TEACH)]
+        bodies, joints = (tuple(itertools.chain(*each)) for each in zip(*added, strict=True))
         if not bodies and not joints:
             raise NothingThere(f'there is nothing of {person}', field='person')
         return DeleteBodies(names=bodies, joints=joints)
 
     # Requests that wait may add some.
     queue = page.world.simulation.requests
-    queue.submit(Unread('', deletion), topic=origin.topic, asker=origin.asker, author=page.person)
+    queue.submit(Unread('', deletion), topic=origin.topic, asker=origin.asker, author=page.author)

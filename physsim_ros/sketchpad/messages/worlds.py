@@ -5,8 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
@@ -15,11 +14,11 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
-from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
+from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
 
@@ -67,8 +66,8 @@ def _world_name(value: object, name: str) -> str:
 def service(page: PageSession, origin: Origin, name: str, world: str = '') -> None:
     """Perform the action of a service, on the world file of a name where one is given."""
     origin = origin._replace(topic=f'~/{name}')
-    if name in ('clear', 'load_world'):
-        page.check_locked((DeleteAll(),))
+    if name in ('clear', 'load_world', 'reset', 'undo', 'redo'):
+        page.check_moment()
     action, wait = page.world.service(name)
     if world:
         if name not in ('load_world', 'save_world'):
@@ -92,6 +91,7 @@ def seek(page: PageSession, origin: Origin, time: int) -> None:
 @message('course', '~/timeline', course=Whole(0, 2**31))
 def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
     """Return to a course of events that was left, by its number."""
+    page.check_moment()
     action = partial(page.world.simulation.return_to_course, course)
     page.perform(origin, action, Wait.BEHIND_REQUESTS)
 
@@ -101,9 +101,9 @@ def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
 
 @message('open', '~/load_world', name=_world_name)
 def open_world(page: PageSession, origin: Origin, name: str) -> None:
-    """Load a world."""
-    page.check_locked((DeleteAll(),))
-    page.perform(origin, partial(page.world.perform_on, 'load_world', name), Wait.FOR_SEEK)
+    """Begin with a world at time 0, which undo reverts."""
+    page.check_moment()
+    page.perform(origin, partial(page.world.open_world, name), Wait.FOR_SEEK)
 
 
 @message('save', '~/save_world', name=_world_name, replace=Optional(flag))
@@ -115,7 +115,7 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     """
 
     def save() -> str:
-        with _reaching(name):
+        with reaching(name):
             page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
             page.shared.own_worlds.keep(name)
         return page.world.perform_on('save_world', name)
@@ -166,25 +166,12 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
     """Change the files of own worlds, and send all pages the list."""
 
     def manage() -> str:
-        with _reaching(name):
+        with reaching(name):
             done = action()
         page.shared.list_worlds(None)
         return done
 
     page.perform(origin, manage)
-
-
-@contextmanager
-def _reaching(name: str) -> Iterator[None]:
-    """
-    Refuse the files of a world that cannot be reached.
-
-    :raises BadWorldFile: the system has refused it, as a name that is too long or a full disk
-    """
-    try:
-        yield
-    except OSError as error:
-        raise BadWorldFile(f'{name}: {error.strerror or error}', field='name') from error
 
 
 @message('share', '~/save_world', Right.DRAW)

@@ -21,6 +21,7 @@ import {Lessons} from './ui/lessons.js';
 import {Links} from './ui/links.js';
 import {Narrator, Sound} from './ui/narrator.js';
 import {Notes, Refusals} from './ui/notes.js';
+import {Menu} from './input/menu.js';
 import {Numbers} from './measures/numbers.js';
 import {Panel} from './panels/panel.js';
 import {PlotWindow} from './measures/plot_window.js';
@@ -84,6 +85,7 @@ export class App {
     this.hints = new Hints(this);
     this.toolbar = new Toolbar(this);
     this.pointers = new Pointers(this);
+    this.menu = new Menu(this);
     this.keyboard = new Keyboard(this);
     this.topBar = new TopBar(this);
     this.classroom = new Classroom(this);
@@ -114,13 +116,26 @@ export class App {
       if (Object.keys(this.material).length && !this.viewOnly) this.connection.send('draw_with', this.material);
       this.askForParts();
     });
-    connection.on('open', () => {
+    let away = false; // without a socket
+    const isBack = () => {
+      away = false;
       if (!gone.hidden) this.notes.showMessage(t('Connected again'));
       gone.hidden = true;
+    };
+    connection.on('open', isBack);
+    connection.on('heard', isBack);
+    connection.on('silent', () => {
+      gone.hidden = false;
+      gone.textContent = t('The server does not answer. What you draw is sent when it does.');
+    });
+    connection.on('again', ({sent, lost}) => {
+      if (lost) this.notes.showMessage(t('Connected again. Of what you did meanwhile, {count} may be lost.', {count: lost}), {ok: false});
+      else if (sent) this.notes.showMessage(t('Connected again. What you did meanwhile is sent now.'));
     });
     connection.on('closed', (status) => {
-      // At the first failure only: a stroke that begins later is drawn to its end.
-      if (gone.hidden) this.tool.cancel?.();
+      // The server forgets the gestures that it knows of; a stroke is drawn to its end.
+      if (!away && this.tool.atServer) this.tool.cancel?.();
+      away = true;
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
         t('Wrong token: open the address that the node printed.') :
@@ -135,7 +150,7 @@ export class App {
     this.connection.send('show', {
       // The drag of the air follows from velocities.
       velocities: arrows.velocities || arrows.forces || told || records.records || this.tool.measures === true,
-      contacts: arrows.forces || told || this.sound.on || records.recordsForces,
+      contacts: arrows.forces || told || this.sound.on || records.records,
       forces: true,
       laser: this.world.body(name)?.robot ? name : '',
     });

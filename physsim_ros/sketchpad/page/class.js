@@ -5,12 +5,14 @@
  */
 
 import {Camera} from './view/camera.js';
-import {sayForm} from './ui/classroom.js';
+import {personWord, sayForm} from './ui/classroom.js';
 import {Connection} from './connection.js';
-import {choice, createElement, elementOf, inRow, languageField, textButton} from './dom.js';
+import {Dialog} from './ui/dialog.js';
+import {choice, createElement, elementOf, iconButton, inRow, languageField, showText, soon, textButton} from './dom.js';
 import {SceneView} from './view/scene_view.js';
+import {showResults} from './ui/results.js';
 import {watchTheme} from './view/theme.js';
-import {t} from './strings.js';
+import {language, t} from './strings.js';
 import {WorldState} from './world_state.js';
 
 /** @import {Classmate} from './types.js' */
@@ -23,14 +25,20 @@ const GAP = 4; // px around the world in its picture
 class Card {
   /** @param {number} number of the seat */
   constructor(number) {
-    this.framed = -1; // epoch of the scene that was framed
-    this.width = 0; // of the picture then [px]
+    this.framed = ''; // epoch of the scene that was framed, and size of the picture then [px]
+    this.seated = ''; // name of the pupil who has the seat
+    this.frozen = false;
+    this.running = false;
+    this.reached = false; // whether the world answers
+    this.raisedAt = 0; // [ms] when the hand was raised; 0 where it is down
     this.name = createElement('a', {target: '_blank', rel: 'noopener'});
     this.lesson = createElement('small');
     this.answer = createElement('p');
-    this.hand = createElement('strong', {textContent: t('hand raised'), hidden: true});
-    const canvas = createElement('canvas', {role: 'img'});
-    this.element = createElement('li', {}, inRow(this.name, this.hand), canvas, this.lesson, this.answer);
+    this.state = createElement('small', {className: 'state'});
+    this.hand = iconButton(t('Lower the hand'), 'raise', () => this.lowerHand());
+    this.hand.hidden = true;
+    const canvas = createElement('canvas', {role: 'img'}), more = iconButton(t('More'), 'more', () => this.showMore());
+    this.element = createElement('li', {}, inRow(this.name, this.state, this.hand, more), canvas, inRow(this.lesson, this.answer));
     const connection = this.connection = new Connection(`/ws/${number}`), camera = new Camera();
     this.world = new WorldState(connection);
     this.view = new SceneView(canvas, this.world, camera);
@@ -38,44 +46,113 @@ class Card {
     /** @type {Classmate | undefined} */
     this.pupil = undefined;
     connection.on('frame', () => {
-      const {scene} = this.world;
-      if (scene.epoch === this.framed && camera.width === this.width) return;
+      const {scene, paused} = this.world;
+      if (this.running === paused) {
+        this.running = !paused;
+        this.show();
+      }
+      if (!this.framed.startsWith(`${scene.epoch} `)) this.show();
+    });
+    this.view.overlays.push((view) => {
       // A world without bounds keeps its frame until it changes.
-      [this.framed, this.width] = [scene.epoch, camera.width];
+      const shown = `${this.world.scene.epoch} ${camera.width} ${camera.height}`;
+      if (shown === this.framed || !this.world.count) return;
+      this.framed = shown;
       camera.fit(this.world.extent(), {left: GAP, top: GAP, right: GAP, bottom: GAP});
-      this.show();
+      view.dirty = true;
     });
-    connection.on('class', ({people}) => {
+    connection.on('class', ({people, frozen}) => {
       this.pupil = people.find((/** @type {Classmate} */ {role}) => role === 'draw');
+      this.frozen = frozen;
+      this.raisedAt = this.pupil?.raised ? this.raisedAt || performance.now() : 0;
       this.show();
     });
+    for (const [type, reached] of /** @type {const} */ ([['open', true], ['heard', true], ['silent', false], ['closed', false]])) {
+      connection.on(type, () => {
+        this.reached = reached;
+        this.show();
+      });
+    }
     connection.connect();
+  }
+
+  /** @returns {string} name of who is there, or has the seat; '' where it is free */
+  get person() {
+    return this.seated || (this.pupil ? personWord(this.pupil.name) : '');
   }
 
   /** @param {{name: string, address: string}} seat */
   sit({name, address}) {
-    this.name.href = address;
-    this.name.textContent = name || t('free');
-    this.element.classList.toggle('free', !name);
-    this.canvas.ariaLabel = t('World of {name}', {name: name || t('nobody')});
+    this.seated = name;
+    this.name.href = `${address}#class=${encodeURIComponent(this.person)}`;
+    this.show();
+  }
+
+  lowerHand() {
+    if (this.pupil) this.connection.send('lower_hand', {page: this.pupil.page});
   }
 
   show() {
-    const {pupil, world: {scene: {lesson}}} = this, answered = pupil?.answered;
-    this.lesson.textContent = lesson ? `${lesson.number}. ${t(lesson.title)}` : t('no lesson');
-    this.hand.hidden = !pupil?.raised;
+    const {pupil, person, element, world: {scene: {lesson}}} = this, answered = pupil?.answered;
+    showText(this.name, person || t('free'));
+    this.canvas.ariaLabel = worldOf(person);
+    element.classList.toggle('free', !person);
+    element.classList.toggle('away', !pupil);
+    element.classList.toggle('raised', this.raisedAt > 0);
+    this.hand.hidden = !this.raisedAt;
+    const here = this.reached ? person && !pupil && t('not here') : t('does not answer');
+    showText(this.state, [here, this.running ? '▶' : '❚❚', ...this.frozen ? [t('frozen')] : []].filter(Boolean).join(' · '));
+    this.state.title = this.running ? t('playing') : t('paused');
+    showText(this.lesson, lesson ? `${lesson.number}. ${t(lesson.title)}` : t('no lesson'));
     const known = answered && answered.lesson === lesson?.title;
     const unit = lesson?.unit === '1' ? '' : lesson?.unit, verdict = answered?.right ? t('✓ right') : t('✗ not yet');
-    this.answer.textContent = known ? `${answered.answer} ${unit} ${verdict}` : '';
+    showText(this.answer, known ? `${answered.answer} ${unit} ${verdict}` : '');
     this.answer.className = known && answered.right ? 'right' : '';
-    this.element.classList.toggle('raised', Boolean(pupil?.raised));
+    arrangeSoon();
+  }
+
+  /** Show what a teacher may do for this pupil alone. */
+  showMore() {
+    const {connection, frozen, person} = this;
+    const done = (/** @type {string} */ type, /** @type {Record<string, unknown>} */ fields) => {
+      connection.send(type, fields);
+      dialog.close();
+    };
+    dialog.show(worldOf(person), ...person ? [sayForm((text) => done('say', {text}), t('Message to {name}', {name: person}))] : [], inRow(
+      textButton(frozen ? t('Let them draw again') : t('Freeze'), () => done('freeze', {frozen: !frozen})),
+      textButton(t('Pause'), () => done('service', {name: 'pause'})),
+      ...this.seated ? [textButton(t('Free this seat'), async () => {
+        await fetch('/free', {method: 'POST', body: JSON.stringify({seat: cards.indexOf(this)})});
+        dialog.close();
+      })] : [],
+      ...this.raisedAt ? [textButton(t('Lower the hand'), () => {
+        this.lowerHand();
+        dialog.close();
+      })] : []));
   }
 }
 
 const form = elementOf('join', HTMLFormElement), name = elementOf('name', HTMLInputElement);
-const teacher = elementOf('teacher');
+const teacher = elementOf('teacher'), gone = elementOf('gone'), dialog = new Dialog();
 /** @type {Card[]} */
 const cards = [];
+
+/** Put hands first, in the order in which they were raised, then people by their names, then free seats; and count. */
+function arrange() {
+  const hands = cards.filter(({raisedAt}) => raisedAt), here = cards.filter(({pupil}) => pupil);
+  const order = [...cards].sort((one, other) => (one.raisedAt || Infinity) - (other.raisedAt || Infinity) ||
+    Number(!one.person) - Number(!other.person) || one.person.localeCompare(other.person, language));
+  order.forEach(({element}, place) => { element.style.order = String(place); });
+  showText(elementOf('present'), [t('{count} of {all} here', {count: here.length, all: cards.length}),
+    ...hands.length ? [t('hands raised: {count}', {count: hands.length})] : []].join(' · '));
+}
+
+/** @param {string} person '' where it is free */
+function worldOf(person) {
+  return person ? t('World of {name}', {name: person}) : t('Free world');
+}
+
+const arrangeSoon = soon(arrange, 100);
 
 form.addEventListener('submit', async (event) => {
   event.preventDefault();
@@ -90,42 +167,63 @@ form.addEventListener('submit', async (event) => {
 });
 
 async function showSeats() {
-  const {teacher: teaches, seats, pupils} = await fetch('/seats').then((response) => response.json(), () => ({}));
-  if (!teaches) return;
-  form.hidden = true;
-  if (teacher.hidden) begin(seats.length);
-  teacher.hidden = false;
-  // No link: it would make a pupil of the teacher's browser.
-  elementOf('pupils').textContent = pupils;
-  seats.forEach((/** @type {{name: string, address: string}} */ seat, /** @type {number} */ i) => cards[i].sit(seat));
-  setTimeout(showSeats, PERIOD);
+  /** @type {?{teacher?: boolean, seats?: {name: string, address: string}[], pupils?: string}} null where there is no answer */
+  const told = await fetch('/seats', {signal: AbortSignal.timeout(PERIOD)}).then((response) => response.ok ? response.json() : {}, () => null);
+  gone.hidden = told !== null || teacher.hidden;
+  gone.textContent = t('The class is not reachable. This page comes back with it.');
+  if (told?.teacher) showClass(told.seats ?? [], told.pupils ?? '');
+  // A pupil's page has nothing to look at.
+  if (told?.teacher || !teacher.hidden) setTimeout(showSeats, PERIOD);
+}
+
+/**
+ * @param {{name: string, address: string}[]} seats
+ * @param {string} pupils address of pupils
+ */
+function showClass(seats, pupils) {
+  // The class has begun anew, of another size.
+  if (cards.length && cards.length !== seats.length) location.reload();
+  if (teacher.hidden) begin(seats.length, pupils);
+  seats.forEach((seat, i) => cards[i]?.sit(seat));
 }
 
 /**
  * Begin to watch the worlds of a class.
  * @param {number} count of seats
+ * @param {string} pupils address of pupils
  */
-function begin(count) {
+function begin(count, pupils) {
+  form.hidden = true;
+  teacher.hidden = false;
+  elementOf('title').textContent = t('Your class');
   document.querySelector('main')?.classList.add('wide');
-  teacher.querySelector('img')?.setAttribute('src', '/qr.svg');
   for (let number = 0; number < count; number++) cards.push(new Card(number));
   elementOf('seats').append(...cards.map(({element}) => element));
   const toAll = (/** @type {string} */ type, /** @type {Record<string, unknown>} */ fields) => {
     for (const {connection} of cards) connection.send(type, fields);
   };
+  /** @type {{name: string, number: number, title: string}[]} */
+  let listed = [];
   const lessons = choice(t('Lesson'), [], '', () => {});
-  cards[0].connection.on('worlds', ({lessons: list}) => lessons.replaceChildren(...list.map(
-    (/** @type {{name: string, number: number, title: string}} */ each) =>
-      createElement('option', {value: each.name, textContent: `${each.number}. ${t(each.title)}`}))));
+  cards[0].connection.on('worlds', ({lessons: list}) => {
+    const chosen = lessons.value;
+    listed = list;
+    lessons.replaceChildren(...listed.map((each) => createElement('option', {value: each.name, textContent: `${each.number}. ${t(each.title)}`})));
+    if (chosen) lessons.value = chosen;
+  });
   // A lesson may have been written meanwhile.
   lessons.onpointerdown = () => cards[0].connection.send('list');
-  elementOf('all').append(inRow(lessons,
+  // No link: it would make a pupil of the teacher's browser.
+  const showCode = () => dialog.show(t('Pupils come here'), createElement('img', {src: '/qr.svg', className: 'code', alt: t('QR code of the address of pupils')}),
+    createElement('p', {id: 'pupils'}, pupils));
+  elementOf('all').append(textButton(t('Pupils come here'), showCode), lessons,
     textButton(t('Open the lesson for all'), () => cards.forEach(({connection}) => connection.openLesson(lessons.value))),
     textButton(t('Pause all'), () => toAll('service', {name: 'pause'})),
     textButton(t('Freeze all'), () => toAll('freeze', {frozen: true})),
     textButton(t('Let them draw again'), () => toAll('freeze', {frozen: false})),
-    textButton(t('Clear all worlds'), () => confirm(t('Delete all bodies of all worlds?')) && toAll('service', {name: 'clear'}), 'danger')),
-  sayForm((text) => toAll('say', {text})));
+    textButton(t('Clear all worlds'), () => confirm(t('Delete all bodies of all worlds?')) && toAll('service', {name: 'clear'}), 'danger'),
+    textButton(t('Results'), () => showResults(dialog, listed, () => toAll('forget_results', {}))),
+    sayForm((text) => toAll('say', {text})));
 }
 
 document.querySelector('main')?.append(inRow(languageField()));

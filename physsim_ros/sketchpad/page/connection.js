@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The socket to the server: sends requests, hands on messages by type, connects again (docs/page_protocol.md). */
+/**
+ * The socket to the server: sends requests, hands on messages by type, connects again (docs/page_protocol.md).
+ *
+ * Law: a request that the server has not received is sent again when the page is back, or told to be lost. A socket
+ * that is silent is asked whether it lives: a network that went, or a machine that slept, closes none.
+ */
 
 import {decodeFrame} from './frame_codec.js';
 
@@ -10,6 +15,15 @@ const REPLACED = 4000; // code of closing: another tab came with that key
 /** Topics of requests after which another world is there: what belonged to the one before ends. */
 const ENDS = ['~/load_world', '~/clear'];
 const SHORTEST_PAUSE = 250, LONGEST_PAUSE = 3000; // ms between attempts to connect
+const TICK = 500; // ms between two looks whether something has come; a browser has fewer of a hidden page
+/** Ticks of silence after which the server is asked, the page tells it, and it connects anew. */
+const ASKS = 1, TELLS = 7, LEAVES = 15;
+const REACHED = 3000; // ms within which a server that is there answers a request
+/** Messages that mean the same in a while: they are sent again where they were not received. */
+const AGAIN = ['stroke', 'spawn', 'change', 'change_joint', 'delete', 'unjoin', 'copy', 'copy_machine', 'move_bodies', 'place', 'answered', 'say'];
+const LASTING = 60000; // ms for which they do
+/** Messages that have no answer, or that nobody misses. */
+const PASSING = ['show', 'here', 'move', 'watch', 'drive', 'let_go', 'drop', 'list', 'ping', 'person', 'draw_with', 'raise_hand', 'grab', 'follow'];
 
 export class Connection {
   /** @param {string} path of the socket on the server */
@@ -20,17 +34,22 @@ export class Connection {
     /** @type {Map<string, (answer: Answer) => void>} */
     this.waiting = new Map();
     this.number = 0;
+    /** @type {Map<string, {message: {id: string, type: string}, at: number}>} sent and not answered, by id; at: when [ms] */
+    this.unanswered = new Map();
     this.pause = SHORTEST_PAUSE;
+    this.silence = 0; // ticks since the last message
+    setInterval(() => this.#watch(), TICK);
     /** @type {?WebSocket} */
     this.socket = null;
     /** That has come before its first frame. @type {?{epoch: number}} */
     this.scene = null;
     // Only of the world of this page.
     if (path === '/ws') this.on('welcome', ({person}) => sessionStorage.setItem(PERSON, person));
+    this.on('welcome', ({received}) => this.#sendAgain(received));
   }
 
   /**
-   * @param {string} type of messages: one of the protocol, or frame, ghost_frame, open, closed, sent, unsent, world; any: each of these
+   * @param {string} type of messages: one of the protocol, or frame, ghost_frame, open, silent, heard, closed, sent, unsent, again, world; any: each of these
    * @param {(message: any) => void} listener
    */
   on(type, listener) {
@@ -40,6 +59,7 @@ export class Connection {
   connect() {
     const query = new URLSearchParams(location.search);
     query.set('person', sessionStorage.getItem(PERSON) ?? '');
+    this.silence = 0;
     this.socket = new WebSocket(`${location.protocol.replace('http', 'ws')}//${location.host}${this.path}?${query}`);
     this.socket.binaryType = 'arraybuffer';
     this.socket.onopen = () => this.#emit('open', null);
@@ -61,9 +81,39 @@ export class Connection {
       return '';
     }
     const message = {id: String(++this.number), type, ...fields};
-    this.socket.send(JSON.stringify(message));
-    this.#emit('sent', message);
+    this.#sendOut(message);
     return message.id;
+  }
+
+  /** @param {{id: string, type: string}} message */
+  #sendOut(message) {
+    this.socket?.send(JSON.stringify(message));
+    if (!PASSING.includes(message.type)) this.unanswered.set(message.id, {message, at: Date.now()});
+    this.#emit('sent', message);
+  }
+
+  /**
+   * Send again what the server has not received over the sockets before, and tell how much.
+   * @param {string} received the last message that it has; '' where it does not know this page
+   */
+  #sendAgain(received) {
+    const missed = [...this.unanswered.values()].filter(({message: {id}}) => !received || Number(id) > Number(received));
+    this.unanswered.clear();
+    const again = missed.filter(({message: {type}, at}) => received && AGAIN.includes(type) && Date.now() - at < LASTING);
+    for (const {message} of again) this.#sendOut({...message, id: String(++this.number)});
+    if (missed.length) this.#emit('again', {sent: again.length, lost: missed.length - again.length});
+  }
+
+  /** Ask a silent server whether it is there, tell that it does not answer, and connect anew. */
+  #watch() {
+    if (!this.socket) return;
+    this.silence++;
+    if (this.silence === ASKS && this.socket.readyState === WebSocket.OPEN) this.send('ping');
+    if (this.silence === TELLS) this.#emit('silent', null);
+    if (this.silence < LEAVES) return;
+    this.socket.onclose = this.socket.onmessage = this.socket.onopen = null;
+    this.socket.close();
+    this.#retry();
   }
 
   /**
@@ -82,9 +132,7 @@ export class Connection {
    * @returns {Promise<boolean>} whether it is open
    */
   async openWorld(name) {
-    if (!(await this.ask('open', {name})).ok) return false;
-    await this.ask('service', {name: 'reset'});
-    return true;
+    return (await this.ask('open', {name})).ok;
   }
 
   /**
@@ -99,6 +147,8 @@ export class Connection {
 
   /** @param {string | ArrayBuffer} data */
   #receive(data) {
+    if (this.silence >= TELLS) this.#emit('heard', null);
+    this.silence = 0;
     if (typeof data !== 'string') {
       // Only a frame tells that the server keeps a socket open: until then the pauses grow.
       this.pause = SHORTEST_PAUSE;
@@ -116,7 +166,8 @@ export class Connection {
       this.scene = message;
       return;
     }
-    if (message.type === 'answer' && this.waiting.has(message.request)) {
+    if (message.type === 'answer') {
+      this.unanswered.delete(message.request);
       this.waiting.get(message.request)?.(message);
       this.waiting.delete(message.request);
     }
@@ -141,7 +192,7 @@ export class Connection {
   async #retry(wasGone = false) {
     this.socket = this.scene = null;
     this.waiting.clear();
-    const status = await fetch('/session', {cache: 'no-store'}).then(
+    const status = await fetch('/session', {cache: 'no-store', signal: AbortSignal.timeout(REACHED)}).then(
       (response) => response.status, () => 0);
     if (status && wasGone) {
       this.connect();

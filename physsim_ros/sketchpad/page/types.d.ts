@@ -127,6 +127,8 @@ export interface Lesson {
   figure: number;
   within: number;
   answer: string;
+  /** What is shown first: x and y, least and greatest [m]. */
+  view?: Bounds | null;
 }
 
 /** The state of the world after a step, a column for each quantity; rows as in the scene. */
@@ -162,6 +164,8 @@ export interface Sample {
   /** Mean acceleration since the sample before [m/s²]. */
   ax?: number;
   ay?: number;
+  /** Mean angular acceleration since then [rad/s²]. */
+  spinning?: number;
   /** Forces on it by their kind [N], where they were shown or plotted. */
   forces?: Record<string, number>;
 }
@@ -214,11 +218,28 @@ export interface Answer {
 export interface Classmate {
   page: number;
   name: string;
+  /** Number of the colour. */
+  color: number;
   role: string;
   /** The last answer to a lesson. */
-  answered: {lesson: string, answer: string, right: boolean} | null;
+  answered: Result | null;
   /** Whether a hand is raised. */
   raised: boolean;
+}
+
+/** An answer to a lesson. */
+export interface Result {
+  person: string;
+  /** Title of the lesson. */
+  lesson: string;
+  answer: string;
+  right: boolean;
+  /** [s since 1970] */
+  at: number;
+  /** Up to the first right one. */
+  tries: number;
+  /** Number of the world in the class. */
+  world?: number;
 }
 
 /** What a stroke is read as. */
@@ -278,8 +299,13 @@ export interface Tool {
   open?: boolean;
   /** Finish an open gesture; false where there is none. */
   finish?(): boolean;
+  /** Whether the server knows of its unfinished gesture. */
+  atServer?: boolean;
   /** Whether it tells how fast a body is. */
   measures?: boolean;
   /** Colour of the body that it is pointed at. */
   aims?: 'accent' | 'warn';
 }
+
+/** What a pointer works: a tool, or a handle. */
+export type Worked = Pick<Tool, 'down' | 'move' | 'up' | 'cancel' | 'clicks'>;

@@ -105,7 +105,7 @@ export class Words {
     return named.replace(GESTURE, (_, before, verb, thing, more = '') => {
       const others = more && ` ${t('and {count} more', {count: more.replace(/\D/g, '')})}`;
       return before + filled(GESTURES.get(verb), (THINGS.get(thing) ?? thing) + others);
-    }).replace(/(^|: )reset$/, `$1${t('Reset')}`);
+    }).replace(/(^|: )reset$/, `$1${t('Reset')}`).replace(/(^|: )open world$/, `$1${t('Open the world')}`);
   }
 }
 

@@ -23,7 +23,6 @@ from physsim_ros.files import (
     shipped_pictures,
     shipped_worlds,
     title_of,
-    user_lessons,
     worlds_in,
 )
 from physsim_ros.model.error_boundary import ErrorBoundary
@@ -58,7 +57,7 @@ def gallery_content(own_worlds: OwnWorlds, boundary: ErrorBoundary) -> dict[str,
     return {
         'type': 'worlds',
         'worlds': list(worlds.values()),
-        'lessons': _lessons(own_worlds.directory, boundary),
+        'lessons': _lessons(own_worlds.lessons, boundary),
     }
 
 
@@ -82,16 +81,16 @@ def _own(path: Path, own_worlds: OwnWorlds) -> dict[str, Any]:
     return {'name': name, 'title': name, 'picture': picture, 'shipped': False}
 
 
-def _lessons(world_dir: Path, boundary: ErrorBoundary) -> list[dict[str, Any]]:
+def _lessons(lesson_dir: Path, boundary: ErrorBoundary) -> list[dict[str, Any]]:
     """
     Return name, number, title and question of each lesson, by their numbers.
 
     The title of a file that is no lesson is its name; who opens it is told why.
 
-    :param world_dir: directory of the user's worlds
+    :param lesson_dir: directory of the user's lessons
     :param boundary: of the files
     """
-    own = islice(worlds_in(user_lessons(world_dir)).items(), MOST_LESSONS)
+    own = islice(worlds_in(lesson_dir).items(), MOST_LESSONS)
     # A lesson of the user comes before the shipped one of its name.
     files = worlds_in(shipped_lessons()) | dict(own)
     lessons = [

@@ -24,6 +24,8 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 # Pages at once.
 MOST_PAGES = 64
+# People whose last messages are known, at least all of those who may come back.
+MOST_PEOPLE = 4 * MOST_PAGES
 # Time in which moves of cursors are collected [s].
 CURSOR_PERIOD = 0.1
 # Answers of a frame, from its first on, that go to pages which did not ask; the rest is counted.
@@ -118,10 +120,12 @@ class OpenPages:
     :param loop: of the server's thread
 
     :ivar wants_contacts: whether a page shows contacts; read by the world's thread
+    :ivar received: identifiers of the last messages of people, by their numbers
     """
 
     def __init__(self, loop: AbstractEventLoop) -> None:
         self.wants_contacts = False
+        self.received: dict[int, str] = {}
         self._loop = loop
         self._pages: dict[int, OpenPage] = {}
         self._last_number = 0
@@ -158,6 +162,18 @@ class OpenPages:
         """Remove a page that is closed."""
         self._pages.pop(page.number, None)
         self.note_parts()
+
+    def note_received(self, page: OpenPage, request: str) -> None:
+        """
+        Note the last message of a page: the person sends those after it again from a next page.
+
+        :param request: identifier of the message
+        """
+        # The last one of the mapping is the one that came last.
+        self.received.pop(page.person, None)
+        self.received[page.person] = request
+        if len(self.received) > MOST_PEOPLE:
+            del self.received[next(iter(self.received))]
 
     def note_parts(self) -> None:
         """Note which parts of a frame the pages get."""

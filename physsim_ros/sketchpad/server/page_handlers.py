@@ -5,11 +5,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Sequence
 import io
 from pathlib import Path
 import re
 
+from physsim_ros.sketchpad.results import read_results
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.guarded import Guarded, TYPES
 from tornado.web import HTTPError, StaticFileHandler
@@ -78,6 +79,25 @@ class CookieCheck(Guarded):
     async def get(self) -> None:
         """Answer with the rights of the page."""
         self.finish({'ok': True, 'view_only': self.role is Role.VIEW})
+
+
+class ResultList(Guarded):
+    """The results of lessons, for a teacher."""
+
+    def initialize(self, files: Sequence[Path]) -> None:
+        """Set the files of the worlds."""
+        self._files = files
+
+    async def get(self) -> None:
+        """Answer with the results, each with the number of its world, from 1."""
+        if self.role is not Role.TEACH:
+            self.refuse(403, 'this is for teachers')
+        results = [
+            result | {'world': number}
+            for number, file in enumerate(self._files, 1)
+            for result in read_results(file)
+        ]
+        self.finish({'results': results})
 
 
 class QrCode(Guarded):

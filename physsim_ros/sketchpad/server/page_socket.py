@@ -64,6 +64,7 @@ class PageSocket(GuardedSocket):
             role=self.role,
             person=person,
             key=self.access.person_key(person),
+            received=self._feed.pages.received.get(person, ''),
             watches=watches,
         )
         self._inbox.put(self._page.number, opened)
@@ -75,6 +76,7 @@ class PageSocket(GuardedSocket):
         # A binary message is no JSON.
         text = message if isinstance(message, str) else ''
         request, checked = read_message(text, self.role, self.boundary)
+        self._feed.pages.note_received(self._page, request)
         if isinstance(checked, Refusal):
             self._refuse(request, checked)
         elif not checked.kind.for_world:
@@ -121,6 +123,12 @@ def _show(
         | (Show.FORCES if forces else Show.POSES)
     )
     feed.show_parts(page, parts, laser)
+
+
+@server_message('ping', Right.LOOK)
+def _ping(feed: FrameFeed, page: OpenPage) -> None:  # noqa: ARG001 - as the others
+    """Answer `pong`, by which the page knows that its socket lives."""
+    page.send(compact({'type': 'pong'}))
 
 
 @server_message('here', Right.DRAW, point=fields.point)

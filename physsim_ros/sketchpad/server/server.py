@@ -12,6 +12,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 import threading
 from typing import Any
 
@@ -25,7 +26,7 @@ from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.frame_feed import FrameFeed
 from physsim_ros.sketchpad.server.gallery import gallery_content
 from physsim_ros.sketchpad.server.guarded import LEFT
-from physsim_ros.sketchpad.server.page_handlers import Files
+from physsim_ros.sketchpad.server.page_handlers import Files, ResultList
 from physsim_ros.sketchpad.server.page_socket import PageSocket
 from physsim_ros.sketchpad.server.scene_codec import compact
 from physsim_ros.sketchpad.server.website import BoundedServer, Site
@@ -47,6 +48,7 @@ class Server:
     :param port: to listen on; where it is taken, one of the next; 0 is any
     :param own_worlds: of the user
     :param autosave: of the world
+    :param results: file of the results of lessons in the world
     :param inbox: receives the messages of the pages
     :param boundary: of the node
     :raises PhysSimError: it cannot listen there
@@ -59,6 +61,7 @@ class Server:
         port: int,
         own_worlds: OwnWorlds,
         autosave: Autosave,
+        results: Path,
         inbox: Inbox,
         boundary: ErrorBoundary,
     ) -> None:
@@ -74,6 +77,7 @@ class Server:
                 ('/gallery/(.*)', Files, {'path': str(shipped_pictures())}),
                 ('/world', UploadWorld, {'inbox': inbox}),
                 (r'/world/([^/]+)\.yaml', Download, {'own_worlds': own_worlds}),
+                ('/results', ResultList, {'files': [results]}),
                 ('/unsaved', Unsaved, {'autosave': autosave}),
                 (
                     r'/picture/([^/]+)',
@@ -136,7 +140,7 @@ class Server:
         self._thread.join(_CLOSING)
 
     def _post(self, call: Callable[[], None]) -> None:
-        """Have the server's thread make a call, in the order in which they come."""
+        """Queue a call for the server's thread."""
         if self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._carry_out, call)
 

@@ -52,7 +52,8 @@ class _OfWorlds(Guarded):
 
         :raises Refusal: there is no such world
         """
-        return find_world(name, world_dir=self.own_worlds.directory, confined=True)
+        own = self.own_worlds
+        return find_world(name, world_dir=own.directory, lesson_dir=own.lessons, confined=True)
 
 
 class Download(_OfWorlds):

@@ -8,7 +8,8 @@ from itertools import pairwise
 import math
 
 import numpy as np
-from physsim_ros.model.requests import Command, Configure, Delete
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import ChangeBody, Command, Configure, Delete
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Compound, Disc, Polygon
 from physsim_ros.model.snapshot import Contacts
@@ -389,6 +390,46 @@ def test_what_was_given_before_a_request_within_a_frame_is_told(request_):
     given = dict(zip(map(tuple, contacts.pairs.tolist()), contacts.impulses[:, 1], strict=True))
     assert given[1, 2] == pytest.approx(2 * G * DT, abs=1e-6)
     assert given[0, 1] == pytest.approx(2 * 2 * G * DT, abs=1e-6)
+
+
+CHANGES = {
+    **{
+        name: ChangeBody(name='a/1', properties=Properties(**{name: value}))
+        for name, value in (
+            *(('friction', 0.1), ('elasticity', 0.1), ('mass', 3.0), ('density', 3.0)),
+            *(('kinematic', True), ('anchored', True), ('group', 3), ('label', 'x')),
+        )
+    },
+    'shape': ChangeBody(name='a/1', shape=Box(width=0.9, height=1.0)),
+    'pose': ChangeBody(name='a/1', pose=(0.01, 1.5, 0.0)),
+    **{
+        f'settings: {name}': Configure(changes={name: value})
+        for name, value in (
+            *(('friction', 0.2), ('elasticity', 0.2), ('iterations', 20), ('damping', 0.1)),
+            *(('gravity', (0.0, -4.0)), ('bounds', (-9.0, 0.0, 20.0, 40.0))),
+        )
+    },
+}
+
+
+@pytest.mark.parametrize('request_', CHANGES.values(), ids=CHANGES.keys())
+def test_a_change_in_place_is_no_new_touch(request_):
+    world = at_rest()
+    gate = Box(width=0.2, height=8.0)
+    spawn(world, 'gate/0', gate, (0.0, 4.0, 0.0), anchored=True, sensor=True)
+    frame(world, frames=2)
+    world.apply(request_)
+
+    assert len(frame(world, frames=1).begun) == 0
+    assert len(frame(world, frames=60).begun) == 0
+
+
+def test_a_body_of_a_name_that_was_deleted_touches_anew():
+    world = at_rest()
+    world.apply(Delete(name='a/2'))
+    spawn(world, 'a/2', BOX, (0.0, 2.5, 0.0), mass=1.0)
+
+    assert [tuple(pair) for pair in frame(world).begun[:, :2].astype(int).tolist()] == [(1, 2)]
 
 
 def test_a_crowd_is_told_of_alike_each_time_and_adds_up():

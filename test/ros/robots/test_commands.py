@@ -18,7 +18,7 @@ from rclpy.context import Context
 from std_msgs.msg import Bool
 
 from .driver import Driver, driver_of
-from ...client import Client, Event
+from ...client import Client, Event, set_parameter
 
 
 def test_a_robot_that_stops_as_no_command_comes_is_told_once_and_one_that_was_stopped_not(
@@ -41,6 +41,22 @@ def test_a_robot_that_stops_as_no_command_comes_is_told_once_and_one_that_was_st
     (event,) = told()
     assert event.code == 'ok'
     assert 'for 0.5 s' in event.message
+
+
+@pytest.mark.parametrize(('timeout', 'speed'), [(-1.0, 0.0), (0.0, 0.2), (2.0, 0.2)])
+def test_a_parameter_sets_the_timeout_of_all_drives(
+    flat: PhysSim, timeout: float, speed: float
+) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    set_parameter(flat, 'drive_timeout', timeout)
+    driver = driver_of(flat)
+    driver.send(0.2)
+    flat.run(1.5)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6)
+    after = flat.digest()
+    flat.rewind(1.0)
+    flat.run(1.0)
+    assert flat.digest() == after
 
 
 @pytest.mark.parametrize('kind', [Twist, TwistStamped])
@@ -127,8 +143,9 @@ def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:
     assert flat.node.simulation.requests.gesture == before
 
 
-def test_publishers_of_both_types_are_told_and_one_is_heard_then_the_other(
-    monkeypatch: pytest.MonkeyPatch,
+@pytest.mark.parametrize('dies', [False, True])
+def test_publishers_of_both_types_are_told_and_one_is_heard_as_long_as_it_speaks(
+    monkeypatch: pytest.MonkeyPatch, dies: bool
 ) -> None:
     # One participant has one type for a topic.
     others = Context(), Context()
@@ -154,8 +171,11 @@ def test_publishers_of_both_types_are_told_and_one_is_heard_then_the_other(
         client.spin_until(lambda: drives(plain, 0.2))
         told = [event for event in client.events if event.field == 'cmd_vel']
         assert [event.code for event in told] == ['bad_property']
-        plain.destroy_publisher(plain.publisher)
+        if not dies:
+            plain.destroy_publisher(plain.publisher)
         client.spin_until(lambda: drives(stamped, -0.1))
+        told = [event for event in client.events if event.field == 'cmd_vel']
+        assert len(told) == 1
 
 
 def test_a_publisher_of_another_type_than_commands_is_told_once(

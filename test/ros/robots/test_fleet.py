@@ -64,7 +64,7 @@ def test_a_rewind_shows_the_messages_of_the_way_there(journey: Journey, client: 
 def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> None:
     sensors = [
         {'kind': 'laser', 'name': 'scan', 'beams': 8, 'rate': 10},
-        {'kind': 'range', 'name': 'sonar', 'radiation': 'sonar', 'rate': 20},
+        {'kind': 'range', 'name': 'sonar', 'radiation': 'sonar', 'rate': 20, 'noise': 0.01},
         {'kind': 'bumper', 'name': 'bumper', 'rate': 30},
         {'kind': 'imu', 'name': 'imu', 'rate': 60, 'gravity': 9.81},
         {'kind': 'gps', 'rate': 5, 'noise': 0.5},
@@ -92,6 +92,7 @@ def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> Non
         assert len(messages[topic]) == pytest.approx(rate, abs=1), topic
     assert messages['scan'][0].header.frame_id == 'tb3_0/scan'
     assert len(messages['eye'][0].data) == 15
+    assert messages['sonar'][0].variance == pytest.approx(0.01**2)
     assert messages['imu'][-1].linear_acceleration.z == 9.81
     # There is no datum.
     assert messages['fix'][-1].status.status == -1

@@ -14,7 +14,6 @@ from rclpy.action import ActionClient
 
 from .caller import (
     Caller,
-    INCORRECT_STATE,
     names_in,
     OK,
     OPERATION_FAILED,
@@ -93,7 +92,7 @@ def test_time_is_stopped_played_and_paused(caller: Caller) -> None:
     caller.physsim.spawn(disc('a/0'))
     assert (change(paused), now()) == (OK, paused)
     assert (change(playing), now()) == (OK, playing)
-    assert caller.code('StepSimulation', steps=1) == INCORRECT_STATE
+    assert caller.code('StepSimulation', steps=1) == OPERATION_FAILED
     caller.physsim.run(0.5)
     assert (change(paused), now()) == (OK, paused)
     assert (change(stopped), now()) == (OK, stopped)
@@ -119,7 +118,7 @@ def test_an_action_goes_on_by_steps_and_tells_each(caller: Caller) -> None:
     assert told == [(1, 2), (2, 1), (3, 0)]
     set_parameter(caller.physsim, 'speed', 1.0)
     result, told = simulate_steps(caller, 3)
-    assert (result.result, told) == (INCORRECT_STATE, [])
+    assert (result.result, told) == (OPERATION_FAILED, [])
 
 
 def test_the_program_ends_after_its_reply(caller: Caller) -> None:

@@ -22,7 +22,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import Disc
-from physsim_ros.model.transform import norms, Point
+from physsim_ros.model.transform import norms
 
 # Distance of the points between which the pen turns at the tip [points].
 _STRIDE = 3
@@ -90,7 +90,7 @@ def _drive_axle(axle: Joint | None, sweep: float, context: Context) -> Outcome:
     request = Join(
         name=scene.motor_between(a, b) or scene.next_joint(),
         kind=JointKind.MOTOR,
-        points=(_pivot(axle, scene),),
+        points=(scene.pivot(axle),),
         a=a,
         b=b,
         properties=JointProperties(rate=sweep),
@@ -106,14 +106,9 @@ def _drive_axle(axle: Joint | None, sweep: float, context: Context) -> Outcome:
 def _nearest_axle(center: Floats, arc: Floats, scene: SceneQuery) -> Joint | None:
     """Return the axle inside an arc that is nearest to its centre."""
     radius = float(norms(arc - center).mean())
-    axles = [each for each in scene.joints if each.kind is JointKind.AXLE]
-    distances = [math.dist(point_of(center), _pivot(each, scene)) for each in axles]
-    near = [pair for pair in zip(distances, range(len(axles)), strict=True) if pair[0] <= radius]
-    return axles[min(near)[1]] if near else None
-
-
-def _pivot(axle: Joint, scene: SceneQuery) -> Point:
-    return scene.in_world(axle.a, (axle.seat.ax, axle.seat.ay))
+    middle = point_of(center)
+    inside = scene.axles_at(middle, radius)
+    return min(inside, key=lambda each: math.dist(middle, scene.pivot(each)), default=None)
 
 
 def _sharpest_bend(arc: Floats) -> float:

@@ -1,18 +1,24 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The x, drawn without lifting the pen: anchors the body under it."""
+"""The x, in one stroke or of two lines: anchors the body under it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 import math
 
 from physsim_ros.drawing.strokes.evidence import Candidate
 from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import line
-from physsim_ros.drawing.strokes.geometry import point_of
+from physsim_ros.drawing.strokes.geometry import (
+    few_points,
+    intersections,
+    LEAST_SINE,
+    path_length,
+    point_of,
+)
 from physsim_ros.drawing.strokes.meanings import Context, Form, Meaning, MISPLACED, Outcome, Sign
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
@@ -22,6 +28,10 @@ from physsim_ros.model.transform import cross
 # The least number of points by which a line is followed beyond the crossing, of `COUNT`, and the
 # least number of those of either line.
 _BEYOND, _FEWEST = 8, 5
+# Of two lines that are an x for certain: their least straightness (distance of the ends by
+# length), and the least share of either beyond the crossing. Of 2,770 arrows by people in two
+# strokes, at most 0.6 % are such lines, and most x's.
+_STRAIGHT, _BEYOND_OF_TWO = 0.88, 0.15
 
 
 def _candidates(features: Features) -> Iterator[Candidate]:
@@ -52,6 +62,34 @@ def _candidates(features: Features) -> Iterator[Candidate]:
         },
         points=at[None],
     )
+
+
+def of_lines(strokes: Sequence[Floats]) -> Form | None:
+    """
+    Return the x of two straight lines, each of which goes on beyond the other; or None.
+
+    :param strokes: each (n, 2) float64: evenly spaced [m]
+    """
+    if len(strokes) != 2 or min(_straightness(each) for each in strokes) < _STRAIGHT:
+        return None
+    one, other = map(few_points, strokes)
+    (_, along, _), (_, beside, _) = line(one), line(other)
+    if abs(float(cross(along, beside))) < LEAST_SINE:
+        return None
+
+    def inside(crossing: tuple[Floats, float, float]) -> float:
+        _, first, last = crossing
+        shares = first / (len(one) - 1), last / (len(other) - 1)
+        return min(min(share, 1.0 - share) for share in shares)
+
+    crossing = max(intersections(one, other), key=inside, default=None)
+    if crossing is None or inside(crossing) < _BEYOND_OF_TWO:
+        return None
+    return Form(name=CROSS.name, weight=1.0, points=crossing[0][None])
+
+
+def _straightness(points: Floats) -> float:
+    return math.dist(points[0], points[-1]) / path_length(points)
 
 
 def _meanings(form: Form, context: Context) -> Iterator[Meaning]:

@@ -45,7 +45,7 @@ class Laser(Sensor):
         Point,
         angles,
         'angles of the first and the last beam, counter-clockwise, at most a full turn apart '
-        '[rad]; of a full turn the last one is an increment before the first',
+        '[rad]; in a full turn, the last beam is an increment before the first',
     ] = (0.0, math.tau)
     range: Annotated[  # noqa: A003 - a word of the interface
         Point, distances, 'least and greatest distance: nearer is -inf, further +inf (REP 117) [m]'
@@ -101,7 +101,7 @@ class RangeFinder(Sensor):
         'number of rays at equal angles in the cone, of which the nearest counts',
     ] = 15
     range: Annotated[  # noqa: A003 - a word of the interface
-        Point, distances, 'least and greatest distance, as of a laser [m]'
+        Point, distances, 'least and greatest distance, as for a laser [m]'
     ] = (0.02, 1.0)
     noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
 

@@ -21,7 +21,7 @@ _MOST_PIXELS = 1000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Imu(Sensor):
-    """An inertial measurement unit: turn rate, and acceleration as felt at `at`."""
+    """An inertial measurement unit: turn rate, and proper acceleration at `at`."""
 
     KIND: ClassVar = 'imu'
 
@@ -42,7 +42,7 @@ class Imu(Sensor):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WheelEncoders(Sensor):
-    """Encoders: turns of all wheels of the drive; `at` has no effect."""
+    """Encoders: turns of all wheels of the drive, and of axles and motors; `at` has no effect."""
 
     KIND: ClassVar = 'joint_states'
 

@@ -5,7 +5,7 @@ import {TOOLS} from '../tools/tools.js';
 import {showHelp} from '../ui/help.js';
 import {ARROWS} from '../ui/toolbar.js';
 
-/** @import {App, Point, SceneView, Touch} from '../types.js' */
+/** @import {App, Point, SceneView, Touch, Worked} from '../types.js' */
 
 const TURN = Math.PI / 12; // rad a press of R
 const ZOOM = 1.25;
@@ -31,13 +31,13 @@ export class Keyboard {
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
     this.keys = {
-      '?': () => showHelp(app), f: () => app.room.frame(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      '?': () => showHelp(app), f: () => app.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
       j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
       L: callService('fast_forward'),
-      '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(),
+      '.': callService('step'), ',': callService('step_back'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(), 5: () => app.toolbar.showFew(!app.toolbar.few && Boolean(app.world.scene.lesson)),
     };
     for (const {id, key} of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }
@@ -63,7 +63,15 @@ export class Keyboard {
     if (event.ctrlKey || event.metaKey) {
       const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
       if (undo || redo) app.time.callService(undo ? 'undo' : 'redo');
-      if (undo || redo) event.preventDefault();
+      const edit = {c: () => app.selection.keep(false), x: () => app.selection.keep(true), d: () => app.selection.duplicate(), a: () => app.selection.selectAll(),
+        v: () => app.selection.paste(app.selection.hoveredAt ? app.camera.toWorld(...app.selection.hoveredAt) : null)}[key];
+      edit?.();
+      if (undo || redo || edit) event.preventDefault();
+      return;
+    }
+    if (/^ContextMenu$/.test(key) || key === 'F10' && event.shiftKey) {
+      app.menu.open(app.cursor.shown ? app.cursor.touch.page : [app.camera.width / 2, app.camera.height / 2]);
+      event.preventDefault();
       return;
     }
     const button = target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement ||
@@ -115,7 +123,7 @@ export class Keyboard {
     app.tool.cancel?.();
     app.readings.dismiss();
     app.cursor.hide();
-    app.selection.select([]);
+    app.panel.close();
   }
 }
 
@@ -127,7 +135,8 @@ export class Cursor {
     this.app = app;
     this.x = this.y = -1; // px
     this.shown = false;
-    this.pressed = false;
+    /** @type {?Worked} what it presses */
+    this.pressed = null;
     app.view.overlays.push((view) => this.#draw(view));
   }
 
@@ -145,8 +154,9 @@ export class Cursor {
   }
 
   hide() {
-    if (this.pressed) this.app.pointers.worked.cancel?.();
-    this.shown = this.pressed = false;
+    this.pressed?.cancel?.();
+    this.shown = false;
+    this.pressed = null;
   }
 
   /**
@@ -161,7 +171,7 @@ export class Cursor {
     this.x = Math.min(Math.max(this.x + dx * step, 0), camera.width);
     this.y = Math.min(Math.max(this.y + dy * step, 0), camera.height);
     const {app: {pointers, tool}, touch} = this;
-    (this.pressed ? pointers.worked : tool).move?.(touch);
+    (this.pressed ?? tool).move?.(touch);
     if (!this.pressed) pointers.point(touch);
   }
 
@@ -172,10 +182,9 @@ export class Cursor {
       this.move(0, 0, false);
       return;
     }
-    const lifts = this.pressed;
-    if (!lifts) pointers.press(this.touch);
-    this.pressed = !lifts && !pointers.worked.clicks;
-    if (!this.pressed) pointers.lift(this.touch);
+    const lifts = this.pressed !== null, worked = this.pressed ?? pointers.press(this.touch);
+    this.pressed = lifts || worked.clicks ? null : worked;
+    if (!this.pressed) pointers.lift(worked, this.touch);
   }
 
   /** @param {SceneView} view */

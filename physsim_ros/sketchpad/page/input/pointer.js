@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
  * Mouse, pen and fingers on the canvas. One pointer works the tool in hand; two fingers move and zoom
- * the view; once a stylus was seen it draws, and a finger moves the view.
+ * the view; once a stylus was seen it draws, and a finger moves the view. The other end of a stylus erases,
+ * and its button selects.
+ *
+ * Law: what a pointer works ends by that pointer alone, or by a second finger that moves the view with it.
  */
 
-/** @import {App, Tool, Touch} from '../types.js' */
+import {Lasso} from '../tools/freehand.js';
+import {Eraser} from '../tools/eraser.js';
 
+/** @import {App, Touch, Worked} from '../types.js' */
+
+const PEN_BUTTON = 2, PEN_ERASER = 32; // bits of `buttons` (Pointer Events, section 4.1.1)
 const FINGER = 14, MOUSE = 2; // px of slop
 const WHEEL = 0.0015, PINCH = 0.01; // of zoom, in powers of e a pixel of wheel
 const WHEEL_TURN = 0.002; // rad a pixel
@@ -16,9 +23,11 @@ export class Pointers {
     this.app = app;
     /** @type {Map<number, PointerEvent>} */
     this.down = new Map();
-    this.working = -1; // id of the pointer that works the tool
-    /** @type {Pick<Tool, 'down' | 'move' | 'up' | 'cancel' | 'clicks'>} that it works */
-    this.worked = app.tool;
+    /** @type {?{id: number, isPen: boolean, worked: Worked}} the pointer that works something, and what */
+    this.working = null;
+    this.eraser = new Eraser(app);
+    this.lasso = new Lasso(app);
+    app.view.overlays.push((view) => [this.eraser, this.lasso].forEach((each) => each.draw(view)));
     this.stylus = false;
     this.space = false; // held: dragging moves the view
     const {canvas} = app.view;
@@ -48,39 +57,51 @@ export class Pointers {
 
   /** @param {PointerEvent} event */
   #down(event) {
-    const {app} = this;
+    const {app} = this, isPen = event.pointerType === 'pen';
     app.view.canvas.setPointerCapture(event.pointerId);
-    if (event.pointerType === 'pen') {
+    if (isPen) {
       this.stylus = true;
       this.#forget();
-    } else if (this.down.get(this.working)?.pointerType === 'pen') return; // of the palm
+    } else if (this.working?.isPen) return; // of the palm
     this.down.set(event.pointerId, event);
     app.view.canvas.focus({preventScroll: true});
     app.cursor.hide();
     app.selection.hover(null);
-    const moves = event.button > 0 || this.space || app.viewOnly ||
+    const moves = !isPen && event.button > 0 || this.space || app.viewOnly ||
       (this.stylus && event.pointerType === 'touch');
     if (this.down.size === 1 && !moves) {
-      this.working = event.pointerId;
-      this.press(this.#touch(event));
-    } else if (this.down.size > 1 && this.working >= 0 && !app.tool.turns) {
-      this.worked.cancel?.();
-      this.working = -1;
-    }
+      this.working = {id: event.pointerId, isPen, worked: this.press(this.#touch(event), isPen ? this.#penTool(event) : app.tool)};
+    } else if (this.down.size > 1 && this.working && !app.tool.turns) this.#drop();
   }
 
-  /** @param {Touch} touch where the tool in hand, or a handle that is there, is pressed */
-  press(touch) {
+  /**
+   * @param {PointerEvent} event of a stylus
+   * @returns {Worked} what it works
+   */
+  #penTool({buttons}) {
+    return buttons & PEN_ERASER ? this.eraser : buttons & PEN_BUTTON ? this.lasso : this.app.tool;
+  }
+
+  /**
+   * @param {Touch} touch where it is pressed
+   * @param {Worked} tool that is pressed there, if no handle is
+   * @returns {Worked} what is pressed
+   */
+  press(touch, tool = this.app.tool) {
     const {app} = this;
     app.time.endRewind();
-    this.worked = app.handles.isAt(touch) ? app.handles : app.tool;
-    this.worked.down?.(touch);
+    const worked = tool === app.tool && app.handles.isAt(touch) ? app.handles : tool;
+    worked.down?.(touch);
+    return worked;
   }
 
-  /** @param {Touch} touch where it is lifted */
-  lift(touch) {
-    this.worked.up(touch);
-    if (this.worked === this.app.tool) this.app.hints.noteUse();
+  /**
+   * @param {Worked} worked what is lifted
+   * @param {Touch} touch
+   */
+  lift(worked, touch) {
+    worked.up(touch);
+    if (worked === this.app.tool) this.app.hints.noteUse();
   }
 
   /** @param {Touch} touch where nothing is pressed */
@@ -89,10 +110,15 @@ export class Pointers {
     this.app.handles.point(touch);
   }
 
+  /** Drop what a pointer works, unfinished. */
+  #drop() {
+    this.working?.worked.cancel?.();
+    this.working = null;
+  }
+
   /** Forget what fingers do. */
   #forget() {
-    if (this.working >= 0) this.worked.cancel?.();
-    this.working = -1;
+    this.#drop();
     this.down.clear();
   }
 
@@ -100,9 +126,9 @@ export class Pointers {
   #move(event) {
     const {app} = this, before = this.down.get(event.pointerId);
     if (!before && event.pointerType === 'touch') return;
-    if (event.pointerId === this.working) {
+    if (event.pointerId === this.working?.id) {
       const parts = event.getCoalescedEvents?.() ?? [];
-      for (const part of parts.length ? parts : [event]) this.worked.move?.(this.#touch(part));
+      for (const part of parts.length ? parts : [event]) this.working.worked.move?.(this.#touch(part));
     } else if (before) this.#moveView(event, before);
     else {
       app.tool.move?.(this.#touch(event));
@@ -138,17 +164,17 @@ export class Pointers {
   /** @param {PointerEvent} event */
   #up(event) {
     this.down.delete(event.pointerId);
-    if (event.pointerId !== this.working) return;
-    this.working = -1;
-    this.lift(this.#touch(event));
+    if (event.pointerId !== this.working?.id) return;
+    const {worked} = this.working;
+    this.working = null;
+    this.lift(worked, this.#touch(event));
     this.app.handles.point(this.#touch(event), event.pointerType === 'touch');
   }
 
   /** @param {PointerEvent} event */
   #cancel(event) {
     this.down.delete(event.pointerId);
-    if (event.pointerId === this.working) this.worked.cancel?.();
-    this.working = -1;
+    if (event.pointerId === this.working?.id) this.#drop();
   }
 
   /** @param {WheelEvent} event */

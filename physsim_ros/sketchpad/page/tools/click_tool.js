@@ -29,6 +29,7 @@ export class ClickTool {
     this.use = use;
     this.clicks = use.clicks;
     this.aims = use.aims;
+    this.atServer = true;
     /** @type {Touch[]} */
     this.points = [];
     /** @type {?Touch} */

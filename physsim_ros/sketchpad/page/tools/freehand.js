@@ -8,13 +8,29 @@ import {threeDigits} from '../rounding.js';
 /** @import {Point, SceneView, Touch} from '../types.js' */
 
 const TAP_TIME = 0.4; // s: a longer press of the pen is no tap
-const MOST_SAMPLES = 4000;
+const MOST_SAMPLES = 4000; // of a stroke that is sent
 
 /** A freehand stroke, sent when the pen is lifted; a tap selects the body under it. */
 export class Pen extends Gesture {
+  kept = 1; // one in so many samples: a long stroke is thinned out evenly
+  count = 0; // of samples after the first
+
+  /** @param {Touch} touch */
+  down(touch) {
+    super.down(touch);
+    this.kept = 1;
+    this.count = 0;
+  }
+
   /** @param {Touch} touch */
   move(touch) {
-    if (this.path.length < MOST_SAMPLES) super.move(touch);
+    if (!this.last) return;
+    // The newest sample is always there.
+    if (this.count++ % this.kept) this.path.pop();
+    super.move(touch);
+    if (this.path.length <= MOST_SAMPLES) return;
+    this.path.splice(0, Infinity, ...this.path.filter((_, i) => i % 2 === 0));
+    this.kept *= 2;
   }
 
   /** @param {Touch} touch */

@@ -10,6 +10,8 @@ import {isTap, onGrid} from '../vectors.js';
 const CATCH = 120; // ms after which a body that is pressed is caught
 
 export class Hand extends Gesture {
+  atServer = true;
+
   /** @param {App} app */
   constructor(app) {
     super(app);

@@ -2,6 +2,7 @@
 /** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
 
 import {createElement, elementOf, fieldForm, iconButton, inRow, soon, textButton} from '../dom.js';
+import {showResults} from './results.js';
 import {t} from '../strings.js';
 
 /** @import {App, Classmate, Point, SceneView} from '../types.js' */
@@ -11,7 +12,8 @@ const LONGEST = 24; // characters
 const PERIOD = 100; // ms between messages of the cursor
 const SHOWN = 10000; // ms: a cursor that rests
 const TITLE = t('People'), TEACHER = 'Teacher'; // name of a teacher without another one
-const GOLDEN = 137; // degrees between the colours of Page 1 and Page 2: the golden angle
+const GOLDEN = 137.5; // degrees from one hue to the next: the golden angle, so that the first ones are far from each other
+const LOOKS_IN = 'physsim-class'; // whose world it is that a teacher of a class looks into, in this tab
 
 export class Classroom {
   /** @param {App} app */
@@ -31,16 +33,19 @@ export class Classroom {
       this.page = Number(client);
       this.teacher = Boolean(teacher);
       // The page of a class has asked for it.
-      const given = /^#name=(.+)/.exec(location.hash)?.[1];
-      if (given) {
-        localStorage.setItem(NAME, decodeURIComponent(given));
+      const [, kind, given] = /^#(name|class)=(.*)/.exec(location.hash) ?? [];
+      if (kind) {
+        if (kind === 'name') localStorage.setItem(NAME, decodeURIComponent(given));
+        else sessionStorage.setItem(LOOKS_IN, decodeURIComponent(given));
         history.replaceState(null, '', location.pathname + location.search);
       }
+      this.#showWhose();
       const name = localStorage.getItem(NAME);
       if (name && !app.viewOnly) connection.send('person', {name});
       if (this.raised) this.#raise(true);
     });
     connection.on('class', (state) => this.#follow(state));
+    connection.on('lower_hand', () => this.#raise(false));
     connection.on('said', ({name: who, text}) => {
       const take = app.notes.dock([`${personWord(who)}: ${text}`, textButton('OK', () => take())], 0);
     });
@@ -65,6 +70,15 @@ export class Classroom {
   /** @returns {boolean} whether several people draw in this world */
   get isShared() {
     return this.state.people.length > 1;
+  }
+
+  /** Tell a teacher of a class whose world this is. */
+  #showWhose() {
+    const whose = this.teacher ? sessionStorage.getItem(LOOKS_IN) : null;
+    if (whose === null) return;
+    document.title = whose ? t('World of {name}', {name: whose}) : t('Free world');
+    const shown = document.querySelector('.whose') ?? elementOf('files').insertAdjacentElement('afterbegin', createElement('strong', {className: 'whose'}));
+    if (shown) shown.textContent = document.title;
   }
 
   /**
@@ -119,11 +133,12 @@ export class Classroom {
       connection.send('person', {name});
       app.dialog.close();
     });
-    const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, role, answered, raised}) => {
+    const people = createElement('ul', {className: 'people'}, ...state.people.map(({page, name, color, role, answered, raised}) => {
       const shown = personWord(name), you = page === this.page ? ` (${t('you')})` : '';
       const teaches = role === 'teach' && name !== TEACHER ? `, ${t('teacher')}` : '';
-      return createElement('li', {}, dot(name), `${shown}${you}${teaches}`,
-        ...raised ? [createElement('strong', {}, t('hand raised'))] : [],
+      return createElement('li', {}, dot(color), `${shown}${you}${teaches}`,
+        ...raised ? [createElement('strong', {}, t('hand raised')),
+          ...teacher ? [textButton(t('Lower the hand'), () => connection.send('lower_hand', {page}))] : []] : [],
         ...teacher && answered ? [`${answered.answer} ${answered.right ? '✓' : '✗'}`] : [],
         ...teacher ? [textButton(t('Delete what {name} drew', {name: shown}), () => connection.send('clear_of', {person: name}), 'danger')] : []);
     }));
@@ -141,18 +156,20 @@ export class Classroom {
     return [createElement('h3', {}, t('Teacher')), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
       ...locked.length ? [textButton(t('Unlock all'), lockThem([]))] : []),
     ...locked.length ? [createElement('p', {}, t('Locked: {names}', {names: locked.join(', ')}))] : [],
-    createElement('h3', {}, t('Pupils come here')),
-    createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})];
+    inRow(textButton(t('Results'), () => showResults(this.app.dialog, this.app.lessons.list, () => connection.send('forget_results')))),
+    // Pupils of a class come by its own page.
+    ...sessionStorage.getItem(LOOKS_IN) !== null ? [] : [createElement('h3', {}, t('Pupils come here')),
+      createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})]];
   }
 
   /** @param {SceneView} view */
   #draw(view) {
     const {ctx} = view, now = performance.now();
     for (const [page, {at, until}] of this.cursors) {
-      const name = this.nameOf(page);
-      if (now > until || !name) continue;
+      const name = this.nameOf(page), person = this.state.people.find((each) => each.page === page);
+      if (now > until || !name || !person) continue;
       const [x, y] = this.app.camera.toPage(...at);
-      ctx.fillStyle = colorOf(name);
+      ctx.fillStyle = colorOf(person.color);
       ctx.beginPath();
       for (const [dx, dy] of [[0, 0], [0, 15], [4, 11], [11, 11]]) ctx.lineTo(x + dx, y + dy);
       ctx.fill();
@@ -177,29 +194,29 @@ export function personWord(name) {
   return number ? t('Page {number}', {number}) : name === TEACHER ? t('Teacher') : name;
 }
 
-/** @param {(text: string) => void} say to all */
-export function sayForm(say) {
-  const input = createElement('input', {required: true, maxLength: 200, autocomplete: 'off',
-    placeholder: t('Message to all'), 'aria-label': t('Message to all')});
+/**
+ * @param {(text: string) => void} say
+ * @param {string} label to whom
+ */
+export function sayForm(say, label = t('Message to all')) {
+  const input = createElement('input', {required: true, maxLength: 200, autocomplete: 'off', placeholder: label, 'aria-label': label});
   return fieldForm(input, t('Send'), (text) => {
     say(text);
     input.value = '';
   });
 }
 
-/** @param {string} name of a person */
-function dot(name) {
+/** @param {number} number of the colour of a person */
+function dot(number) {
   const element = createElement('i', {'aria-hidden': 'true'});
-  element.style.background = colorOf(name);
+  element.style.background = colorOf(number);
   return element;
 }
 
 /**
- * @param {string} name of a person
+ * @param {number} number of the colour of a person
  * @returns {string} the same one on all pages; white is to be read on it
  */
-export function colorOf(name) {
-  let hash = 0;
-  for (const character of name) hash = (hash * 31 + (character.codePointAt(0) ?? 0)) % 360;
-  return `hsl(${hash * GOLDEN} 65% 34%)`;
+export function colorOf(number) {
+  return `hsl(${210 + number * GOLDEN} 65% 34%)`;
 }

@@ -103,7 +103,8 @@ export class Readings {
       // Read, but not built.
       if (request === this.shown) this.dismiss();
     });
-    app.connection.on('closed', () => this.strokes.clear());
+    // Until then they are shown as what is to be sent again.
+    app.connection.on('welcome', () => this.strokes.clear());
   }
 
   /**

@@ -1,0 +1,78 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Convert a world of another program, and print what is left out."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable, Mapping
+from pathlib import Path
+import sys
+from typing import Any
+
+from physsim_ros.convert import flatland, irsim, rube, tiled
+from physsim_ros.convert.conversion import Conversion
+from physsim_ros.files import advice_on_xml, CONVERTED, kind_of, load_world
+from physsim_ros.model.errors import BadWorldFile, Refusal
+import yaml
+
+_CONVERTERS: Mapping[str, Callable[[Mapping[str, Any], Path], Conversion]] = {
+    'flatland': flatland.convert,
+    'ir-sim': irsim.convert,
+    'Tiled': tiled.convert,
+    'R.U.B.E.': rube.convert,
+}
+
+
+def convert(source: Path) -> Conversion:
+    """
+    Return the world of a file of another program.
+
+    :param source: path of the file
+    :raises Refusal: it is of no kind that is converted, or has a mistake
+    :raises OSError: it cannot be read
+    """
+    text = source.read_text(encoding='utf-8')
+    if advice := advice_on_xml(text):
+        raise Refusal(advice)
+    # These programs take what a world file does not, as a key that is there twice.
+    content = yaml.safe_load(text)
+    kind = kind_of(content) if isinstance(content, Mapping) else ''
+    if kind not in _CONVERTERS:
+        raise Refusal(f'{source.name} is no world of {", ".join(CONVERTED)}')
+    try:
+        return _CONVERTERS[kind](content, source.parent)
+    except (AttributeError, KeyError, IndexError, TypeError, ValueError) as error:
+        raise Refusal(f'{source.name} is no valid world of {kind}: {error!r}') from error
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Convert a file; return the exit code."""
+    parser = argparse.ArgumentParser(prog='python -m physsim_ros.convert', description=__doc__)
+    parser.add_argument('source', type=Path, help=f'world of {", ".join(CONVERTED)}')
+    parser.add_argument(
+        'target', type=Path, nargs='?', help='world file to write; default: SOURCE-world.yaml'
+    )
+    parsed = parser.parse_args(arguments)
+    source: Path = parsed.source
+    target: Path = parsed.target or source.with_name(f'{source.stem}-world.yaml')
+    try:
+        conversion = convert(source)
+        # A world file that somebody has edited is not overwritten.
+        with target.open('x', encoding='utf-8') as file:
+            file.write(conversion.text())
+        load_world(target)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, Refusal) as error:
+        written = f'{target} is written, but ' if isinstance(error, BadWorldFile) else ''
+        print(f'{written}{error}', file=sys.stderr)
+        return 1
+    bodies, joints = len(conversion.bodies), len(conversion.joints)
+    print(f'{target}: {bodies} bodies, {joints} joints')
+    for sentence in conversion.told():
+        print(f'  {sentence}')
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,191 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A world file in the making, and the shapes and poses that several programs have alike."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+import itertools
+import math
+import re
+from typing import Any
+
+from physsim_ros.files import yaml_line
+from physsim_ros.model.transform import Point, Pose
+
+# Thickness of outlines that are lines [m], and corners of a disc that becomes a polygon.
+THICKNESS = 0.05
+_CORNERS = 24
+
+
+@dataclass
+class Conversion:
+    """
+    A world file in the making.
+
+    :ivar settings: of the world
+    :ivar left_out: sentences about what has no like here, with the number of cases
+    """
+
+    settings: dict[str, object] = field(default_factory=dict)
+    bodies: list[dict[str, object]] = field(default_factory=list)
+    joints: list[dict[str, object]] = field(default_factory=list)
+    left_out: Counter[str] = field(default_factory=Counter)
+
+    def add_body(
+        self, name: str, shape: Mapping[str, object], at: Pose, **properties: object
+    ) -> str:
+        """Add a body; return its name, which is `<name>/<id>`."""
+        full = _unused(name or 'body', self.bodies)
+        self.bodies.append({'name': full, **shape, 'at': [*at], **properties})
+        return full
+
+    def add_joint(
+        self, name: str, kind: str, points: Sequence[Point], **properties: object
+    ) -> None:
+        """Add a joint; `a` and `b` are among its properties."""
+        full = _unused(name or kind, self.joints)
+        places = [[x, y] for x, y in points]
+        self.joints.append({'name': full, 'kind': kind, 'points': places, **properties})
+
+    def leave_out(self, sentence: str) -> None:
+        """Note something that is left out, or becomes something else."""
+        self.left_out[sentence] += 1
+
+    def leave_out_keys(self, content: Mapping[str, object], known: Sequence[str], of: str) -> None:
+        """Note the keys of a mapping that are not known."""
+        for key in content:
+            if key not in known:
+                self.leave_out(f'left out: {key} of {of}')
+
+    def told(self) -> Iterator[str]:
+        """Yield the sentences about what is left out, each once."""
+        for sentence, count in sorted(self.left_out.items()):
+            yield f'{sentence} ({count} times)' if count > 1 else sentence
+
+    def text(self) -> str:
+        """Return the world file."""
+        lines = ['format: 1\n']
+        lines += (f'{key}: {yaml_line(value)}\n' for key, value in self.settings.items())
+        for key, entries in (('bodies', self.bodies), ('joints', self.joints)):
+            lines.append(f'{key}:\n' if entries else f'{key}: []\n')
+            lines += (f'  - {yaml_line(entry)}\n' for entry in entries)
+        return ''.join(lines)
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A disc of a body, in the body's frame [m]."""
+
+    radius: float
+    center: Point = (0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Outline:
+    """A convex outline of a body, in the body's frame [m]."""
+
+    points: tuple[Point, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """An open line of a body, in the body's frame [m]."""
+
+    points: tuple[Point, ...]
+
+
+Piece = Circle | Outline | Line
+
+
+def shape_of(pieces: Sequence[Piece], conversion: Conversion) -> tuple[dict[str, object], Point]:
+    """
+    Return the shape that pieces make together, and its origin in the frame of the body.
+
+    :raises ValueError: there is no piece
+    """
+    match pieces:
+        case []:
+            raise ValueError('a body without a shape')
+        case [Circle(radius, center)]:
+            return {'circle': {'radius': radius}}, center
+        case [Outline(points)]:
+            return {'polygon': [list(point) for point in points]}, (0.0, 0.0)
+        case [Line(points)]:
+            return line_shape(points), (0.0, 0.0)
+    discs = [piece for piece in pieces if isinstance(piece, Circle)]
+    if len(discs) == len(pieces) and len({disc.radius for disc in discs}) == 1:
+        centers = [list(disc.center) for disc in discs]
+        return {'compound': {'circle': {'radius': discs[0].radius}, 'centers': centers}}, (
+            0.0,
+            0.0,
+        )
+    triangles: list[list[float]] = []
+    for piece in pieces:
+        if isinstance(piece, Line):
+            conversion.leave_out('left out: a line that is a part of a larger body')
+            continue
+        if isinstance(piece, Circle):
+            conversion.leave_out(f'a disc of a larger body has {_CORNERS} corners')
+            piece = disc_outline(piece)  # noqa: PLW2901 - the same, as corners
+        first, *rest = piece.points
+        for second, third in itertools.pairwise(rest):
+            triangles += [list(first), list(second), list(third)]
+    return {'triangles': triangles}, (0.0, 0.0)
+
+
+def line_shape(points: Sequence[Point]) -> dict[str, object]:
+    """Return the shape of a line."""
+    return {'chain': {'points': [list(point) for point in points], 'thickness': THICKNESS}}
+
+
+def disc_outline(circle: Circle, flat: float = 1.0) -> Outline:
+    """Return the outline of a disc, or of an ellipse whose height is `flat` times its width."""
+    (x, y), r = circle.center, circle.radius
+    angles = [math.tau * i / _CORNERS for i in range(_CORNERS)]
+    return Outline(tuple((x + r * math.cos(a), y + flat * r * math.sin(a)) for a in angles))
+
+
+def area_of(piece: Piece) -> float:
+    """Return the area of a piece [m²]; 0 for a line."""
+    match piece:
+        case Circle(radius):
+            return math.pi * radius**2
+        case Line():
+            return 0.0
+        case Outline(points):
+            following = (*points[1:], points[0])
+            pairs = zip(points, following, strict=True)
+            return abs(sum(x * v - u * y for (x, y), (u, v) in pairs)) / 2
+
+
+def moved(pose: Pose, point: Point) -> Point:
+    """Return a point of a body's frame in the world."""
+    x, y, yaw = pose
+    c, s = math.cos(yaw), math.sin(yaw)
+    return x + c * point[0] - s * point[1], y + s * point[0] + c * point[1]
+
+
+def composed(pose: Pose, other: Sequence[float]) -> Pose:
+    """Return a pose in the frame of another one in the world."""
+    x, y = moved(pose, (other[0], other[1]))
+    return x, y, pose[2] + (other[2] if len(other) > 2 else 0.0)
+
+
+def _unused(name: str, entries: Sequence[Mapping[str, object]]) -> str:
+    """Return the first free `<name>/<id>`."""
+    plain = re.sub(r'[^\w.-]+', '_', name) or 'body'
+    taken = {entry['name'] for entry in entries}
+    number = 0
+    while f'{plain}/{number}' in taken:
+        number += 1
+    return f'{plain}/{number}'
+
+
+def pose_of(values: Any) -> Pose:
+    """Return a pose of two or three numbers."""
+    x, y, *yaw = (float(value) for value in values)
+    return x, y, yaw[0] if yaw else 0.0

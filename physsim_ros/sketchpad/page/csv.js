@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Tables as text (CSV): where numbers have a comma, columns are parted by semicolons, as spreadsheets in that
+ * language expect.
+ *
+ * Law: no cell is a formula, whatever name or answer somebody has typed (OWASP, CSV injection).
+ */
+
+import {numberOf} from './rounding.js';
+import {localized} from './strings.js';
+
+const FORMULAS = ['=', '+', '-', '−', '@', '＝', '＋', '－', '＠', '\t', '\r'], QUOTED = [',', ';', '"', '\'', '\n', '\r']; // a cell that begins with, and one that has
+const SEPARATOR = localized('.') === '.' ? ',' : ';';
+
+/**
+ * @param {string[][]} rows
+ * @returns {string}
+ */
+export function csvOf(rows) {
+  return rows.map((row) => `${row.map(cell).join(SEPARATOR)}\n`).join('');
+}
+
+/** @param {string} text */
+function cell(text) {
+  const safe = FORMULAS.includes(text.charAt(0)) && Number.isNaN(numberOf(text)) ? `'${text}` : text;
+  return QUOTED.some((each) => safe.includes(each)) ? `"${safe.replaceAll('"', '""')}"` : safe;
+}

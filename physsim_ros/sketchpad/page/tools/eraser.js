@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The eraser, the other end of a stylus: what it passes over is outlined, and deleted when it is lifted. */
+
+import {Gesture} from './gesture.js';
+import {distance} from '../vectors.js';
+
+/** @import {SceneView, Touch} from '../types.js' */
+
+const STEP = 3; // px between the places at which it looks for bodies
+const NEAR = 6; // px: a joint that near to it is meant
+
+export class Eraser extends Gesture {
+  /** @type {Set<string>} bodies that it has passed over */
+  bodies = new Set();
+  /** @type {Set<string>} */
+  joints = new Set();
+
+  /** @param {Touch} touch */
+  down(touch) {
+    super.down(touch);
+    this.bodies.clear();
+    this.joints.clear();
+    this.#meet(touch);
+  }
+
+  /** @param {Touch} touch */
+  move(touch) {
+    const {last} = this;
+    if (!last) return;
+    const steps = Math.ceil(distance(last.page, touch.page) / STEP), [x, y] = last.at, [toX, toY] = touch.at;
+    for (let step = 1; step <= steps; step++) {
+      this.#meet({...touch, at: [x + (toX - x) * step / steps, y + (toY - y) * step / steps]});
+    }
+    super.move(touch);
+  }
+
+  end() {
+    const {connection} = this.app;
+    if (this.bodies.size) connection.send('delete', {names: [...this.bodies]});
+    // A joint goes with its body.
+    else for (const name of this.joints) connection.send('unjoin', {name});
+  }
+
+  /** @param {Touch} touch where it is */
+  #meet({at, slop}) {
+    const {world, camera} = this.app, row = world.bodyAt(at, slop), joint = world.jointAt(at, slop + NEAR / camera.scale, row >= 0);
+    if (joint) this.joints.add(joint);
+    else if (row >= 0) this.bodies.add(world.scene.bodies[row].name);
+  }
+
+  /** @param {SceneView} view */
+  draw(view) {
+    const {world} = this.app, {palette} = view;
+    if (!this.path.length) return;
+    view.line(this.path.map(({at}) => at), palette.warn, [2, 6]);
+    for (const name of this.bodies) if (world.row(name) >= 0) view.outline(world.row(name), palette.warn);
+  }
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The results of lessons, as the server keeps them: a table of people by lessons, and the same as a file. */
+
+import {createElement, download, inRow, textButton} from '../dom.js';
+import {csvOf} from '../csv.js';
+import {language, t} from '../strings.js';
+import {personWord} from './classroom.js';
+
+/** @import {Result} from '../types.js' */
+/** @import {Dialog} from './dialog.js' */
+
+/** @typedef {{number: number, title: string}} Listed lesson */
+
+/**
+ * @param {Dialog} dialog
+ * @param {Listed[]} lessons in their order
+ * @param {() => void} forget all results
+ */
+export async function showResults(dialog, lessons, forget) {
+  const title = t('Results'), {results} = await fetch('/results').then((response) => response.json(), () => ({results: null}));
+  if (!results) {
+    dialog.show(title, createElement('p', {}, t('Not done: the server is not reachable')));
+    return;
+  }
+  const table = new ResultTable(results, lessons);
+  const remove = () => {
+    if (!confirm(t('Forget all results?'))) return;
+    forget();
+    dialog.close();
+  };
+  dialog.show(title, ...results.length ? [createElement('div', {className: 'results'}, table.element()),
+    inRow(textButton(t('Save table (CSV)'), () => download('results.csv', new Blob(['\ufeff', table.csv()], {type: 'text/csv'}))),
+      textButton(t('Forget all results'), remove, 'danger'))] :
+    [createElement('p', {}, t('Nobody has answered a lesson yet.'))]);
+}
+
+class ResultTable {
+  /**
+   * @param {Result[]} results
+   * @param {Listed[]} lessons
+   */
+  constructor(results, lessons) {
+    /** @type {Map<string, Map<string, Result>>} by person and lesson */
+    this.people = new Map();
+    for (const result of results) {
+      if (!this.people.has(result.person)) this.people.set(result.person, new Map());
+      const before = this.people.get(result.person)?.get(result.lesson);
+      // Of a person who has been in several worlds.
+      if (!before?.right) this.people.get(result.person)?.set(result.lesson, result);
+    }
+    this.names = [...this.people.keys()].sort((one, other) => one.localeCompare(other, language));
+    const place = (/** @type {string} */ title) => {
+      const at = lessons.findIndex((each) => each.title === title);
+      return at < 0 ? lessons.length : at;
+    };
+    this.titles = [...new Set(results.map(({lesson}) => lesson))].sort((one, other) => place(one) - place(other));
+    /** @type {(title: string) => string} */
+    this.heading = (title) => {
+      const lesson = lessons.find((each) => each.title === title);
+      return lesson ? `${lesson.number}. ${t(title)}` : title;
+    };
+  }
+
+  /** @returns {HTMLElement} */
+  element() {
+    const {names, titles, people} = this;
+    const head = createElement('tr', {}, createElement('th', {}, t('Name')), ...titles.map((title) => createElement('th', {scope: 'col'}, this.heading(title))));
+    const rows = names.map((name) => createElement('tr', {}, createElement('th', {scope: 'row'}, personWord(name)),
+      ...titles.map((title) => cellOf(people.get(name)?.get(title)))));
+    const right = createElement('tr', {}, createElement('th', {scope: 'row'}, t('right')), ...titles.map((title) => {
+      const all = names.map((name) => people.get(name)?.get(title)).filter((each) => each !== undefined);
+      return createElement('td', {}, t('{count} of {all}', {count: all.filter((each) => each.right).length, all: all.length}));
+    }));
+    return createElement('table', {}, createElement('thead', {}, head), createElement('tbody', {}, ...rows), createElement('tfoot', {}, right));
+  }
+
+  /** @returns {string} with the columns of each lesson beside each other */
+  csv() {
+    const {names, titles, people} = this;
+    const head = titles.flatMap((title) => [t('answer'), t('right'), t('tries'), t('time')].map((column) => `${this.heading(title)}: ${column}`));
+    const rows = names.map((name) => [personWord(name), ...titles.flatMap((title) => {
+      const result = people.get(name)?.get(title);
+      return result ? [result.answer, result.right ? '1' : '0', String(result.tries), dateOf(result)] : ['', '', '', ''];
+    })]);
+    return csvOf([[t('Name'), ...head], ...rows]);
+  }
+}
+
+/** @param {Result | undefined} result */
+function cellOf(result) {
+  if (!result) return createElement('td', {}, '');
+  const {answer, right, tries} = result;
+  return createElement('td', {className: right ? 'right' : '', title: t('{date}, tries: {count}', {date: dateOf(result), count: tries})},
+    `${answer} ${right ? '✓' : '✗'}${tries > 1 ? ` (${tries})` : ''}`);
+}
+
+/** @param {Result} result */
+function dateOf({at}) {
+  return new Date(at * 1000).toLocaleString(language, {dateStyle: 'short', timeStyle: 'short'});
+}

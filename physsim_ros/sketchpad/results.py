@@ -1,0 +1,105 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The results of lessons in a world: who has answered what, right or not, when, after how many tries.
+
+Laws: results outlive pages and restarts, in one file of the user; an answer that was right is not
+lost by later ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+import json
+from pathlib import Path
+import time
+from typing import Any
+
+from physsim_ros.files import make_directory, read_bytes, write_file
+
+# Results that are kept, each of one person and lesson: a class of thirty, and all lessons.
+MOST_RESULTS = 600
+# Size of the file [bytes].
+_MOST_BYTES = 2**20
+
+# The fields `person`, `lesson` (its title), `answer` as typed, `right`, `at` [s since 1970], and
+# `tries` up to the first right answer.
+Result = dict[str, Any]
+
+
+def results_file(world_dir: Path) -> Path:
+    """Return the file of the results of a world, by the directory of its user's worlds."""
+    return world_dir / '.results.json'
+
+
+def read_results(path: Path) -> list[Result]:
+    """Return the results of a file, the latest last; there may be no such file."""
+    # A file that a person has spoilt.
+    with suppress(OSError, ValueError):
+        results = json.loads(read_bytes(path, _MOST_BYTES))
+        if isinstance(results, list) and all(isinstance(each, dict) for each in results):
+            return results
+    return []
+
+
+class Results:
+    """
+    The results of a world.
+
+    :param path: of their file
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._results = {
+            (str(each.get('person')), str(each.get('lesson'))): each for each in read_results(path)
+        }
+
+    def __iter__(self) -> Iterator[Result]:
+        """Iterate over the results, the latest last."""
+        return iter(self._results.values())
+
+    def note(self, person: str, lesson: str, answer: str, *, right: bool) -> Result:
+        """
+        Note an answer, and return what is known of it.
+
+        :param lesson: title of the lesson
+        :raises OSError: the file cannot be written
+        """
+        before = self._results.get((person, lesson), {})
+        tries = int(before.get('tries', 0)) + 1
+        result = {
+            'person': person,
+            'lesson': lesson,
+            'answer': answer,
+            'right': right,
+            'at': round(time.time()),
+            'tries': tries,
+        }
+        if not before.get('right'):
+            self._results.pop((person, lesson), None)
+            self._results[person, lesson] = result
+            if len(self._results) > MOST_RESULTS:
+                del self._results[next(iter(self._results))]
+            self._save()
+        return result
+
+    def last_of(self, person: str) -> Result:
+        """Return the latest result of a person; empty where there is none."""
+        own = [result for (name, _), result in self._results.items() if name == person]
+        return own[-1] if own else {}
+
+    def forget(self) -> None:
+        """
+        Forget all results.
+
+        :raises OSError: the file cannot be written
+        """
+        self._results.clear()
+        self._save()
+
+    def _save(self) -> None:
+        make_directory(self._path.parent)
+        write_file(self._path, json.dumps(list(self), ensure_ascii=False).encode(), mode=0o600)

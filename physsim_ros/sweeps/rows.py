@@ -1,0 +1,144 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Rows: the runs of a sweep in a folder, written as they come, so that a second call continues them.
+
+Laws: a folder has the runs of one experiment. A row that was cut off is run again. The folder has
+`runs.jsonl`, a JSON object a line, the first of which names the experiment; and a world file for
+each run that failed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from physsim_ros.files import load_world, save_world
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.sweeps.experiment import Case, Experiment, Run
+
+_FILE = 'runs.jsonl'
+
+
+class Rows:
+    """
+    The runs of an experiment in a folder.
+
+    :param experiment: of the runs
+    :param folder: which is made where it is not there
+    :raises BadProperty: it has the runs of another experiment, or a file that has no runs
+    """
+
+    def __init__(self, experiment: Experiment, folder: Path) -> None:
+        self._experiment = experiment
+        self._folder = folder
+        self._path = folder / _FILE
+        folder.mkdir(parents=True, exist_ok=True)
+        self._rows: dict[str, Mapping[str, Any]] = {}
+        begin, rows = _line(_identity(experiment)), self._read()
+        if not rows:
+            self._path.write_text(begin, encoding='utf-8')
+        elif _line(rows[0]) != begin:
+            message = f'{self._path} has the runs of another experiment: {_line(rows[0]).strip()}'
+            raise BadProperty(message, field='folder')
+        self._rows.update((row['case'], row) for row in rows[1:])
+
+    def _read(self) -> list[dict[str, Any]]:
+        """Return the rows that are whole; cut the last one off if it is not."""
+        if not self._path.exists():
+            return []
+        data = self._path.read_bytes()
+        whole = data[: data.rfind(b'\n') + 1]
+        try:
+            rows = [json.loads(line) for line in whole.splitlines()]
+        except ValueError as error:
+            raise BadProperty(f'{self._path} is no file of runs', field='folder') from error
+        if len(whole) < len(data):
+            self._path.write_bytes(whole)
+        return rows
+
+    def runs_of(self, cases: Iterable[tuple[int, Case]]) -> dict[int, Run]:
+        """Return the runs that the folder has of numbered cases, by number."""
+        return {
+            number: self._run(case, self._rows[key])
+            for number, case in cases
+            if (key := _key(case)) in self._rows
+        }
+
+    def _run(self, case: Case, row: Mapping[str, Any]) -> Run:
+        rate, before = self._experiment.physics_rate, row['before']
+        return Run(
+            case=case,
+            failure=row['failure'],
+            seconds=row['seconds'],
+            way=np.array(row['way'], float).reshape(-1, 2),
+            score=math.nan if row['score'] is None else row['score'],
+            before=before and load_world(self._folder / before, physics_rate=rate),
+            physics_rate=rate,
+        )
+
+    def add(self, number: int, run: Run) -> None:
+        """
+        Write a run.
+
+        :param number: of its case
+        :raises BadWorldFile: the world of its failure cannot be written
+        """
+        path = save_failure(number, run, self._folder)
+        row = {
+            'case': _key(run.case),
+            'failure': run.failure,
+            'seconds': run.seconds,
+            'score': None if math.isnan(run.score) else run.score,
+            'length': run.length,
+            'before': path and path.name,
+            'way': run.way.tolist(),
+        }
+        with self._path.open('a', encoding='utf-8') as file:
+            file.write(_line(row))
+
+
+def save_failure(number: int, run: Run, folder: Path) -> Path | None:
+    """
+    Write the world of a failed run; return its path, or None where there is none.
+
+    :param number: of its case
+    :raises BadWorldFile: the file cannot be written
+    """
+    if run.before is None:
+        return None
+    name = f'run_{number}_seed_{run.case.seed}'
+    return save_world(run.before, name, world_dir=folder, physics_rate=run.physics_rate)
+
+
+def _line(row: Mapping[str, Any]) -> str:
+    return json.dumps(row, default=repr) + '\n'
+
+
+def _key(case: Case) -> str:
+    """Return the text of a case: its seed and its parameters."""
+    return json.dumps([case.seed, dict(case.parameters)], sort_keys=True, default=repr)
+
+
+def _identity(experiment: Experiment) -> dict[str, Any]:
+    """Return what tells experiments apart: their worlds to the bit, functions by name, times."""
+    simulation = Simulation(physics_rate=experiment.physics_rate, publish_rate=1.0, history=0.0)
+    simulation.begin(experiment.world)
+    functions = ('controller', 'begin', 'failure', 'score')
+    times = ('robot', 'seconds', 'period', 'physics_rate', 'before')
+    return {
+        'world': simulation.world.digest(),
+        **{name: _name_of(getattr(experiment, name)) for name in functions},
+        **{name: getattr(experiment, name) for name in times},
+    }
+
+
+def _name_of(function: object) -> str:
+    name = getattr(function, '__qualname__', type(function).__qualname__)
+    return '' if function is None else f'{getattr(function, "__module__", "")}.{name}'

@@ -1,0 +1,772 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The table of scenes: those of the laws, the shipped worlds, lessons and drawings, and robots.
+
+A scene is the state of a world at its beginning, and for how long it is played.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache, cached_property, partial
+import itertools
+import math
+import random
+
+from physsim_ros.files import drawings, robot_spawn, shipped_lessons, shipped_worlds, worlds_in
+from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.requests import Configure, DriveRobot
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
+from physsim_ros.model.states import NEVER
+from physsim_ros.simulation.simulation import Simulation
+
+from ..laws import test_locality as locality
+from ..laws.scenes import (
+    bar_among_discs,
+    chain,
+    floor,
+    G,
+    join,
+    NOWHERE,
+    pyramid,
+    simulation,
+    spawn,
+    turned,
+    walls,
+)
+from ..laws.test_bridges import bridge, put_load
+from ..laws.test_floor import DRIVE
+from ..laws.test_impacts import angular_shape, pair_in_flight, round_shape, walled
+from ..laws.test_joints import double_pendulum, tangle
+from ..laws.test_machines import pendulum
+from ..laws.test_random_worlds import random_crowd, random_world
+from ..laws.test_ropes import loaded_rope
+from ..laws.test_rows import _row as row_of_elastic_bodies
+from ..laws.test_tracks import ball_in_track
+from ..laws.test_way import plough
+from ..worlds.digests import scene as drawn_scene
+from ..worlds.film import state_of
+
+ELL = Polygon(outline=((0.0, 0.0), (2.0, 0.0), (2.0, 0.5), (0.5, 0.5), (0.5, 2.0), (0.0, 2.0)))
+PAIR = Compound(element=Disc(radius=0.2), centers=((0.0, 0.0), (1.0, 0.3)))
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Scene:
+    """
+    A scene.
+
+    :param build: returns its simulation or state at the beginning
+    :param seconds: for which it is played [s]
+    :param chaotic: whether a body that is moved by a picometre ends a nanometre elsewhere, so
+        that only invariants can be compared
+    """
+
+    build: Callable[[], Simulation | WorldState]
+    seconds: float = 1.5
+    chaotic: bool = False
+
+    @cached_property
+    def state(self):
+        """Return its state at the beginning, as a file written by hand would have it."""
+        built = self.build()
+        state = built if isinstance(built, WorldState) else built.save()
+        bodies = tuple(
+            replace(
+                held,
+                motion=None,
+                acting=None,
+                driven=held.driven and held.driven._replace(until=NEVER),
+            )
+            for held in state.bodies
+        )
+        return replace(state, bodies=bodies, memory=None, lesson=None)
+
+
+# Laws 1 to 9: flight and impacts
+
+
+def projectiles():
+    sim = simulation()
+    for number, shape in enumerate((Disc(radius=0.5), Box(width=1.0, height=0.3), ELL, PAIR)):
+        velocity = (3.0 + number, 8.0)
+        spawn(sim, f'body/{number}', shape, (4.0 * number, -2.0, 0.4), velocity=velocity, spin=3.0)
+    return sim
+
+
+def projectiles_in_air():
+    sim = simulation(damping=0.3)
+    spawn(sim, 'disc/0', Disc(radius=0.2), velocity=(8.0, 8.0), spin=3.0)
+    spawn(sim, 'box/0', Box(width=1.0, height=0.3), (0.0, 4.0, 0.3), velocity=(-3.0, 1.0))
+    return sim
+
+
+def head_on(elasticity):
+    sim = simulation(gravity=NOWHERE, elasticity=elasticity, friction=0.3)
+    spawn(sim, 'a/0', Disc(radius=0.3), mass=1.0, velocity=(3.0, 0.0))
+    spawn(sim, 'b/0', Disc(radius=0.5), (2.0, 0.0, 0.0), mass=3.0, velocity=(-1.0, 0.0))
+    return sim
+
+
+def meetings():
+    sim = simulation(gravity=NOWHERE, friction=0.3)
+    for number, elasticity in enumerate((1.0, 0.5, 0.0)):
+        for side, shape, mass in ((-1, Disc(radius=0.5), 1.0), (1, Box(width=1, height=1), 3.0)):
+            pose = (side * (1.5 + number), 4.0 * number + 0.1 * side, 0.3 * number)
+            said = {'mass': mass, 'velocity': (-1.0 * side, 0.05), 'elasticity': elasticity}
+            spawn(sim, f'pair/{2 * number + (side > 0)}', shape, pose, **said)
+    return sim
+
+
+def pair(kinds, seed):
+    sim, _ = pair_in_flight(random.Random(seed), kinds)
+    return sim
+
+
+def on_walls():
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.2)
+    walls(sim, -6.0, -6.0, 6.0, 6.0)
+    thin = Chain(points=((0.0, -3.0), (0.0, 3.0)), thickness=0.02)
+    spawn(sim, 'thin/0', thin, (2.0, 0.0, 0.4), anchored=True)
+    spawn(sim, 'fast/0', Disc(radius=0.1), (-3.0, 0.5, 0.0), velocity=(40.0, 3.0))
+    for number in range(4):
+        at = (-4.0 + number, -3.0 + number, 0.5)
+        spawn(sim, f'box/{number}', Box(width=0.6, height=0.6), at, velocity=(2.0, -3.0), spin=1.0)
+    return sim
+
+
+def bounce(shape, elasticity, turn=0.0):
+    sim = simulation(elasticity=elasticity)
+    floor(sim)
+    spawn(sim, 'body/0', shape, (0.0, 1.3, turn))
+    return sim
+
+
+def bounces():
+    sim = simulation(elasticity=0.9)
+    floor(sim)
+    spawn(sim, 'box/0', Box(width=1.0, height=1.0), (0.0, 3.0, 0.3), anchored=True)
+    for number in range(9):
+        shape = (Disc(radius=0.2), Box(width=0.4, height=0.4), PAIR)[number % 3]
+        spawn(sim, f'body/{number}', shape, (-2.0 + 0.5 * number, 5.0 + number % 4, 0.1 * number))
+    return sim
+
+
+def bouncing_disc():
+    sim = simulation()
+    floor(sim)
+    locality.bouncing_disc(sim)
+    return sim
+
+
+# Laws 10 to 13: friction
+
+
+def incline(angle=0.5):
+    sim = simulation()
+    floor(sim, angle=angle)
+    shapes = (Box(width=1, height=1), Disc(radius=0.5), Box(width=1.0, height=1.0))
+    for number, shape in enumerate(shapes):
+        at = turned((3.0 * number, 0.5), angle)
+        spawn(sim, f'body/{number}', shape, (*at, angle), friction=(0.1, 0.5, 0.9)[number])
+    return sim
+
+
+def block_on_incline(degrees):
+    sim, angle = simulation(), math.radians(degrees)
+    floor(sim, angle=angle)
+    spawn(sim, 'body/0', Box(width=1.0, height=0.5), (*turned((0.0, 0.25), angle), angle))
+    return sim
+
+
+def tips_on_incline(share):
+    """Lay a box of 0.5 m by 1 m on an incline of a share of the angle at which it tips."""
+    sim, angle = simulation(friction=2.0, elasticity=0.0), share * math.atan(0.5)
+    floor(sim, angle=angle)
+    spawn(sim, 'body/0', Box(width=0.5, height=1.0), (*turned((0.0, 0.5), angle), angle))
+    return sim
+
+
+def fridge(height):
+    """Push a tall box at a height [m]; it tips above 0.75 m."""
+    sim, friction, mass = simulation(elasticity=0.0, friction=0.4), 0.4, 50.0
+    floor(sim)
+    force = {'force': (1.05 * friction * mass * G, 0.0), 'at': (-0.3, height - 0.9)}
+    spawn(sim, 'fridge/0', Box(width=0.6, height=1.8), (0.0, 0.9, 0.0), mass=mass, forces=[force])
+    return sim
+
+
+def leaning_ladder():
+    sim = simulation(friction=0.5, elasticity=0.0)
+    floor(sim)
+    spawn(sim, 'wall/0', Box(width=2.0, height=10.0), (-1.0, 5.0, 0.0), anchored=True)
+    angle, length, half = math.radians(115.0), 3.0, 0.025
+    foot = (-length * math.cos(angle) + 2 * half, half)
+    middle = (foot[0] + length / 2 * math.cos(angle), foot[1] + length / 2 * math.sin(angle))
+    spawn(sim, 'ladder/0', Box(width=length, height=2 * half), (*middle, angle))
+    return sim
+
+
+def comes_to_roll():
+    sim = simulation(friction=0.3)
+    floor(sim)
+    spawn(sim, 'disc/0', Disc(radius=0.5), (0.0, 0.5, 0.0), velocity=(5.0, 0.0))
+    return sim
+
+
+def sliding_box():
+    sim = simulation(friction=0.4)
+    floor(sim)
+    spawn(sim, 'box/0', Box(width=1.0, height=0.4), (0.0, 0.2, 0.0), velocity=(4.0, 0.0))
+    return sim
+
+
+# Laws 14 to 23: joints
+
+
+def pendulum_on_box(kind):
+    sim = simulation()
+    floor(sim, friction=1.0)
+    box = Box(width=2.0, height=3.0)
+    spawn(sim, 'box/0', box, (0.0, 1.5, 0.0), mass=100.0, friction=1.0, group=1)
+    spawn(sim, 'bob/0', Disc(radius=0.1), (1.0, 2.9, 0.0), mass=1.0, group=1)
+    points = [(0.0, 2.9)] if kind == 'axle' else [(1.0, 2.9), (0.0, 2.9)]
+    join(sim, 'joint/0', kind, points, a='bob/0', b='box/0')
+    return sim
+
+
+def two_in_space(kind):
+    sim = simulation(gravity=NOWHERE)
+    for number, sign in enumerate((1.0, -1.0)):
+        place, velocity = (1.2 * number, 0.0, 0.0), (0.0, 3.0 * number - 1.0)
+        box, name = Box(width=1.0, height=0.2), f'bar/{number}'
+        spawn(sim, name, box, place, velocity=velocity, spin=2.0 * sign, group=1)
+    points = [(0.6, 0.0)] if kind == 'axle' else [(0.9, 0.05), (0.3, -0.05)]
+    join(sim, 'joint/0', kind, points, a='bar/1', b='bar/0')
+    return sim
+
+
+def mass_on_spring(damping=0.0):
+    sim = simulation()
+    spawn(sim, 'mass/0', Box(width=0.2, height=0.2), (1.5, 0.0, 0.3), mass=2.0)
+    said = {'stiffness': 40.0, 'rest_length': 1.0, 'damping': damping}
+    points = [(1.5, 0.0), (0.0, 0.0)]
+    join(sim, 'joint/0', 'spring', points, a='mass/0', b='world', **said)
+    return sim
+
+
+def pendulum_beside_damper(damping):
+    sim = pendulum(0.6)
+    points = [(math.sin(0.6), -math.cos(0.6)), (2.0, 0.0)]
+    join(sim, 'spring/0', 'spring', points, a='bob/0', b='world', stiffness=0.0, damping=damping)
+    return sim
+
+
+def cradle():
+    sim = simulation()
+    locality.cradle(sim)
+    return sim
+
+
+def balls_on_rods():
+    material = {'elasticity': 1.0, 'friction': 0.0}
+    sim = simulation(gravity=(0.0, 0.0), bounds=(-4.0, 0.4, 4.0, 5.0), **material)
+    for number in range(3):
+        x, vx = 0.606 * number, 30.0 if number == 0 else 0.0
+        spawn(sim, f'ball/{number}', Disc(radius=0.3), (x, 1.4, 0.0), velocity=(vx, 0.0))
+        points = [(x, 1.4), (x, 4.4)]
+        join(sim, f'joint/{number}', 'rod', points, a=f'ball/{number}', b='world')
+    return sim
+
+
+def hanging_chain(count):
+    sim = simulation()
+    chain(sim, count, 0.2)
+    return sim
+
+
+def beam(load):
+    sim = simulation()
+    for number in range(5):
+        spawn(sim, f'box/{number}', Box(width=1.0, height=0.2), (number + 0.5, 0.0, 0.0))
+        other = f'box/{number - 1}' if number else 'world'
+        join(sim, f'joint/{number}', 'pin', [(number, 0.0)], a=f'box/{number}', b=other)
+    if load:
+        spawn(sim, 'load/0', Box(width=0.5, height=0.5), (4.5, 0.35, 0.0), mass=load)
+    return sim
+
+
+def beam_on_ropes(count):
+    sim = simulation()
+    spawn(sim, 'beam/0', Box(width=2.0, height=0.1), mass=3.0)
+    for number in range(count):
+        x = -0.9 + 1.8 * number / (count - 1)
+        join(sim, f'rope/{number}', 'rope', [(x, 0.0), (x, 1.0)], a='beam/0', b='world')
+    return sim
+
+
+def motor(max_torque):
+    sim = simulation()
+    spawn(sim, 'arm/0', Box(width=1.0, height=0.1), (0.0, -0.5, -math.pi / 2), mass=1.0)
+    said = {'rate': 2.0, 'max_torque': max_torque}
+    join(sim, 'joint/0', 'motor', [(0.0, 0.0)], a='arm/0', b='world', **said)
+    return sim
+
+
+def gears(ratio):
+    sim = simulation()
+    spawn(sim, 'wheel/0', Disc(radius=0.2), (-0.2, 0.0, 0.0))
+    spawn(sim, 'wheel/1', Disc(radius=0.4), (0.4, 0.0, 0.0))
+    join(sim, 'joint/0', 'axle', [(-0.2, 0.0)], a='wheel/0', b='world')
+    join(sim, 'joint/1', 'motor', [(0.4, 0.0)], a='wheel/1', b='world', rate=3.0)
+    join(sim, 'joint/2', 'gear', [(0.0, 0.0)], a='wheel/0', b='wheel/1', ratio=ratio)
+    return sim
+
+
+def slider():
+    sim = simulation()
+    spawn(sim, 'block/0', Box(width=0.4, height=0.4), (0.0, 3.0, 0.3), velocity=(4.0, 4.0))
+    points = [(0.0, 3.0), (1.0, 4.0)]
+    join(sim, 'joint/0', 'slider', points, a='block/0', b='world', lower=-0.5, upper=0.25)
+    return sim
+
+
+def limited_axle():
+    sim = simulation()
+    spawn(sim, 'arm/0', Box(width=1.0, height=0.1), (0.5, 0.0, 0.0))
+    said = {'lower': -0.7, 'upper': 0.2}
+    join(sim, 'joint/0', 'axle', [(0.0, 0.0)], a='arm/0', b='world', **said)
+    return sim
+
+
+def slack_rope():
+    sim = simulation()
+    spawn(sim, 'ball/0', Disc(radius=0.1), (0.3, 0.0, 0.0))
+    points = [(0.3, 0.0), (0.0, 1.0)]
+    join(sim, 'joint/0', 'rope', points, a='ball/0', b='world', length=1.5)
+    return sim
+
+
+def weak_joint(kind):
+    sim = simulation()
+    spawn(sim, 'weight/0', Disc(radius=0.1), (0.0, -2.0, 0.0), mass=3.0)
+    points = [(0.0, -2.0), (0.0, 0.0)]
+    join(sim, 'joint/0', kind, points, a='weight/0', b='world', max_force=20.0)
+    return sim
+
+
+def four_bar():
+    """Return a crank that turns a rocker by a coupler."""
+    sim = simulation()
+    points = ((0.0, 0.0), (0.0, 0.4), (1.2, 0.9), (1.4, 0.0))
+    names = ['world']
+    for number, (one, other) in enumerate(itertools.pairwise(points)):
+        middle = ((one[0] + other[0]) / 2, (one[1] + other[1]) / 2)
+        yaw = math.atan2(other[1] - one[1], other[0] - one[0])
+        bar = Box(width=math.dist(one, other), height=0.05)
+        spawn(sim, f'bar/{number}', bar, (*middle, yaw), group=1)
+        names.append(f'bar/{number}')
+        kind, said = ('motor', {'rate': 6.0}) if number == 0 else ('axle', {})
+        join(sim, f'joint/{number}', kind, [one], a=names[-1], b=names[-2], **said)
+    join(sim, 'joint/3', 'axle', [points[-1]], a=names[-1], b='world')
+    return sim
+
+
+def sled_on_rope():
+    """Return a box that a falling weight pulls over the floor by a rope."""
+    sim = simulation(friction=0.3, elasticity=0.0)
+    floor(sim)
+    spawn(sim, 'sled/0', Box(width=1.0, height=0.4), (0.0, 0.2, 0.0), mass=2.0)
+    spawn(sim, 'tug/0', Box(width=0.6, height=0.4), (2.0, 0.2, 0.0), mass=3.0, velocity=(3.0, 0.0))
+    points = [(1.7, 0.2), (0.5, 0.2)]
+    join(sim, 'rope/0', 'rope', points, a='tug/0', b='sled/0', length=1.5)
+    return sim
+
+
+def car(torque):
+    """Return a car of two wheels whose motor pushes it along the floor."""
+    sim = simulation(friction=1.0, elasticity=0.0)
+    floor(sim)
+    body = Box(width=2.0, height=0.4)
+    spawn(sim, 'car/0', body, (0.0, 0.6, 0.0), mass=10.0, group=1)
+    for number, x in enumerate((-0.8, 0.8)):
+        spawn(sim, f'wheel/{number}', Disc(radius=0.3), (x, 0.3, 0.0), mass=1.0, group=1)
+        said = {'rate': -50.0, 'max_torque': torque} if number == 0 else {}
+        kind = 'motor' if number == 0 else 'axle'
+        join(sim, f'axle/{number}', kind, [(x, 0.3)], a=f'wheel/{number}', b='car/0', **said)
+    return sim
+
+
+def stepladder():
+    """Return two legs on an axle that stand on the floor by friction."""
+    sim = simulation(friction=0.6, elasticity=0.0)
+    floor(sim)
+    angle, length = math.radians(70.0), 2.0
+    top = (0.0, length * math.sin(angle) + 0.03)
+    for number, side in enumerate((-1.0, 1.0)):
+        yaw = angle if side < 0 else math.pi - angle
+        foot = (side * length * math.cos(angle), 0.03)
+        middle = ((foot[0] + top[0]) / 2, (foot[1] + top[1]) / 2)
+        spawn(sim, f'leg/{number}', Box(width=length, height=0.05), (*middle, yaw), group=1)
+    join(sim, 'axle/0', 'axle', [top], a='leg/1', b='leg/0')
+    return sim
+
+
+def seesaw():
+    sim = simulation(elasticity=0.0)
+    floor(sim)
+    spawn(sim, 'plank/0', Box(width=4.0, height=0.1), (0.0, 1.0, 0.0))
+    join(sim, 'axle/0', 'axle', [(0.0, 1.0)], a='plank/0', b='world')
+    for number, (x, y) in enumerate(((-1.8, 1.3), (1.8, 2.5))):
+        spawn(sim, f'box/{number}', Box(width=0.4, height=0.4), (x, y, 0.0), mass=1.0 + number)
+    return sim
+
+
+def bridge_with_load(kind, slack, ratio):
+    sim, middle = bridge(kind, slack)
+    put_load(sim, Box(width=1.0, height=1.0), ratio, middle)
+    return sim
+
+
+def rope_on_drum(ratio):
+    sim, _ = loaded_rope(ratio, 0.02)
+    return sim
+
+
+def contradictory(seed):
+    sim, _ = tangle(seed)
+    return sim
+
+
+# Laws 18, 19, 21, 24, 36, 43 to 48, 55: piles, gases, walls
+
+
+def stack(count, size=0.5, *, order=1):
+    sim = simulation()
+    floor(sim)
+    for level in range(count)[::order]:
+        place = (0.0, size * (level + 0.5), 0.0)
+        spawn(sim, f'box/{level}', Box(width=size, height=size), place)
+    return sim
+
+
+def stack_in_bounds():
+    sim = simulation()
+    walls(sim, -5.0, 0.0, 5.0, 20.0)
+    for level in range(4):
+        place = (0.1 * level, 0.5 * (level + 0.5), 0.0)
+        spawn(sim, f'box/{level}', Box(width=0.5, height=0.5), place)
+    return sim
+
+
+def arch():
+    """Return two posts with a lintel, and a ball that rests on it."""
+    sim = simulation()
+    floor(sim)
+    for number, x in enumerate((-1.0, 1.0)):
+        spawn(sim, f'post/{number}', Box(width=0.4, height=2.0), (x, 1.0, 0.0))
+    spawn(sim, 'lintel/0', Box(width=2.8, height=0.3), (0.0, 2.15, 0.0))
+    spawn(sim, 'ball/0', Disc(radius=0.3), (0.0, 2.6, 0.0))
+    return sim
+
+
+def pile(size, gap):
+    sim = simulation()
+    floor(sim)
+    pyramid(sim, size, gap)
+    return sim
+
+
+def falls_on_stack(size):
+    sim = simulation()
+    spawn(sim, 'floor/0', Box(width=50 * size, height=10 * size), (0.0, -5 * size, 0.0),
+          anchored=True)  # fmt: skip
+    for number, level in enumerate((0.5, 1.5, 2.5, 4.5)):
+        spawn(sim, f'box/{number}', Box(width=size, height=size), (0.0, level * size, 0.0))
+    return sim
+
+
+def gas(count):
+    sim = simulation(gravity=NOWHERE, elasticity=1.0, friction=0.0)
+    walls(sim, -5.0, -5.0, 5.0, 5.0)
+    chance = random.Random(21)
+    for number in range(count):
+        at = (number % 10 - 4.5, number // 10 - 4.5, 0.0)
+        velocity = (chance.uniform(-5, 5), chance.uniform(-5, 5))
+        shape = Disc(radius=chance.uniform(0.1, 0.3))
+        spawn(sim, f'disc/{number}', shape, at, velocity=velocity)
+    return sim
+
+
+def row(kind, struck):
+    return row_of_elastic_bodies(
+        kind, struck=struck, gap=0.0, flight=0.0273, speed=2.0, rate=240.0
+    )
+
+
+def clay():
+    sim = simulation(elasticity=0.0)
+    floor(sim)
+    spawn(sim, 'plate/0', Box(width=2.0, height=0.1), (0.0, 0.05, 0.0), mass=0.1)
+    spawn(sim, 'clay/0', Box(width=0.5, height=0.5), (0.1, 2.35, 0.0), mass=2.0)
+    return sim
+
+
+def ball_between_walls():
+    sim = walled(0.5)
+    spawn(sim, 'ball/0', Disc(radius=0.05), (0.2, 0.0, 0.0), mass=1.0, velocity=(10.0, 0.0))
+    return sim
+
+
+def ball_in_loop():
+    sim, _ = ball_in_track(200, 8.0, turns=0.98)
+    return sim
+
+
+def ploughed():
+    sim = simulation(gravity=NOWHERE)
+    plough(sim, speed=8.0)
+    for number in range(6):
+        at = (1.0 + 0.15 * number, 0.1 * number - 0.2, 0.0)
+        spawn(sim, f'disc/{number}', Disc(radius=0.05), at, mass=1.0)
+    return sim
+
+
+def bar():
+    sim, _ = bar_among_discs(20.0)
+    return sim
+
+
+def crowd(count):
+    """Drop discs and boxes into a bin."""
+    sim, pick = simulation(), random.Random(55)
+    walls(sim, -1.5, 0.0, 1.5, 40.0)
+    for number in range(count):
+        shape = Disc(radius=0.1) if number % 2 else Box(width=0.2, height=0.2)
+        x = -1.2 + 0.3 * (number % 9) + pick.uniform(-0.02, 0.02)
+        spawn(sim, f'body/{number}', shape, (x, 0.2 + 0.3 * (number // 9), 0.1 * number))
+    return sim
+
+
+def kinematic_pusher():
+    sim = simulation(elasticity=0.0)
+    floor(sim)
+    said = {'kinematic': True, 'velocity': (1.0, 0.0)}
+    spawn(sim, 'pusher/0', Box(width=0.2, height=1.0), (-1.0, 0.5, 0.0), **said)
+    spawn(sim, 'box/0', Box(width=0.5, height=0.5), (0.0, 0.25, 0.0))
+    spawn(sim, 'disc/0', Disc(radius=0.25), (1.0, 0.25, 0.0))
+    return sim
+
+
+# Laws 37 to 41 and 51 to 54: floors seen from above, robots, people, applied forces
+
+
+def sliding_on_floor():
+    sim = simulation(gravity=NOWHERE, floor_friction=0.5)
+    spawn(sim, 'box/0', Box(width=0.4, height=0.2), velocity=(2.0, 0.5), spin=4.0)
+    spawn(sim, 'disc/0', Disc(radius=0.2), (2.0, 0.3, 0.0))
+    return sim
+
+
+def conveyor():
+    sim = simulation(gravity=NOWHERE, floor_friction=0.5)
+    said = {'anchored': True, 'sensor': True, 'surface_velocity': (0.4, 0.0)}
+    spawn(sim, 'belt/0', Box(width=6.0, height=1.0), (0.0, 0.0, 0.3), **said)
+    spawn(sim, 'box/0', Box(width=0.2, height=0.2))
+    return sim
+
+
+def robot(drive, velocity):
+    """Have a robot drive against a box that stands before a wall."""
+    sim = simulation(gravity=NOWHERE, floor_friction=0.3)
+    own = {} if drive['kind'] != 'differential' else {'track': 0.16}
+    said = {'drive': {**drive, **own, 'timeout': 0.0}}
+    spawn(sim, 'robot/0', Disc(radius=0.1), (0.0, 0.1, 0.1), mass=2.0, robot=said)
+    spawn(sim, 'box/0', Box(width=0.2, height=0.2), (0.5, 0.1, 0.0), mass=0.6)
+    spawn(sim, 'wall/0', Box(width=0.2, height=2.0), (1.0, 0.0, 0.0), anchored=True)
+    sim.perform(DriveRobot(name='robot/0', velocity=velocity))
+    return sim
+
+
+def shipped_robot(name):
+    sim = simulation(gravity=NOWHERE, floor_friction=0.5)
+    sim.perform(robot_spawn(name))
+    spawn(sim, 'box/0', Box(width=0.3, height=0.3), (0.4, 0.05, 0.0), mass=0.3)
+    sim.perform(DriveRobot(name='robot/0', velocity=(0.3, 0.0, 0.5)))
+    return sim
+
+
+def people(kind):
+    sim = simulation(gravity=NOWHERE, floor_friction=0.3)
+    spawn(sim, 'wall/0', Box(width=8.0, height=0.2), (0.0, -2.5, 0.0), anchored=True)
+    for number in range(6):
+        x, y = 2.0 * math.cos(number), 2.0 * math.sin(number)
+        walks = {'kind': kind, 'points': [[-x, -y], [x, y]]}
+        spawn(sim, f'person/{number}', Disc(radius=0.2), (x, y, 0.0), mass=70.0, actor=walks)
+    return sim
+
+
+def carts():
+    sim = simulation(gravity=NOWHERE, floor_friction=0.3)
+    points = [[0.0, 2.0, 0.0], [1.0, 2.0, 1.0], [1.0, 3.0, -2.0]]
+    for number in range(3):
+        path = {'kind': 'path', 'points': points, 'speed': 0.8, 'start': {'time': 0.2 * number}}
+        said = {'kinematic': number == 0, 'actor': path}
+        spawn(sim, f'cart/{number}', Box(width=0.2, height=0.3), (0.4 * number, 2.0, 0.0), **said)
+    return sim
+
+
+def thruster():
+    sim = simulation(gravity=(0.0, 0.0))
+    forces = [{'force': [0.0, 2.0], 'at': [0.5, 0.0], 'axes': 'body'}, {'force': [1.0, 0.0]}]
+    spawn(sim, 'body/0', ELL, mass=4.0, forces=forces)
+    return sim
+
+
+def pulled_block():
+    sim = simulation()
+    floor(sim, friction=0.25)
+    said = {'mass': 2.0, 'friction': 0.25, 'forces': [{'force': [8.0, 0.0]}]}
+    spawn(sim, 'block/0', Box(width=1.0, height=0.5), (0.0, 0.25, 0.0), **said)
+    return sim
+
+
+def windy_stack():
+    """Return a stack that a wind presses on, short of pushing it over."""
+    sim = stack(3)
+    sim.perform(Configure(changes={'friction': 0.8}))
+    wind = [{'force': [0.15, 0.0]}]
+    spawn(sim, 'sail/0', Box(width=0.3, height=0.5), (0.0, 1.75, 0.0), forces=wind)
+    return sim
+
+
+@cache
+def _drawn(name):
+    return drawn_scene(f'drawings/{name}').save()
+
+
+def _laws():
+    """Return the scenes of laws, by name."""
+    chaotic = partial(Scene, chaotic=True)
+    disc, box = Disc(radius=0.2), Box(width=0.6, height=0.3)
+    yield from {
+        'projectiles': Scene(build=projectiles),
+        'projectiles in air': Scene(build=projectiles_in_air),
+        'head-on, elastic': Scene(build=partial(head_on, 1.0)),
+        'head-on, clay': Scene(build=partial(head_on, 0.0)),
+        'pairs that meet': Scene(build=meetings),
+        'walls, thin ones too': Scene(build=on_walls, seconds=0.75),
+        'disc bounces': Scene(build=partial(bounce, disc, 0.8)),
+        'box falls flat': Scene(build=partial(bounce, box, 0.5)),
+        'box falls on a corner': Scene(build=partial(bounce, box, 0.5, 0.4)),
+        'nine bounce': Scene(build=bounces, seconds=0.75),
+        'disc with spin bounces': Scene(build=bouncing_disc),
+        'incline': Scene(build=incline),
+        'block that sticks': Scene(build=partial(block_on_incline, 26.0)),
+        'block that slides': Scene(build=partial(block_on_incline, 28.0)),
+        'box that tips': Scene(build=partial(tips_on_incline, 1.05)),
+        'box that does not tip': Scene(build=partial(tips_on_incline, 0.95)),
+        'fridge pushed high': Scene(build=partial(fridge, 1.2)),
+        'fridge pushed low': Scene(build=partial(fridge, 0.6)),
+        'ladder': Scene(build=leaning_ladder),
+        'disc that comes to roll': Scene(build=comes_to_roll),
+        'box that slides': Scene(build=sliding_box),
+        'pendulum': Scene(build=partial(pendulum, math.pi / 2)),
+        'double pendulum': Scene(build=double_pendulum),
+        'spring': Scene(build=mass_on_spring),
+        'damped spring': Scene(build=partial(mass_on_spring, 2.0)),
+        'pendulum beside a damper': Scene(build=partial(pendulum_beside_damper, 0.1)),
+        'cradle': Scene(build=cradle),
+        'balls on rods': Scene(build=balls_on_rods),
+        'chain of 5': Scene(build=partial(hanging_chain, 5)),
+        'chain of 30': Scene(build=partial(hanging_chain, 30)),
+        'beam': Scene(build=partial(beam, 0.0)),
+        'beam with a load': Scene(build=partial(beam, 2.0)),
+        'beam on 3 ropes': Scene(build=partial(beam_on_ropes, 3)),
+        'motor': Scene(build=partial(motor, 100.0)),
+        'motor that stalls': Scene(build=partial(motor, 1.0)),
+        'gears': Scene(build=partial(gears, -2.0)),
+        'slider between limits': Scene(build=slider),
+        'axle between limits': Scene(build=limited_axle),
+        'rope that becomes taut': Scene(build=slack_rope),
+        'rod that is too weak': Scene(build=partial(weak_joint, 'rod')),
+        'four-bar linkage': Scene(build=four_bar),
+        'sled on a rope': Scene(build=sled_on_rope),
+        'car': Scene(build=partial(car, 10.0)),
+        'car that lifts its front': Scene(build=partial(car, 120.0)),
+        'stepladder': Scene(build=stepladder),
+        'seesaw': Scene(build=seesaw),
+        'bridge': Scene(build=partial(bridge_with_load, 'axle', 0.05, 10.0), seconds=1.0),
+        'rope on a drum': Scene(build=partial(rope_on_drum, 2.4), seconds=0.5),
+        'stack of 3': Scene(build=partial(stack, 3)),
+        'stack of 10': Scene(build=partial(stack, 10)),
+        'stack of 10 from the top': Scene(build=partial(stack, 10, order=-1)),
+        'stack in bounds': Scene(build=stack_in_bounds),
+        'arch': Scene(build=arch),
+        'box falls on a stack': Scene(build=partial(falls_on_stack, 1.0)),
+        'coin falls on a stack': Scene(build=partial(falls_on_stack, 0.01)),
+        'house falls on a stack': Scene(build=partial(falls_on_stack, 10.0)),
+        'clay on a plate': Scene(build=clay),
+        'ball between walls': Scene(build=ball_between_walls),
+        'ball in a loop': Scene(build=ball_in_loop),
+        'plough': Scene(build=ploughed, seconds=0.5),
+        'pusher': Scene(build=kinematic_pusher),
+        'pyramid of 105': Scene(build=partial(pile, 0.5, 0.1), seconds=0.75),
+        'gas of 60': chaotic(build=partial(gas, 60)),
+        'bar among discs': chaotic(build=bar, seconds=0.5),
+        'crowd of 60': chaotic(build=partial(crowd, 60)),
+        'slides on a floor': Scene(build=sliding_on_floor),
+        'conveyor': Scene(build=conveyor),
+        'people of ORCA': Scene(build=partial(people, 'orca')),
+        'people of social forces': Scene(build=partial(people, 'social_force')),
+        'carts on paths': Scene(build=carts),
+        'thruster': Scene(build=thruster),
+        'block that is pulled': Scene(build=pulled_block),
+        'stack in the wind': Scene(build=windy_stack),
+    }.items()
+    for kind in ('axle', 'rod', 'rope'):
+        yield f'pendulum by a(n) {kind} on a box', Scene(build=partial(pendulum_on_box, kind))
+    for kind in ('axle', 'rod', 'slider'):
+        yield f'two bars by a(n) {kind} in space', Scene(build=partial(two_in_space, kind))
+    for kind, struck in itertools.product(('discs', 'boxes', 'mixed'), (1, 2)):
+        yield (
+            f'row of {kind}, {struck} struck',
+            Scene(build=partial(row, kind, struck), seconds=0.4),
+        )
+    for seed, kinds in enumerate(
+        ((round_shape, round_shape), (round_shape, angular_shape), (angular_shape,) * 2)
+    ):
+        yield f'pair in flight {seed}', Scene(build=partial(pair, kinds, seed), seconds=0.5)
+    for seed in range(3):
+        machine, tangled = partial(random_world, seed), partial(contradictory, seed)
+        yield f'random machine {seed}', Scene(build=machine, chaotic=seed == 0)
+        yield f'tangle {seed}', Scene(build=tangled, chaotic=seed == 2)
+        yield f'random crowd {seed}', chaotic(build=partial(random_crowd, seed))
+    for kind, velocity in (
+        ('differential', (0.4, 0.0, 0.3)),
+        ('omni', (0.4, 0.1, 0.0)),
+        ('car', (0.4, 0.0, 0.2)),
+    ):
+        drive = {**DRIVE, 'kind': kind} if kind == 'differential' else {'kind': kind}
+        yield f'{kind} robot', Scene(build=partial(robot, drive, velocity))
+
+
+# Of shipped worlds.
+CHAOTIC = {'world galton'}
+
+
+def _shipped():
+    """Return the shipped worlds, lessons, drawings and robots, by name."""
+    for name in sorted(worlds_in(shipped_worlds())):
+        yield f'world {name}', partial(state_of, name)
+    for name in sorted(worlds_in(shipped_lessons())):
+        yield f'lesson {name}', partial(state_of, name)
+    for name in sorted(drawings()):
+        yield f'drawing {name}', partial(_drawn, name)
+    for name in ('mouse', 'turtlebot3_burger', 'omni', 'car'):
+        yield f'robot {name}', partial(shipped_robot, name)
+
+
+SCENES = dict(_laws())
+SCENES |= {name: Scene(build=build, chaotic=name in CHAOTIC) for name, build in _shipped()}

@@ -1,0 +1,40 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Every relation holds for every scene, or is told as an exception with its figure."""
+
+import pytest
+
+from .exceptions import crossings, EXCEPTIONS, is_quick, MARGIN
+from .relations import RELATIONS
+from .scenes import SCENES
+from ..slow import slow
+
+
+@pytest.mark.parametrize(
+    ('relation', 'scene'),
+    [names if is_quick(*names) else slow(*names) for names in crossings()],
+)
+def test_a_relation_holds_for_a_scene(relation, scene):
+    law, played = RELATIONS[relation], SCENES[scene]
+    if not law.is_about(played):
+        return
+    off, limit = law.off(played), law.limit(played)
+
+    told = EXCEPTIONS.get(relation, {}).get(scene)
+    if told is None:
+        assert off <= limit, f'{law.law}: off by {off:.2g}'
+    else:
+        assert off > limit, 'it is no exception any more: python -m test.relations.exceptions'
+        assert off <= MARGIN * told, f'{law.law}: off by {off:.2g}, told {told:.2g}'
+
+
+def test_exceptions_are_those_of_crossings_that_there_are():
+    for relation, scenes in EXCEPTIONS.items():
+        assert set(scenes) <= set(SCENES)
+        assert all(RELATIONS[relation].is_about(SCENES[scene]) for scene in scenes)
+
+
+def test_there_are_a_hundred_scenes_and_eighteen_relations():
+    assert len(SCENES) >= 100
+    assert len(RELATIONS) >= 18
