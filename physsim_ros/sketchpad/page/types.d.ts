@@ -127,6 +127,8 @@ export interface Lesson {
   figure: number;
   within: number;
   answer: string;
+  /** What is shown first: x and y, least and greatest [m]. */
+  view?: Bounds | null;
 }
 
 /** The state of the world after a step, a column for each quantity; rows as in the scene. */
@@ -162,6 +164,8 @@ export interface Sample {
   /** Mean acceleration since the sample before [m/s²]. */
   ax?: number;
   ay?: number;
+  /** Mean angular acceleration since then [rad/s²]. */
+  spinning?: number;
   /** Forces on it by their kind [N], where they were shown or plotted. */
   forces?: Record<string, number>;
 }

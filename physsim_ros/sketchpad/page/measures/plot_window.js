@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
 
-import {choice, createElement, download, elementOf, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
+import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
-import {FORCES, QUANTITIES, tableOf} from './quantities.js';
+import {QUANTITIES, tableOf} from './quantities.js';
 import {threeDigits} from '../rounding.js';
+import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
@@ -25,6 +26,7 @@ export class PlotWindow {
     this.names = [];
     this.axes = {x: 'time', y: 'y'};
     this.sums = false; // the sum over the bodies is shown, too
+    this.differs = false; // in place of this run and the last one, their difference is shown
     this.canvas = createElement('canvas', {role: 'img', 'aria-label': t('Large plot')});
     this.reading = createElement('output', {}, '');
     this.legend = createElement('div', {className: 'row legend'});
@@ -52,38 +54,32 @@ export class PlotWindow {
     const quantities = Object.entries(QUANTITIES).map(([key, {label}]) => /** @type {[string, string]} */ ([key, label]));
     const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => choice(label, quantities, this.axes[axis], (key) => {
       this.axes[axis] = key;
-      this.#record();
       this.#draw();
     });
+    const rest = inRow(this.#adder(), this.#summer(), this.#subtracter(), textButton(t('Copy table'), () => this.#copyTable()));
+    rest.classList.add('rest');
+    const more = foldButton(t('Bodies, sum, table'), () => {
+      more.setAttribute('aria-expanded', String(!this.element.classList.toggle('folded')));
+    }, '');
+    more.setAttribute('aria-expanded', 'false');
+    this.element.classList.add('folded');
     this.element.replaceChildren(createElement('header', {},
-      inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')),
-        this.#adder(), this.#summer(), this.legend, textButton(t('Copy table'), () => this.#copyTable())),
-      iconButton(t('Close the plot'), 'close', () => this.close())), this.canvas, this.reading);
+      inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')), this.legend),
+      more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.canvas, this.reading);
     this.element.hidden = false;
     this.#show(names);
-    this.#record();
-    const {panel, room, selection, lessons} = this.app;
-    // The panel is folded beside it; on a small page there is no room for both.
-    panel.chosen = null;
-    if (!room.isRoomy) {
-      selection.select([]);
-      lessons.card.open = false;
-    }
+    const {room, selection, lessons} = this.app;
+    lessons.settle();
+    // On a small page there is no room for plot and panel.
+    if (!isRoomy()) selection.select([]);
     room.fit();
   }
 
   close() {
     this.element.hidden = true;
     this.names = [];
-    this.app.records.recordsForces = false;
     this.app.records.want(this, []);
     this.app.room.fit();
-  }
-
-  /** Have forces recorded where an axis is one. */
-  #record() {
-    this.app.records.recordsForces = [this.axes.x, this.axes.y].some((key) => key in FORCES);
-    this.app.askForParts();
   }
 
   /** @returns {HTMLElement} the switch of the sum over the bodies, of what can be summed */
@@ -93,6 +89,16 @@ export class PlotWindow {
       this.#draw();
     });
     button.title = t('Momentum or energy of all bodies of the plot together');
+    return button;
+  }
+
+  /** @returns {HTMLElement} the switch of the difference between this run and the last one */
+  #subtracter() {
+    const button = toggling(textButton(t('Difference'), () => {}), () => this.differs, () => {
+      this.differs = !this.differs;
+      this.#draw();
+    });
+    button.title = t('This run less the last one, at the same times');
     return button;
   }
 
@@ -128,7 +134,8 @@ export class PlotWindow {
       const points = (/** @type {Sample[]} */ samples) => samples.map((sample) =>
         [QUANTITIES[x].of(sample, body, gravity), QUANTITIES[y].of(sample, body, gravity)]).filter((point) => point.every(Number.isFinite));
       const color = palette[COLORS[i % COLORS.length]];
-      curves.push({points: points(record.samples), color, width: 3},
+      if (this.differs && x === 'time') curves.push({points: differenceOf(points(record.samples), points(record.left)), color, width: 3});
+      else curves.push({points: points(record.samples), color, width: 3},
         {points: points(record.left), color, width: 2, dash: [6, 6], alpha: 0.7});
     });
     if (this.sums && QUANTITIES[y].sums && x === 'time') curves.push({points: sumOf(curves.filter(({dash}) => !dash)), color: palette.ink, width: 4});
@@ -192,6 +199,19 @@ export class PlotWindow {
       this.saveTable(this.names);
     }
   }
+}
+
+/**
+ * @param {number[][]} points over time
+ * @param {number[][]} others
+ * @returns {number[][]} points of their difference, at the times that both have
+ */
+function differenceOf(points, others) {
+  const before = new Map(others.map(([time, value]) => [time.toFixed(4), value]));
+  return points.flatMap(([time, value]) => {
+    const other = before.get(time.toFixed(4));
+    return other === undefined ? [] : [[time, value - other]];
+  });
 }
 
 /**
