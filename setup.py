@@ -95,7 +95,8 @@ def write_declarations(path: Path) -> None:
     """
     Write the declarations of the headers as a module of Python that cffi makes of them.
 
-    Read from the headers at each start, they take a tenth of a second.
+    It has the hash of all sources, as the core has it, by which both are compared. Read from the
+    headers at each start, the declarations take a tenth of a second.
     """
     texts = [(SOURCE / CORE / name).read_text('utf-8') for name in ('chipmunk.h', 'core.h')]
     lines = ''.join(texts).splitlines(keepends=True)
@@ -103,6 +104,8 @@ def write_declarations(path: Path) -> None:
     ffi.cdef(''.join(line for line in lines if not line.startswith('#')))
     ffi.set_source(f'{PACKAGE}.engine.core.{path.stem}', None, compiler_verbose=0)
     ffi.emit_python_code(str(path))
+    with path.open('a', encoding='utf-8') as file:
+        file.write(f'SOURCES = {HASH!r}\n')
 
 
 SETUPTOOLS = int(setuptools.__version__.partition('.')[0])

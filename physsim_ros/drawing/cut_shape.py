@@ -24,8 +24,8 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.joining import connected
-from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.errors import BadSize
+from physsim_ros.model.arrays import Flags, Floats, Ints
+from physsim_ros.model.errors import BadSize, WorldFull
 from physsim_ros.model.shapes import (
     as_tuples,
     Box,
@@ -50,6 +50,13 @@ _ROUNDING = 1e-9
 # The greatest gap between parts that touch, in shares of the smaller one's size: discs that touch
 # do so as polygons.
 _TOUCHING = 0.02
+# Greatest number of pieces of a cut, each of which is read and made in a millisecond or two.
+MOST_PIECES = 200
+# Greatest number of corners of the parts of a solid that is cut, which are compared in pairs: 500
+# boxes, or twice the triangles that a shape can have.
+_MOST_CORNERS = 2000
+# Pairs of parts that are compared at once.
+_AT_ONCE = 1000
 # The greatest share of a piece in triangles that are too thin to be simulated, which are omitted.
 _SLIVERS = 1e-3
 
@@ -62,6 +69,7 @@ def cut_shape(shape: Shape, start: Point, end: Point) -> list[Shape]:
     :param end: of it [m]
     :raises BadSize: a piece would be too thin
     :raises BadOutline: a piece would be no outline, since it is too thin
+    :raises WorldFull: it is cut into too many pieces, or has too many parts
     """
     if isinstance(shape, Chain):
         found: list[Shape] = list(_cut_chain(shape, np.array(start), np.array(end)))
@@ -70,10 +78,25 @@ def cut_shape(shape: Shape, start: Point, end: Point) -> list[Shape]:
     return sorted(found, key=lambda piece: -piece.form.area)
 
 
+def check_count(count: int) -> None:
+    """
+    Refuse a number of pieces.
+
+    :raises WorldFull: there are too many for one cut
+    """
+    if count > MOST_PIECES:
+        raise WorldFull(f'one cut makes at most {MOST_PIECES} pieces, not {count} or more')
+
+
 def _cut_solid(
     shape: Disc | Box | Polygon | Triangles | Compound, start: Floats, end: Floats
 ) -> list[Shape]:
     parts = _outlines(shape)
+    if len(parts) > 1 and (corners := sum(map(len, parts))) > _MOST_CORNERS:
+        raise WorldFull(
+            f'the parts of the body have {corners} corners, a disc {_CORNERS}; the knife cuts at '
+            f'most {_MOST_CORNERS}'
+        )
     least = _ROUNDING * shape.form.area
     pieces: list[Floats] = []
     # For each piece the part that it is of.
@@ -83,10 +106,12 @@ def _cut_solid(
         pieces += cut if len(cut) > 1 else [part]
         owners += [number] * max(len(cut), 1)
     if len(parts) == 1:
+        check_count(len(pieces))
         return [_polygon(each) for each in pieces] if len(pieces) > 1 else [shape]
     bodies = _kept_together(parts, pieces, owners, start, end)
     if len(bodies) == 1:
         return [shape]
+    check_count(len(bodies))
     return [
         Compound(element=shape.element, centers=tuple(shape.centers[owners[it]] for it in body))
         if isinstance(shape, Compound) and all(owners.count(owners[it]) == 1 for it in body)
@@ -209,15 +234,16 @@ def _joined(pieces: list[Floats], start: Floats, end: Floats) -> Flags:
     left = np.array([each.min() >= 0.0 for each in across])
     right = np.array([each.max() <= 0.0 for each in across])
     length = math.dist(start, end)
-    axis = (end - start) / length
-    for a, b in np.argwhere(joined & left[:, None] & right).tolist():
-        # The corners of each on the line of the cut, as distances from its start.
-        spans = [dots(pieces[it][across[it] == 0.0] - start, axis) for it in (a, b)]
-        if all(map(len, spans)):
-            begin, stop = max(map(min, spans)), min(map(max, spans))
-            if begin < -_ON_LINE or stop > length + _ON_LINE:
-                continue
-        joined[a, b] = joined[b, a] = False
+    # The corners of each on the line of the cut, as distances from its start: first and last.
+    along = [dots(each - start, (end - start) / length) for each in pieces]
+    spans = [each[there == 0.0] for each, there in zip(along, across, strict=True)]
+    first, last = (
+        np.array([f(each) if len(each) else np.nan for each in spans]) for f in (min, max)
+    )
+    begin, stop = np.maximum(first[:, None], first), np.minimum(last[:, None], last)
+    beside = (begin < -_ON_LINE) | (stop > length + _ON_LINE)
+    apart = left[:, None] & right & ~beside
+    joined[apart | apart.T] = False
     return joined
 
 
@@ -228,19 +254,36 @@ def _touching(polygons: list[Floats]) -> Flags:
     slack = _TOUCHING * np.minimum(size[:, None], size)
     gap = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)
     touching: Flags = gap <= slack
-    for a, b in np.argwhere(np.triu(touching, 1)).tolist():
-        apart = max(_gap(polygons[a], polygons[b]), _gap(polygons[b], polygons[a]))
+    outward = [_outward(each) for each in polygons]
+    most = max(map(len, polygons))
+    # Of those with fewer, the last corner is repeated.
+    corners, normals = (
+        np.array([np.pad(each, ((0, most - len(each)), (0, 0)), 'edge') for each in found])
+        for found in (polygons, outward)
+    )
+    one, other = np.nonzero(np.triu(touching, 1))
+    for at in range(0, len(one), _AT_ONCE):
+        a, b = one[at : at + _AT_ONCE], other[at : at + _AT_ONCE]
+        apart = np.maximum(_gaps(corners, normals, a, b), _gaps(corners, normals, b, a))
         touching[a, b] = touching[b, a] = apart <= slack[a, b]
     return touching
 
 
-def _gap(polygon: Floats, other: Floats) -> float:
-    """Return the greatest distance of another polygon from a side of a convex one [m]."""
+def _outward(polygon: Floats) -> Floats:
+    """Return the normals of the sides of a convex polygon, (n, 2) float64."""
     edges = next_vertices(polygon) - polygon
     outward = np.column_stack((edges[:, 1], -edges[:, 0])) * np.sign(signed_area(polygon))
-    normals = outward / np.maximum(norms(edges), 1e-300)[:, None]
-    away = (other[None] - polygon[:, None]) * normals[:, None]
-    return float(away.sum(axis=2).min(axis=1).max())
+    normals: Floats = outward / np.maximum(norms(edges), 1e-300)[:, None]
+    return normals
+
+
+def _gaps(corners: Floats, normals: Floats, a: Ints, b: Ints) -> Floats:
+    """Return the greatest distance of each polygon b from a side of its a, (p,) float64 [m]."""
+    (nx, ny), (x, y) = (np.moveaxis(each[a], 2, 0) for each in (normals, corners))
+    of_b = np.moveaxis(corners[b], 2, 0)[:, :, None, :]
+    away = (nx[:, :, None] * of_b[0] + ny[:, :, None] * of_b[1]).min(axis=2)
+    gaps: Floats = (away - (nx * x + ny * y)).max(axis=1)
+    return gaps
 
 
 def _polygon(outline: Floats) -> Polygon:
@@ -300,6 +343,7 @@ def _cut_chain(chain: Chain, start: Floats, end: Floats) -> Iterator[Chain]:
     if len(spans) == 1:
         yield chain
         return
+    check_count(len(spans))
     if min(last - first for first, last in spans) < SMALLEST:
         raise BadSize(f'a part is shorter than {SMALLEST:g} m', field='points')
     lines = [_between(points, length, *span) for span in spans]

@@ -21,14 +21,13 @@ from typing import Any
 
 import numpy as np
 from physsim_ros.drawing import body_requests
-from physsim_ros.drawing.cut_shape import cut_shape
+from physsim_ros.drawing.cut_shape import check_count, cut_shape
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.bodies_under import nearest_points
 from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
-from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Cut, Rejoin, Spawn, Unjoin
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import contains, Shape
@@ -46,16 +45,17 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     :param end: of it [m]
     :raises NothingThere: it passes right through nothing that can be cut
     :raises BadSize: a piece would be too thin
+    :raises WorldFull: it cuts into more pieces, or severs more joints, than one cut may
     """
-    middle = (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
-    # In the order of spawning.
-    near = scene.bodies_at(middle, math.dist(start, end) / 2)[::-1]
-    pieces = {
-        name: found
-        for name in near
-        if _can_be_cut(scene.body(name)) and (found := _pieces(name, start, end, scene))
-    }
-    severed = [joint.name for joint in scene.joints if _is_crossed(joint, start, end, scene)]
+    near = scene.bodies_along(start, end)
+    pieces: dict[str, list[Shape]] = {}
+    count = 0
+    for name in near:
+        if _can_be_cut(scene.body(name)) and (found := _pieces(name, start, end, scene)):
+            pieces[name] = found
+            count += len(found)
+            check_count(count)
+    severed = _severed(start, end, scene)
     if not pieces and not severed:
         for name in near:
             if _pieces(name, start, end, scene):
@@ -71,7 +71,11 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     for name, shapes in pieces.items():
         names[name] = {name: shapes[0]} | {next(new): shape for shape in shapes[1:]}
         parts += _requests_of(name, names[name], scene)
-    moved = (_moved_joint(joint, names) for joint in scene.joints if joint.name not in severed)
+    moved = (
+        _moved_joint(joint, names)
+        for joint in scene.joints
+        if not names.keys().isdisjoint((joint.a, joint.b)) and joint.name not in severed
+    )
     return Cut(
         pieces=tuple(parts),
         joints=tuple(join for join in moved if join is not None),
@@ -99,22 +103,28 @@ def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shap
     return [] if pieces == [shape] else pieces
 
 
-def _is_crossed(joint: Joint, start: Point, end: Point, scene: SceneQuery) -> bool:
-    """Return whether a stroke crosses a rope, rod or spring beside the bodies at its ends."""
-    if not joint.kind.schema.along_line:
-        return False
-    bodies = [name for name in (joint.a, joint.b) if name != WORLD]
-    points = joint.drawn_points({name: scene.pose(name) for name in bodies})
-    a, b, first, last = np.array((*points, start, end))
-    along, stroke, away = b - a, last - first, first - a
+def _severed(start: Point, end: Point, scene: SceneQuery) -> list[str]:
+    """
+    Return the names of the ropes, rods and springs that a stroke crosses beside their bodies.
+
+    :raises WorldFull: there are too many
+    """
+    rows = [row for row, joint in enumerate(scene.joints) if joint.kind.schema.along_line]
+    a, b = np.moveaxis(scene.snapshot.ends[rows], 1, 0)
+    along, stroke, away = b - a, np.subtract(end, start), start - a
     determinant = cross(along, stroke)
-    if determinant == 0.0:
-        return False
-    # The crossing of the two lines, in shares of the joint and of the stroke.
-    of_joint, of_stroke = cross(away, stroke) / determinant, cross(away, along) / determinant
-    if not (0.0 < of_joint < 1.0 and 0.0 < of_stroke < 1.0):
-        return False
-    return not set(bodies) & set(scene.bodies_at(point_of(a + of_joint * along)))
+    with np.errstate(divide='ignore', invalid='ignore'):
+        # The crossing of the two lines, in shares of the joint and of the stroke.
+        of_joint, of_stroke = cross(away, stroke) / determinant, cross(away, along) / determinant
+    crossed = (of_joint > 0.0) & (of_joint < 1.0) & (of_stroke > 0.0) & (of_stroke < 1.0)
+    names: list[str] = []
+    for number in np.flatnonzero(crossed).tolist():
+        joint = scene.joints[rows[number]]
+        point = point_of(a[number] + of_joint[number] * along[number])
+        if {joint.a, joint.b}.isdisjoint(scene.bodies_at(point)):
+            names.append(joint.name)
+            check_count(len(names))
+    return names
 
 
 def _requests_of(
@@ -183,7 +193,16 @@ def _piece_at(point: Point, shapes: dict[str, Shape]) -> str:
         near = (each for piece in pieces for each in nearest_points(piece, point))
         return min(math.dist(point, each) for each in near)
 
-    return min(shapes, key=distance)
+    forms = {name: shape.form for name, shape in shapes.items()}
+    least = {name: math.dist(point, form.centroid) - form.outer for name, form in forms.items()}
+    nearest, way = '', math.inf
+    # By the distance of their circles, up to those that are farther than a piece.
+    for name in sorted(shapes, key=least.__getitem__):
+        if least[name] > way:
+            break
+        if (found := distance(name)) < way:
+            nearest, way = name, found
+    return nearest
 
 
 def _moved_joint(joint: Joint, names: Mapping[str, dict[str, Shape]]) -> Rejoin | None:

@@ -21,10 +21,13 @@ from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import contain_each, contains_each
+from physsim_ros.model.shapes import contain_each, contains_each, extent_of
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import (
+    cross,
+    dots,
     local_to_world,
+    norms,
     Point,
     Pose,
     rotated_each,
@@ -118,6 +121,32 @@ class SceneQuery:
         local = rotated_each(point - poses[:, :2], -poses[:, 2])
         covering = rows[contain_each(forms, local[:, 0], local[:, 1], slack)]
         return tuple(self.names[row] for row in covering)
+
+    def bodies_along(self, start: Point, end: Point) -> tuple[str, ...]:
+        """
+        Return the names of the bodies that a line may meet, in spawn order.
+
+        Left out are those whose circle about the centre of mass, or whose box in their own axes,
+        the line does not meet.
+
+        :param start: of the line in the world [m]
+        :param end: of it [m]
+        """
+        scene, centers = self.snapshot.scene, self.snapshot.centers
+        way = np.subtract(end, start)
+        share = dots(centers - start, way) / max(math.hypot(*way) ** 2, 1e-300)
+        nearest = start + np.clip(share, 0.0, 1.0)[:, None] * way
+        rows = np.flatnonzero(norms(centers - nearest) <= scene.outer_radii)
+        extents = [extent_of(scene.bodies[row].shape.form) for row in rows.tolist()]
+        low, high = np.moveaxis(np.array(extents).reshape(-1, 2, 2), 1, 0)
+        x, y, yaw = self.snapshot.poses[rows].T
+        a, b = (rotated_each(at - np.column_stack((x, y)), -yaw) for at in (start, end))
+        # Separating axes of a box and a line: those of the box, and the normal of the line.
+        beside = (np.maximum(a, b) < low) | (np.minimum(a, b) > high)
+        half, along = (high - low) / 2, np.abs(b - a)
+        reach = along[:, 0] * half[:, 1] + along[:, 1] * half[:, 0]
+        met = np.abs(cross(b - a, (low + high) / 2 - a)) <= reach
+        return tuple(self.names[row] for row in rows[met & ~beside.any(axis=1)].tolist())
 
     def covers(self, name: str, points: Floats) -> Flags:
         """

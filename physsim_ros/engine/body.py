@@ -170,6 +170,12 @@ def offset_of(body: Body) -> Point:
     return (0.0, 0.0) if body.anchored else body.shape.form.centroid
 
 
+def reach_of(body: Body) -> float:
+    """Return the greatest distance of a point of a body from the engine's origin [m]."""
+    form = body.shape.form
+    return form.outer + math.dist(form.centroid, offset_of(body))
+
+
 def lead_of(body: Body, wrench: Wrench, yaw: float, gravity: Point, dt: float) -> Twist:
     """
     Return the half-step lead of a body in free flight.

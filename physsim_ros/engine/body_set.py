@@ -10,9 +10,10 @@ Pymunk does not wake bodies that overlap a static or kinematic body which is add
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
-from physsim_ros.engine.body import RigidBody
+import numpy as np
+from physsim_ros.engine.body import reach_of, RigidBody, SEAM
 from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.transform import Point
 import pymunk
@@ -35,6 +36,7 @@ class BodySet:
         self._names: dict[pymunk.Body, str] = {}
         self._pm_space = pm_space
         self._shapes = shapes
+        self._places: _Places | None = None
 
     def add_without_shapes(self, rigids: Sequence[RigidBody]) -> None:
         """Add bodies at once; their shapes are added later, under their old numbers."""
@@ -42,6 +44,7 @@ class BodySet:
             self.by_name[rigid.body.name] = rigid
             self._names[rigid.pm_body] = rigid.body.name
         self._pm_space.add(*(rigid.pm_body for rigid in rigids))
+        self.note_moved()
 
     def add(self, rigid: RigidBody) -> None:
         """Add a body; a name that was taken out before keeps its place in the order."""
@@ -54,6 +57,11 @@ class BodySet:
         self._shapes.remove(rigid.pm_body.shapes)
         self._pm_space.remove(rigid.pm_body)
         del self._names[rigid.pm_body]
+        self.note_moved()
+
+    def note_moved(self) -> None:
+        """Note that bodies have moved, come or gone since the last call of `at`."""
+        self._places = None
 
     def at(self, point: Point) -> list[str]:
         """
@@ -62,7 +70,9 @@ class BodySet:
         Pymunk's own query knows shapes where the last step has compared them; since then stages
         may have moved their bodies, but not in a space that is restored from a checkpoint.
         """
-        found = [rigid for rigid in self.by_name.values() if rigid.covers(point)]
+        if self._places is None:
+            self._places = _Places(list(self.by_name.values()))
+        found = [rigid for rigid in self._places.near(point) if rigid.covers(point)]
         return [rigid.body.name for rigid in sorted(found, key=lambda rigid: -rigid.serial)]
 
     def count_near(
@@ -112,6 +122,27 @@ class BodySet:
         if not rigid.body.dynamic:
             wake_bodies(each.pm_body for each in touching)
             wake_overlapping(self._pm_space, rigid.pm_body)
+
+
+class _Places:
+    """
+    The places of bodies, until one moves.
+
+    :param rigids: the bodies
+    """
+
+    def __init__(self, rigids: Sequence[RigidBody]) -> None:
+        self._rigids = rigids
+        places = [(*rigid.pm_body.position, reach_of(rigid.body)) for rigid in rigids]
+        self._x, self._y, self._reach = np.array(places, np.float64).reshape(-1, 3).T.copy()
+
+    def near(self, point: Point) -> Iterator[RigidBody]:
+        """Yield the bodies that may cover a point of the world [m]."""
+        apart = np.hypot(self._x - point[0], self._y - point[1])
+        # A share for the rounding of places, 1 nm at 1 000 km.
+        slack = SEAM + 1e-15 * (abs(point[0]) + abs(point[1]))
+        for row in np.flatnonzero(apart <= self._reach * (1.0 + 1e-12) + slack).tolist():
+            yield self._rigids[row]
 
 
 def _is_anchored(shape: pymunk.Shape) -> bool:

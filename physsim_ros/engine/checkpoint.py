@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from zlib import crc32
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
@@ -212,7 +213,9 @@ def restore_checkpoint(
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
     space.core.write_state(at_rest)
-    space.shapes.put_back((rigid.first_shape, rigid.pm_body.shapes) for rigid in rigids)
+    space.shapes.put_back(
+        (rigid.first_shape, rigid.pm_body.shapes) for rigid in sorted(rigids, key=_scattered)
+    )
     write_impulses(space.pm_space, space.shapes, checkpoint.memory, dt)
     space.core.write_state(checkpoint.state)
     for joint in scene.joints:
@@ -224,6 +227,16 @@ def restore_checkpoint(
     for grip in checkpoint.grips:
         space.grips.put(grip)
     return space
+
+
+def _scattered(rigid: RigidBody) -> int:
+    """
+    Return the place of a body in the order in which its shapes enter the engine's tree.
+
+    The tree of bodies in a row that enter from left to right is as deep as there are bodies: with
+    20,000 of them it took 10 s. The place depends on no other body.
+    """
+    return crc32(rigid.body.name.encode())
 
 
 def _rigid_body(body: Body, pool: Mapping[str, RigidBody], row: int) -> RigidBody:

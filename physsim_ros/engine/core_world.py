@@ -88,8 +88,10 @@ class CoreWorld:
 
     def drop_joints(self) -> None:
         """Have the core step no joints, before one of them comes or goes."""
+        if 'joints' not in self._tables:
+            return
         lib.core_use_joints(self._world, ffi.NULL, 0, ffi.NULL, 0, ffi.NULL, 0)
-        self._tables.pop('joints', None)
+        del self._tables['joints']
 
     def use(self, **tables: Table) -> None:
         """

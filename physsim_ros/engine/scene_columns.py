@@ -19,6 +19,7 @@ from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Chain, Convex, Form, lever_of
 
 # A pair that approaches by less than this share of the lesser inner radius in a step needs no time
@@ -56,6 +57,20 @@ class SceneColumns(NamedTuple):
     tracks: tuple[Floats, ...]
 
 
+def check_columns(body: Body, settings: WorldSettings, dt: float) -> None:
+    """
+    Make the columns of one body, so that an error in them refuses its request, and ends no step.
+
+    Those of a body without a role follow from its form, which building it derives.
+
+    :param settings: of its world
+    :param dt: of a sub-step [s]
+    """
+    roles = body.robot, body.actor
+    if roles != (None, None) or body.forces or settings.floor_friction:
+        _make_columns(Scene(bodies=(body,), settings=settings), dt)
+
+
 # A world is often built anew from the scene that it has, and then another one follows it.
 @lru_cache(maxsize=2)
 def columns_of(scene: Scene, dt: float) -> SceneColumns:
@@ -64,6 +79,10 @@ def columns_of(scene: Scene, dt: float) -> SceneColumns:
 
     :param dt: of a sub-step [s]
     """
+    return _make_columns(scene, dt)
+
+
+def _make_columns(scene: Scene, dt: float) -> SceneColumns:
     rows = {name: row for row, name in enumerate(scene.names)}
     expiries: dict[int, list[str]] = {}
     for body in scene.bodies:

@@ -23,6 +23,7 @@ from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
+from physsim_ros.engine.scene_columns import check_columns
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
@@ -152,6 +153,7 @@ class Space:
 
     def add(self, body: Body, pose: Pose, twist: Twist) -> RigidBody:
         """Add a new body, the topmost one."""
+        check_columns(body, self._settings, self.dt)
         last = next(reversed(self.bodies.by_name.values()), None)
         rigid = rigid_body.build(body, 0 if last is None else last.serial + 1)
         self._insert(rigid, pose, twist)
@@ -159,6 +161,7 @@ class Space:
 
     def change(self, old: RigidBody, body: Body, pose: Pose, twist: Twist) -> None:
         """Replace a body by a changed one, in its place in the spawn order."""
+        check_columns(body, self._settings, self.dt)
         if same_in_engine(old.body, body):
             self._drop_table()
             self.changes += body != old.body
@@ -200,6 +203,7 @@ class Space:
         """Set the pose of a body."""
         touching = self.bodies.touching(rigid.pm_body)
         rigid.pose = self.joints.with_turns(rigid, pose)
+        self.bodies.note_moved()
         self.bodies.wake_around(rigid, touching)
         self._core.note_moved_static()
         self._release(touching)
@@ -333,6 +337,7 @@ class Space:
                 reports_contacts=reports_contacts,
             )
         self._age += made
+        self.bodies.note_moved()
         if core.has_broken:
             for name, force in self.joints.broken():
                 self.unjoin(name)

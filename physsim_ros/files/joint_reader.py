@@ -20,12 +20,16 @@ from physsim_ros.files.world_schema import is_same, naming, OWN_JOINT_KEYS, ROUN
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import point_list, Within
 from physsim_ros.model.errors import BadProperty
-from physsim_ros.model.joints import joined_from
+from physsim_ros.model.joints import joined_from, MOST_RATIO
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests import join_from, Restore
 from physsim_ros.model.scene import Joint, Seat
 from physsim_ros.model.transform import Point, Pose, REST
 from physsim_ros.simulation.world import World
+
+# Range of the numbers of a seat: the yaw of a body that is not lost, times the ratio of a gear,
+# less that of another one.
+_IN_SEAT = Within(-(MOST_RATIO + 1.0) * LOST, (MOST_RATIO + 1.0) * LOST)
 
 
 def joints_from(
@@ -104,4 +108,4 @@ def _seat(value: object) -> Seat:
     count = len(Seat._fields)
     if not isinstance(value, list) or len(value) != count:
         raise BadProperty(f'seat must be {count} numbers', field='seat')
-    return Seat(*(Within(-LOST, LOST)(each, 'seat') for each in value))
+    return Seat(*(_IN_SEAT(each, 'seat') for each in value))

@@ -11,12 +11,15 @@ are errors at once. What is made here is for this user alone.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 import errno
 import os
 from pathlib import Path
 import secrets
 import stat
 
+# The open files of the process, by which one without a name is named (open(2), O_TMPFILE).
+_DESCRIPTORS = Path('/proc/self/fd')
 # Size of a part of a file [bytes].
 _PART = 2**18
 
@@ -88,18 +91,38 @@ def write_file(path: Path, data: bytes, *, mode: int | None = None) -> None:
     temporary = path.parent / f'.{secrets.token_hex(8)}.tmp'
     if mode is None:
         mode = stat.S_IMODE(path.stat().st_mode) if path.exists() else 0o600
-    # Readable by no other user before it has its mode.
-    descriptor = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o600)
+    descriptor, is_named = _open_temporary(temporary)
     try:
         with os.fdopen(descriptor, 'wb') as file:
             os.fchmod(file.fileno(), mode)
             file.write(data)
             file.flush()
             os.fsync(file.fileno())
+            if not is_named:
+                # With a directory that counts for no absolute path, Python calls linkat, which
+                # follows the link of the descriptor.
+                unnamed = _DESCRIPTORS / str(descriptor)
+                os.link(unnamed, temporary, src_dir_fd=descriptor)
         temporary.replace(path)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+
+
+def _open_temporary(path: Path) -> tuple[int, bool]:
+    """
+    Open a new file to write, readable by no other user; return its descriptor, and if it is named.
+
+    One without a name is gone with the process, whatever ends that; some file systems have none.
+
+    :param path: its name, or the one that it gets
+    :raises OSError: it cannot be opened
+    """
+    flags = os.O_WRONLY | os.O_CLOEXEC
+    if hasattr(os, 'O_TMPFILE') and _DESCRIPTORS.is_dir():
+        with suppress(OSError):
+            return os.open(path.parent, flags | os.O_TMPFILE, 0o600), False
+    return os.open(path, flags | os.O_CREAT | os.O_EXCL, 0o600), True
 
 
 def _check(status: os.stat_result, most: int) -> None:

@@ -22,7 +22,7 @@ from physsim_ros.model.texts import name_meant, nearest_name
 
 # Greatest ratio of a gear, and the inverse of the least: between the fastest and the slowest wheel
 # of a clock it is 1e6.
-_MOST_RATIO = 1e6
+MOST_RATIO = 1e6
 # Greatest phase of a gear [rad]: exact to a nanometre at an arm of a metre.
 _MOST_PHASE = 1e6
 
@@ -37,8 +37,8 @@ AS_DRAWN = 'as drawn'
 
 
 def _ratio(value: object, name: str) -> float:
-    ratio = Within(-_MOST_RATIO, _MOST_RATIO)(value, name)
-    if abs(ratio) < 1.0 / _MOST_RATIO:
+    ratio = Within(-MOST_RATIO, MOST_RATIO)(value, name)
+    if abs(ratio) < 1.0 / MOST_RATIO:
         raise BadProperty(f'{name} is {ratio:g}; it must not be 0', field=name)
     return ratio
 
@@ -228,7 +228,7 @@ class JointProperties(Checked):
         float | None,
         _ratio,
         'turns of `a` for one of `b`; negative for opposite directions; '
-        f'{brief(1 / _MOST_RATIO)} .. {brief(_MOST_RATIO)}, either sign',
+        f'{brief(1 / MOST_RATIO)} .. {brief(MOST_RATIO)}, either sign',
         1.0,
     ] = None
     phase: Annotated[

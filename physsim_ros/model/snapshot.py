@@ -142,7 +142,8 @@ class Snapshot:
     def potential_energy(self) -> float:
         """Potential energy of all dynamic bodies in the field of gravity, 0 at the origin [J]."""
         weights = self.scene.inertia[:, :1] * self.scene.settings.gravity
-        return float(-(weights * self.centers).sum())
+        # + 0.0 removes the sign of a negative zero, here and in the momentum.
+        return float(-(weights * self.centers).sum()) + 0.0
 
     @cached_property
     def elastic_energy(self) -> float:
@@ -172,7 +173,7 @@ class Snapshot:
     @cached_property
     def momentum(self) -> tuple[float, float]:
         """Linear momentum of all dynamic bodies [kg m/s]."""
-        x, y = (self.scene.inertia[:, :1] * self.twists[:, :2]).sum(axis=0).tolist()
+        x, y = ((self.scene.inertia[:, :1] * self.twists[:, :2]).sum(axis=0) + 0.0).tolist()
         return x, y
 
 

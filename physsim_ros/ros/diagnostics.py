@@ -102,8 +102,8 @@ class Diagnostics:
         values = {
             'bodies': len(snapshot.scene.bodies),
             'simulation time [s]': f'{snapshot.stamp * 1e-9:.3f}',
-            'speed': f'{simulation.speed:g}',
-            'real-time factor': f'{factor:.3f}',
+            'speed': f'{simulation.speed:zg}',
+            'real-time factor': f'{factor:z.3f}',
             'frames': frames,
             'late frames': late_frames,
             'late frames in this second': late,
@@ -147,7 +147,7 @@ class Diagnostics:
         """
         if late > 0:
             yield (
-                f'{late} frames late, real-time factor {factor:.2f}: '
+                f'{late} frames late, real-time factor {factor:z.2f}: '
                 'fewer bodies, joints or viewers, or a lower speed'
             )
         if self.message_delay > LONG_DELAY:

@@ -80,7 +80,7 @@ class Outputs:
         return (
             self.records_contacts
             or self.topics.contacts.subscriptions > 0
-            or self.viewer.is_open
+            or self.viewer.reads_contacts
             or (self.sketchpad is not None and self.sketchpad.wants_contacts)
         )
 

@@ -49,6 +49,7 @@ class Pages:
         # The last one: what it has opened stays open.
         live.prepare['sketchpad'] = self.open_for
         live.effects['sketchpad'] = self.update
+        live.effects['sketchpad_locked'] = control.note_locked
         self.check_locks(control.values['sketchpad_locked'])
         self.open_for(control.values['sketchpad'])
         self.update()

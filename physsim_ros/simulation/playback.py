@@ -96,6 +96,11 @@ class Playback:
         return self.step, self._past.tree.serial_shown_at(self.step)
 
     @property
+    def is_newest(self) -> bool:
+        """Whether nothing lies ahead of the moment that is shown."""
+        return self.moment == self._past.tree.end
+
+    @property
     def time(self) -> str:
         """Return the simulation time that is shown, with its unit."""
         return f'{self.step / self._past.physics_rate:.3f} s'
@@ -113,7 +118,7 @@ class Playback:
         tree, rate, shown = self._past.tree, self._past.physics_rate, self.moment
         if self.speed < 0.0:
             state = 'rewinding'
-        elif shown != tree.end:
+        elif not self.is_newest:
             state = 'in the past'
         else:
             state = 'playing' if self.speed else 'paused'

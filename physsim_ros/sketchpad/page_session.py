@@ -9,7 +9,7 @@ Law: a session changes nothing itself; it submits requests, and every message ha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import replace
 import time
 from typing import Any, NamedTuple
@@ -29,7 +29,13 @@ from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, Content, Message, Origin
 from physsim_ros.sketchpad.past import BodyPasts, PastTouches
 from physsim_ros.sketchpad.results import Result, Results
-from physsim_ros.sketchpad.rights import check_locked, check_right, Role
+from physsim_ros.sketchpad.rights import (
+    check_locked,
+    check_moment,
+    check_right,
+    check_taken_back,
+    Role,
+)
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Time from one request of a resting hand to the next [s]; a hand without requests lets go after
@@ -39,6 +45,8 @@ HAND_PERIOD = 2.0
 UNNAMED = 'Page '
 # Name of a teacher who has chosen none.
 TEACHER = 'Teacher'
+# End of the names of teachers as authors; names that people choose are printable.
+_TEACHES = '\n'
 
 
 class Shared(NamedTuple):
@@ -76,7 +84,7 @@ class PageSession:
     :ivar world: that it draws in
     :ivar role: its rights
     :ivar watches: whether a teacher watches a class with it, and is nobody in this world
-    :ivar person: name of the person at it, who makes its requests
+    :ivar person: name of the person at it
     :ivar unnamed: name of that person before one is chosen
     :ivar drawing: its strokes and clicks
     :ivar hand: name of its hand in the world
@@ -148,6 +156,11 @@ class PageSession:
 
     # Requests
 
+    @property
+    def author(self) -> str:
+        """Return who makes its requests: a teacher is not a pupil of the same name."""
+        return author_of(self.person, self.role)
+
     def submit(
         self,
         origin: Origin,
@@ -172,7 +185,7 @@ class PageSession:
         if message:
             queue.tell(Answer(topic=topic, message=message, values=values, asker=asker))
         for request in requests:
-            queue.submit(request, topic=topic, gesture=gesture, asker=asker, author=self.person)
+            queue.submit(request, topic=topic, gesture=gesture, asker=asker, author=self.author)
             gesture = queue.gesture if gesture is None else gesture
         return gesture or 0
 
@@ -192,6 +205,22 @@ class PageSession:
         :raises Frozen: a request concerns one
         """
         check_locked(self.role, requests, self.world)
+
+    def check_moment(self) -> None:
+        """
+        Refuse what replaces all bodies, by those of another moment or world, but for a teacher.
+
+        :raises Frozen: a body is locked
+        """
+        check_moment(self.role, self.world)
+
+    def check_taken_back(self, gestures: Collection[int]) -> None:
+        """
+        Refuse to take back gestures, by their numbers, that concern locked bodies.
+
+        :raises Frozen: one of them does, and the page is no teacher's
+        """
+        check_taken_back(self.role, gestures, self.world)
 
     def with_material(self, requests: Iterable[Request]) -> tuple[Request, ...]:
         """Return the requests of a drawing, with the page's material for the bodies they add."""
@@ -258,6 +287,11 @@ class PageSession:
         self._preview = preview = self.drawing.preview
         lines = [*preview.lines, *([preview.points] if preview.points else [])]
         self.send({'type': 'preview', 'lines': lines, 'label': preview.label})
+
+
+def author_of(person: str, role: Role) -> str:
+    """Return the author of the requests of a person of a role."""
+    return person + _TEACHES if role is Role.TEACH else person
 
 
 def answer_of(origin: Origin, action: Callable[[], str], boundary: ErrorBoundary) -> Answer:

@@ -5,7 +5,8 @@
 The rights of pages: which role may send a message, and which bodies are locked for pupils.
 
 Laws: each kind of message needs one right, which a role has or not. A request that concerns a
-locked body is refused, but for a teacher.
+locked body is refused, but for a teacher; so is what takes back such a request, and what brings
+back another moment or another world while a body of this one is locked.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ from physsim_ros.model.errors import BadProperty, Frozen, TeacherOnly, ViewOnly
 from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.simulation.past.node import Node
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Requests that concern every body of the world.
@@ -112,17 +114,86 @@ def check_locked(role: Role, wanted: Iterable[Request], world: WorldControl) -> 
     """
     Refuse requests that concern locked bodies, but for a teacher.
 
+    In the past a request begins another course, without the bodies that came later.
+
     :raises Frozen: one of them does
     """
-    names = world.locked_bodies
-    if not names or role is Role.TEACH:
+    # A hand lets go anywhere, and at any time.
+    wanted = [each for each in wanted if not isinstance(each, requests.LetGo)]
+    if not wanted or not world.locked_bodies or role is Role.TEACH:
         return
-    locks = locks_of(names)
     snapshot = world.current_snapshot()
-    for request in wanted:
-        for name in _bodies_of(request, snapshot):
-            if locks.has(name):
-                raise Frozen(f'{shown_name(name)} is locked by a teacher', field='name')
+    _check_newest(world)
+    _check_names((name for each in wanted for name in _bodies_of(each, snapshot)), world)
+
+
+def check_moment(role: Role, world: WorldControl) -> None:
+    """
+    Refuse what replaces all bodies, by those of another moment or world, but for a teacher.
+
+    :raises Frozen: a body of this world is locked
+    """
+    check_locked(role, (requests.DeleteAll(),), world)
+
+
+def check_taken_back(role: Role, gestures: Collection[int], world: WorldControl) -> None:
+    """
+    Refuse to take back gestures that concern locked bodies, but for a teacher.
+
+    :param gestures: their numbers
+    :raises Frozen: one of them does
+    """
+    if not gestures or not world.locked_bodies or role is Role.TEACH:
+        return
+    snapshot = world.current_snapshot()
+    _check_newest(world)
+    nodes = world.simulation.past.tree.nodes_of(gestures)
+    _check_names((name for each in nodes for name in _bodies_then(each, snapshot)), world)
+
+
+def _check_newest(world: WorldControl) -> None:
+    """
+    Refuse to change the past of a world in which bodies are locked.
+
+    :raises Frozen: the past is shown
+    """
+    if not world.simulation.playback.is_newest:
+        raise Frozen('the past is shown, and bodies are locked by a teacher', field='history')
+
+
+def _check_names(names: Iterable[str], world: WorldControl) -> None:
+    """
+    Refuse names of locked bodies.
+
+    :raises Frozen: one of them is
+    """
+    locks = locks_of(world.locked_bodies)
+    for name in names:
+        if locks.has(name):
+            raise Frozen(f'{shown_name(name)} is locked by a teacher', field='name')
+
+
+def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:
+    """
+    Return the bodies that a request of the past concerned, by name; where it is unknown, all.
+
+    :param snapshot: of now; the points of the request may lie on other bodies now
+    """
+    request, scene = node.request, snapshot.scene
+    match request:
+        case (
+            requests.Join()
+            | requests.Rejoin()
+            | requests.Unjoin()
+            | requests.Pin()
+            | (requests.Axle())
+        ):
+            joints = (each for each in scene.joints if each.name == node.subject)
+            joint = next(joints, None)
+            return scene.names if joint is None else (joint.a, joint.b)
+        case requests.Grab() | requests.Anchor() | requests.Release():
+            return (node.subject,)
+    return _bodies_of(request, snapshot)
 
 
 def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:

@@ -18,7 +18,6 @@ from typing import Any
 
 from physsim_ros.files import OwnWorlds, state_from, text_of
 from physsim_ros.model.errors import Busy, Refusal
-from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
@@ -28,7 +27,7 @@ from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession, Shared
 from physsim_ros.sketchpad.past import BodyPasts, PastTouches, timeline_content, TimelineReport
 from physsim_ros.sketchpad.results import Results, results_file
-from physsim_ros.sketchpad.rights import check_locked, check_right, Right, Role
+from physsim_ros.sketchpad.rights import check_moment, check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
 from physsim_ros.sketchpad.server.server import Server
 from physsim_ros.sketchpad.world_control import WorldControl
@@ -244,7 +243,7 @@ class Sketchpad:
         try:
             with self._boundary.message(origin.topic):
                 check_right(Right.CHANGE, upload.role, frozen=self._world.is_frozen)
-                check_locked(upload.role, (DeleteAll(),), self._world)
+                check_moment(upload.role, self._world)
                 self._world.submit_call(answers, Wait.FOR_SEEK)
         except Refusal as refusal:
             upload.reply(Answer.refused(refusal, topic=origin.topic))

@@ -13,8 +13,16 @@ import pytest
 import rclpy
 from rclpy.context import Context
 
-# Environment variables that name peers in spite of the discovery range.
-_PEERS = ('ROS_DISCOVERY_SERVER', 'ROS_STATIC_PEERS')
+# Environment variables that name peers in spite of the discovery range: with `ROS_LOCALHOST_ONLY`,
+# which is deprecated, rcl ignores that range, and profiles of a DDS may list peers.
+_PEERS = (
+    'ROS_LOCALHOST_ONLY',
+    'ROS_DISCOVERY_SERVER',
+    'ROS_STATIC_PEERS',
+    'FASTDDS_DEFAULT_PROFILES_FILE',
+    'FASTRTPS_DEFAULT_PROFILES_FILE',
+    'CYCLONEDDS_URI',
+)
 
 
 @contextmanager

@@ -67,6 +67,7 @@ class Output:
         self._logged = self._dropped = 0
         # Number of dropped frames beyond which that is reported: of each opening once.
         self._known_drops = 0.0
+        self._is_silent = False
         # Steady times of the last progress, and until which the last frames are waited for [s].
         self._progress, self._end_by = time.monotonic(), float('inf')
         self._ending = threading.Event()
@@ -101,6 +102,11 @@ class Output:
         return not (self.failure or self.has_ended)
 
     @property
+    def reads_contacts(self) -> bool:
+        """Whether frames have to have contacts: it is open, or silent, and may go on."""
+        return self.is_open or (self._is_silent and not self.has_ended)
+
+    @property
     def has_ended(self) -> bool:
         """Whether the thread has ended."""
         return not self._thread.is_alive()
@@ -127,6 +133,7 @@ class Output:
     def poll(self) -> None:
         """Report a receiver that does not answer, and frames that were dropped."""
         if self.is_open and time.monotonic() - self._progress > SILENT_AFTER:
+            self._is_silent = True
             self._fail(f'no answer for {SILENT_AFTER:g} s')
         if self.is_open and self._dropped > self._known_drops:
             self._known_drops = float('inf')
@@ -216,7 +223,7 @@ class Output:
 
     def _note_progress(self) -> None:
         """Note that the receiver has answered, and report it where there was none before."""
-        self._progress = time.monotonic()
+        self._progress, self._is_silent = time.monotonic(), False
         if self._reason and not self._ending.is_set():
             self._reason = ''
             self._report(Answer(topic='viewer', message=self._endpoint.address))

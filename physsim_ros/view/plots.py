@@ -35,13 +35,13 @@ class Plot(NamedTuple):
 
     :ivar name: with its unit
     :ivar series: name and colour of each
-    :ivar values: of a frame, one for each series
+    :ivar values: of a frame, one for each series; None where one was not measured
     :ivar stepped: whether values last until they change
     """
 
     name: str
     series: tuple[Style, ...]
-    values: Callable[[Frame], tuple[float, ...]]
+    values: Callable[[Frame], tuple[float, ...] | None]
     stepped: bool = False
 
 
@@ -58,10 +58,11 @@ def angular_momentum(snapshot: Snapshot) -> float:
     return float((orbital + moment * snapshot.twists[:, 2]).sum())
 
 
-def _counts(frame: Frame) -> tuple[float, ...]:
+def _counts(frame: Frame) -> tuple[float, ...] | None:
     scene, contacts = frame.snapshot.scene, frame.contacts
-    pairs = 0 if contacts is None else len(contacts.pairs)
-    return float(len(scene.bodies)), float(len(scene.joints)), float(pairs)
+    if contacts is None:
+        return None
+    return float(len(scene.bodies)), float(len(scene.joints)), float(len(contacts.pairs))
 
 
 PLOTS = {
@@ -106,14 +107,20 @@ class Plots:
         recording.log(PACE, style, static=True)
 
     def send(self, batch: FrameBatch, _: Change) -> None:
-        """Send the values of every `SAMPLE`-th frame of a batch, and of its last one."""
+        """
+        Send the values of every `SAMPLE`-th frame of a batch, and of its last one.
+
+        A frame without one of the values of a plot has no row of it.
+        """
         chosen = batch.sampled(SAMPLE)
-        times = batch.times_at(chosen)
         for path, plot in PLOTS.items():
-            values = np.array([plot.values(batch.frames[index]) for index in chosen])
-            scalars = rr.Scalars.columns(scalars=values.ravel())
-            parts = scalars.partition([len(plot.series)] * len(chosen))
-            self._recording.send_columns(path, times, parts)
+            rows = {index: plot.values(batch.frames[index]) for index in chosen}
+            measured = {index: values for index, values in rows.items() if values is not None}
+            if measured:
+                values = np.array([*measured.values()])
+                scalars = rr.Scalars.columns(scalars=values.ravel())
+                parts = scalars.partition([len(plot.series)] * len(measured))
+                self._recording.send_columns(path, batch.times_at([*measured]), parts)
 
     def send_pace(self, batch: FrameBatch, real_time_factor: float) -> None:
         """

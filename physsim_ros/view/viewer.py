@@ -86,6 +86,11 @@ class Viewer:
         return any(output.is_open for output in self._outputs)
 
     @property
+    def reads_contacts(self) -> bool:
+        """Whether frames are logged, or will be, by one that is silent."""
+        return any(output.reads_contacts for output in self._outputs)
+
+    @property
     def page_address(self) -> str:
         """Return the address of the viewer's web page, on this machine; '' where there is none."""
         return '' if self._window is None else self._window.page_address

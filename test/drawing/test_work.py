@@ -5,23 +5,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 import itertools
 import sys
 import tracemalloc
 
 import numpy as np
-from physsim_ros.drawing import DrawingSession, DrawingSettings
+from physsim_ros.drawing import DrawingSession, DrawingSettings, knife
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.figure import MOST_STROKES, MOST_TIME
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import Malformed
+from physsim_ros.model.errors import Malformed, WorldFull
+from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.requests import Spawn
-from physsim_ros.model.scene import Scene
+from physsim_ros.model.scene import Joint, Scene, Seat
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Chain, Shape
+from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon, Shape
 from physsim_ros.model.snapshot import Snapshot
+from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world.body_description import new_body
 import pytest
 
@@ -157,3 +160,84 @@ def test_no_body_is_copied_twice_at_once() -> None:
     with pytest.raises(Malformed, match='named twice'):
         session.copy_machine(('drawn/0', 'drawn/1', 'drawn/0'), (9.0, 0.0), snapshot)
     assert session.copy_machine(('drawn/0',), (9.0, 0.0), snapshot)[0].name == 'drawn/3'
+
+
+BOX = Box(width=0.4, height=0.4)
+ZIGZAG = Chain(points=tuple((0.1 * n, (-1.0) ** n) for n in range(1000)), thickness=0.02)
+TEETH = ((0.01 * (n // 2) + 0.004 * (n % 2), 1.0 - 0.9 * (n % 2)) for n in range(998))
+COMB = Polygon(outline=((0.0, 0.0), *TEETH, (5.0, 0.0)))
+HEAP = Compound(element=Disc(radius=0.5), centers=tuple((0.001 * n, 0.0) for n in range(100)))
+ACROSS = (-1.0, 0.5), (120.0, 0.51)
+
+
+def query_of(shapes: Sequence[tuple[Shape, Pose]], joints: tuple[Joint, ...] = ()) -> SceneQuery:
+    """Return a scene of bodies of these shapes at these poses, from which caches are made."""
+    settings = WorldSettings()
+    spawns = (Spawn(name=f'b/{number}', shape=shape) for number, (shape, _) in enumerate(shapes))
+    bodies = tuple(new_body(each, settings, None)[0] for each in spawns)
+    poses = np.array([pose for _, pose in shapes])
+    scene = Scene(bodies=bodies, settings=settings, joints=joints)
+    snapshot = Snapshot(step=0, stamp=0, scene=scene, poses=poses, twists=np.zeros_like(poses))
+    return SceneQuery(snapshot)
+
+
+@pytest.mark.parametrize(
+    'shapes',
+    [
+        [(BOX, (0.5 * number, 0.5, 0.0)) for number in range(1000)],
+        [(ZIGZAG, (0.0, 0.0, 0.0))],
+        [(COMB, (0.0, 0.0, 0.0))],
+        [(HEAP, (0.0, 0.5, 0.0))],
+    ],
+    ids=['boxes', 'chain', 'comb', 'heap'],
+)
+def test_a_cut_into_too_many_pieces_is_refused_with_little_work(shapes):
+    query = query_of(shapes)
+
+    def refuse() -> None:
+        with pytest.raises(WorldFull):
+            knife.cut(*ACROSS, query)
+
+    # Values that are kept of a scene are made first.
+    refuse()
+    # As many as of a hundred boxes, each cut in two.
+    assert work(refuse)[0] < 100_000
+
+
+def test_a_cut_beside_twice_as_many_bodies_is_hardly_more_work() -> None:
+    """Of bodies whose circles the stroke meets, and whose boxes it does not."""
+    stick = Box(width=100.0, height=0.1)
+
+    def beside(count: int) -> Floats:
+        sticks = [(stick, (50.0, 1.0 + 0.11 * number, 0.0)) for number in range(count)]
+        query = query_of([(BOX, (1.0, 0.5, 0.0)), *sticks])
+        assert len(knife.cut(*ACROSS, query).pieces) == 2
+        return work(lambda: knife.cut(*ACROSS, query))
+
+    some, more = beside(200), beside(400)
+    assert (more - some)[0] < 200 * 5
+
+
+def test_a_joint_of_a_body_that_is_cut_is_compared_with_the_pieces_beside_it() -> None:
+    line = Chain(points=tuple((0.1 * n, (-1.0) ** (n // 5)) for n in range(900)), thickness=0.02)
+
+    def jointed(count: int) -> Floats:
+        ends = [line.points[5 * number] for number in range(count)]
+        joints = tuple(
+            Joint(
+                name=f'j/{number}',
+                kind=JointKind.PIN,
+                a='b/0',
+                b='world',
+                seat=Seat(*end, *end, 0.0, 0.0, 0.0, 0.0),
+                properties=JointProperties(),
+            )
+            for number, end in enumerate(ends)
+        )
+        query = query_of([(line, (0.0, 0.0, 0.0))], joints)
+        assert len(knife.cut(*ACROSS, query).pieces) > 100
+        return work(lambda: knife.cut(*ACROSS, query))
+
+    some, more = jointed(60), jointed(120)
+    # Of some 180 pieces, the circles of all.
+    assert (more - some)[0] < 60 * 2 * 1_000

@@ -3,6 +3,9 @@
 
 """Actors as values: their mappings are read and written, and wrong ones refused."""
 
+import itertools
+import math
+
 from physsim_ros.model.actors import actor_from
 from physsim_ros.model.errors import Refusal
 import pytest
@@ -39,6 +42,36 @@ def test_a_loop_at_one_speed_comes_back_to_its_first_point():
     ]
 
 
+@pytest.mark.parametrize(
+    ('points', 'times'),
+    [
+        ([[0, 0], [1, 0], [1, 1e-17], [2, 0]], [0, 1, 2]),
+        ([[0, 0], [0, 0], [1, 0], [1, 0]], [0, 1]),
+        ([[0, 0], [0, 0]], [0]),
+        # A way that is lost in the sum of those before it.
+        ([[0, 0], [1e7, 0], [0, 0], [1e-9, 0]], [0, 1e7, 2e7]),
+        ([[0, 0, 1], [1, 0, 1], [1, 0, 1]], [0, 1]),
+    ],
+)
+def test_points_of_a_path_at_one_place_are_one_point(points, times):
+    path = actor_from({'kind': 'path', 'points': points, 'speed': 1}, 'actor')
+    assert [time for time, *_ in path.track] == times
+    assert path.entry()['points'] == points
+
+
+@pytest.mark.parametrize('yaw', [False, True])
+@pytest.mark.parametrize('speed', [1e-3, 0.5, 1e5])
+def test_a_circle_that_closes_is_a_path(speed, yaw):
+    for corners, radius in itertools.product(range(3, 174), (1e-3, 1.0, 1e4)):
+        angles = [2 * math.pi * k / corners for k in range(corners + 1)]
+        points = [[radius * math.cos(t), radius * math.sin(t), t][: 2 + yaw] for t in angles]
+        if yaw and speed / radius > 1e4:
+            continue
+        entry = {'kind': 'path', 'points': points, 'speed': speed, 'repeat': 'loop'}
+        path = actor_from(entry, 'actor')
+        assert len(path.track) == corners + 1
+
+
 def test_a_loop_turns_back_the_shorter_way():
     points = [[0, 0, 0], [1, 0, 3], [1, 1, 6]]
     loop = actor_from({'kind': 'path', 'points': points, 'speed': 1, 'repeat': 'loop'}, 'actor')
@@ -60,7 +93,27 @@ def test_a_loop_turns_back_the_shorter_way():
         ({**PATH, 'points': [[0, 0], [1, 2, 3]]}, 'malformed', 'points'),
         ({**PATH, 'points': [[0, 0], [float('nan'), 2]]}, 'malformed', 'points'),
         ({**PATH, 'points': [[0, 0], [1e9, 2]]}, 'bad_property', 'points'),
-        ({**PATH, 'points': [[0, 0], [0, 0]]}, 'bad_property', 'points'),
+        ({**PATH, 'points': [[0, 0, 0], [0, 0, 1]]}, 'bad_property', 'points'),
+        ({**PATH, 'points': [[0, 0, 0], [1e-11, 0, 1]]}, 'bad_property', 'points'),
+        (
+            {'kind': 'path', 'points': [[0, 0], [9, 0]], 'times': [0, 1e-5]},
+            'bad_property',
+            'times',
+        ),
+        (
+            {'kind': 'path', 'points': [[0, 0], [1, 0]], 'times': [0, 5e-324]},
+            'bad_property',
+            'times',
+        ),
+        (
+            {
+                'kind': 'path',
+                'points': [[0, 0, 0], [0, 0, 3]],
+                'times': [9, math.nextafter(9, 10)],
+            },
+            'bad_property',
+            'times',
+        ),
         ({**PATH, 'points': [[0, 0]] * 1001}, 'bad_property', 'points'),
         ({**PATH, 'times': [0, 1, 2, 3]}, 'bad_property', 'times'),
         ({'kind': 'path', 'points': SQUARE, 'times': [0, 1, 2]}, 'malformed', 'times'),

@@ -489,7 +489,9 @@ class Player:
         for each in fresh:
             self._check(self._was_asked(each.request), 'nobody has asked for this')
         self.submitted.clear()
-        if fresh:
+        # Nobody has asked for the release of a silent hand, and what there is to redo stays.
+        released = sum('no message from' in each.message for each in frame.answers)
+        if len(fresh) > released:
             self.undone.clear()
         self.line.made += fresh
         return fresh

@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 import json
+import math
 from pathlib import Path
 import time
 from typing import Any
@@ -131,6 +132,100 @@ def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
         assert pupil.ask(kind, **fields)['ok'], kind
     assert boss.ask('lock', names=[])['ok']
     assert pupil.ask('delete', names=['a/0'])['ok']
+
+
+def test_time_brings_no_locked_body_back_or_away_but_for_a_teacher(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    assert pupil.spawn('b/0', 4.0)['ok']
+    browser.physsim.run(0.5)
+    assert boss.spawn('a/0')['ok']
+    assert pupil.spawn('b/1', 8.0)['ok']
+    browser.physsim.run(0.5)
+    assert boss.ask('lock', names=['a/*'])['ok']
+    moments = [('service', {'name': name}) for name in ('undo', 'redo', 'reset', 'clear')]
+    moments += [('course', {'course': 1}), ('open', {'name': 'demo'})]
+    for kind, fields in moments:
+        assert pupil.ask(kind, **fields)['code'] == 'frozen', (kind, fields)
+    before = browser.physsim.node.simulation.world.digest()
+    # Before the body was there, a stroke, a click and a hand would begin a course without it.
+    assert pupil.ask('seek', time=0.25)['ok']
+    assert 'a/0' not in browser.physsim.names
+    for kind, fields in (
+        *moments,
+        ('delete', {'names': ['b/0']}),
+        ('grab', {'point': [4, 5]}),
+        ('stroke', {'points': [[0, 0, 0], [2, 0, 0.3], [2, 1, 0.6]]}),
+        ('click', {'tool': 'delete', 'point': [4, 5]}),
+        ('take_back', {}),
+    ):
+        assert pupil.ask(kind, **fields)['code'] == 'frozen', (kind, fields)
+    assert browser.open_world('format: 1')['code'] == 'frozen'
+    assert pupil.ask('let_go')['ok']
+    assert pupil.ask('seek', time=1.0)['ok']
+    assert browser.physsim.node.simulation.world.digest() == before
+    assert boss.ask('service', name='reset')['ok']
+    assert browser.physsim.names == ()
+
+
+def test_what_is_locked_is_not_taken_back_by_who_made_it(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    circle = [[x, y, t] for x, y, t in ring()]
+    for ask, lock in (
+        (lambda: pupil.spawn('a/0'), 'a/0'),
+        (lambda: pupil.ask('change', name='a/0', properties={'friction': 0.1}), 'a/0'),
+        (lambda: pupil.ask('move_bodies', names=['a/0'], by=[1, 0]), 'a/*'),
+        (lambda: pupil.ask('click', tool='pin', point=[1, 5]), 'a/0'),
+        (lambda: pupil.ask('click', tool='anchor', point=[1, 5]), 'a/0'),
+        (lambda: pupil.ask('stroke', points=circle), 'drawn/*'),
+    ):
+        assert ask()['ok']
+        assert boss.ask('lock', names=[lock])['ok']
+        before = browser.physsim.node.simulation.world.digest()
+        assert pupil.ask('take_back')['code'] == 'frozen'
+        assert pupil.ask('instead')['ok'] is False
+        assert browser.physsim.node.simulation.world.digest() == before
+        assert boss.ask('lock', names=[])['ok']
+    assert boss.ask('lock', names=['c/0'])['ok']
+    assert pupil.ask('take_back')['ok']
+
+
+def ring() -> Iterator[tuple[float, float, float]]:
+    """Yield x, y [m] and time [s] of a circle that is drawn."""
+    for number in range(41):
+        turn = math.tau * number / 40
+        yield 20 + math.cos(turn), 20 + math.sin(turn), 0.03 * number
+
+
+def test_a_pupil_by_the_name_of_a_teacher_is_not_the_teacher(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+    assert boss.ask('person', name='Ms Smith')['ok']
+    assert boss.spawn('a/0')['ok']
+    assert pupil.ask('person', name='Ms Smith')['ok']
+    assert pupil.ask('take_back')['code'] == 'out_of_history'
+    assert pupil.spawn('b/0', 4.0)['ok']
+    assert boss.ask('take_back')['ok']
+    assert browser.physsim.names == ('b/0',)
+
+
+def test_a_lock_belongs_to_its_world(browser: Browser) -> None:
+    pupil, boss = browser.open_page(), teacher(browser)
+
+    def locked() -> list[str]:
+        told: list[str] = boss.of_type('class')[-1]['locked']
+        return told
+
+    assert pupil.spawn('drawn/0')['ok']
+    assert boss.ask('lock', names=['drawn/*'])['ok']
+    boss.until(lambda: locked() == ['drawn/*'])
+    assert boss.ask('open', name='demo')['ok']
+    boss.until(lambda: locked() == [])
+    assert pupil.spawn('drawn/0', 40.0)['ok']
+    assert pupil.ask('service', name='reset')['ok']
+    # Back in the world of the lock.
+    for _ in range(3):
+        assert boss.ask('service', name='undo')['ok']
+    boss.until(lambda: locked() == ['drawn/*'])
+    assert pupil.ask('delete', names=['drawn/0'])['code'] == 'frozen'
 
 
 @pytest.mark.parametrize('role', [Role.DRAW, Role.VIEW])

@@ -20,9 +20,21 @@ import pytest
 from ..client import Client
 
 
+@pytest.fixture(params=['', 'ROS_LOCALHOST_ONLY=1', 'ROS_STATIC_PEERS=127.0.0.1'])
+def variable(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> tuple[str, ...]:
+    """Set an environment variable that lets nodes be heard, before a test has its world."""
+    named: tuple[str, ...] = tuple(request.param.split('=')) if request.param else ()
+    if named:
+        monkeypatch.setenv(*named)
+    return named
+
+
 def test_no_other_process_hears_a_world_or_is_heard_by_it(
-    physsim: PhysSim, monkeypatch: pytest.MonkeyPatch
+    variable: tuple[str, str], physsim: PhysSim, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    if variable:
+        # The other process has it still.
+        monkeypatch.setenv(*variable)
     client = Client(physsim)
     path = Path(__file__).parents[1] / 'elsewhere' / 'intruder.py'
     monkeypatch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'SUBNET')

@@ -130,6 +130,8 @@ def test_a_share_that_does_not_answer_is_told_and_delays_nothing(viewers, tmp_pa
     events = Events(viewer)
 
     assert 'no answer' in events.wait_for('record_failed').message
+    # The frames that wait are logged, with their contacts.
+    assert (viewer.is_open, viewer.reads_contacts) == (False, True)
     show(viewer, 10)
     go_on.set()
     events.wait_for('')

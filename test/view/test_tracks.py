@@ -5,11 +5,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from physsim_ros.files import state_from
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.snapshot import Frame, NO_CONTACTS
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -44,9 +46,14 @@ def test_a_world_that_nothing_paces_has_no_real_time_factor(recording):
 
 
 def test_counts_are_those_of_the_scene_and_of_its_contacts(recording):
-    recording.draw(frame(scene(body(), body('box/1')), [(0.0, 0.0, 0.0)] * 2))
+    two = scene(body(), body('box/1'))
+    measured = replace(frame(two, [(0.0, 0.0, 0.0)] * 2), contacts=NO_CONTACTS)
+    # Of the others nobody has measured the contacts.
+    recording.draw(measured, *(frame(two, [(x, 0.0, 0.0)] * 2) for x in range(1, 20)))
 
-    assert [*recording.last('plots/counts', 'Scalars:scalars')] == [2.0, 0.0, 0.0]
+    rows = recording.rows('plots/counts', 'Scalars:scalars')
+    assert [(row.frame, [*row.value]) for row in rows] == [(0, [2.0, 0.0, 0.0])]
+    assert len(recording.rows('plots/energy', 'Scalars:scalars')) > 1
 
 
 EMPTY = scene()

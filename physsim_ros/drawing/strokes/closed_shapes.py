@@ -40,8 +40,10 @@ OVAL = 'oval'
 # The greatest distance of an outline from a rectangle (rms), in shares of its size: that of an
 # octagon is 0.024 and more; and that in shares of the error of an ellipse, 0.5 for an oval.
 _SQUARE, _SQUARER = 0.0222, 0.27
-# The least aspect of a circle as people draw it, and the number of sides of an oval, which rolls.
-_CIRCULAR, _OVAL_SIDES = 0.63, 48
+# The least aspect of a circle as people draw it: from 0.5 to 0.63 no outline tells circles from
+# ovals, wheels are drawn more often, and the other reading is offered. The number of sides of an
+# oval, which rolls.
+_CIRCULAR, _OVAL_SIDES = 0.58, 48
 # Evidence for an ellipse, in log odds: a constant, and the factors of the logarithms of the
 # residuals of straight sides and of the ellipse, of the bulge of the sides, and of the log of
 # the aspect below that of `_PLANK`: what is thinner is more often a plank than an oval.

@@ -18,8 +18,8 @@ import numpy as np
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.evidence import falls, LEAST, rises
-from physsim_ros.drawing.strokes.features import Features, loop_roundness
-from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of
+from physsim_ros.drawing.strokes.features import Features, loop_roundness, swings_of
+from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of, size_of
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Form, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
@@ -38,8 +38,9 @@ _NARROW = 0.035
 _STRAIGHT = 0.95
 # The greatest straightness of a rope; an arc as high as a seventh of its chord has 0.95.
 _SAGGING = 0.95
-# The least number of bends, to alternate sides, of a spring.
-_FEWEST_TEETH = 3
+# The least number of bends, to alternate sides, of a spring. Of round teeth: the least height, in
+# shares of the size, that no hand trembles by; the least straightness of their advance.
+_FEWEST_TEETH, _HIGH, _STEADY = 3, 0.06, 0.9
 # Factor on the density of a body by each line of its hatching.
 HEAVIER = 1.25
 # The least share of the stroke on the body: ends may cross its edge.
@@ -105,13 +106,26 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     # A line beside a body that ends on no other is a wall.
     at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)
     joins = between or (ends is not None and ends[0].body in at_ends)
+    if between and _is_toothed(drawn, sides):
+        return JointKind.SPRING, BETWEEN
     if joins and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
-    if math.dist(start, end) > _STRAIGHT * float(norms(sides).sum()):
-        return JointKind.ROD, BETWEEN if joins else 0.0
+    straight = math.dist(start, end) > _STRAIGHT * float(norms(sides).sum())
+    return JointKind.ROD, BETWEEN if joins and straight else 0.0
+
+
+def _is_toothed(points: Floats, sides: Floats) -> bool:
+    """
+    Return whether a line goes to and fro across its way: sharp teeth, or round ones.
+
+    :param sides: between its bends
+    """
     turns = np.sign(cross(sides[:-1], sides[1:]))
-    teeth = len(turns) >= _FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all())
-    return JointKind.SPRING, BETWEEN if between and teeth else 0.0
+    if len(turns) >= _FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all()):
+        return True
+    swings = swings_of(points)
+    high = swings.height > _HIGH * size_of(points)
+    return swings.count > _FEWEST_TEETH and high and swings.steady > _STEADY
 
 
 def _cubic_length(points: Floats) -> float:

@@ -18,6 +18,8 @@ from __future__ import annotations
 from functools import cache
 from importlib.machinery import EXTENSION_SUFFIXES
 from importlib.resources import files
+from importlib.resources.abc import Traversable
+import struct
 from typing import Any
 
 import numpy as np
@@ -27,9 +29,13 @@ from physsim_ros.engine.core.sources import hash_of_sources
 # The call that builds it in a source tree.
 _BUILD = '`pip install --editable .`'
 _HERE = files(__name__)
+# Of an ELF file of 64 bits: where the table of its sections begins, and the size and number of
+# their entries; the table is its end (System V ABI, 4).
+_ELF = struct.Struct('<4s 36x Q 10x HH 2x')
 
 try:
     from physsim_ros.engine.core._declarations import ffi as ffi
+    from physsim_ros.engine.core._declarations import SOURCES
 except ImportError as error:
     raise ImportError(f'the core of the engine has not been compiled; run {_BUILD}') from error
 
@@ -38,18 +44,43 @@ def _load() -> Any:
     """
     Return the library.
 
-    :raises ImportError: it has not been built, or not from these sources
+    :raises ImportError: it has not been built whole for this machine, or not from the sources of
+        its declarations, or not from these sources
     """
     paths = [path for suffix in EXTENSION_SUFFIXES if (path := _HERE / f'_core{suffix}').is_file()]
     if not paths:
         raise ImportError(f'the core of the engine has not been compiled; run {_BUILD}')
     # A world that is freed at the very end of the interpreter calls it: it must not be unloaded
     # with this module.
-    library = ffi.dlopen(str(paths[0]), ffi.RTLD_NOW | ffi.RTLD_NODELETE)
-    ours, theirs = hash_of_sources(_HERE), ffi.string(library.core_sources()).decode()
-    if ours not in {'', theirs}:
+    try:
+        _check_whole(paths[0])
+        library = ffi.dlopen(str(paths[0]), ffi.RTLD_NOW | ffi.RTLD_NODELETE)
+        theirs = ffi.string(library.core_sources()).decode()
+    except (ffi.error, OSError) as error:
+        raise ImportError(
+            f'the core of the engine cannot be loaded, {error}; remove {paths[0]} and run {_BUILD}'
+        ) from error
+    ours = hash_of_sources(_HERE) or theirs
+    if not ours == theirs == SOURCES:
         raise ImportError(f'the core of the engine was compiled from other sources; run {_BUILD}')
     return library
+
+
+def _check_whole(path: Traversable) -> None:
+    """
+    Refuse a part of a library, as a full disk leaves it: loading it would end the process.
+
+    :raises OSError: the file ends before the table of its sections does
+    """
+    data = path.read_bytes()
+    if data[:4] != b'\x7fELF':
+        # Of another system, which checks it as it is loaded.
+        return
+    if len(data) < _ELF.size:
+        raise OSError('it is cut off')
+    _, begin, size, count = _ELF.unpack_from(data)
+    if len(data) < begin + size * count:
+        raise OSError('it is cut off')
 
 
 def sub_step_of(physics_rate: float) -> float:

@@ -10,7 +10,7 @@ from point to point by a model of how they avoid each other. The core moves them
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 import itertools
 import math
@@ -32,6 +32,10 @@ from physsim_ros.model.errors import BadProperty, Malformed
 
 # Greatest number of points of an actor.
 MOST_POINTS = 1000
+# Way [1, of the coordinates and of the path up to there, at least of 1 m] and turn [rad] up to
+# which a point of a path is the one before: a circle by sine and cosine closes within these, and
+# the times of all other points increase.
+_SAME_PLACE, _SAME_YAW = 1e-12, 1e-9
 # In the order of `ONCE`, `LOOP`, `TO_AND_FRO` of `engine/core/core.h`.
 REPEATS = ('once', 'loop', 'to_and_fro')
 PACE = Within(1e-3, FASTEST, 'm/s')
@@ -162,7 +166,8 @@ class Path(Actor):
     """
     A path: straight from point to point at given times, or at one speed.
 
-    The body is brought to where the path is at each moment; points with a yaw turn it too.
+    The body is brought to where the path is at each moment; points with a yaw turn it too. At one
+    speed, consecutive points at one place count as one point.
     """
 
     KIND: ClassVar = 'path'
@@ -186,37 +191,56 @@ class Path(Actor):
                 f'times are {len(self.times)}, and must be {count}: one a point{again}',
                 field='times',
             )
-        if self.times is None and any(length == 0.0 for length in self._lengths()):
-            raise BadProperty('two points at one place need times', field='points')
+        # Derived now, so that a path that no step can follow is refused as it is made.
+        for value, unit in zip(self.parameters, ('m/s', 'rad/s'), strict=False):
+            if value > FASTEST:
+                raise BadProperty(
+                    f'the path goes at {value:g} {unit}; at most {FASTEST:g} can be simulated',
+                    field='points' if self.times is None else 'times',
+                )
 
-    def _stations(self) -> tuple[Waypoint, ...]:
+    def _stations(self) -> list[Waypoint]:
         """Return its points, of a loop the first one again, turned to where the last one looks."""
-        first, *_, last = *self.points, self.points[-1]
+        first, last = self.points[0], self.points[-1]
         if self.repeat != 'loop':
-            return self.points
+            return [*self.points]
         yaw = (math.remainder(first[2] - last[2], math.tau) + last[2],) if len(first) == 3 else ()
-        return (*self.points, (*first[:2], *yaw))
+        return [*self.points, (*first[:2], *yaw)]
 
-    def _lengths(self) -> list[float]:
-        return [math.dist(a[:2], b[:2]) for a, b in itertools.pairwise(self._stations())]
+    def _timed(self, speed: float) -> Iterator[tuple[float, Waypoint]]:
+        """
+        Yield the points of a path at one speed, each at a place of its own, with their times [s].
+
+        :raises BadProperty: the path turns at a place
+        """
+        first, *others = self._stations()
+        yield 0.0, first
+        length, before = 0.0, first
+        for station in others:
+            way = math.dist(before[:2], station[:2])
+            if way > _SAME_PLACE * max(1.0, length, *map(abs, station[:2])):
+                length, before = length + way, station
+                yield length / speed, station
+            elif any(abs(a - b) > _SAME_YAW for a, b in zip(before[2:], station[2:], strict=True)):
+                raise BadProperty('a path that turns at one place needs times', field='points')
 
     @property
     def track(self) -> list[tuple[float, float, float, float]]:
         """Return its points: time [s], x, y [m], yaw [rad]."""
-        times: Sequence[float] = self.times or ()
+        timed: Iterable[tuple[float, Waypoint]]
         if self.speed is not None:
-            speed = self.speed
-            steps = (length / speed for length in self._lengths())
-            times = [*itertools.accumulate(steps, initial=0.0)]
-        stations = zip(times, self._stations(), strict=True)
-        return [(time, x, y, yaw[0] if yaw else 0.0) for time, (x, y, *yaw) in stations]
+            timed = self._timed(self.speed)
+        else:
+            timed = zip(self.times or (), self._stations(), strict=True)
+        return [(time, x, y, yaw[0] if yaw else 0.0) for time, (x, y, *yaw) in timed]
 
     @property
     def parameters(self) -> tuple[float, ...]:
         """Return its greatest speed [m/s] and turn rate [rad/s], and 1 where it turns its body."""
-        most = [0.0, 0.0]
+        speed, turn = self.speed or 0.0, 0.0
         for (before, *a), (after, *b) in itertools.pairwise(self.track):
             lapse = after - before
-            most[0] = max(most[0], math.dist(a[:2], b[:2]) / lapse)
-            most[1] = max(most[1], abs(b[2] - a[2]) / lapse)
-        return *most, float(len(self.points[0]) == 3)
+            if self.speed is None:
+                speed = max(speed, math.dist(a[:2], b[:2]) / lapse)
+            turn = max(turn, abs(b[2] - a[2]) / lapse)
+        return speed, turn, float(len(self.points[0]) == 3)

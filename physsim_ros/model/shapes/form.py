@@ -136,6 +136,7 @@ def form_of(pieces: tuple[Piece, ...], whole: tuple[Piece, ...] = ()) -> Form:
     )
 
 
+@cached_weakly
 def extent_of(form: Form) -> tuple[Point, Point]:
     """Return the lower left and the upper right corner of the box around a form [m]."""
     left, bottom, right, top = zip(*(piece_box(piece) for piece in form.pieces), strict=True)

@@ -55,7 +55,7 @@ def take_back(past: Past, author: str) -> Generator[None, None, list[Answer | Re
         raise InPast('the past is shown; go to its end first', field='history')
     first = past.tree.last_gesture_of(author)
     if first is None:
-        raise OutOfHistory(f'there is nothing by {author} to undo', field='history')
+        raise OutOfHistory(f'there is nothing by {author.strip()} to undo', field='history')
     before = yield from _Amendment(past, (first.gesture,), stands_alone=True).carry_out()
     before.words = first.phrase(1)
     past.tree.undone.append(before)

@@ -11,6 +11,7 @@ are counted from the beginning of the world, and a serial never changes.
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Collection
 
 from physsim_ros.model.requests import Axle, Cut, Join, Pin, Spawn
 from physsim_ros.model.scene import Scene
@@ -69,6 +70,10 @@ class LineInForce:
         """Return the nodes after a serial, up to another one."""
         first, last = serial - self._first + 1, end - self._first + 1
         return self.nodes[first:last]
+
+    def nodes_of(self, gestures: Collection[int]) -> list[Node]:
+        """Return the requests of gestures that are kept, by the numbers of these."""
+        return [node for node in self.nodes[1:] if node.gesture in gestures]
 
     def serial_at(self, step: int) -> int:
         """Return the serial of the last request before or at a step."""

@@ -161,15 +161,17 @@ def _members(
         if name and name != WORLD:
             body_of_name(space, name, field, others=(WORLD,))
     a, b = request.a, request.b
-    first = [name for name in space.bodies.at(points[0]) if name != b]
-    last = space.bodies.at(points[-1])
-    if not a and not first:
+    if not a:
+        first = next((name for name in space.bodies.at(points[0]) if name != b), None)
+        last = space.bodies.at(points[-1])
         # A line that begins in the background and ends on a body: its body is a.
-        if request.kind.schema.along_line and b in ('', WORLD) and last:
+        if first is None and request.kind.schema.along_line and b in ('', WORLD) and last:
             return last[0], WORLD, points[::-1]
-        raise nothing_at(points[0], 'points')
-    a = a or first[0]
-    b = b or next((name for name in last if name != a), WORLD)
+        if first is None:
+            raise nothing_at(points[0], 'points')
+        a = first
+    if not b:
+        b = next((name for name in space.bodies.at(points[-1]) if name != a), WORLD)
     return a, b, points
 
 

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 
 from physsim_ros.model.checks import flag, Whole
@@ -14,8 +15,8 @@ from physsim_ros.simulation.request_queue import TakeBack, Unread
 from physsim_ros.sketchpad.message import message, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
-from physsim_ros.sketchpad.page_session import PageSession, TEACHER, UNNAMED
-from physsim_ros.sketchpad.rights import locks_of, Right
+from physsim_ros.sketchpad.page_session import author_of, PageSession, TEACHER, UNNAMED
+from physsim_ros.sketchpad.rights import locks_of, Right, Role
 
 # Lengths of an answer to a lesson and of a message to all [characters]; the rest is left out.
 LONGEST_ANSWER, LONGEST_MESSAGE = 24, 200
@@ -86,7 +87,12 @@ def say(page: PageSession, origin: Origin, text: str) -> None:
 @message('take_back', '~/undo')
 def take_back(page: PageSession, origin: Origin) -> None:
     """Undo the last gesture of the person at this page, where it stands alone; time stays."""
-    queue, author = page.world.simulation.requests, page.person
+    # The last one may wait.
+    page.world.current_snapshot()
+    simulation, author = page.world.simulation, page.author
+    last = simulation.past.tree.last_gesture_of(author)
+    page.check_taken_back(() if last is None else (last.gesture,))
+    queue = simulation.requests
     queue.submit(TakeBack(), topic=origin.topic, asker=origin.asker, author=author)
 
 
@@ -109,11 +115,13 @@ def clear_of(page: PageSession, origin: Origin, person: str) -> None:
     """Delete the bodies and joints that a person has added, as far as the history reaches."""
 
     def deletion() -> DeleteBodies:
-        bodies, joints = page.world.simulation.past.added_by(person)
+        past = page.world.simulation.past
+        added = [past.added_by(author_of(person, role)) for role in (Role.DRAW, Role.TEACH)]
+        bodies, joints = (tuple(itertools.chain(*each)) for each in zip(*added, strict=True))
         if not bodies and not joints:
             raise NothingThere(f'there is nothing of {person}', field='person')
         return DeleteBodies(names=bodies, joints=joints)
 
     # Requests that wait may add some.
     queue = page.world.simulation.requests
-    queue.submit(Unread('', deletion), topic=origin.topic, asker=origin.asker, author=page.person)
+    queue.submit(Unread('', deletion), topic=origin.topic, asker=origin.asker, author=page.author)

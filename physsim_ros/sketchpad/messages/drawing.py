@@ -90,6 +90,7 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[], Reading]) -> N
         page.send(_reading_content(origin, refusal.values, outline=[], built=False))
         raise
     page.check_locked(reading.requests)
+    page.check_taken_back(reading.amends)
     outline = reading.outline.tolist()
     page.send(_reading_content(origin, reading.values, outline=outline, built=True))
     reading = replace(reading, requests=page.with_material(reading.requests))
@@ -100,7 +101,7 @@ def _submit(page: PageSession, origin: Origin, read: Callable[[], Reading]) -> N
         reading,
         topic=origin.topic,
         asker=asker,
-        author=page.person,
+        author=page.author,
     )
 
 

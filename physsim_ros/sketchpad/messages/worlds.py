@@ -14,7 +14,6 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
-from physsim_ros.model.requests import DeleteAll
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
@@ -67,8 +66,8 @@ def _world_name(value: object, name: str) -> str:
 def service(page: PageSession, origin: Origin, name: str, world: str = '') -> None:
     """Perform the action of a service, on the world file of a name where one is given."""
     origin = origin._replace(topic=f'~/{name}')
-    if name in ('clear', 'load_world'):
-        page.check_locked((DeleteAll(),))
+    if name in ('clear', 'load_world', 'reset', 'undo', 'redo'):
+        page.check_moment()
     action, wait = page.world.service(name)
     if world:
         if name not in ('load_world', 'save_world'):
@@ -92,6 +91,7 @@ def seek(page: PageSession, origin: Origin, time: int) -> None:
 @message('course', '~/timeline', course=Whole(0, 2**31))
 def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
     """Return to a course of events that was left, by its number."""
+    page.check_moment()
     action = partial(page.world.simulation.return_to_course, course)
     page.perform(origin, action, Wait.BEHIND_REQUESTS)
 
@@ -102,7 +102,7 @@ def return_to_course(page: PageSession, origin: Origin, course: int) -> None:
 @message('open', '~/load_world', name=_world_name)
 def open_world(page: PageSession, origin: Origin, name: str) -> None:
     """Begin with a world at time 0, which undo reverts."""
-    page.check_locked((DeleteAll(),))
+    page.check_moment()
     page.perform(origin, partial(page.world.open_world, name), Wait.FOR_SEEK)
 
 

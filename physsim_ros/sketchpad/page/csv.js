@@ -9,7 +9,7 @@
 import {numberOf} from './rounding.js';
 import {localized} from './strings.js';
 
-const FORMULAS = ['=', '+', '-', '−', '@', '\t', '\r'], QUOTED = [',', ';', '"', '\'', '\n', '\r']; // a cell that begins with, and one that has
+const FORMULAS = ['=', '+', '-', '−', '@', '＝', '＋', '－', '＠', '\t', '\r'], QUOTED = [',', ';', '"', '\'', '\n', '\r']; // a cell that begins with, and one that has
 const SEPARATOR = localized('.') === '.' ? ',' : ';';
 
 /**

@@ -103,7 +103,7 @@ class ClassServer:
         self._application = self._site.application(
             'class.html',
             [
-                (r'/ws/(\d+)', _Watch, {'seats': seats}),
+                (r'/ws/([0-9]{1,4})', _Watch, {'seats': seats}),
                 ('/seats', _SeatList, {'seats': seats, 'address': partial(self.url, Role.DRAW)}),
                 ('/results', ResultList, {'files': [world.results for world in seats.worlds]}),
                 ('/join', _Join, {'seats': seats}),

@@ -153,6 +153,17 @@ def test_a_pentagram_is_a_solid_of_ten_corners_and_an_oval_is_fine_enough_to_rol
     assert np.abs(oval).max(axis=0) == pytest.approx((1.0, 0.5), abs=0.01)
 
 
+@pytest.mark.parametrize(('aspect', 'form'), [(0.62, 'disc'), (0.5, 'oval')])
+def test_a_flat_circle_is_a_disc_and_the_other_form_is_offered(aspect: float, form: str) -> None:
+    angle = np.linspace(0.0, 2.0 * math.pi, 60)
+    flat = np.column_stack((np.cos(angle), aspect * np.sin(angle)))
+
+    first, second, *_ = recognise_form(resample_stroke(flat))
+
+    assert first.name == form
+    assert {first.name, second.name} == {'disc', 'oval'}
+
+
 def test_swings_are_counted_and_measured_across_their_advance() -> None:
     swings = swings_of(resample_stroke(np.array([(n, 1.5 * (-1) ** n) for n in range(9)])).points)
 

@@ -54,6 +54,13 @@ LINES: dict[str, tuple[Sequence[Spawn], Way | Floats, str, tuple[str, str]]] = {
         )
         for teeth in (4, 6, 12)
     },
+    **{
+        f'{teeth} flat round teeth': (
+            BESIDE, np.column_stack((4.0 * SHARE, 0.45 * np.sin(math.pi * teeth * SHARE))),
+            'spring', ('a/0', 'b/0'),
+        )
+        for teeth in (4, 5, 6)
+    },
     'a dense zigzag': (
         NEAR, [(0.0, -0.1), *map(tuple, DENSE), (0.0, 2.1)], 'spring', ('b/0', 'a/0'),
     ),

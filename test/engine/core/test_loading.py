@@ -10,6 +10,7 @@ import subprocess
 import sys
 
 from physsim_ros.engine import core
+import pymunk._chipmunk
 import pytest
 
 load = core._load  # noqa: SLF001 - what an import calls
@@ -71,6 +72,41 @@ def test_an_installed_core_without_sources_is_loaded(folder):
     shutil.copy(COMPILED.with_name('core.h'), folder)
 
     assert load().core_sources() != core.ffi.NULL
+
+
+@pytest.mark.parametrize('share', [0.0, 1e-4, 0.3, 0.99])
+def test_a_part_of_a_core_is_told_with_the_command_and_ends_no_process(folder, share):
+    data = COMPILED.read_bytes()
+    (folder / COMPILED.name).write_bytes(data[: int(share * len(data))])
+
+    with pytest.raises(ImportError, match=r'cannot be loaded, .* run `pip install'):
+        load()
+
+
+@pytest.mark.parametrize('content', [b'#!/bin/sh\n', b'\x7fELF' + bytes(60), b'MZ' * 500])
+def test_what_is_no_core_is_told_with_the_command(folder, content):
+    (folder / COMPILED.name).write_bytes(content)
+
+    with pytest.raises(ImportError, match=r'cannot be loaded, .* run `pip install'):
+        load()
+
+
+def test_a_library_of_something_else_is_told_with_the_command(folder):
+    shutil.copy(pymunk_library(), folder / COMPILED.name)
+
+    with pytest.raises(ImportError, match=r'cannot be loaded, .* run `pip install'):
+        load()
+
+
+def pymunk_library():
+    return pymunk._chipmunk.__file__  # noqa: SLF001 - some library
+
+
+def test_declarations_of_other_headers_are_told_with_the_command(monkeypatch):
+    monkeypatch.setattr(core, 'SOURCES', '0' * 16)
+
+    with pytest.raises(ImportError, match='from other sources; run `pip install'):
+        load()
 
 
 # The end of the interpreter closes the library, before or after the worlds are freed that it made.
