@@ -192,7 +192,7 @@ def test_the_source_distribution_has_what_builds_the_package_and_no_tests(packed
     with tarfile.open(packed[0]) as archive:
         names = {name.partition('/')[2] for name in archive.getnames()}
 
-    assert {'README.md', 'LICENSE', 'package.xml', 'pyproject.toml', 'setup.py'} <= names
+    assert {'README.md', 'LICENSE', 'NOTICE', 'package.xml', 'pyproject.toml', 'setup.py'} <= names
     assert {path.relative_to(ROOT).as_posix() for path in ROOT.glob('tools/build/*.py')} <= names
     assert _sources_of_the_core() <= {Path(name).name for name in names}
     assert not [name for name in names if name.startswith('test/') or name.endswith('.so')]

@@ -20,7 +20,7 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes.geometry import path_length, point_of, spaced
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.errors import BadProperty, BadSize
+from physsim_ros.model.errors import BadSize
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import Join, Request, Spawn
@@ -46,12 +46,8 @@ def chain(
 
     :param path: (n, 2) float64: the curve, from its first end to its last [m]
     :param ends: names of the bodies there, or 'world' for the background
-    :raises BadProperty: one of them is a robot, which has no joints
     :raises BadSize: there is no room for a link between them
     """
-    for name in ends:
-        if name != WORLD and scene.body(name).robot is not None:
-            raise BadProperty(f'{name} is a robot; it has no joints', field='point', body=name)
     link = _SLENDER * settings.wall_thickness
     fine = spaced(path, 2 + _FINE * _links(path_length(path), link))
     between = fine[_free_range(fine, ends, scene)]

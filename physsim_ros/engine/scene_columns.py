@@ -213,7 +213,7 @@ def _robot_records(scene: Scene) -> Table:
     for number, (row, body) in enumerate(found):
         robot, record = body.robot, records[number]
         assert robot is not None  # noqa: S101 - by the list above
-        rims = list(robot.drive.wheels.values())
+        rims = np.array([*robot.drive.wheels.values()], np.float64).reshape(-1, 3)
         record['body'], record['wheel_count'] = row, len(rims)
         record['wheels'][: len(rims)] = rims
         record['acceleration'] = robot.drive.acceleration

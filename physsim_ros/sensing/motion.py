@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.joints import JointKind
 from physsim_ros.model.robots.sensors import Imu
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, Pose, rotated, Twist
@@ -64,10 +65,11 @@ def true_motion(snapshot: Snapshot, row: int) -> OdometryReading:
 
 class WheelReading(NamedTuple):
     """
-    The wheels of a drive.
+    The wheels of a drive, then the axles and motors that hold other bodies.
 
     :ivar names: of their joints
-    :ivar positions: (w,) float64: turned since the robot was spawned [rad]
+    :ivar positions: (w,) float64: turned since the robot was spawned [rad]; of an axle, angle of
+        the other body as seen from the robot
     :ivar velocities: (w,) float64: of now [rad/s]
     """
 
@@ -78,7 +80,7 @@ class WheelReading(NamedTuple):
 
 def read_wheels(snapshot: Snapshot, row: int) -> WheelReading:
     """
-    Return how far and how fast the wheels of a robot have turned, slipping or not.
+    Return how far and how fast the wheels of a robot have turned, slipping or not, and its axles.
 
     :param snapshot: of the world
     :param row: of the robot's body in the scene
@@ -87,13 +89,29 @@ def read_wheels(snapshot: Snapshot, row: int) -> WheelReading:
     assert robot is not None  # noqa: S101 - by the contract above
     place = int(np.searchsorted(snapshot.scene.robot_rows, row))
     # The speed of each rim is the sum of these times the velocity of the drive.
-    rims = np.array(list(robot.drive.wheels.values())) / robot.drive.wheel_radius
+    wheels = robot.drive.wheels
+    rims = np.array([*wheels.values()], float).reshape(-1, 3) / robot.drive.wheel_radius
     states = snapshot.robots
+    names, angles, rates = _read_axles(snapshot, row)
     return WheelReading(
-        tuple(robot.drive.wheels),
-        (rims * states['travel'][place]).sum(axis=1),
-        (rims * states['wheels'][place]).sum(axis=1),
+        (*wheels, *names),
+        np.append((rims * states['travel'][place]).sum(axis=1), angles),
+        np.append((rims * states['wheels'][place]).sum(axis=1), rates),
     )
+
+
+def _read_axles(snapshot: Snapshot, row: int) -> tuple[list[str], Floats, Floats]:
+    """Return the names, angles [rad] and rates [rad/s] of the axles and motors on a body."""
+    scene = snapshot.scene
+    # The background does not turn.
+    yaws, spins = np.append(snapshot.poses[:, 2], 0.0), np.append(snapshot.twists[:, 2], 0.0)
+    pairs = [
+        (joint.name.replace('/', '_'), a if b == row else b)
+        for joint, (a, b) in zip(scene.joints, scene.joint_rows.tolist(), strict=True)
+        if row in (a, b) and joint.kind in (JointKind.AXLE, JointKind.MOTOR)
+    ]
+    others = [other for _, other in pairs]
+    return [name for name, _ in pairs], yaws[others] - yaws[row], spins[others] - spins[row]
 
 
 class InertialReading(NamedTuple):

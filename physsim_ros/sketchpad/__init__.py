@@ -17,7 +17,8 @@ Not here: ROS (`ros` has the node's `WorldControl`), the reading of strokes (`dr
 
 from physsim_ros.sketchpad.results import results_file
 from physsim_ros.sketchpad.rights import locks_of, Role
-from physsim_ros.sketchpad.server.class_server import ClassServer, World
+from physsim_ros.sketchpad.server.class_server import ClassServer
+from physsim_ros.sketchpad.server.seats import World
 from physsim_ros.sketchpad.sketchpad import Sketchpad
 from physsim_ros.sketchpad.world_control import WorldControl
 

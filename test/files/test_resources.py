@@ -28,6 +28,7 @@ from physsim_ros.model.shapes import Box, Disc
 import pytest
 
 from .world_files import write
+from ..source_tree import ROOT
 
 
 @pytest.mark.parametrize(
@@ -52,7 +53,8 @@ def test_the_title_of_a_file_that_cannot_be_read_is_its_name(folder: Path) -> No
 
 
 def test_the_shipped_robots_are_those_that_the_interface_names():
-    assert shipped_robots() == ('car', 'mouse', 'omni', 'turtlebot3_burger', 'turtlebot4')
+    page = (ROOT / 'docs' / 'interface' / 'properties.md').read_text(encoding='utf-8')
+    assert f'(`{"`, `".join(shipped_robots())}`' in page
 
 
 @pytest.mark.parametrize('name', shipped_robots())

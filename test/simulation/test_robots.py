@@ -3,6 +3,8 @@
 
 """Robots in a world: commands, what is refused, and what is kept of them."""
 
+import math
+
 import numpy as np
 from physsim_ros.model.errors import BadProperty, Exists, UnknownBody
 from physsim_ros.model.requests import Anchor, ChangeBody, Delete, DriveRobot
@@ -36,17 +38,20 @@ def test_a_robot_is_neither_anchored_nor_kinematic_nor_a_sensor(field):
     assert_refused(world, changing('c/0', robot=robot), BadProperty, field)
 
 
-def test_a_robot_is_not_anchored_by_a_click_and_has_no_joints():
+def test_a_robot_is_not_anchored_by_a_click_and_may_have_joints():
     world = seen_from_above()
     put(world, 'a/0', robot={'drive': DRIVE})
     assert_refused(world, Anchor(point=(0.0, 0.0)), BadProperty, 'point')
     put(world, 'b/0', x=1.0)
     rod = joining('rod', [(0.0, 0.0), (1.0, 0.0)], a='a/0', b='b/0')
-    assert_refused(world, rod, BadProperty, 'a')
-    put(world, 'c/0', x=2.0)
-    world.apply(joining('rod', [(1.0, 0.0), (2.0, 0.0)], a='b/0', b='c/0'))
+    world.apply(rod)
+    world.apply(changing('b/0', robot={'drive': {'kind': 'towed'}}))
+    world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
+    world.step(120)
 
-    assert_refused(world, changing('b/0', robot={'drive': DRIVE}), BadProperty, 'robot')
+    poses = world.snapshot().poses
+    assert poses[0, 0] > 0.05
+    assert math.dist(poses[0, :2], poses[1, :2]) == pytest.approx(1.0, abs=1e-6)
 
 
 def test_two_robots_have_two_namespaces():

@@ -14,13 +14,14 @@ import re
 import socket
 import threading
 from typing import Any
-from urllib.parse import urlsplit
+from urllib.parse import quote, urlsplit
 
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.ros.programs.physsim_class import shares
 from physsim_ros.sketchpad import ClassServer, Role
+from physsim_ros.sketchpad.server import seats as seats_module
 from physsim_ros.sketchpad.server import website
-from physsim_ros.sketchpad.server.class_server import Seats, World
+from physsim_ros.sketchpad.server.seats import machine_of, Seats, World
 import pytest
 
 from .chromium import circle, Sheet
@@ -51,6 +52,54 @@ def test_a_browser_comes_back_to_its_world_and_gets_no_other_one() -> None:
         seats.join('Anna', '')
 
 
+def test_a_machine_has_few_seats_however_often_it_asks() -> None:
+    seats = Seats([*WORLDS, *WORLDS], most_of_machine=2)
+    keys = [seats.join(f'Pupil {each}', '', address='192.168.0.7')[1] for each in range(2)]
+    with pytest.raises(WorldFull, match='this machine'):
+        seats.join('Pupil 3', '', 'forged', address='192.168.0.7')
+    # With a key it comes back, and others come.
+    assert seats.join('Anna', '', keys[1], address='192.168.0.7') == (1, keys[1])
+    assert seats.join('Ben', '', address='192.168.0.8')[0] == 2
+    seats.free(0)
+    assert seats.names == ['', 'Anna', 'Ben', '']
+    number, key = seats.join('Pupil 1', keys[0], address='192.168.0.7')
+    assert (number, key == keys[0]) == (0, False)
+    many = Seats([*WORLDS, *WORLDS], most_of_machine=0)
+    assert [many.join('A', '', address='10.0.0.1')[0] for _ in range(4)] == [0, 1, 2, 3]
+
+
+def test_a_machine_has_a_network_of_ipv6() -> None:
+    assert machine_of('2001:db8::1') == machine_of('2001:db8::ffff:2') != machine_of('2001:db9::1')
+    assert machine_of('::ffff:10.0.0.1') == machine_of('10.0.0.1') == '10.0.0.1'
+    assert machine_of('fe80::1%eth0') == machine_of('fe80::2')
+
+
+def test_seats_outlive_a_restart_and_a_newcomer_gets_an_empty_one_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / 'physsim_ros' / 'class_8800.json'
+    seats = Seats([*WORLDS, *WORLDS], path)
+    keys = [seats.join(name, '', address=f'10.0.0.{name}')[1] for name in 'ABC']
+    seats.free(0)
+    assert path.stat().st_mode & 0o777 == 0o600
+
+    again = Seats([*WORLDS, *WORLDS], path)
+    assert again.names == ['', 'B', 'C', '']
+    assert again.join('C', keys[2]) == (2, keys[2])
+    assert [again.join(name, '')[0] for name in 'XY'] == [0, 3]
+    # The seat of who has not come back is the last one.
+    assert again.join('Z', '')[0] == 1
+    with pytest.raises(WorldFull):
+        again.join('B', keys[1])
+    # Of a smaller class, of another day, and of a file that somebody has spoilt.
+    assert Seats(WORLDS, path).names == ['X', 'Z']
+    monkeypatch.setattr(seats_module, 'SEAT_AGE', -1)
+    assert Seats(WORLDS, path).names == ['', '']
+    for content in ('', '[', '{}', '[1]', '[{"name": 3}]', '[{"other": ""}]', '[{"at": "a"}]'):
+        path.write_text(content)
+        assert Seats(WORLDS, path).names == ['', '']
+
+
 @pytest.mark.parametrize(('pupils', 'processes'), [(1, 2), (5, 2), (20, 2), (30, 4), (3, 8)])
 def test_worlds_are_shared_out_evenly_from_one(pupils: int, processes: int) -> None:
     parts = shares(pupils, processes)
@@ -61,17 +110,23 @@ def test_worlds_are_shared_out_evenly_from_one(pupils: int, processes: int) -> N
 
 
 @pytest.fixture
-def class_address(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[str]:
-    """Give a test the address of pupils of a class, which is served on a thread."""
+def class_server(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[ClassServer]:
+    """Give a test the server of a class, on a thread."""
     monkeypatch.setenv('XDG_STATE_HOME', str(tmp_path))
     monkeypatch.setitem(website.LIMITS, 'body_timeout', 0.2)
     is_over = threading.Event()
     server = ClassServer(WORLDS, address='127.0.0.1', port=0)
     thread = threading.Thread(target=server.run, args=(is_over.is_set,))
     thread.start()
-    yield server.url(Role.DRAW)
+    yield server
     is_over.set()
     thread.join()
+
+
+@pytest.fixture
+def class_address(class_server: ClassServer) -> str:
+    """Give a test the address of pupils of a class."""
+    return class_server.url(Role.DRAW)
 
 
 def fetch(url: str, method: str = 'GET', body: str = '', **headers: str) -> HTTPResponse:
@@ -107,7 +162,7 @@ def test_requests_without_a_body_do_not_shut_the_class_page(
 def test_an_error_that_nobody_expected_is_answered(
     class_address: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise ZeroDivisionError('by zero')
 
     monkeypatch.setattr(Seats, 'join', fail)
@@ -118,6 +173,54 @@ def test_an_error_that_nobody_expected_is_answered(
     assert b'failure 1 in the log' in failed.read()
     assert 'ZeroDivisionError: by zero' in capsys.readouterr().err
     assert json.load(fetch(f'{base}/seats', Cookie=cookie))['seats'] == []
+
+
+def test_a_browser_without_its_key_has_its_seat_by_a_cookie_and_a_teacher_frees_it(
+    class_server: ClassServer,
+) -> None:
+    address = class_server.url(Role.DRAW)
+    base = address.partition('/login')[0]
+    cookies = {
+        role: fetch(class_server.url(role)).headers['Set-Cookie'].partition(';')[0]
+        for role in (Role.DRAW, Role.TEACH)
+    }
+
+    def post(path: str, body: dict[str, object], cookie: str) -> HTTPResponse:
+        return fetch(f'{base}{path}', 'POST', json.dumps(body), Origin=base, Cookie=cookie)
+
+    first = post('/join', {'name': 'Anna'}, cookies[Role.DRAW])
+    seat = first.headers['Set-Cookie'].partition(';')[0]
+    assert 'HttpOnly' in first.headers['Set-Cookie']
+    key = json.load(first)['key']
+    for _ in range(3):
+        again = post('/join', {'name': 'Anna'}, f'{cookies[Role.DRAW]}; {seat}')
+        assert json.load(again)['key'] == key
+    assert post('/join', {'name': 'Ben'}, cookies[Role.DRAW]).status == 200
+    assert post('/join', {'name': 'Cleo'}, cookies[Role.DRAW]).status == 409
+
+    assert post('/free', {'seat': 0}, cookies[Role.DRAW]).status == 403
+    for wrong in ({}, {'seat': 2}, {'seat': -1}, {'seat': '0'}, {'seat': True}):
+        assert post('/free', wrong, cookies[Role.TEACH]).status == 400
+    assert json.load(post('/free', {'seat': 0}, cookies[Role.TEACH])) == {'seats': ['', 'Ben']}
+    assert post('/join', {'name': 'Cleo'}, cookies[Role.DRAW]).status == 200
+
+
+@pytest.mark.parametrize('number', ['9' * 5000, '9999', '-1', '٣', '0x1', '1' + '0' * 300])
+def test_a_socket_to_no_seat_is_refused_and_no_error(
+    class_server: ClassServer, number: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    address = class_server.url(Role.TEACH)
+    base = address.partition('/login')[0]
+    cookie = fetch(address).headers['Set-Cookie'].partition(';')[0]
+    upgrade = {
+        'Upgrade': 'websocket',
+        'Connection': 'Upgrade',
+        'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==',
+        'Sec-WebSocket-Version': '13',
+    }
+    answer = fetch(f'{base}/ws/{quote(number)}', Origin=base, Cookie=cookie, **upgrade)
+    assert answer.status in (101, 404)
+    assert 'failure' not in capsys.readouterr().err
 
 
 def place(sheet: Sheet, number: int) -> str:

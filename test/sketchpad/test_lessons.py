@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from .chromium import Sheet, started_world
@@ -22,6 +23,16 @@ bounds: []
 bodies:
   - {name: mine/0, circle: {radius: 0.5}, at: [0, 0.5]}
 """
+
+# Notes what is written on canvases.
+WRITTEN = """() => {
+    window.written = new Set();
+    const original = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...place) {
+        written.add(text);
+        return original.call(this, text, ...place);
+    };
+}"""
 
 
 @pytest.fixture
@@ -122,6 +133,58 @@ def test_a_link_opens_a_lesson(sheet: Sheet) -> None:
     page = sheet.context.new_page()
     page.goto(f'{origin}/#lesson=alchemy')
     page.get_by_role('status').get_by_text('no lesson alchemy').wait_for()
+
+
+def test_a_link_leads_to_a_moment_of_a_lesson(sheet: Sheet) -> None:
+    moment = sheet.play_until(0.7)
+    sheet.page.evaluate("location.hash = '#t=0.5'")
+    sheet.press('Go there')
+    sheet.wait('Math.abs(physsim.time - 0.5) < 0.01 && physsim.speed === 0')
+    # Time has not been there in the world of the lesson.
+    sheet.page.evaluate("location.hash = '#lesson=free_fall&t=0.25'")
+    sheet.press('Open the lesson')
+    sheet.wait('"heavy/0" in physsim.bodies && physsim.time === 0.25 && physsim.speed === 0')
+    there = sheet.pose('heavy/0')
+    assert there[1] < 5.3
+    sheet.press('Save')
+    sheet.press('Link to this moment')
+    link = sheet.page.get_by_role('textbox', name='Link').input_value()
+    assert link.endswith('/#lesson=free_fall&t=0.25')
+    sheet.page.keyboard.press('Escape')
+    # The same to the bit.
+    assert sheet.play_until(moment) > 0.25
+    sheet.page.evaluate('link => { location.href = link; }', link)
+    sheet.press('Go there')
+    sheet.wait('physsim.time === 0.25 && physsim.speed === 0')
+    assert sheet.pose('heavy/0') == there
+    # Its plot begins with the lesson, though the world before was older.
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(*there[:2]))
+    sheet.wait('physsim.records["heavy/0"]?.[0] > 10')
+
+
+def test_a_prediction_is_compared_with_the_way_that_the_body_goes(sheet: Sheet) -> None:
+    open_lesson(sheet, '2. Horizontal throw')
+    sheet.wait('"thrown/0" in physsim.bodies && physsim.time === 0')
+    sheet.page.evaluate(WRITTEN)
+    sheet.press('Predict')
+    (x, y, _), floor = sheet.pose('thrown/0'), 0.2
+    fall = [(x + 4.0 * share, y + (floor - y) * share**2) for share in np.linspace(0.0, 1.0, 12)]
+    sheet.drag(*fall)
+    sheet.wait('window.written.has("predicted")')
+    sheet.play_until(0.9)
+    sheet.wait('[...window.written].some((text) => /^off by 0\\.0/.test(text))')
+    # A way that it does not go, in the same world again.
+    sheet.press('Reset')
+    sheet.wait('physsim.time === 0')
+    sheet.drag((x, y), (x + 4.0, y))
+    sheet.play_until(0.9)
+    sheet.wait('[...window.written].some((text) => /^off by [1-9]/.test(text))')
+    sheet.press('Reset')
+    sheet.wait('physsim.time === 0')
+    sheet.page.mouse.click(*sheet.place(x, y))
+    sheet.page.evaluate('window.written.clear()')
+    sheet.wait('![...window.written].some((text) => /off by|predicted/.test(text))')
 
 
 def test_a_teacher_s_lesson_is_listed_and_a_bad_one_says_where_it_is_wrong(sheet: Sheet) -> None:

@@ -332,9 +332,9 @@ def test_a_german_page_has_its_lessons_worlds_and_numbers_in_german(
         sheet.page.keyboard.press('Enter')
         sheet.page.locator('.numbers').get_by_text(shown).wait_for()
     assert sheet.page.get_by_label('Reibung, als Zahl').input_value() == '0,4'
-    sheet.page.get_by_label('Elastizität, als Zahl').fill('1,5')
+    sheet.page.get_by_label('Stoßzahl, als Zahl').fill('1,5')
     sheet.page.keyboard.press('Enter')
-    refused = 'nicht möglich: Elastizität ist 1,5; erlaubt ist 0 bis 1'
+    refused = 'nicht möglich: Stoßzahl ist 1,5; erlaubt ist 0 bis 1'
     sheet.page.get_by_role('status').get_by_text(refused).wait_for()
     sheet.page.get_by_label('Reibung, als Zahl').fill('viel')
     sheet.page.keyboard.press('Enter')

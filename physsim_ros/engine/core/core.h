@@ -94,7 +94,7 @@ typedef struct AppliedForce {
 typedef struct Robot {
     // These fields are set by Python.
     int32_t body;
-    int32_t wheel_count;
+    int32_t wheel_count; // that drive; without them it is towed
     Twist wheels[4];     // speed of the rim of each wheel, by the velocity of the floor
     double acceleration; // greatest of the rim of a wheel [m/s²]
     double curvature;    // greatest of its way [1/m]

@@ -11,6 +11,11 @@
 // the floor; one that slips has the mean of its velocities before and after as it is moved (velocity Verlet), the rest
 // of friction as a force.
 //
+// Towed. Problem: the axle of a trailer rolls where it is drawn, and does not slide sideways. Method: of the velocities
+// at which the middle of the axle does not move along it (a nonholonomic constraint; de Luca and Oriolo, "Modelling and
+// control of nonholonomic mechanical systems", 1995) the floor has that which a push along the axle alone leads to, as
+// Gauss' principle of least constraint has it; the limit surface bounds the push.
+//
 // Limit surface. Problem: a body that slides and turns at once has less friction either way than one that only slides
 // or only turns; two separate limits would give it too much. Method: the limit surface of Goyal, Ruina and Papadopoulos
 // ("Planar sliding with dry friction", 1991), approximated by the ellipsoid of Howe and Cutkosky ("Practical
@@ -99,8 +104,25 @@ static bool has_conveyors(const World *world) {
     return false;
 }
 
-// Bring a body to the velocity of the floor under it: its mean in the step, and that at its end.
-static void pull(World *world, Body *body, Twist mean, Twist end) {
+// The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
+// middle of the axle, at the origin of the body, does not move along it.
+static Twist rolling(const Robot *towed, const cpBody *engine, Twist twist, double yaw) {
+    Rotation by = rotation(yaw);
+    Vec arm = rotated(negated(towed->center), by), along = rotated(vec(0.0, 1.0), by);
+    double lever = cross(arm, along), inverse = engine->m_inv + engine->i_inv * lever * lever;
+    double impulse = -dot(along, velocity_at(twist, arm)) / inverse;
+    return (Twist){add(twist.v, scaled(along, impulse * engine->m_inv)), twist.w + impulse * engine->i_inv * lever};
+}
+
+// A velocity of the centre of mass as that of the origin, seen from the body.
+static Twist seen_from(const Robot *robot, Twist twist, double yaw) {
+    Rotation by = rotation(yaw);
+    return (Twist){rotated_back(velocity_at(twist, rotated(negated(robot->center), by)), by), twist.w};
+}
+
+// Bring a body to the velocity of the floor under it: its mean in the step, and that at its end. Below a towed body
+// these are the velocities at which its axle rolls.
+static void pull(World *world, Body *body, Robot *towed, Twist mean, Twist end) {
     cpBody *engine = body->engine;
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
@@ -115,7 +137,16 @@ static void pull(World *world, Body *body, Twist mean, Twist end) {
     Twist expected = {scaled(body->push.v, share), body->push.w * share};
     double size = greatest(sqrt(square(expected, surface)) / most_expected, 1.0);
     expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
-    Twist slip = twist_sum(twist_sum(after, expected, 1.0), end, -1.0);
+    Twist next = twist_sum(after, expected, 1.0);
+    if (towed != NULL) {
+        double yaw = body->begin.yaw, turn = next.w * dt;
+        end = rolling(towed, engine, next, yaw + turn);
+        Twist sum = twist_sum(before, end, 1.0);
+        mean = rolling(towed, engine, (Twist){scaled(sum.v, 0.5), sum.w / 2.0}, yaw + turn / 2.0);
+        towed->rolling = seen_from(towed, end, yaw + turn);
+        towed->mean = seen_from(towed, mean, yaw + turn / 2.0);
+    }
+    Twist slip = twist_sum(next, end, -1.0);
     body->slides = square(slip, surface) > 1.0;
     Twist change = body->slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
     Twist as_moved = mean;
@@ -140,14 +171,16 @@ void pull_by_floor(World *world) {
     roll_wheels(world);
     bool conveyors = has_conveyors(world);
     // Robots are listed in the order of the bodies, and so are actors.
-    const Robot *robot = world->robots, *last = world->robots + world->robot_count;
+    Robot *robot = world->robots, *last = world->robots + world->robot_count;
     const Actor *actor = world->actors, *last_actor = world->actors + world->actor_count;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
         Twist mean = {0}, end = {0};
+        Robot *towed = NULL;
         if (robot < last && robot->body == place) {
-            mean = robot->under;
-            end = robot->end;
+            towed = robot->wheel_count == 0 ? robot : NULL;
+            mean = towed == NULL ? robot->under : mean;
+            end = towed == NULL ? robot->end : end;
             robot++;
         }
         if (actor < last_actor && actor->body == place) {
@@ -157,7 +190,7 @@ void pull_by_floor(World *world) {
         }
         if (body->floor_friction > 0.0) {
             Twist belt = conveyors ? conveyed(world, body) : (Twist){0};
-            pull(world, body, twist_sum(mean, belt, 1.0), twist_sum(end, belt, 1.0));
+            pull(world, body, towed, twist_sum(mean, belt, 1.0), twist_sum(end, belt, 1.0));
         }
     }
 }

@@ -60,6 +60,13 @@ def main() -> None:
         default=8800,
         help=f'of the class; those after it are the worlds {default}',
     )
+    parser.add_argument(
+        '--seats',
+        type=int,
+        default=4,
+        help='most worlds that one machine is given; 0 is no limit, as for pupils behind one '
+        f'address {default}',
+    )
     split = sys.argv.index('--ros-args') if '--ros-args' in sys.argv else len(sys.argv)
     options = parser.parse_args(sys.argv[1:split])
     if not 1 <= options.pupils <= MOST_PUPILS:
@@ -74,7 +81,12 @@ def main() -> None:
         ]
         if len(worlds) < options.pupils and not watch.requested:
             sys.exit('physsim_class: a world has not started; see above')
-        server = ClassServer(worlds, address=options.address, port=options.port)
+        server = ClassServer(
+            worlds,
+            address=options.address,
+            port=options.port,
+            seats_of_machine=options.seats,
+        )
         sys.stdout.write(
             f'\n  {len(worlds)} worlds in {len(processes)} processes. The page of the class:\n\n'
             f'      {server.url(Role.DRAW)}\n\n'

@@ -15,7 +15,7 @@ from dataclasses import replace
 import math
 
 from physsim_ros.engine.space import Space
-from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
+from physsim_ros.model.errors import Anchored, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, Join, Pin, Rejoin, Unjoin, UnjoinAll
@@ -78,7 +78,6 @@ def rejoin(live: LiveSpace, request: Rejoin) -> Answer:
 
     :raises UnknownJoint: there is none of that name
     :raises UnknownBody: there is no body of a name
-    :raises BadProperty: one is a robot
     """
     space = live.space
     check_names(space, (request.name,), 'name')
@@ -86,7 +85,6 @@ def rejoin(live: LiveSpace, request: Rejoin) -> Answer:
         if name != WORLD:
             body_of_name(space, name, field, others=(WORLD,))
     old = space.joints.by_name[request.name].joint
-    _check_robots(space, request.a, request.b)
     joint = replace(old, a=request.a, b=request.b)
     live.capacity.check_joint(joint)
     space.join(joint)
@@ -176,8 +174,7 @@ def _members(
 
 
 def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
-    """Refuse a joint of a robot, or of two bodies that are not dynamic."""
-    _check_robots(space, a, b)
+    """Refuse a joint of two bodies that are not dynamic."""
     bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
     if not any(body.dynamic for body in bodies):
         immovable = ' and '.join(
@@ -186,12 +183,6 @@ def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
         other = '' if len(bodies) == 2 else ', and so is the background'
         message = f'{immovable}{other}; there is nothing for the {kind} to hold'
         raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
-
-
-def _check_robots(space: Space, a: str, b: str) -> None:
-    for field, name in (('a', a), ('b', b)):
-        if name != WORLD and space.bodies.by_name[name].body.robot is not None:
-            raise BadProperty(f'{name} is a robot; it has no joints', field=field, body=name)
 
 
 def _seat(

@@ -73,15 +73,12 @@ def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
 
 def check_robot(space: Space, body: Body) -> None:
     """
-    Refuse a robot that has joints, or a topic or frame of another one.
+    Refuse a robot that has a topic or frame of another one.
 
-    :raises BadProperty: it has joints
     :raises Exists: its namespace or another of its names is taken
     """
     if body.robot is None:
         return
-    if space.joints.has_joints(body.name):
-        raise BadProperty(f'{body.name} has joints; it cannot be a robot', field='robot')
     # Only of robots below one another, or of one namespace, can names be the same.
     below, related = _prefix_of(body.robot, body.name), [body]
     for name, rigid in space.bodies.by_name.items():

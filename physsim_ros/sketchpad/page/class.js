@@ -81,7 +81,7 @@ class Card {
   /** @param {{name: string, address: string}} seat */
   sit({name, address}) {
     this.seated = name;
-    this.name.href = `${address}#class=${encodeURIComponent(this.person || t('nobody'))}`;
+    this.name.href = `${address}#class=${encodeURIComponent(this.person)}`;
     this.show();
   }
 
@@ -92,7 +92,7 @@ class Card {
   show() {
     const {pupil, person, element, world: {scene: {lesson}}} = this, answered = pupil?.answered;
     showText(this.name, person || t('free'));
-    this.canvas.ariaLabel = t('World of {name}', {name: person || t('nobody')});
+    this.canvas.ariaLabel = worldOf(person);
     element.classList.toggle('free', !person);
     element.classList.toggle('away', !pupil);
     element.classList.toggle('raised', this.raisedAt > 0);
@@ -110,14 +110,18 @@ class Card {
 
   /** Show what a teacher may do for this pupil alone. */
   showMore() {
-    const {connection, frozen, person} = this, name = person || t('nobody');
+    const {connection, frozen, person} = this;
     const done = (/** @type {string} */ type, /** @type {Record<string, unknown>} */ fields) => {
       connection.send(type, fields);
       dialog.close();
     };
-    dialog.show(t('World of {name}', {name}), sayForm((text) => done('say', {text}), t('Message to {name}', {name})), inRow(
+    dialog.show(worldOf(person), ...person ? [sayForm((text) => done('say', {text}), t('Message to {name}', {name: person}))] : [], inRow(
       textButton(frozen ? t('Let them draw again') : t('Freeze'), () => done('freeze', {frozen: !frozen})),
       textButton(t('Pause'), () => done('service', {name: 'pause'})),
+      ...this.seated ? [textButton(t('Free this seat'), async () => {
+        await fetch('/free', {method: 'POST', body: JSON.stringify({seat: cards.indexOf(this)})});
+        dialog.close();
+      })] : [],
       ...this.raisedAt ? [textButton(t('Lower the hand'), () => {
         this.lowerHand();
         dialog.close();
@@ -138,6 +142,11 @@ function arrange() {
   order.forEach(({element}, place) => { element.style.order = String(place); });
   showText(elementOf('present'), [t('{count} of {all} here', {count: here.length, all: cards.length}),
     ...hands.length ? [t('hands raised: {count}', {count: hands.length})] : []].join(' · '));
+}
+
+/** @param {string} person '' where it is free */
+function worldOf(person) {
+  return person ? t('World of {name}', {name: person}) : t('Free world');
 }
 
 const arrangeSoon = soon(arrange, 100);

@@ -7,7 +7,7 @@ The page of a class with a world for each pupil.
 Pupils come to it by one address, and each is sent to a world. A teacher sees who is where, and
 opens any of them.
 
-Laws: a pupil comes back to the same world from the same browser, and gets no other pupil's.
+`seats` has who is where.
 """
 
 from __future__ import annotations
@@ -16,12 +16,11 @@ import asyncio
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import partial
-from pathlib import Path
-import secrets
 import sys
-from typing import NamedTuple
 from urllib.parse import quote, urlsplit
 
+from physsim_ros.files import user_directory
+from physsim_ros.model.checks import Whole
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Refusal, WorldFull
 from physsim_ros.sketchpad.message import json_object
@@ -29,6 +28,7 @@ from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.guarded import Guarded, GuardedSocket, POLICY_VIOLATION
 from physsim_ros.sketchpad.server.page_handlers import ResultList
+from physsim_ros.sketchpad.server.seats import MOST_OF_MACHINE, SEAT_AGE, Seats, World
 from physsim_ros.sketchpad.server.website import BoundedServer, Site
 from tornado.httpclient import AsyncHTTPClient, HTTPClientError, HTTPRequest
 from tornado.websocket import websocket_connect, WebSocketClientConnection, WebSocketClosedError
@@ -41,52 +41,6 @@ _MOST_WATCHED = 2**25
 _CHECK_PERIOD = 0.2
 
 
-class World(NamedTuple):
-    """
-    The addresses of a world, with their tokens.
-
-    :ivar pupil: to draw
-    :ivar teacher: to teach
-    :ivar results: file of the results of lessons
-    """
-
-    pupil: str
-    teacher: str
-    results: Path = Path('nowhere')
-
-
-class Seats:
-    """
-    The worlds of a class, and the pupils in them.
-
-    :param worlds: their addresses
-
-    :ivar names: of the pupils, by world; '' where it is free
-    """
-
-    def __init__(self, worlds: Sequence[World]) -> None:
-        self.worlds = tuple(worlds)
-        self.names = [''] * len(self.worlds)
-        # Of the browser that has come to each world.
-        self._keys = [''] * len(self.worlds)
-
-    def join(self, name: str, key: str) -> tuple[int, str]:
-        """
-        Return the number of a pupil's world, from 0, and the key of the browser.
-
-        :param name: of the pupil
-        :param key: that the browser was given when it came before; '' at first
-        :raises WorldFull: no world is free
-        """
-        known = bool(key) and key in self._keys
-        if not known and '' not in self._keys:
-            raise WorldFull('every world of this class has a pupil')
-        number = self._keys.index(key if known else '')
-        self._keys[number] = key if known else secrets.token_urlsafe()
-        self.names[number] = name
-        return number, self._keys[number]
-
-
 class ClassServer:
     """
     The server of a class.
@@ -94,12 +48,21 @@ class ClassServer:
     :param worlds: addresses of the worlds
     :param address: to listen on
     :param port: to listen on, or the first free one after it
+    :param seats_of_machine: greatest number of seats of one machine; 0 is no limit
     :raises PhysSimError: it cannot listen there
     """
 
-    def __init__(self, worlds: Sequence[World], *, address: str, port: int) -> None:
+    def __init__(
+        self,
+        worlds: Sequence[World],
+        *,
+        address: str,
+        port: int,
+        seats_of_machine: int = MOST_OF_MACHINE,
+    ) -> None:
         self._site = Site(address, port)
-        seats = Seats(worlds)
+        directory = user_directory('XDG_STATE_HOME', '.local', 'state')
+        seats = Seats(worlds, directory / f'class_{self._site.port}.json', seats_of_machine)
         self._application = self._site.application(
             'class.html',
             [
@@ -107,6 +70,7 @@ class ClassServer:
                 ('/seats', _SeatList, {'seats': seats, 'address': partial(self.url, Role.DRAW)}),
                 ('/results', ResultList, {'files': [world.results for world in seats.worlds]}),
                 ('/join', _Join, {'seats': seats}),
+                ('/free', _Free, {'seats': seats}),
             ],
             ErrorBoundary(lambda text: sys.stderr.write(f'{text}\n')),
         )
@@ -219,14 +183,40 @@ class _Join(Guarded):
         """Answer with the address of the pupil's world, and the key of the browser."""
         self.require_origin()
         self.require_drawing()
+        cookie = f'{self.access.cookie}_seat'
         try:
-            number, key = self.seats.join(*_name_and_key(self.request.body))
+            name, key = _name_and_key(self.request.body)
+            keys, address = (key, self.get_cookie(cookie) or ''), self.request.remote_ip or ''
+            number, key = self.seats.join(name, *keys, address=address)
         except WorldFull as refusal:
             self.refuse(409, str(refusal))
         except Refusal as refusal:
             self.refuse(400, str(refusal))
+        # Some browsers forget what pages store, or a pupil asks twice.
+        self.set_cookie(cookie, key, httponly=True, samesite='Strict', max_age=SEAT_AGE)
         name = quote(self.seats.names[number], safe='')
         self.finish({'address': f'{self.seats.worlds[number].pupil}#name={name}', 'key': key})
+
+
+class _Free(Guarded):
+    """A teacher frees a seat."""
+
+    def initialize(self, seats: Seats) -> None:
+        """Set the seats."""
+        self.seats = seats
+
+    async def post(self) -> None:
+        """Free the seat of a number, from 0."""
+        self.require_origin()
+        if self.role is not Role.TEACH:
+            self.refuse(403, 'this is for teachers')
+        try:
+            content = json_object(self.request.body)
+            number = Whole(0, len(self.seats.worlds) - 1)(content.get('seat'), 'seat')
+        except Refusal as refusal:
+            self.refuse(400, str(refusal))
+        self.seats.free(number)
+        self.finish({'seats': self.seats.names})
 
 
 def _name_and_key(body: bytes) -> tuple[str, str]:

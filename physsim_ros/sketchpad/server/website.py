@@ -49,18 +49,19 @@ class Site:
     :raises PhysSimError: it cannot listen there
 
     :ivar sockets: that listen
+    :ivar port: that they listen on
     """
 
     def __init__(self, address: str, port: int) -> None:
         self.sockets = listening_sockets(address, port)
-        self._port: int = self.sockets[0].getsockname()[1]
+        self.port: int = self.sockets[0].getsockname()[1]
         self._address = address
-        self._access = Access(address, self._port)
+        self._access = Access(address, self.port)
 
     def url(self, role: Role) -> str:
         """Return the address of the site with the token of a role."""
         host = reachable_host(self._address)
-        return f'http://{host}:{self._port}/login?token={self._access.tokens[role]}'
+        return f'http://{host}:{self.port}/login?token={self._access.tokens[role]}'
 
     def application(
         self, page: str, handlers: Sequence[Any], boundary: ErrorBoundary, **options: Any

@@ -26,6 +26,7 @@ export class Records {
     this.recordsForces = false; // where they are plotted
     this.course = 0;
     this.began = 0; // [s] when this world was opened
+    this.opened = false; // whether its first frame is to come
     app.connection.on('frame', () => this.#record());
     app.connection.on('timeline', ({course, now}) => this.#follow(course, now));
     app.connection.on('body', (body) => this.#addPast(body));
@@ -33,11 +34,10 @@ export class Records {
     app.connection.on('open', () => this.#ask());
     // In another world, a body of the same name is another body.
     app.connection.on('answer', ({ok, topic}) => {
-      // A world is opened, and then begins at time 0.
       if (ok && topic === '~/reset') this.began = 0;
     });
     app.connection.on('world', () => {
-      this.began = app.world.frame.time;
+      this.opened = true;
       for (const name of this.bodies.keys()) this.bodies.set(name, {samples: [], left: []});
     });
   }
@@ -91,6 +91,8 @@ export class Records {
 
   #record() {
     const {world} = this.app, {frame: {time, yaw, velocities}} = world;
+    if (this.opened) this.began = time;
+    this.opened = false;
     if (!velocities) return;
     const forces = this.recordsForces && world.frame.contacts ? forcesOf(world) : null, all = forces && [...forces, ...sumsOf(world, forces)];
     for (const [name, {samples}] of this.bodies) {

@@ -7,6 +7,7 @@ import {Hand} from './hand.js';
 import {InclineTool} from './incline.js';
 import {Protractor, Ruler} from './measuring.js';
 import {Note} from './note.js';
+import {Prediction} from './prediction.js';
 import {t} from '../strings.js';
 
 /** @import {App, ClickUse, Tool} from '../types.js' */
@@ -55,5 +56,6 @@ export const TOOLS = [[
 ], [
   tool('ruler', t('Ruler'), 'm', t('drag from point to point; tap it to remove it'), Ruler),
   tool('protractor', t('Protractor'), 'q', t('drag from the corner along one side, then click the other one; tap it to remove it'), Protractor),
+  tool('predict', t('Predict'), '4', t('draw from a body the way that it will go, then play; tap the body to remove it'), Prediction),
   tool('note', t('Note'), '9', t('press where it is to be, type, Enter'), Note),
 ]];

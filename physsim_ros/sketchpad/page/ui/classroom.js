@@ -74,9 +74,9 @@ export class Classroom {
 
   /** Tell a teacher of a class whose world this is. */
   #showWhose() {
-    const whose = this.teacher && sessionStorage.getItem(LOOKS_IN);
-    if (!whose) return;
-    document.title = t('World of {name}', {name: whose});
+    const whose = this.teacher ? sessionStorage.getItem(LOOKS_IN) : null;
+    if (whose === null) return;
+    document.title = whose ? t('World of {name}', {name: whose}) : t('Free world');
     const shown = document.querySelector('.whose') ?? elementOf('files').insertAdjacentElement('afterbegin', createElement('strong', {className: 'whose'}));
     if (shown) shown.textContent = document.title;
   }
@@ -158,7 +158,7 @@ export class Classroom {
     ...locked.length ? [createElement('p', {}, t('Locked: {names}', {names: locked.join(', ')}))] : [],
     inRow(textButton(t('Results'), () => showResults(this.app.dialog, this.app.lessons.list, () => connection.send('forget_results')))),
     // Pupils of a class come by its own page.
-    ...sessionStorage.getItem(LOOKS_IN) ? [] : [createElement('h3', {}, t('Pupils come here')),
+    ...sessionStorage.getItem(LOOKS_IN) !== null ? [] : [createElement('h3', {}, t('Pupils come here')),
       createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})]];
   }
 

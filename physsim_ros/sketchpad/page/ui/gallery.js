@@ -174,6 +174,7 @@ export class Gallery {
     this.app.dialog.show(t('Save'), this.#nameForm(t('Name of the world'), name, t('Save world'), (given) => this.#save(given)), inRow(
       textButton(t('Download file'), () => this.#download()),
       textButton(t('Copy link'), () => this.app.links.copy()),
+      textButton(t('Link to this moment'), () => this.app.links.copyMoment()),
       textButton(t('Picture (PNG)'), () => this.app.view.canvas.toBlob((png) => png && download('world.png', png)))));
   }
 

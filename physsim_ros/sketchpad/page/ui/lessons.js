@@ -53,7 +53,7 @@ export class Lessons {
   /** @param {{name: string, title: string}} lesson */
   open({name, title}) {
     const {connection, gallery} = this.app;
-    gallery.follow(connection.openLesson(name), t(title));
+    return gallery.follow(connection.openLesson(name), t(title));
   }
 
   /** @param {?Lesson | undefined} lesson whose card is made anew */

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * Links: one that holds this world, and those with which the page was opened, to a world or a lesson.
+ * Links: one that holds this world, one to this moment, and those with which the page was opened, to a world, a lesson
+ * or a moment.
  *
- * These are offered only: the link of a stranger does not replace the world of a class.
+ * Laws: these are offered only, since the link of a stranger does not replace the world of a class. A moment is the same
+ * to the bit for everybody who goes to it.
  */
 
 import {createElement, inRow, textButton} from '../dom.js';
@@ -11,7 +13,7 @@ import {LARGEST} from './gallery.js';
 
 /** @import {App} from '../types.js' */
 
-const WORLD = /^#world=(.+)/, LESSON = /[#?&]lesson=([^&]+)/;
+const WORLD = /^#world=(.+)/, LESSON = /[#?&]lesson=([^&]+)/, MOMENT = /[#?&]t=(\d+(?:\.\d+)?)/;
 const LONGEST = 16000; // characters
 
 export class Links {
@@ -19,24 +21,42 @@ export class Links {
   constructor(app) {
     this.app = app;
     app.connection.on('welcome', () => this.#offerWorld());
+    /** @type {?number} the moment to go to when time has come there [s] */
+    this.wanted = null;
     // The list of lessons has come.
-    app.connection.on('worlds', () => this.#offerLesson());
-    addEventListener('hashchange', () => this.#offerLesson());
+    app.connection.on('worlds', () => this.#offerPlace());
+    addEventListener('hashchange', () => this.#offerPlace());
+    app.connection.on('frame', () => this.#stopAt());
   }
 
   /** Show a link that holds the world as it is now, and copy it. */
   async copy() {
-    const {dialog, gallery, notes} = this.app, world = await gallery.text();
+    const {gallery, notes} = this.app, world = await gallery.text();
     if (world === null) return;
     const link = `${location.origin}/#world=${await packText(world)}`;
     if (link.length > LONGEST) {
       notes.showMessage(t('This world is too large for a link: download it as a file.'), {ok: false});
       return;
     }
-    const text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
-    dialog.show(t('A link that holds this world'), text);
+    await this.#show(t('A link that holds this world'), link);
+  }
+
+  /** Show a link to the moment that is shown, of the lesson that is open, and copy it. */
+  async copyMoment() {
+    const {lessons, world} = this.app, lesson = lessons.list.find(({title}) => title === world.scene.lesson?.title);
+    const moment = `t=${Number(world.frame.time.toFixed(4))}`;
+    await this.#show(t('A link to this moment'), `${location.origin}/#${lesson ? `lesson=${encodeURIComponent(lesson.name)}&` : ''}${moment}`);
+  }
+
+  /**
+   * @param {string} title
+   * @param {string} link
+   */
+  async #show(title, link) {
+    const {dialog, notes} = this.app, text = createElement('input', {value: link, readOnly: true, 'aria-label': t('Link')});
+    dialog.show(title, text);
     text.select();
-    notes.showMessage(t('A link that holds this world'));
+    notes.showMessage(title);
     await navigator.clipboard?.writeText(link).catch(() => {});
   }
 
@@ -58,18 +78,52 @@ export class Links {
     notes.showMessage(t('This link is broken, or its world is too large.'), {ok: false});
   }
 
-  #offerLesson() {
-    const {lessons, dialog, notes, viewOnly, world} = this.app;
-    const name = decodeURIComponent(LESSON.exec(location.hash || location.search)?.[1] ?? '');
+  /** Offer the lesson, and the moment, that the address names. */
+  #offerPlace() {
+    const {lessons, dialog, notes, viewOnly, world} = this.app, address = location.hash || location.search;
+    const name = decodeURIComponent(LESSON.exec(address)?.[1] ?? ''), moment = MOMENT.exec(address)?.[1];
     const lesson = lessons.list.find((each) => each.name === name);
-    if (!name || viewOnly) return;
+    if (!name && !moment || viewOnly) return;
     history.replaceState(null, '', location.pathname);
-    if (lesson && lesson.title === world.scene.lesson?.title) return;
-    if (!lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
-    else {
+    if (name && !lesson) notes.showMessage(t('There is no lesson {name} here.', {name}), {ok: false});
+    else if (lesson && lesson.title !== world.scene.lesson?.title) {
       dialog.show(t(lesson.title), createElement('p', {}, t(lesson.question)),
-        inRow(textButton(t('Open the lesson'), () => lessons.open(lesson))));
+        inRow(textButton(t('Open the lesson'), async () => {
+          await lessons.open(lesson);
+          // Its timeline is to come.
+          if (moment) this.#playTo(Number(moment));
+        })));
+    } else if (moment) dialog.show(t('This link leads to a moment: {time} s', {time: Number(moment)}), inRow(textButton(t('Go there'), () => {
+      dialog.close();
+      this.#goTo(Number(moment));
+    })));
+  }
+
+  /** @param {number} time [s] where time has not been yet, the world is played until then */
+  #goTo(time) {
+    const {world, connection} = this.app;
+    if (time > world.timeline.newest) {
+      this.#playTo(time);
+      return;
     }
+    connection.send('service', {name: 'pause'});
+    connection.send('seek', {time});
+  }
+
+  /** @param {number} time [s] */
+  #playTo(time) {
+    this.wanted = time;
+    this.app.connection.send('service', {name: 'play'});
+  }
+
+  #stopAt() {
+    const {frame: {time, epoch}, scene} = this.app.world;
+    if (this.wanted === null || time < this.wanted || epoch !== scene.epoch) return;
+    const wanted = this.wanted;
+    this.wanted = null;
+    this.app.connection.send('service', {name: 'pause'});
+    // It has gone on meanwhile.
+    this.app.connection.send('seek', {time: wanted});
   }
 }
 

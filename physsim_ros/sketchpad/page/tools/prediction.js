@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * Predictions: the way that a body is expected to go, drawn before time runs. The way that it goes is drawn beside it,
+ * and how far it is from the prediction; again in each run, since the same world goes the same way.
+ */
+
+import {distanceTo} from '../view/body_path.js';
+import {Gesture} from './gesture.js';
+import {threeDigits} from '../rounding.js';
+import {t} from '../strings.js';
+import {distance} from '../vectors.js';
+
+/** @import {App, Point, Sample, SceneView, Touch} from '../types.js' */
+
+const PARTS = 100; // of a way, at whose ends it is compared
+
+export class Prediction extends Gesture {
+  /** @param {App} app */
+  constructor(app) {
+    super(app);
+    this.name = ''; // of the body whose way is drawn
+    /** @type {Map<string, {since: number, way: Point[]}>} by body; since: time at which it was drawn [s] */
+    this.ways = new Map();
+    app.view.overlays.push((view) => this.#drawAll(view));
+    app.connection.on('world', () => {
+      this.ways.clear();
+      this.#record();
+    });
+  }
+
+  /** @param {Touch} touch */
+  down(touch) {
+    const {world, notes} = this.app, row = world.bodyAt(touch.at, touch.slop);
+    this.name = row < 0 ? '' : world.scene.bodies[row].name;
+    if (!this.name) notes.showMessage(t('Begin at the body whose way you draw'), {ok: false});
+    super.down(touch);
+  }
+
+  end() {
+    const {name, path, app: {world}} = this;
+    if (!name) return;
+    // Its way begins at its centre of mass, as the one that it goes.
+    const centre = world.place(world.row(name), world.body(name)?.centroid ?? [0, 0]);
+    if (this.isTap) this.ways.delete(name);
+    else this.ways.set(name, {since: world.frame.time, way: [centre, ...path.slice(1).map(({at}) => at)]});
+    this.#record();
+  }
+
+  #record() {
+    this.app.records.want(this, [...this.ways.keys()]);
+  }
+
+  /** @param {SceneView} view */
+  draw(view) {
+    if (this.name && this.path.length) view.line(this.path.map(({at}) => at), view.palette.momentum, [8, 6]);
+  }
+
+  /** @param {SceneView} view */
+  #drawAll(view) {
+    const {world, records, camera} = this.app, {palette} = view, now = world.frame.time + 1e-9;
+    for (const [name, {since, way}] of this.ways) {
+      view.line(way, palette.momentum, [8, 6]);
+      const [x, y] = camera.toPage(...way[way.length - 1]);
+      const gone = records.samples(name).filter(({time}) => time > since && time <= now);
+      view.line(gone.map((sample) => [sample.x, sample.y]), palette.accent);
+      const places = evenly(gone, lengthOf(way) / PARTS);
+      const off = places.reduce((sum, [atX, atY]) => sum + distanceTo(way, atX, atY), 0) / places.length;
+      view.write(gone.length ? t('off by {length} m', {length: threeDigits(off)}) : t('predicted'), [x + 10, y], palette.momentum);
+    }
+  }
+}
+
+/**
+ * @param {Sample[]} samples
+ * @param {number} step [m]
+ * @returns {Point[]} places at that distance from each other, so that a body that rests counts once; on a way as long as
+ *   the prediction
+ */
+function evenly(samples, step) {
+  /** @type {Point[]} */
+  const places = [];
+  for (const {x, y} of samples) {
+    const last = places.at(-1);
+    if (!last || distance(last, [x, y]) >= step) places.push([x, y]);
+    if (places.length > PARTS) break;
+  }
+  return places;
+}
+
+/** @param {Point[]} way */
+function lengthOf(way) {
+  return way.slice(1).reduce((sum, point, i) => sum + distance(point, way[i]), 0);
+}
