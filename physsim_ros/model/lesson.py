@@ -13,6 +13,7 @@ from typing import Annotated, Any
 from physsim_ros.model.checks import HEAVIEST, number, shown, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.settings import Bounds, rectangle
 
 # Greatest length of a text [characters]: a page of a book.
 LONGEST_TEXT = 2000
@@ -59,3 +60,9 @@ class Lesson(Checked):
         float, Within(0.0, HEAVIEST), 'greatest error of a measured value, in that unit'
     ]
     answer: Annotated[str, _text(LONGEST_TEXT), 'the law behind the figure']
+    view: Annotated[
+        Bounds | None,
+        rectangle,
+        'what is shown first, the bodies and where they go: xmin, ymin, xmax, ymax [m]; without '
+        'it, the bounds of the world, or its bodies',
+    ] = None

@@ -30,7 +30,13 @@ LIMIT = 'limit'
 MOST_SAMPLES = 10_000
 
 
-def _bounds(value: object, name: str) -> Bounds:
+def rectangle(value: object, name: str) -> Bounds:
+    """
+    Return the bounds of a rectangle [m].
+
+    :raises Malformed: a number is not finite, or there are more or fewer than four
+    :raises BadProperty: it is no list of numbers, one is out of range, or a min not below its max
+    """
     left, bottom, right, top = Row((Within(-LARGEST, LARGEST, 'm'),) * 4)(value, name)
     if not (left < right and bottom < top):
         raise BadProperty(
@@ -60,7 +66,7 @@ class WorldSettings(Checked):
     ] = 16
     bounds: Annotated[
         Bounds | None,
-        _bounds,
+        rectangle,
         'walls around the world: xmin, ymin, xmax, ymax, each '
         f'{-LARGEST:g} .. {LARGEST:g} [m]; empty is no walls',
     ] = None

@@ -179,7 +179,7 @@ class BodyPasts:
 
     def ask(self, page: int, name: str, request_id: str) -> None:
         """
-        Send a page the past of a body when it is its turn.
+        Send a page the motion of a body in the line in force, when it is its turn.
 
         :param name: of the body; '' is no body, and its columns are empty
         :param request_id: of the message that asks
@@ -208,7 +208,8 @@ class BodyPasts:
         page = next(iter(self._asked))
         name, request_id = self._asked.pop(page)
         simulation = self._simulation
-        snapshots = simulation.past.frames.snapshots(simulation.step, MOST_FRAMES)
+        past = simulation.past
+        snapshots = past.frames.snapshots(past.tree.head, MOST_FRAMES)
         self._send(partial(_body_content, name, request_id, snapshots), page)
 
 

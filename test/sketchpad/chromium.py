@@ -92,6 +92,7 @@ SPACE = """() => {
         document.activeElement.dispatchEvent(event);
     }
 }"""
+UNFOLDED = "localStorage['physsim-panel'] ??= '1';"
 # Press Pause at the first frame after a time [s].
 PAUSE_AFTER = """seconds => {
     const look = () => {
@@ -139,6 +140,7 @@ class Sheet:
 
     :param browser: that opens it
     :param address: with the token
+    :param unfolded: whether panels are shown in full, as somebody has chosen in this browser
     :param options: of its browser context
 
     :cvar opened: pages of the test that runs
@@ -146,10 +148,12 @@ class Sheet:
 
     opened: ClassVar[list[Sheet]] = []
 
-    def __init__(self, browser: Any, address: str, **options: Any) -> None:
+    def __init__(
+        self, browser: Any, address: str, *, unfolded: bool = True, **options: Any
+    ) -> None:
         self.context = browser.new_context(**{'viewport': VIEWPORT} | options)
         self.context.set_default_timeout(MILLISECONDS)
-        self.context.add_init_script(DELAYS + LISTENER)
+        self.context.add_init_script(DELAYS + LISTENER + (UNFOLDED if unfolded else ''))
         self.page = self.context.new_page()
         self.errors: list[str] = []
         self.page.on('pageerror', lambda error: self.errors.append(str(error)))

@@ -148,7 +148,7 @@ def test_a_screen_reader_finds_the_bodies_with_their_places(sheet: Sheet) -> Non
     texts = (
         'ball/0: circle, at 0.0, 0.5 m',
         'box/0: rectangle, at 4.0, 0.5 m',
-        'shelf/0: rectangle, anchored, at -4.0, 3.0 m',
+        'shelf/0: rectangle, anchored, at \N{MINUS SIGN}4.0, 3.0 m',
     )
     # The list is renewed each second.
     for number, text in enumerate(texts):

@@ -157,7 +157,7 @@ def test_a_body_is_where_numbers_say(sheet: Sheet) -> None:
     number(sheet, 'vy [m/s]', '-4')
     panel = sheet.page.get_by_role('complementary', name='Body')
     panel.get_by_text('5 kg · at 2.00, 3.50 m · 30° · 5.00 m/s').wait_for()
-    panel.get_by_text('Momentum 25.00 N s (15.00, -20.00)').wait_for()
+    panel.get_by_text('Momentum 25.00 N s (15.00, \N{MINUS SIGN}20.00)').wait_for()
     # m v² / 2
     panel.get_by_text('62.50 J').wait_for()
 
@@ -204,7 +204,7 @@ def test_what_is_drawn_and_placed_snaps_to_the_grid_while_a_key_is_held(sheet: S
 
 def test_the_hand_tells_where_a_body_is_and_how_fast(sheet: Sheet) -> None:
     with sheet.dragging((-4.0, 3.0), (-4.0, 5.0)):
-        written(sheet, 'at -4.00, 5.00 m · 0°')
+        written(sheet, 'at \N{MINUS SIGN}4.00, 5.00 m · 0°')
     sheet.press('Play')
     with sheet.dragging((0.0, 0.5), (1.0, 4.0)):
         places = cycle((sheet.place(-1.0, 4.0), sheet.place(1.0, 4.0)))

@@ -215,7 +215,7 @@ def test_the_world_of_a_lesson_is_beside_its_card(
     box = sheet.page.locator('#lesson').bounding_box()
 
     def is_beside() -> bool:
-        x, y = sheet.place(-4.0, 7.0)
+        x, y = sheet.place(-2.65, 6.0)
         return bool(x > box['x'] + box['width'] if size[0] > 700 else y > box['y'] + box['height'])
 
     sheet.until(is_beside, 'a world beside the card')

@@ -124,7 +124,7 @@ def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
 
 @message('watch', 'page', Right.LOOK, name=fields.text)
 def watch(page: PageSession, origin: Origin, name: str) -> None:
-    """Send the page the past of a body, as far as it was shown; '' is no body."""
+    """Send the page the motion of a body in this course, also beyond now; '' is no body."""
     page.shared.pasts.ask(page.number, name, origin.request)
 
 

@@ -148,7 +148,7 @@ export class App {
     this.connection.send('show', {
       // The drag of the air follows from velocities.
       velocities: arrows.velocities || arrows.forces || told || records.records || this.tool.measures === true,
-      contacts: arrows.forces || told || this.sound.on || records.recordsForces,
+      contacts: arrows.forces || told || this.sound.on || records.records,
       forces: true,
       laser: this.world.body(name)?.robot ? name : '',
     });

@@ -50,6 +50,16 @@ export function iconButton(name, id, onclick, title = name) {
 }
 
 /**
+ * A button whose `aria-expanded` tells whether the rest of a panel is shown.
+ * @param {string} label
+ * @param {() => void} change called when it is pressed
+ * @param {string} textContent beside its arrow
+ */
+export function foldButton(label, change, textContent = label) {
+  return createElement('button', {type: 'button', className: 'fold', 'aria-label': label, title: textContent ? '' : label, textContent, onclick: change});
+}
+
+/**
  * @param {string} label
  * @param {() => void} onclick
  * @param {string} className

@@ -24,9 +24,9 @@ const table = language === 'en' ? {texts: {}, refusals: {}} :
 
 const SIGN = (1.5).toLocaleString(language)[1];
 
-/** @param {string} number with a decimal point, which is given the sign of the language */
+/** @param {string} number with a decimal point, which is given the sign of the language, and a hyphen that is its minus */
 export function localized(number) {
-  return number.replaceAll('.', SIGN);
+  return number.replaceAll('.', SIGN).replaceAll('-', '−');
 }
 
 /**

@@ -127,6 +127,8 @@ export interface Lesson {
   figure: number;
   within: number;
   answer: string;
+  /** What is shown first: x and y, least and greatest [m]. */
+  view?: Bounds | null;
 }
 
 /** The state of the world after a step, a column for each quantity; rows as in the scene. */

@@ -123,13 +123,30 @@ export class WorldState {
     return heights.filter((height) => far(height) <= reach).sort((one, other) => far(one) - far(other))[0] ?? y;
   }
 
+  /** @returns {Bounds[]} of the bodies that are kept in sight: all; of a lesson that has a view, those that move */
+  get #keptInSight() {
+    const {bodies, lesson} = this.scene;
+    return bodies.slice(0, this.count).flatMap(({anchored}, row) => lesson?.view && anchored ? [] : [this.#boundsOf(row)]);
+  }
+
   /**
    * @param {Bounds} box
-   * @returns {Bounds} of the bodies that lie in it whole; infinite where there are none
+   * @returns {Bounds} of the bodies kept in sight that lie in it whole; infinite where there are none
    */
   boundsWithin([xmin, ymin, xmax, ymax]) {
-    const boxes = this.scene.bodies.slice(0, this.count).map((_, row) => this.#boundsOf(row));
-    return unionOf(boxes.filter(([left, low, right, high]) => left >= xmin && low >= ymin && right <= xmax && high <= ymax));
+    return unionOf(this.#keptInSight.filter(([left, low, right, high]) => left >= xmin && low >= ymin && right <= xmax && high <= ymax));
+  }
+
+  /**
+   * @param {Bounds} box
+   * @returns {boolean} whether no body that moves reaches into it
+   */
+  isFree([xmin, ymin, xmax, ymax]) {
+    return this.scene.bodies.slice(0, this.count).every(({anchored}, row) => {
+      if (anchored) return true;
+      const [left, low, right, high] = this.#boundsOf(row);
+      return left > xmax || right < xmin || low > ymax || high < ymin;
+    });
   }
 
   /**
@@ -190,14 +207,14 @@ export class WorldState {
     return rotated([x - frame.x[row], y - frame.y[row]], -frame.yaw[row]);
   }
 
-  /** @returns {Bounds} of all bodies; infinite where there are none */
+  /** @returns {Bounds} of all bodies that are kept in sight; infinite where there are none */
   bodiesExtent() {
-    return unionOf(this.scene.bodies.slice(0, this.count).map((_, row) => this.#boundsOf(row)));
+    return unionOf(this.#keptInSight);
   }
 
-  /** @returns {Bounds} of the world, or of its bodies */
+  /** @returns {Bounds} of what a lesson shows first; of the world, or of its bodies */
   extent() {
-    const {bounds} = this.scene, box = bounds.length ? bounds : this.bodiesExtent();
+    const {bounds, lesson} = this.scene, box = lesson?.view ?? (bounds.length ? bounds : this.bodiesExtent());
     return box.every(Number.isFinite) ? box : [-6, -1, 6, 6];
   }
 }

@@ -37,7 +37,7 @@ export class Keyboard {
       Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
       j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
       L: callService('fast_forward'),
-      '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(),
+      '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(), 5: () => app.toolbar.showFew(!app.toolbar.few && Boolean(app.world.scene.lesson)),
     };
     for (const {id, key} of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }
@@ -115,7 +115,7 @@ export class Keyboard {
     app.tool.cancel?.();
     app.readings.dismiss();
     app.cursor.hide();
-    app.selection.select([]);
+    app.panel.close();
   }
 }
 

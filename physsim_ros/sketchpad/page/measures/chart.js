@@ -24,7 +24,7 @@ export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, c
   if (canvas.width !== RATIO * width) canvas.width = RATIO * width;
   if (canvas.height !== RATIO * height) canvas.height = RATIO * height;
   const [least, most] = heightsOf(curves), [start, end] = range;
-  const left = 3.6 * size, right = width - size / 2, top = 1.5 * size, bottom = height - (xLabel ? 2.6 : 1.4) * size;
+  const left = 3.6 * size, right = width - size / 2, top = 1.5 * size, bottom = height - 1.4 * size;
   const scales = {
     x: (/** @type {number} */ value) => left + (right - left) * (value - start) / (end - start),
     y: (/** @type {number} */ value) => bottom - (bottom - top) * (value - least) / (most - least),
@@ -36,7 +36,6 @@ export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, c
   ctx.textAlign = 'left';
   ctx.fillText(yLabel, 0, size * 0.95);
   ctx.textAlign = 'right';
-  ctx.fillText(xLabel, right, height - size * 0.3);
   ctx.strokeStyle = palette.major;
   ctx.fillStyle = palette.faint;
   ctx.lineWidth = 1;
@@ -71,6 +70,12 @@ export function drawChart(canvas, {width, height, size, xLabel, yLabel, range, c
     line(points.map(([x, y]) => [scales.x(x), scales.y(y)]));
   }
   ctx.restore();
+  ctx.textAlign = 'right';
+  ctx.lineWidth = 4;
+  ctx.strokeStyle = palette.paper;
+  ctx.strokeText(xLabel, right, bottom - size * 0.4);
+  ctx.fillStyle = palette.ink;
+  ctx.fillText(xLabel, right, bottom - size * 0.4);
   return scales;
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** A plot that the last row can read: chosen axes, several bodies, readings under the pointer, tables. */
 
-import {choice, createElement, download, elementOf, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
+import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
-import {FORCES, QUANTITIES, tableOf} from './quantities.js';
+import {QUANTITIES, tableOf} from './quantities.js';
 import {threeDigits} from '../rounding.js';
+import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
@@ -52,38 +53,32 @@ export class PlotWindow {
     const quantities = Object.entries(QUANTITIES).map(([key, {label}]) => /** @type {[string, string]} */ ([key, label]));
     const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => choice(label, quantities, this.axes[axis], (key) => {
       this.axes[axis] = key;
-      this.#record();
       this.#draw();
     });
+    const rest = inRow(this.#adder(), this.#summer(), textButton(t('Copy table'), () => this.#copyTable()));
+    rest.classList.add('rest');
+    const more = foldButton(t('Bodies, sum, table'), () => {
+      more.setAttribute('aria-expanded', String(!this.element.classList.toggle('folded')));
+    }, '');
+    more.setAttribute('aria-expanded', 'false');
+    this.element.classList.add('folded');
     this.element.replaceChildren(createElement('header', {},
-      inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')),
-        this.#adder(), this.#summer(), this.legend, textButton(t('Copy table'), () => this.#copyTable())),
-      iconButton(t('Close the plot'), 'close', () => this.close())), this.canvas, this.reading);
+      inRow(select('y', t('Upwards')), createElement('span', {}, t('over')), select('x', t('To the right')), this.legend),
+      more, iconButton(t('Close the plot'), 'close', () => this.close())), rest, this.canvas, this.reading);
     this.element.hidden = false;
     this.#show(names);
-    this.#record();
-    const {panel, room, selection, lessons} = this.app;
-    // The panel is folded beside it; on a small page there is no room for both.
-    panel.chosen = null;
-    if (!room.isRoomy) {
-      selection.select([]);
-      lessons.card.open = false;
-    }
+    const {room, selection, lessons} = this.app;
+    lessons.settle();
+    // On a small page there is no room for plot and panel.
+    if (!isRoomy()) selection.select([]);
     room.fit();
   }
 
   close() {
     this.element.hidden = true;
     this.names = [];
-    this.app.records.recordsForces = false;
     this.app.records.want(this, []);
     this.app.room.fit();
-  }
-
-  /** Have forces recorded where an axis is one. */
-  #record() {
-    this.app.records.recordsForces = [this.axes.x, this.axes.y].some((key) => key in FORCES);
-    this.app.askForParts();
   }
 
   /** @returns {HTMLElement} the switch of the sum over the bodies, of what can be summed */

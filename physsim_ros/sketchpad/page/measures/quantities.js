@@ -5,11 +5,13 @@
  */
 
 import {csvOf} from '../csv.js';
-import {degrees, threeDigits, twoPlaces} from '../rounding.js';
-import {localized, t} from '../strings.js';
+import {degrees, digits, threeDigits, twoPlaces} from '../rounding.js';
+import {t} from '../strings.js';
 import {DEGREE, rotated} from '../vectors.js';
 
 /** @import {Body, Point, Sample, WorldState} from '../types.js' */
+
+const NOTHING = 1e-9; // in its unit: rounding of what is 0
 
 /**
  * The mass of a body [kg], and the place, angle and velocity of its centre of mass [m, °, m/s, rad/s].
@@ -94,7 +96,7 @@ export function momentumText([px, py]) {
  */
 
 /** Kinds of forces, as they are recorded, with their names on axes and in tables. */
-export const FORCES = {weight: t('Weight'), normal: t('Normal force'), friction: t('Friction'), joint: t('Force of joints'),
+const FORCES = {weight: t('Weight'), normal: t('Normal force'), friction: t('Friction'), joint: t('Force of joints'),
   applied: t('Applied force'), sum: t('Sum of forces')};
 
 /** By key, in the order of the columns. @type {Record<string, Quantity>} */
@@ -130,7 +132,8 @@ export const QUANTITIES = {
  */
 export function tableOf(records, gravity) {
   const columns = Object.values(QUANTITIES);
-  const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : localized(String(value));
+  // Spreadsheets read a hyphen as the minus.
+  const cell = (/** @type {number} */ value) => Number.isNaN(value) ? '' : digits(Math.abs(value) < NOTHING ? 0 : value, 6).replaceAll('−', '-');
   const rows = records.flatMap(({name, body, samples}) => samples.map((sample) =>
     [...columns.map(({of}) => cell(of(sample, body, gravity))), name]));
   return csvOf([[...columns.map(({label}) => label), t('Body')], ...rows]);

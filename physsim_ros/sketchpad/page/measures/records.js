@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The motion of bodies as it was shown, from the past that the server keeps on, and the course that was left; and the
+ * The motion of bodies in the course that is shown, as far as the server keeps it, and the course that was left; and the
  * trail of a body: its way, and as in a stroboscope where it was at equal times, numbered, with arrows of v and a.
  */
 
@@ -23,7 +23,6 @@ export class Records {
     this.wanted = new Map();
     /** @type {string[]} names of bodies whose past is not asked for yet */
     this.asking = [];
-    this.recordsForces = false; // where they are plotted
     this.course = 0;
     this.began = 0; // [s] when this world was opened
     this.opened = false; // whether its first frame is to come
@@ -81,12 +80,12 @@ export class Records {
     }
     const record = this.bodies.get(name);
     if (!record) return;
-    const first = record.samples[0]?.time ?? Infinity;
-    const past = time.map((/** @type {number} */ at, /** @type {number} */ i) =>
-      ({time: at, x: x[i], y: y[i], yaw: yaw[i], vx: vx[i], vy: vy[i], spin: w[i]})).filter(
-      (/** @type {Sample} */ {time}) => time < first && time >= this.began);
-    past.forEach((/** @type {Sample} */ sample, /** @type {number} */ i) => accelerate(sample, past[i - 1]));
-    record.samples.unshift(...past);
+    const recorded = new Map(record.samples.map((sample) => [sample.time, sample]));
+    time.forEach((/** @type {number} */ at, /** @type {number} */ i) => {
+      if (at >= this.began && !recorded.has(at)) recorded.set(at, {time: at, x: x[i], y: y[i], yaw: yaw[i], vx: vx[i], vy: vy[i], spin: w[i]});
+    });
+    record.samples = [...recorded.values()].sort((one, other) => one.time - other.time);
+    record.samples.forEach((sample, i, all) => accelerate(sample, all[i - 1]));
   }
 
   #record() {
@@ -94,10 +93,11 @@ export class Records {
     if (this.opened) this.began = time;
     this.opened = false;
     if (!velocities) return;
-    const forces = this.recordsForces && world.frame.contacts ? forcesOf(world) : null, all = forces && [...forces, ...sumsOf(world, forces)];
+    const forces = this.records && world.frame.contacts ? forcesOf(world) : null, all = forces && [...forces, ...sumsOf(world, forces)];
     for (const [name, {samples}] of this.bodies) {
-      const row = world.row(name);
-      // A replay of the same course gives the same samples: those that were recorded stay.
+      const row = world.row(name), known = samples.findLast((sample) => sample.time <= time);
+      // A replay of the same course gives the same samples: those that were recorded stay, and get the forces of what is shown.
+      if (all && known?.time === time) known.forces = sizesOf(all.filter((force) => force.row === row));
       if (row < 0 || time <= (samples.at(-1)?.time ?? -Infinity)) continue;
       const [x, y] = world.place(row, world.scene.bodies[row].centroid);
       /** @type {Sample} */

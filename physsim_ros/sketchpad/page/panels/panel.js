@@ -2,14 +2,15 @@
 /**
  * The panel at the right, of one subject at a time: a body, several, a joint, the world, or what is measured.
  *
- * It is rendered again with each scene and each refusal, unless somebody works in it. On a page without room for all of
- * it, and that of a body while time runs or the large plot is open, it is folded to its first lines.
+ * It is rendered again with each scene and each refusal, unless somebody works in it. It opens on its first lines, the
+ * numbers; what can be changed is behind one line, until somebody unfolds it.
  */
 
 import {bodyContent} from './body_panel.js';
-import {createElement, elementOf, iconButton} from '../dom.js';
+import {createElement, elementOf, foldButton, iconButton} from '../dom.js';
 import {jointContent} from './joint_panel.js';
 import {severalContent} from './several_panel.js';
+import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {worldContent} from './world_panel.js';
 
@@ -25,6 +26,8 @@ import {worldContent} from './world_panel.js';
 /** Of each kind of subject, by its names; null where that is gone. @type {Record<Exclude<Kind, ''>, (app: App, names: string[]) => ?Content>} */
 const CONTENTS = {body: bodyContent, several: severalContent, joint: jointContent, world: worldContent, measure: ({stopwatch}) => stopwatch.content()};
 
+const UNFOLDED = 'physsim-panel'; // key
+
 export class Panel {
   /** @param {App} app */
   constructor(app) {
@@ -34,24 +37,24 @@ export class Panel {
     this.kind = '';
     /** @type {string[]} of the subject */
     this.names = [];
-    /** @type {?boolean} whether it is folded, where somebody has chosen that for this subject */
-    this.chosen = null;
+    /** As somebody has chosen in this browser; a small page has no room for all of it at once. */
+    this.unfolded = localStorage.getItem(UNFOLDED) === '1' && isRoomy();
     /** @type {(view: SceneView) => void} */
     this.live = () => {};
     this.isStale = false; // the scene has changed while somebody worked in it
-    this.more = iconButton(t('More'), 'fold', () => {
-      this.chosen = !this.isFolded;
+    this.more = foldButton(t('More'), () => {
+      this.unfolded = !this.unfolded;
+      localStorage.setItem(UNFOLDED, this.unfolded ? '1' : '0');
       this.#fold();
       app.room.fit();
-    }, t('All of this panel, or its first lines'));
-    this.rest = createElement('div');
+    });
+    this.rest = createElement('div', {className: 'rest'});
     const followSoon = () => queueMicrotask(() => this.#follow());
     app.connection.on('scene', followSoon);
     // A field still shows what was refused.
     app.connection.on('answer', ({request, ok}) => request && !ok && followSoon());
     this.element.addEventListener('focusout', () => setTimeout(() => this.isStale && this.#follow()));
     app.view.overlays.push((view) => {
-      this.#fold();
       if (this.kind) this.live(view);
     });
   }
@@ -66,26 +69,24 @@ export class Panel {
     return this.kind === 'joint' ? this.names[0] : '';
   }
 
-  get isFolded() {
-    return this.element.classList.contains('folded');
-  }
-
   /**
    * @param {Kind} kind of the subject
    * @param {string[]} names of its bodies, or of the joint
    */
   show(kind, names = []) {
     const {app} = this;
-    if (kind !== this.kind || String(names) !== String(this.names)) {
-      this.chosen = null;
-      this.element.scrollTop = 0;
-    }
+    if (kind !== this.kind || String(names) !== String(this.names)) this.element.scrollTop = 0;
     Object.assign(this, {kind, names});
     app.records.want(this, kind === 'body' ? names : []);
     this.render();
-    if (kind && !app.room.isRoomy) app.lessons.card.open = false;
+    if (kind) app.lessons.settle();
     app.card?.update();
-    app.room?.fit();
+  }
+
+  /** Close it, as somebody has asked. */
+  close() {
+    this.app.selection.select([]);
+    this.app.room.fit();
   }
 
   /** Show the subject as it is now; close the panel where it is gone. */
@@ -105,8 +106,8 @@ export class Panel {
     this.more.hidden = !first.length;
     this.rest.replaceChildren(...rest);
     element.replaceChildren(createElement('header', {},
-      createElement('h2', {}, `${title} `, createElement('small', {}, name)), this.more,
-      iconButton(t('Close'), 'close', () => app.selection.select([]))), ...first, this.rest);
+      createElement('h2', {}, `${title} `, createElement('small', {}, name)),
+      iconButton(t('Close'), 'close', () => this.close())), ...first, this.more, this.rest);
     live(app.view);
     this.#fold();
   }
@@ -119,12 +120,7 @@ export class Panel {
   }
 
   #fold() {
-    const {app, element} = this, inUse = this.rest.contains(document.activeElement) && !this.more.matches(':focus');
-    const isWatched = !app.world.paused || !app.plotWindow.element.hidden;
-    const usual = !app.room?.isRoomy || this.kind === 'body' && !inUse && isWatched;
-    const folded = !this.more.hidden && (this.chosen ?? usual);
-    if (folded === this.isFolded) return;
-    element.classList.toggle('folded', folded);
-    this.more.setAttribute('aria-expanded', String(!folded));
+    this.element.classList.toggle('folded', !this.more.hidden && !this.unfolded);
+    this.more.setAttribute('aria-expanded', String(this.unfolded));
   }
 }

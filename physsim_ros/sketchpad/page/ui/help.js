@@ -30,6 +30,7 @@ const MOVING = [
   [t('Shift, held'), t('Drawing and dragging with the mouse snaps to the grid; rectangles become squares, lines and handles turn by 15°, handles scale by quarters')],
   [t('Alt, held'), t('Hand and lasso drag a copy')],
   ['7, 6', t('Stopwatch by hand: start and stop; lap')],
+  ['5', t('In a lesson: all tools, or those that it needs')],
   [t('Delete'), t('Delete the selection')],
   [t('Esc'), t('Cancel')],
   ['+, −, F', t('Zoom; frame the world')],

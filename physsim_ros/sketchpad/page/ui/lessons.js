@@ -6,8 +6,9 @@
  * the table of strings has the texts of shipped lessons.
  */
 
-import {createElement, elementOf, fieldForm, icon, inRow, textButton} from '../dom.js';
+import {createElement, elementOf, fieldForm, foldButton, icon, inRow, textButton} from '../dom.js';
 import {numberOf} from '../rounding.js';
+import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 
 /** @import {App, Lesson} from '../types.js' */
@@ -20,7 +21,9 @@ export class Lessons {
     this.app = app;
     /** @type {{name: string, number: number, title: string, question: string}[]} in their order */
     this.list = [];
-    this.card = elementOf('lesson', HTMLDetailsElement);
+    this.card = elementOf('lesson');
+    this.more = foldButton(t('All of the lesson'), () => this.#fold(!this.isFolded), '');
+    this.settled = false; // the question was read: time has run, or a body was tapped
     /** @type {string | undefined} */
     this.shown = ''; // title of the lesson of the card
     /** @type {Set<string>} */
@@ -33,10 +36,11 @@ export class Lessons {
       // The card names the next lesson.
       if (first) this.#show(app.world.scene.lesson);
     });
-    this.card.addEventListener('toggle', () => {
-      // A page without room shows the card or the panel: what is opened last.
-      if (this.card.open && !app.room.isRoomy && app.panel.kind) app.selection.select([]);
-      app.room.fit();
+    this.began = Infinity; // earliest time that was shown of the lesson [s]
+    app.connection.on('frame', () => {
+      const {time} = app.world.frame;
+      if (time > this.began) this.settle();
+      this.began = Math.min(this.began, time);
     });
   }
 
@@ -56,17 +60,38 @@ export class Lessons {
     return gallery.follow(connection.openLesson(name), t(title));
   }
 
+  get isFolded() {
+    return this.card.classList.contains('folded');
+  }
+
+  /** Fold the card to its question and answer, so that the experiment has the page: once, as it can be unfolded. */
+  settle() {
+    // A page without room shows the card or the panel: what is opened last.
+    if (!this.isFolded && (!this.settled || !isRoomy() && this.app.panel.kind)) this.#fold(true);
+  }
+
+  /** @param {boolean} folded */
+  #fold(folded) {
+    const {app, card} = this;
+    this.settled = true;
+    card.classList.toggle('folded', folded);
+    this.more.setAttribute('aria-expanded', String(!folded));
+    if (!folded && !isRoomy() && app.panel.kind) app.selection.select([]);
+    app.room.fit();
+  }
+
   /** @param {?Lesson | undefined} lesson whose card is made anew */
   #show(lesson) {
     const {card, app} = this;
     this.shown = lesson?.title;
     card.hidden = !lesson;
-    card.open = true;
     if (lesson) {
-      card.replaceChildren(createElement('summary', {}, createElement('h2', {}, `${lesson.number}. ${t(lesson.title)}`)),
-        createElement('p', {}, t(lesson.question)), ...app.viewOnly ? [] : this.#work(lesson));
+      card.replaceChildren(createElement('header', {}, createElement('h2', {}, `${lesson.number}. ${t(lesson.title)}`), this.more),
+        createElement('p', {className: 'question'}, t(lesson.question)), ...app.viewOnly ? [] : this.#work(lesson));
     }
-    app.room.fit();
+    this.#fold(false);
+    this.settled = !lesson;
+    this.began = Infinity;
   }
 
   /**
@@ -87,6 +112,7 @@ export class Lessons {
       solution.hidden = false;
       solution.open = right;
       if (!right) return;
+      this.#fold(false);
       this.solved.add(title);
       localStorage.setItem(SOLVED, JSON.stringify([...this.solved]));
     }, shown);
@@ -94,9 +120,9 @@ export class Lessons {
     const buttons = [textButton(t('Start again'), () => this.app.time.callService('reset'))];
     if (next) buttons.push(textButton(t('Next lesson'), () => this.open(next)));
     return [
-      createElement('p', {}, createElement('strong', {}, t('To measure:')), ` ${t(measure)}`),
+      createElement('p', {className: 'rest'}, createElement('strong', {}, t('To measure:')), ` ${t(measure)}`),
       createElement('div', {className: 'answer'}, form, result),
-      folded(t('Hint'), t(hint)), solution, inRow(...buttons)];
+      createElement('div', {className: 'rest'}, folded(t('Hint'), t(hint)), solution, inRow(...buttons))];
   }
 }
 

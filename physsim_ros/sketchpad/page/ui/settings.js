@@ -2,6 +2,7 @@
 /** What a reader chooses in the help for this browser: the language, words at icons, sentences about what moves. */
 
 import {checkField, languageField} from '../dom.js';
+import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 
 /** @import {App} from '../types.js' */
@@ -18,8 +19,8 @@ export class Settings {
 
   /** @returns {boolean} whether icons have words: until somebody chooses, in lessons, where there is room */
   get words() {
-    const chosen = localStorage.getItem(WORDS), {world, room} = this.app;
-    return chosen === null ? Boolean(world.scene.lesson) && room.isRoomy : chosen === '1';
+    const chosen = localStorage.getItem(WORDS), {world} = this.app;
+    return chosen === null ? Boolean(world.scene.lesson) && isRoomy() : chosen === '1';
   }
 
   /** @returns {boolean} whether the motion of all bodies is told, not of the selected ones alone */

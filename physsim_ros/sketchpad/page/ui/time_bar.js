@@ -133,7 +133,7 @@ export class TimeBar {
 
   /** @param {number} speed */
   #showSpeed(speed) {
-    const pace = this.#slowPace, text = `${localized(String(Number((pace || speed).toFixed(2))))}×`.replace('-', '−');
+    const pace = this.#slowPace, text = `${localized(String(Number((pace || speed).toFixed(2))))}×`;
     const count = this.app.world.scene.bodies.length;
     const reason = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count}) : '';
     this.#explain(reason);

@@ -12,13 +12,16 @@ import {TOOLS} from '../tools/tools.js';
 
 /** @import {App, Tool} from '../types.js' */
 
+const FEW = ['hand', 'ruler', 'protractor', 'note']; // tools that a lesson needs
+
 export class Toolbar {
   /** @param {App} app */
   constructor(app) {
     this.app = app;
     /** @type {Map<string, {tool: Tool, button: HTMLButtonElement, hint: string}>} by id */
     this.tools = new Map();
-    const bar = elementOf('tools');
+    this.bar = elementOf('tools');
+    this.few = false; // those alone are shown
     for (const group of TOOLS) {
       const box = createElement('div', {role: 'group'});
       for (const {id, name, key, hint, make} of group) {
@@ -26,13 +29,35 @@ export class Toolbar {
         this.tools.set(id, {tool: make(app), button, hint: `${name}: ${hint}.`});
         box.append(button);
       }
-      bar.append(box);
+      this.bar.append(box);
     }
-    bar.lastElementChild?.append(iconButton(t('Measure'), 'measure', () => {
+    this.more = iconButton(t('All tools'), 'pen', () => this.showFew(false), t('All tools (5): to draw and to join'));
+    this.bar.lastElementChild?.append(iconButton(t('Measure'), 'measure', () => {
       app.selection.select([]);
       app.panel.show('measure');
-    }, t('Stopwatch with gates, counter of collisions')));
+    }, t('Stopwatch with gates, counter of collisions')), this.more);
     this.#select('pen');
+    this.showFew(false);
+    app.connection.on('world', () => this.#suit());
+    app.connection.on('scene', ({lesson}) => Boolean(lesson) === Boolean(this.lesson) || this.#suit());
+  }
+
+  /** Show the tools that the world needs: those of a lesson, or all. */
+  #suit() {
+    const {lesson} = this.app.world.scene;
+    this.lesson = lesson;
+    this.showFew(Boolean(lesson));
+    this.#select(lesson ? 'hand' : 'pen');
+  }
+
+  /** @param {boolean} few whether the tools of a lesson alone are shown */
+  showFew(few) {
+    this.few = few;
+    this.bar.classList.toggle('few', few);
+    this.more.hidden = !few;
+    for (const [id, {button}] of this.tools) button.hidden = few && !FEW.includes(id);
+    for (const group of this.bar.children) if (group instanceof HTMLElement) group.hidden = [...group.children].every((each) => each instanceof HTMLElement && each.hidden);
+    this.app.room?.fit();
   }
 
   /**
@@ -40,6 +65,7 @@ export class Toolbar {
    * @param {string} id
    */
   selectTool(id) {
+    if (this.tools.get(id)?.button.hidden) this.showFew(false);
     this.#select(id);
     this.app.hints.showTool(id, this.tools.get(id)?.hint ?? '');
   }

@@ -8,9 +8,10 @@
  * that bears.
  */
 
-import {createElement, elementOf, showText, textButton, toggling} from '../dom.js';
+import {createElement, elementOf, foldButton, showText, textButton, toggling} from '../dom.js';
 import {appliedTo, bearing, forcesOf, neighboursOf, sumsOf} from './forces.js';
 import {digits, roundUp, threeDigits} from '../rounding.js';
+import {isRoomy} from './room.js';
 import {t} from '../strings.js';
 
 /** @import {App, Force, Palette, Point, SceneView} from '../types.js' */
@@ -24,6 +25,7 @@ const LEAST = 4; // px: of an arrow
 const LENGTH = 34; // px: of the arrow of a constant force, where forces are not shown to scale
 const LEAST_SPEED = 5; // m/s: that there is always room for
 const FEW = 12; // bodies that move, of which all forces are shown where none is selected
+const CORNERS = ['top-right', 'top-left', 'bottom-right', 'bottom-left']; // of the room, for the legend
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
 /** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
 const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'),
@@ -72,6 +74,8 @@ export class Arrows {
     this.momenta = this.components = false;
     /** @type {Set<string>} kinds of forces that are not shown */
     this.off = new Set();
+    /** @type {Set<string>} kinds of forces that have occurred in this world */
+    this.kinds = new Set();
     this.newtons = new ArrowScale();
     this.speeds = new ArrowScale();
     this.impulses = new ArrowScale(); // of momenta
@@ -79,13 +83,23 @@ export class Arrows {
     /** @type {{name: string, kind: string, force: Point, size: string, from: Point, to: Point}[]} */
     this.drawn = []; // forces, as they are drawn
     this.legend = elementOf('legend');
+    this.legend.dataset.corner = CORNERS[0];
     /** The scales in the legend, by their unit. @type {Record<string, HTMLElement>} */
     this.bars = {};
     this.hint = createElement('span');
+    this.unfolded = false; // on a small page, where the scales alone are shown until somebody asks
+    this.more = foldButton(t('Kinds of forces'), () => {
+      this.unfolded = !this.unfolded;
+      this.showLegend();
+    }, '');
     app.view.overlays.push((view) => this.#draw(view));
+    app.connection.on('world', () => {
+      this.kinds.clear();
+      this.showLegend();
+    });
   }
 
-  /** Show the legend of what is shown, with its switches. */
+  /** Show the legend of what is shown and occurs, with its switches. */
   showLegend() {
     const bar = (/** @type {string} */ unit, /** @type {string} */ kind) => {
       this.bars[unit] = createElement('output');
@@ -96,17 +110,34 @@ export class Arrows {
         change();
       });
     };
-    const {legend, off} = this;
+    const {legend, off} = this, folded = !isRoomy() && !this.unfolded;
     legend.hidden = !this.velocities && !this.forces;
+    legend.classList.toggle('folded', folded);
+    this.more.hidden = isRoomy();
+    this.more.setAttribute('aria-expanded', String(!folded));
     legend.replaceChildren(
       ...this.velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
         this.momenta = !this.momenta;
         this.showLegend();
       }), ...this.momenta ? [bar('N s', 'momentum')] : []] : [],
-      ...this.forces ? [bar('N', ''), ...Object.entries(NAMES).map(([kind, name]) =>
+      ...this.forces ? [bar('N', ''), ...Object.entries(NAMES).filter(([kind]) => this.kinds.has(kind)).map(([kind, name]) =>
         part(name, kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
-      part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint);
-    this.app.room.fit();
+      part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint, this.more);
+  }
+
+  /**
+   * Put the legend into a corner of the room in which no body lies that moves.
+   * @param {SceneView} view
+   */
+  #placeLegend({insets: {left, top, right, bottom}}) {
+    const {legend, app: {world, camera}} = this, {offsetWidth: width, offsetHeight: height} = legend;
+    const isFree = (/** @type {string} */ corner) => {
+      const x = corner.includes('left') ? left : camera.width - right - width, y = corner.includes('top') ? top : camera.height - bottom - height;
+      const [xmin, ymax] = camera.toWorld(x, y), [xmax, ymin] = camera.toWorld(x + width, y + height);
+      return world.isFree([xmin, ymin, xmax, ymax]);
+    };
+    const now = legend.dataset.corner ?? '';
+    legend.dataset.corner = [now, ...CORNERS].find(isFree) ?? now;
   }
 
   /** @param {SceneView} view */
@@ -117,6 +148,7 @@ export class Arrows {
     this.drawn = [];
     this.#fitSpeeds(room);
     if (this.velocities && world.frame.velocities) this.#drawVelocities(view, room);
+    if (!this.legend.hidden && world.paused) this.#placeLegend(view);
     this.hint.textContent = '';
     if (!this.forces) drawApplied(this.app, view);
     else if (world.count) this.#drawForces(view, room);
@@ -169,7 +201,9 @@ export class Arrows {
   #drawForces(view, room) {
     const {world, camera, selection, viewOnly} = this.app, all = forcesOf(world), {bodies} = world.scene;
     const selected = new Set([...selection.names].map((name) => world.row(name)));
-    const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all);
+    const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all), known = this.kinds.size;
+    for (const {kind} of [...all, ...sums]) this.kinds.add(kind);
+    if (this.kinds.size > known) this.showLegend();
     const some = all.some(isSelected), beside = some ? neighboursOf([...world.touches, ...world.scene.joints], selected) : selected;
     const few = viewOnly || bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).length <= FEW;
     if (!some && !few) this.hint.textContent = t('Tap a body: its forces, and those of what touches it.');
@@ -184,7 +218,8 @@ export class Arrows {
       const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${NAMES[kind]} ${size}` : size;
       const width = some && !named ? NARROW : kind === 'sum' ? WIDE : USUAL;
       const to = this.#arrow(view, room, {from, x, y, scale: this.newtons, color, text, width, unit: named || !some ? 'N' : '', named});
-      if (!to && kind === 'sum' && named) view.number({text: `${NAMES.sum} 0 N`, color, tip: [from[0], from[1] - BAR / 2], along: [0, -1], named});
+      // A number is told, whether or not its arrow is long enough to be drawn.
+      if (!to && named) view.number({text, color, tip: kind === 'sum' ? [from[0], from[1] - BAR / 2] : from, along: [0, -1], named});
       this.drawn.push({name: bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
     }
   }

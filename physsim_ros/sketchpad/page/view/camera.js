@@ -7,7 +7,7 @@ import {roundUp} from '../rounding.js';
 
 const LEAST_SCALE = 1e-5, GREATEST_SCALE = 5000; // px/m; bodies are at most 1e7 m from the origin
 const LEAST_STEP = 70; // px between labelled lines of the grid
-const LEAST_SPAN = 4; // m; nothing smaller fills the page at first
+const LEAST_SPAN = 3; // m; nothing smaller fills the page at first
 
 export class Camera {
   constructor() {
@@ -77,8 +77,7 @@ export class Camera {
   fit([xmin, ymin, xmax, ymax], insets) {
     const width = this.width - insets.left - insets.right;
     const height = this.height - insets.top - insets.bottom;
-    this.scale = Math.max(Math.min(width / Math.max(xmax - xmin, LEAST_SPAN),
-      height / Math.max(ymax - ymin, LEAST_SPAN)), LEAST_SCALE);
+    this.scale = Math.max(Math.min(width / (xmax - xmin || 1), height / (ymax - ymin || 1), Math.max(width, height) / LEAST_SPAN), LEAST_SCALE);
     this.whole = this.scale;
     this.x = (xmin + xmax) / 2 + (insets.right - insets.left) / 2 / this.scale;
     this.y = (ymin + ymax) / 2 + (insets.top - insets.bottom) / 2 / this.scale;

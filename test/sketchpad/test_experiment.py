@@ -1,0 +1,161 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The experiment of each shipped lesson is what its page shows first, and shows large."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from physsim_ros.files import shipped_lessons, worlds_in
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+from ..worlds.film import Film, simulation, state_of
+
+# Time in which what each lesson asks for has been seen [s], and the body that is tapped.
+SEEN = {
+    'free_fall': (1.0, 'heavy/0'),
+    'horizontal_throw': (1.0, 'thrown/0'),
+    'oblique_throw': (1.15, 'ball/0'),
+    'slope': (1.85, 'ice/0'),
+    'friction': (1.3, 'block/0'),
+    'lever': (3.0, 'green/0'),
+    'elastic_collision': (2.7, 'light/0'),
+    'inelastic_collision': (2.1, 'fast/0'),
+    'pendulum': (3.2, 'bob/0'),
+    'spring_energy': (0.7, 'block/0'),
+}
+SIDES = [(1, 0), (0, 1), (-1, 0), (0, -1)]
+CORNERS = [(1, 1), (1, -1), (-1, 1), (-1, -1)]
+ROOM = """() => {
+    const {left, top, right, bottom} = document.getElementById('room').getBoundingClientRect();
+    return [left, top, right, bottom];
+}"""
+# Of a frame in which a body is drawn on the edge of the room [px].
+EDGE = 1.0
+
+
+class Box(NamedTuple):
+    """A box in the world [m], y up, or on the page [px], y down."""
+
+    left: float
+    low: float
+    right: float
+    high: float
+
+
+@cache
+def motion_of(name: str) -> Box:
+    """Return the box of all places of the bodies that move, and of what holds them."""
+    film = Film(simulation(name), SEEN[name][0])
+    scene = film.frames[0].scene
+    points = [
+        np.array(
+            [(seat.bx, seat.by) for seat in (joint.seat for joint in state_of(name).joints)]
+        ).reshape(-1, 2)
+    ]
+    for body in scene.bodies:
+        if body.anchored:
+            continue
+        x, y, yaw = film.pose(body.name).T
+        shape = body.shape
+        if hasattr(shape, 'radius'):
+            corners = [(x + dx, y + dy) for dx, dy in shape.radius * np.array(SIDES)]
+        else:
+            half = np.array([shape.width, shape.height]) / 2
+            corners = [
+                (x + np.cos(yaw) * dx - np.sin(yaw) * dy, y + np.sin(yaw) * dx + np.cos(yaw) * dy)
+                for dx, dy in half * np.array(CORNERS)
+            ]
+        points += [np.stack(corner, axis=1) for corner in corners]
+    every = np.concatenate(points)
+    return Box(*every.min(axis=0), *every.max(axis=0))
+
+
+def test_every_lesson_has_its_experiment() -> None:
+    assert set(SEEN) == set(worlds_in(shipped_lessons()))
+
+
+@pytest.fixture(scope='module')
+def address(outside: Outside) -> Any:
+    """Give the module a world."""
+    return started_world(outside)[1]
+
+
+@pytest.fixture(params=[(1280, 800), (390, 844), (320, 640)], ids=lambda size: str(size[0]))
+def sheet(chromium: Any, address: str, request: pytest.FixtureRequest) -> Iterator[Sheet]:
+    """Give a test a page of a size."""
+    width, height = request.param
+    sheet = Sheet(chromium, address, unfolded=False, viewport={'width': width, 'height': height})
+    sheet.wait('heard.people && Object.keys(physsim.bodies).length > 0')
+    yield sheet
+    sheet.close()
+
+
+def begin(sheet: Sheet, name: str) -> None:
+    """Open a lesson."""
+    sheet.press('Worlds')
+    number = 1 + list(SEEN).index(name)
+    sheet.page.locator('.lessons').get_by_role('button', name=f'{number}. ').first.click()
+    body = SEEN[name][1]
+    sheet.wait('name => name in physsim.bodies && physsim.time === 0', body)
+    sheet.wait(f'document.querySelector("#lesson h2").textContent.startsWith("{number}. ")')
+
+
+def shown(sheet: Sheet, name: str) -> Box:
+    """Return where the motion of a lesson is shown; nothing covers it [px]."""
+    left, low, right, high = motion_of(name)
+
+    def box() -> Box:
+        return Box(*sheet.place(left, high), *sheet.place(right, low))
+
+    def is_in_sight() -> bool:
+        room, now = Box(*sheet.page.evaluate(ROOM)), box()
+        inner = np.array(now) - np.array(room)
+        return bool((inner[:2] > -EDGE).all() and (inner[2:] < EDGE).all())
+
+    sheet.until(is_in_sight, f'the motion of {name} in the room')
+    return box()
+
+
+def shares(sheet: Sheet, name: str) -> tuple[float, float]:
+    """Return the shares of the width and of the height of the page that the motion takes."""
+    left, top, right, bottom = shown(sheet, name)
+    size = sheet.page.viewport_size
+    return (right - left) / size['width'], (bottom - top) / size['height']
+
+
+def test_the_experiment_is_the_page(sheet: Sheet) -> None:
+    width = sheet.page.viewport_size['width']
+    found: dict[str, list[tuple[float, float]]] = {}
+    for name, (_, body) in SEEN.items():
+        begin(sheet, name)
+        found[name] = [shares(sheet, name)]
+        # Once time has run, the card is folded to the question and the field for its answer.
+        sheet.press('Step')
+        sheet.page.locator('#lesson.folded').wait_for()
+        assert sheet.page.get_by_text('To measure:').is_hidden()
+        assert sheet.page.get_by_role('textbox', name='Your answer').is_visible()
+        found[name].append(shares(sheet, name))
+        sheet.page.mouse.click(*sheet.place(*sheet.pose(body)[:2]))
+        sheet.page.get_by_role('complementary', name='Body').wait_for()
+        # Numbers alone.
+        assert sheet.page.get_by_role('slider', name='Friction', exact=True).is_hidden()
+        sheet.press('Show forces')
+        found[name].append(shares(sheet, name))
+        sheet.press('Show forces')
+        sheet.press('Close')
+    for name, (card, folded, panel) in found.items():
+        if width == 1280:
+            assert max(card) >= 0.5, name
+            assert max(panel) >= 0.4, name
+        elif width == 390:
+            # What is higher than wide has the height between the bars.
+            assert folded[0] >= 0.9 or folded[1] >= 0.5, name
+        else:
+            assert max(panel) >= 0.2, name
