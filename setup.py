@@ -180,7 +180,7 @@ setup(
     cmdclass={'build_ext': BuildCore},
     package_data={
         PACKAGE: ['py.typed'],
-        f'{PACKAGE}.drawing.strokes': ['evidence.csv'],
+        f'{PACKAGE}.drawing.strokes': ['evidence.csv', 'judge.csv'],
         f'{PACKAGE}.ros.programs': ['*.xml'],
         f'{PACKAGE}.sketchpad': ['page/*', 'page/*/*'],
     },

@@ -20,6 +20,7 @@ from physsim_ros.drawing.body_requests import requests_with_waiting_joints
 from physsim_ros.drawing.click import ClickResult, Tool
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.figure import (
     Figure,
     likeliest_group,
@@ -130,9 +131,10 @@ class DrawingSession:
         self.preview = NO_PREVIEW
         placed = _in_world(samples, frame, scene)
         drawn = resample_stroke(placed)
+        features = Features.of(drawn)
         figure = Figure.read(
-            drawn,
-            recognise_form(drawn),
+            features,
+            recognise_form(features),
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),

@@ -26,6 +26,7 @@ import struct
 import sys
 import time
 from typing import Any, NoReturn
+import warnings
 
 import numpy as np
 from physsim_ros.sweeps.experiment import Case, End, Experiment, Run
@@ -73,7 +74,11 @@ class _Process:
         # What waits in buffers is written once.
         sys.stdout.flush()
         sys.stderr.flush()
-        self._pid = os.fork()
+        with warnings.catch_warnings():
+            # Python 3.12 warns where there are threads. None of them is in the process, which uses
+            # nothing of theirs; OpenBLAS makes its own anew (`pthread_atfork`).
+            warnings.simplefilter('ignore', DeprecationWarning)
+            self._pid = os.fork()
         if self._pid == 0:
             self._work(out)
         with suppress(ProcessLookupError, PermissionError):
@@ -92,7 +97,9 @@ class _Process:
         status = 1
         try:
             seconds = math.ceil(self._experiment.cpu_limit * self._attempts)
-            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
+            _, most = resource.getrlimit(resource.RLIMIT_CPU)
+            soft = seconds if most == resource.RLIM_INFINITY else min(seconds, most)
+            resource.setrlimit(resource.RLIMIT_CPU, (soft, most))
             result: Run | Exception
             try:
                 result = self._experiment.attempt(self.job.case, self._note_call, self.job.end)

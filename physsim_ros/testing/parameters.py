@@ -57,6 +57,7 @@ class Parameters(TypedDict, total=False):
     map_resolution: float
     robot_tf: Literal['prefixed', 'namespaced', 'none']
     robots_in_past: Literal['follow', 'freeze']
+    drive_timeout: float
     lockstep: float
     viewer: Literal['none', 'spawn', 'web', 'connect', 'auto']
     viewer_url: str

@@ -5,6 +5,7 @@
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.meanings import Context
 from physsim_ros.drawing.strokes.reading import (
     guess_meanings,
@@ -24,8 +25,8 @@ def interpret_stroke(samples: Floats, scene: SceneQuery, settings: DrawingSettin
 
     :raises Refusal: no guess is likely enough, or the likeliest cannot be built
     """
-    drawn = resample_stroke(samples)
-    context = Context(drawn=drawn, scene=scene, settings=settings)
+    drawn = Features.of(resample_stroke(samples))
+    context = Context(features=drawn, scene=scene, settings=settings)
     guesses = guess_meanings(recognise_form(drawn), context)
     if not is_likely(guesses, settings):
         raise not_recognised(guesses)

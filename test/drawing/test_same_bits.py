@@ -22,6 +22,7 @@ import numpy as np
 from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.meanings import Context
 from physsim_ros.drawing.strokes.reading import (
     guess_meanings,
@@ -78,8 +79,8 @@ def digest_of_readings(strokes: Iterable[tuple[Floats, SceneQuery]]) -> str:
     total = hashlib.sha256()
     for samples, scene in strokes:
         try:
-            drawn = resample_stroke(samples)
-            context = Context(drawn=drawn, scene=scene, settings=DrawingSettings())
+            drawn = Features.of(resample_stroke(samples))
+            context = Context(features=drawn, scene=scene, settings=DrawingSettings())
             guesses = guess_meanings(recognise_form(drawn), context)
         except Refusal as refusal:
             total.update(repr(refusal).encode())

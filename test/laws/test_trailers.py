@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Law 54: what is towed rolls where it is drawn, as the formula of a trailer says."""
+"""Law 60: what is towed rolls where it is drawn, as the formula of a trailer says."""
 
 import math
 
@@ -75,12 +75,12 @@ def test_a_trailer_follows_a_circle_at_the_angle_of_the_formula(report, shape, h
     # at (R² + M² - L²)^(1/2).
     radius = SPEED / turn
     exact = math.atan(hitch / radius) + math.asin(0.5 / math.hypot(radius, hitch))
-    report.check(54, 'angle in a circle', angle_between(tractor, trailer), exact, 1e-4, 'rad')
+    report.check(60, 'angle in a circle', angle_between(tractor, trailer), exact, 1e-4, 'rad')
     # The axle rolls.
     ahead, aside, _ = trailer.truth().twist
-    report.check(54, 'slip of the axle', aside, 0.0, 1e-5, 'm/s')
+    report.check(60, 'slip of the axle', aside, 0.0, 1e-5, 'm/s')
     speed = turn * math.sqrt(radius**2 + hitch**2 - 0.5**2)
-    report.check(54, 'speed of a trailer', ahead, speed, 1e-4, 'm/s')
+    report.check(60, 'speed of a trailer', ahead, speed, 1e-4, 'm/s')
 
 
 @pytest.mark.parametrize('speed', [SPEED, -SPEED])
@@ -94,7 +94,7 @@ def test_a_trailer_straightens_and_jackknifes_as_the_formula_says(report, shape,
         angles.append(math.log(math.tan(angle_between(tractor, trailer) / 2.0)))
     # dθ/dt = -v / L sin θ: ln tan(θ / 2) falls, or grows, by v / L a second.
     rate = (angles[1] - angles[0]) / 2.0
-    report.check(54, 'rate of a jackknife', rate, -speed / 0.5, 1e-5, '1/s')
+    report.check(60, 'rate of a jackknife', rate, -speed / 0.5, 1e-5, '1/s')
 
 
 def test_what_is_towed_is_pushed_aside_by_no_less_than_its_traction():

@@ -21,6 +21,7 @@ import time
 
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.meanings import DELETION, GRAVITY
 from physsim_ros.drawing.strokes.reading import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -121,7 +122,7 @@ class Tally:
         if scene.name in CLOSED and what in CLOSED:
             self.right['disc or polygon'].append((what == 'disc') == (scene.name == 'disc'))
         if scene.name in _CORNERED:
-            found = recognise_form(resample_stroke(scene.samples))
+            found = recognise_form(Features.of(resample_stroke(scene.samples)))
             exact = bool(found) and len(found[0].points) == scene.figure.corners
             self.corners[_CORNERED[scene.name]].append(exact)
 

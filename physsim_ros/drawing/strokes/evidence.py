@@ -10,7 +10,8 @@ knots and values are rows of `evidence.csv` (a generalised additive model; Hasti
 no sign at all, whose evidence is 0 (the conditional logit; McFadden, 1974). The rest is shared
 among lines and outlines by soft conditions (logistic functions), each 0.5 at its limit. A weight
 becomes a confidence, the share of guesses of that weight that are right, by Platt scaling (Platt,
-1999): a logistic function of the log odds of the weight against the others.
+1999): a logistic function of the log odds of the weight against the others. By it strokes are
+refused; how sure a reading is, `judge` tells.
 
 `python -m tools.evaluation.fit` makes the table, from hands of the tuning half of `make evaluate`.
 The constants of the confidence were fitted to the same half, all kinds and all faults, by maximum

@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.geometry import COUNT, few_points, size_of
 from physsim_ros.drawing.strokes.joining import (
     connected,
@@ -46,7 +47,7 @@ from physsim_ros.drawing.strokes.reading import (
     recognise_form,
 )
 from physsim_ros.drawing.strokes.signs import x
-from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
+from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
@@ -95,7 +96,7 @@ class Figure:
     @classmethod
     def read(
         cls,
-        drawn: Stroke,
+        drawn: Features,
         forms: Sequence[Form],
         *,
         strokes: tuple[Floats, ...],
@@ -107,10 +108,10 @@ class Figure:
         """
         Return a figure with the guesses at its meaning; the first one is taken if it is likely.
 
-        :param drawn: its strokes as one
+        :param drawn: features of its strokes as one
         :param forms: that these may have
         """
-        context = Context(drawn=drawn, scene=scene, settings=settings)
+        context = Context(features=drawn, scene=scene, settings=settings)
         guesses = guess_meanings(forms, context)
         likely = is_likely(guesses, settings)
         return cls(
@@ -218,7 +219,7 @@ def _as_one(group: Sequence[Figure], settings: DrawingSettings) -> Figure | None
 
 def _paths_together(
     group: Sequence[Figure], settings: DrawingSettings
-) -> Iterator[tuple[Stroke, Sequence[Form], AbstractSet[str]]]:
+) -> Iterator[tuple[Features, Sequence[Form], AbstractSet[str]]]:
     """Yield the paths that figures may be together, their forms, and the meanings to look for."""
     strokes = tuple(stroke for figure in group for stroke in figure.strokes)
     cross = x.of_lines(strokes)
@@ -239,9 +240,9 @@ def _paths_together(
         yield path, recognise_form(path), _JOINED
 
 
-def _joined(path: Floats) -> Stroke:
+def _joined(path: Floats) -> Features:
     """Return strokes that are joined as one: one more may close a gap, its ends do not tell."""
-    return replace(resample_stroke(path), relatability=0.0)
+    return Features.of(replace(resample_stroke(path), relatability=0.0))
 
 
 def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSettings) -> bool:

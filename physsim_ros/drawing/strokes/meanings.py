@@ -56,14 +56,19 @@ class Context:
     """
     A stroke in the scene that it was drawn over.
 
-    :param drawn: the stroke
+    :param features: of the stroke
     :param scene: the world that it was drawn over
     :param settings: of drawing
     """
 
-    drawn: Stroke
+    features: Features
     scene: SceneQuery
     settings: DrawingSettings
+
+    @property
+    def drawn(self) -> Stroke:
+        """Return the stroke."""
+        return self.features.stroke
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

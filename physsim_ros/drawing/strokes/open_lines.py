@@ -18,8 +18,8 @@ import numpy as np
 from physsim_ros.drawing.strokes import bodies_under, outcomes
 from physsim_ros.drawing.strokes.corner_detection import bends_of
 from physsim_ros.drawing.strokes.evidence import falls, LEAST, rises
-from physsim_ros.drawing.strokes.features import Features, loop_roundness, swings_of
-from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of, size_of
+from physsim_ros.drawing.strokes.features import Features, loop_roundness
+from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of
 from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Form, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
@@ -106,7 +106,7 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     # A line beside a body that ends on no other is a wall.
     at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)
     joins = between or (ends is not None and ends[0].body in at_ends)
-    if between and _is_toothed(drawn, sides):
+    if between and _is_toothed(context.features, sides):
         return JointKind.SPRING, BETWEEN
     if joins and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
@@ -114,7 +114,7 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     return JointKind.ROD, BETWEEN if joins and straight else 0.0
 
 
-def _is_toothed(points: Floats, sides: Floats) -> bool:
+def _is_toothed(features: Features, sides: Floats) -> bool:
     """
     Return whether a line goes to and fro across its way: sharp teeth, or round ones.
 
@@ -123,8 +123,8 @@ def _is_toothed(points: Floats, sides: Floats) -> bool:
     turns = np.sign(cross(sides[:-1], sides[1:]))
     if len(turns) >= _FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all()):
         return True
-    swings = swings_of(points)
-    high = swings.height > _HIGH * size_of(points)
+    swings = features.swings
+    high = swings.height > _HIGH * features.stroke.size
     return swings.count > _FEWEST_TEETH and high and swings.steady > _STEADY
 
 

@@ -16,7 +16,7 @@ the confidence in the group is too small.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from physsim_ros.drawing.settings import DrawingSettings
@@ -29,6 +29,7 @@ from physsim_ros.drawing.strokes.evidence import (
     share_confidence,
 )
 from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.judge import judged
 from physsim_ros.drawing.strokes.meanings import (
     CLOSED,
     Context,
@@ -43,7 +44,6 @@ from physsim_ros.drawing.strokes.meanings import (
     RECTANGLE,
 )
 from physsim_ros.drawing.strokes.signs import SIGNS
-from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.errors import NotRecognised
 
 # The greatest number of guesses that a reading has.
@@ -118,9 +118,8 @@ class Reading(Outcome):
         return _values(self.guesses)
 
 
-def recognise_form(stroke: Stroke) -> tuple[Form, ...]:
+def recognise_form(features: Features) -> tuple[Form, ...]:
     """Return the forms that a stroke may have, by falling weight."""
-    features = Features.of(stroke)
     signs, plain = _signs(features)
     shapes = [
         *open_lines.forms(features, plain),
@@ -142,6 +141,40 @@ def _signs(features: Features) -> tuple[list[Form], float]:
 
 
 def guess_meanings(forms: Sequence[Form], context: Context) -> tuple[Guess, ...]:
+    """
+    Return the most likely meanings of a stroke by the rules, and how sure the first one is.
+
+    The confidence in the first one is that of the judge; the others have no more, nor more than it
+    leaves.
+
+    :param forms: that the stroke may have, as `recognise_form` returns them
+    :param context: the stroke in its scene
+    """
+    guesses = weigh_meanings(forms, context)
+    if not guesses:
+        return ()
+    first, *others = guesses
+    sure = judged(first.confidence, measures_of(guesses, forms, context))
+    most = min(sure, 1.0 - sure)
+    rest = (replace(each, confidence=min(each.confidence, most)) for each in others)
+    return replace(first, confidence=sure), *rest
+
+
+def measures_of(
+    guesses: Sequence[Guess], forms: Sequence[Form], context: Context
+) -> dict[str, float]:
+    """Return the measures of a reading by which the judge doubts it, by their names."""
+    return {
+        'confidence': guesses[0].confidence,
+        'group': guesses[0].group_confidence,
+        'second': guesses[1].confidence if len(guesses) > 1 else 0.0,
+        'bodies': float(bool(context.scene.names)),
+        f'read as {guesses[0].meaning}': 1.0,
+        **{f'form {form.name}': form.weight for form in forms},
+    }
+
+
+def weigh_meanings(forms: Sequence[Form], context: Context) -> tuple[Guess, ...]:
     """
     Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first.
 
@@ -214,7 +247,7 @@ def is_likely(guesses: Sequence[Guess], settings: DrawingSettings) -> bool:
     if not guesses:
         return False
     guess = guesses[0]
-    if guess.meaning in {DELETION, GRAVITY} and guess.confidence < SURE:
+    if guess.meaning in {DELETION, GRAVITY} and guess.group_confidence < SURE:
         return False
     return guess.group_confidence >= settings.sketch_confidence
 

@@ -59,7 +59,7 @@ def _unset(value: object, name: str) -> tuple[str, ...]:
     return names
 
 
-def _lifetime(value: object, name: str) -> float:
+def _duration(value: object, name: str) -> float:
     (seconds,) = check_finite((value,), 1, name)
     if not 0.0 <= seconds <= LONGEST:
         raise BadProperty(
@@ -97,7 +97,7 @@ class Spawn(Request):
         'red, green, blue, alpha, each 0 .. 1; None is the default of the name',
     ] = None
     lifetime: Annotated[
-        float, _lifetime, 'simulation time after which the body is removed [s]; 0 is for ever'
+        float, _duration, 'simulation time after which the body is removed [s]; 0 is for ever'
     ] = 0.0
     properties: Annotated[Properties, OfClass(Properties), 'material, velocity and role'] = field(
         default_factory=Properties
@@ -267,7 +267,7 @@ class Command(Request):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DriveRobot(Request):
     """
-    Drive at a velocity, until the next command or the timeout of the drive.
+    Drive at a velocity, until the next command or a timeout.
 
     The drive does what it can of it: a velocity beyond its limits is cut off.
 
@@ -283,3 +283,8 @@ class DriveRobot(Request):
         _driven,
         'vx forward, vy to the left [m/s], turn counter-clockwise [rad/s]',
     ]
+    timeout: Annotated[
+        float | None,
+        _duration,
+        'simulation time after which it stops [s]; 0 is never, None that of the drive',
+    ] = None

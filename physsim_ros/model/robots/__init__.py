@@ -9,7 +9,7 @@ are made. Shipped robots are files (`files.resources`), the floor that drives ac
 the engine. Start with `robot`; a new drive is a class in `drives`, a new sensor one in `sensors`.
 """
 
-from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni
+from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni, Towed
 from physsim_ros.model.robots.robot import check_namespace, Odometry, Robot
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
@@ -22,6 +22,7 @@ __all__ = [
     'Omni',
     'Robot',
     'Sensor',
+    'Towed',
     'check_namespace',
     'sensor_from',
 ]

@@ -130,6 +130,12 @@ class NodeSettings(Checked):
         'topics of robots and `clock` while the past is shown: `follow` (they replay it) or '
         '`freeze` (they are silent)',
     ] = 'follow'
+    drive_timeout: Annotated[
+        float,
+        Within(-1.0, 1e6, 's'),
+        'simulation time after which a robot stops without another command on `cmd_vel`; 0 is '
+        'never, -1 is the `timeout` of each drive',
+    ] = -1.0
     lockstep: Annotated[
         float,
         Within(0.0, 3600.0, 's'),

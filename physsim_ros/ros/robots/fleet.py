@@ -12,6 +12,7 @@ in another process acts at the same simulation time in every run.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 import time
 from typing import Any
@@ -102,6 +103,8 @@ class Fleet:
                     request = commands.take()
                 if request is None:
                     continue
+                if (timeout := self._values['drive_timeout']) >= 0.0:
+                    request = replace(request, timeout=timeout)
                 if in_past:
                     raise InPast(_IN_PAST)
             except Refusal as refusal:
@@ -197,9 +200,11 @@ class Fleet:
         if commands.velocity == REST:
             return
         self._has_told_timeout = True
+        asked = self._values['drive_timeout']
+        timeout = drive.timeout if asked < 0.0 else asked
         message = (
-            f'{robot.body} has stopped: no command has come for {drive.timeout:g} s, the timeout '
-            'of its drive. Publish commands again and again, or set that timeout to 0'
+            f'{robot.body} has stopped: no command has come for {timeout:g} s, the timeout of its '
+            'drive. Publish commands again and again, or set the parameter drive_timeout to 0'
         )
         self._node.get_logger().warning(message)
         topic = commands.topic

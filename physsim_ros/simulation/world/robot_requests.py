@@ -33,7 +33,8 @@ def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     :raises BadProperty: it is no robot
     """
     rigid, robot = robot_of_name(live.space, request.name)
-    until = live.step_after(robot.drive.timeout)
+    timeout = robot.drive.timeout if request.timeout is None else request.timeout
+    until = live.step_after(timeout)
     live.space.drive(rigid, request.velocity, NEVER if until is None else until)
     return Answer(subject=request.name, message=f'drives {request.name}')
 

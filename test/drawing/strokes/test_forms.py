@@ -6,7 +6,7 @@
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.features import swings_of
+from physsim_ros.drawing.strokes.features import Features, swings_of
 from physsim_ros.drawing.strokes.meanings import Form
 from physsim_ros.drawing.strokes.reading import recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -73,7 +73,7 @@ RULED: dict[str, tuple[str, Floats]] = {
 
 def forms_of(way: Floats) -> tuple[Form, ...]:
     """Return the readings of a stroke, the likeliest first."""
-    return recognise_form(resample_stroke(way))
+    return recognise_form(Features.of(resample_stroke(way)))
 
 
 @pytest.mark.parametrize(('primitive', 'way'), RULED.values(), ids=RULED)
@@ -158,7 +158,7 @@ def test_a_flat_circle_is_a_disc_and_the_other_form_is_offered(aspect: float, fo
     angle = np.linspace(0.0, 2.0 * math.pi, 60)
     flat = np.column_stack((np.cos(angle), aspect * np.sin(angle)))
 
-    first, second, *_ = recognise_form(resample_stroke(flat))
+    first, second, *_ = recognise_form(Features.of(resample_stroke(flat)))
 
     assert first.name == form
     assert {first.name, second.name} == {'disc', 'oval'}

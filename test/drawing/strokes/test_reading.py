@@ -10,6 +10,7 @@ import math
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
 from physsim_ros.drawing.strokes.reading import Reading, recognise_form
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -290,7 +291,7 @@ def test_below_the_confidence_asked_for_nothing_is_built_and_what_it_might_be_is
     ids=['an eight', 'a spiral', 'a pigtail'],
 )
 def test_what_is_no_figure_is_not_recognised(world: World, way: Floats) -> None:
-    forms = recognise_form(resample_stroke(way))
+    forms = recognise_form(Features.of(resample_stroke(way)))
 
     assert max((each.weight for each in forms), default=0.0) < 0.3
     with pytest.raises(NotRecognised):

@@ -18,7 +18,7 @@ from rclpy.context import Context
 from std_msgs.msg import Bool
 
 from .driver import Driver, driver_of
-from ...client import Client, Event
+from ...client import Client, Event, set_parameter
 
 
 def test_a_robot_that_stops_as_no_command_comes_is_told_once_and_one_that_was_stopped_not(
@@ -41,6 +41,22 @@ def test_a_robot_that_stops_as_no_command_comes_is_told_once_and_one_that_was_st
     (event,) = told()
     assert event.code == 'ok'
     assert 'for 0.5 s' in event.message
+
+
+@pytest.mark.parametrize(('timeout', 'speed'), [(-1.0, 0.0), (0.0, 0.2), (2.0, 0.2)])
+def test_a_parameter_sets_the_timeout_of_all_drives(
+    flat: PhysSim, timeout: float, speed: float
+) -> None:
+    robot = flat.robot('turtlebot3_burger')
+    set_parameter(flat, 'drive_timeout', timeout)
+    driver = driver_of(flat)
+    driver.send(0.2)
+    flat.run(1.5)
+    assert robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6)
+    after = flat.digest()
+    flat.rewind(1.0)
+    flat.run(1.0)
+    assert flat.digest() == after
 
 
 @pytest.mark.parametrize('kind', [Twist, TwistStamped])

@@ -1,0 +1,79 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The judge of doubt: how sure a reading is. It reads nothing, and changes no reading.
+
+Boosted trees (Friedman, "Greedy function approximation: a gradient boosting machine", 2001)
+correct the log odds that the rules give to a reading, by the weights of all forms of the stroke.
+Each tree asks at most three questions, and adds log odds. Trees are rows of `judge.csv`, made by
+`python -m tools.evaluation.judge` of readings of synthetic hands of the tuning half alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+import csv
+from dataclasses import dataclass
+from importlib.resources import files
+import math
+
+# The file of the trees, beside this one.
+TABLE = 'judge.csv'
+# The least share of either side, so that log odds are finite.
+_LEAST = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """
+    A node of a tree.
+
+    :param measure: that is compared; '' at a leaf
+    :param limit: up to which the first child is next, and beyond it the second
+    :param value: of a leaf: log odds that it adds
+    """
+
+    measure: str
+    limit: float
+    value: float
+
+
+# A tree: its nodes by number. The root is 1, the children of n are 2n and 2n + 1.
+Tree = dict[int, Node]
+
+
+def log_odds(share: float) -> float:
+    """Return the log odds of a share, 0 .. 1."""
+    share = min(max(share, _LEAST), 1.0 - _LEAST)
+    return math.log(share / (1.0 - share))
+
+
+def judged(confidence: float, measures: Mapping[str, float]) -> float:
+    """
+    Return the confidence in a reading, 0 .. 1.
+
+    :param confidence: of the rules, 0 .. 1
+    :param measures: of the reading by name; one that it lacks is 0
+    """
+    odds = log_odds(confidence) + sum(_leaf_of(tree, measures) for tree in _TREES)
+    return 1.0 / (1.0 + math.exp(-odds))
+
+
+def _leaf_of(tree: Tree, measures: Mapping[str, float]) -> float:
+    number = 1
+    while (node := tree[number]).measure:
+        number = 2 * number + (measures.get(node.measure, 0.0) > node.limit)
+    return node.value
+
+
+def _read_trees() -> list[Tree]:
+    trees: dict[str, Tree] = {}
+    path = files(__package__) / TABLE
+    for row in csv.DictReader(path.read_text('utf-8').splitlines()):
+        node = Node(row['measure'], float(row['limit']), float(row['value']))
+        trees.setdefault(row['tree'], {})[int(row['node'])] = node
+    return list(trees.values())
+
+
+_TREES = _read_trees()

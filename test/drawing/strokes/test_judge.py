@@ -1,0 +1,83 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""The judge of doubt: trees that are whole, that change no reading, and that learn from errors."""
+
+import csv
+from importlib.resources import files
+
+import numpy as np
+from physsim_ros.drawing.settings import DrawingSettings
+from physsim_ros.drawing.strokes import judge
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.judge import judged, TABLE
+from physsim_ros.drawing.strokes.meanings import Context
+from physsim_ros.drawing.strokes.reading import (
+    guess_meanings,
+    measures_of,
+    recognise_form,
+    weigh_meanings,
+)
+from physsim_ros.drawing.strokes.signs import SIGNS
+from physsim_ros.drawing.strokes.stroke import resample_stroke
+import pytest
+from tools.evaluation.judge import Example, fit
+from tools.evaluation.scenes import Scene, scenes
+
+
+def context_of(scene: Scene) -> Context:
+    features = Features.of(resample_stroke(scene.samples))
+    return Context(features=features, scene=scene.view, settings=DrawingSettings())
+
+
+@pytest.fixture(scope='module')
+def contexts() -> list[Context]:
+    """Return strokes of every kind in their scenes."""
+    return [context_of(scene) for scene in scenes(1, 'report')]
+
+
+def test_every_tree_ends_in_leaves_and_asks_for_measures_that_readings_have(
+    contexts: list[Context],
+) -> None:
+    rows = list(csv.DictReader((files(judge.__package__) / TABLE).read_text('utf-8').splitlines()))
+    nodes = {(row['tree'], int(row['node'])): row['measure'] for row in rows}
+
+    assert len(nodes) == len(rows)
+    for (tree, number), measure in nodes.items():
+        children = {(tree, 2 * number), (tree, 2 * number + 1)}
+        assert children <= nodes.keys() if measure else not children & nodes.keys()
+    had = {f'form {sign.name}' for sign in SIGNS}
+    for context in contexts:
+        forms = recognise_form(context.features)
+        had |= measures_of(weigh_meanings(forms, context), forms, context).keys()
+    assert {each for each in nodes.values() if not each.startswith('read as')} - {''} <= had
+
+
+def test_the_judge_changes_no_reading(contexts: list[Context]) -> None:
+    for context in contexts:
+        forms = recognise_form(context.features)
+        by_rules, guesses = weigh_meanings(forms, context), guess_meanings(forms, context)
+
+        assert [each.meaning for each in guesses] == [each.meaning for each in by_rules]
+        confidences = [each.confidence for each in guesses]
+        assert confidences[0] == max(confidences)
+        assert sum(confidences[:2]) <= 1.0
+
+
+def test_trees_learn_which_readings_are_wrong(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(0)
+
+    def examples(count: int) -> list[Example]:
+        # Wrong where both measures are high, and not where one is.
+        found = rng.random((count, 2))
+        return [
+            (0.9, {'a': a, 'b': b}, bool(min(a, b) < 0.7 or rng.random() < 0.1))
+            for a, b in found.tolist()
+        ]
+
+    monkeypatch.setattr(judge, '_TREES', fit(examples(400)))
+    right = [judged(0.9, measures) for _, measures, right in examples(300) if right]
+    wrong = [judged(0.9, measures) for _, measures, right in examples(300) if not right]
+
+    assert np.mean(right) > 0.9
+    assert np.mean(wrong) < 0.3
