@@ -263,7 +263,8 @@ def _touching(polygons: list[Floats]) -> Flags:
     )
     one, other = np.nonzero(np.triu(touching, 1))
     for at in range(0, len(one), _AT_ONCE):
-        a, b = one[at : at + _AT_ONCE], other[at : at + _AT_ONCE]
+        part = slice(at, at + _AT_ONCE)
+        a, b = one[part], other[part]
         apart = np.maximum(_gaps(corners, normals, a, b), _gaps(corners, normals, b, a))
         touching[a, b] = touching[b, a] = apart <= slack[a, b]
     return touching

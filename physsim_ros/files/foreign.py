@@ -26,8 +26,9 @@ _ROOTS = {
     'map': 'XML of Tiled; export the map as JSON',
     'svg': 'SVG',
 }
-# The first element of XML, behind declarations and comments.
-_ROOT = re.compile(r'\s*(?:<[?!].*?>\s*)*<([A-Za-z][\w:-]*)', re.DOTALL)
+# The first element of XML, behind declarations and comments. Nothing is tried twice, so that no
+# text takes more than linear time.
+_ROOT = re.compile(r'\s*+(?:<[?!][^>]*+>\s*+)*+<([A-Za-z][\w:-]*)')
 CONVERTED = ('flatland', 'ir-sim', 'Tiled', 'R.U.B.E.')
 
 

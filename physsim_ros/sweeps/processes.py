@@ -156,7 +156,8 @@ class _Process:
         """
         how, number, case = self.close(), self.job.number, self.job.case
         if self._is_complete:
-            result: Run | Exception = pickle.loads(self._received[_LENGTH.size :])  # noqa: S301 - of its own
+            start = _LENGTH.size
+            result: Run | Exception = pickle.loads(self._received[start:])  # noqa: S301 - its own
             if isinstance(result, Exception):
                 raise result
             return replace(result, case=case)

@@ -272,6 +272,8 @@ def test_what_cannot_be_converted_is_told(tmp_path, capsys, text, told):
         ('<?xml version="1.0"?>\n<!-- a robot -->\n<robot name="r"/>', 'this is URDF'),
         ('<sdf version="1.9"><world/></sdf>', 'this is SDF, of Gazebo'),
         ('<html/>', 'this is XML'),
+        # Declarations without end take no time without end.
+        ('<!>' * 3000 + 'x', 'must be a YAML mapping'),
         ('{image: a.pgm, resolution: 0.1, origin: [0, 0, 0]}', 'name it as `map:`'),
         (FLATLAND, 'a world of flatland: python -m physsim_ros.convert'),
         (IRSIM.replace('plot: {show_trail: false}', ''), 'a world of ir-sim'),

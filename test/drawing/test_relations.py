@@ -4,6 +4,7 @@
 """Relations of strokes: what does not matter to a reader does not change a reading."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 import itertools
 import math
 
@@ -101,15 +102,16 @@ def slowly(samples: Floats) -> Floats:
     return samples * (1.0, 1.0, 4.0)
 
 
+def every(samples: Floats, step: int) -> Floats:
+    return np.vstack((samples[::step], samples[-1:]))
+
+
 RELATIONS: dict[str, Callable[[Drawn], Drawn]] = {
     **{
-        f'{share} of the samples': each_stroke(lambda it, n=step: np.vstack((it[::n], it[-1:])))  # type: ignore[misc]
+        f'{share} of the samples': each_stroke(partial(every, step=step))
         for share, step in (('half', 2), ('a third', 3))
     },
-    **{
-        f'slop of {slop:.0%}': each_stroke(lambda it, far=slop: late(it, far))  # type: ignore[misc]
-        for slop in (0.1, 0.2, 0.35)
-    },
+    **{f'slop of {slop:.0%}': each_stroke(partial(late, slop=slop)) for slop in (0.1, 0.2, 0.35)},
     'a sample less': each_stroke(lambda it: np.delete(it, len(it) // 2, axis=0)),
     'slower': each_stroke(slowly),
     'equal times': each_stroke(lambda it: it * (1.0, 1.0, 0.0)),

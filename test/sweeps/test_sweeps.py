@@ -205,6 +205,8 @@ def test_a_controller_that_ends_its_process_as_it_is_made_leaves_the_world_of_th
 
 def test_what_a_controller_starts_ends_with_its_run() -> None:
     class Starts(Fated):
+        """Starts a process that does not end by itself."""
+
         def __call__(self, robot: Robot) -> None:
             if os.fork() == 0:
                 threading.Event().wait()

@@ -53,6 +53,7 @@ typedef struct Island {
 typedef struct Point {
     cpContact *contact;
     cpBody *a, *b;
+    Twist *of_a, *of_b; // velocities of the bodies after the impulses, which other points of the bodies share
     Vec normal;
     bool begins;
     double friction;
@@ -210,7 +211,25 @@ static void apply(const World *world, cpBody *body, Vec impulse, Vec arm) {
     body->w += cross(arm, impulse) * body->i_inv / world->own->kept;
 }
 
-static int list_points(const Island *island, Point *points) {
+// The velocities of the bodies of an impact.
+typedef struct Velocities {
+    const cpBody *bodies[2 * MOST_POINTS];
+    Twist twists[2 * MOST_POINTS];
+    int count;
+} Velocities;
+
+static Twist *velocity_of(Velocities *velocities, const cpBody *body) {
+    int number = 0;
+    while (number < velocities->count && velocities->bodies[number] != body) {
+        number++;
+    }
+    if (number == velocities->count) {
+        velocities->bodies[velocities->count++] = body;
+    }
+    return velocities->twists + number;
+}
+
+static int list_points(const Island *island, Velocities *velocities, Point *points) {
     int count = 0;
     for (int number = 0; number < island->count; number++) {
         cpArbiter *each = island->contacts[number];
@@ -221,6 +240,8 @@ static int list_points(const Island *island, Point *points) {
             points[count++] = (Point){contact,
                                       each->body_a,
                                       each->body_b,
+                                      velocity_of(velocities, each->body_a),
+                                      velocity_of(velocities, each->body_b),
                                       each->n,
                                       begins,
                                       each->u,
@@ -233,7 +254,7 @@ static int list_points(const Island *island, Point *points) {
 }
 
 static void push(const Point *point, Vec impulse) {
-    Twist *a = &body_of(point->a)->without, *b = &body_of(point->b)->without;
+    Twist *a = point->of_a, *b = point->of_b;
     a->v = sub(a->v, scaled(impulse, point->a->m_inv));
     a->w -= cross(point->contact->r1, impulse) * point->a->i_inv;
     b->v = add(b->v, scaled(impulse, point->b->m_inv));
@@ -243,8 +264,7 @@ static void push(const Point *point, Vec impulse) {
 // Make the impulse of a point better, as `cpArbiterApplyImpulse` does; return the change of velocity [m/s].
 static double improve(const Point *point) {
     cpContact *contact = point->contact;
-    Twist a = body_of(point->a)->without, b = body_of(point->b)->without;
-    Vec v = add(sub(velocity_at(b, contact->r2), velocity_at(a, contact->r1)), point->slip),
+    Vec v = add(sub(velocity_at(*point->of_b, contact->r2), velocity_at(*point->of_a, contact->r1)), point->slip),
         tangent = perpendicular(point->normal);
     double normal = contact->jnAcc, along = contact->jtAcc;
     contact->jnAcc = greatest(normal - (contact->bounce + dot(v, point->normal)) * contact->nMass, 0.0);
@@ -270,7 +290,7 @@ static Vec impulse_of(const Point *point) {
     return vec(point->contact->jnAcc - point->added, point->contact->jtAcc - point->added_t);
 }
 
-// Find the impulses of the points, and the velocities `without` of their bodies after them.
+// Find the impulses of the points, and the velocities of their bodies after them.
 static void find_impulses(const World *world, Point *points, int count) {
     double matrix[LCP_ROWS][LCP_ROWS] = {{0}}, rates[LCP_ROWS] = {0}, impulses[LCP_ROWS] = {0};
     for (int row = 0; row < count; row++) {
@@ -285,8 +305,8 @@ static void find_impulses(const World *world, Point *points, int count) {
     bool solved = solve_lcp(count, matrix, rates, impulses);
     for (int row = 0; row < count; row++) {
         Point *point = points + row;
-        body_of(point->a)->without = free_twist(world, point->a);
-        body_of(point->b)->without = free_twist(world, point->b);
+        *point->of_a = free_twist(world, point->a);
+        *point->of_b = free_twist(world, point->b);
         if (solved) {
             point->contact->jnAcc = impulses[row];
         }
@@ -318,9 +338,8 @@ static Twist before_impact(const World *world, const cpBody *body) {
     return at_impact(world, body_of(body), free_twist(world, body), body_of(body)->free);
 }
 
-static Twist after_impact(const World *world, const cpBody *body) {
-    const Body *own = body_of(body);
-    return at_impact(world, own, own->without, own->parts);
+static Twist after_impact(const World *world, const cpBody *body, Twist end) {
+    return at_impact(world, body_of(body), end, body_of(body)->parts);
 }
 
 // The energy that the impulses give to the bodies [J]; < 0 is lost. What is gained by rounding counts as nothing.
@@ -329,7 +348,8 @@ static double gain_of(const World *world, const Point *points, int count) {
     for (int row = 0; row < count; row++) {
         const Point *point = points + row;
         Vec before = surface_velocity(point, before_impact(world, point->a), before_impact(world, point->b));
-        Vec after = surface_velocity(point, after_impact(world, point->a), after_impact(world, point->b));
+        Vec after = surface_velocity(point, after_impact(world, point->a, *point->of_a),
+                                     after_impact(world, point->b, *point->of_b));
         gain += dot(impulse_of(point), add(before, after)) / 2.0;
         size += length(impulse_of(point)) * (length(before) + length(after)) / 2.0;
     }
@@ -375,7 +395,8 @@ static void lose_gain(const World *world, Point *points, int count, double gain)
 // Set the impulses of an island, and add those of contacts that begin to velocities.
 static void solve(const World *world, const Island *island) {
     Point points[MOST_POINTS];
-    int count = list_points(island, points);
+    Velocities velocities = {.count = 0};
+    int count = list_points(island, &velocities, points);
     find_impulses(world, points, count);
     double gain = gain_of(world, points, count);
     if (gain > 0.0) {

@@ -24,8 +24,10 @@
 // body and never turns it round: the slip that is left is the root of a scalar equation, found by Newton's method as
 // Moré and Sorensen do ("Computing a trust region step", 1983).
 //
-// Cost: 60 ns a body, 0.3 µs for one that slips. Without it nothing stops, nothing drives (`test/laws/test_floor.py`).
+// Cost: 60 ns a body, 0.3 µs for one that slips; where there are conveyors, a query of their boxes for each body.
+// Without it nothing stops, nothing drives (`test/laws/test_floor.py`).
 
+#include "boxes.h"
 #include "outline.h"
 #include "stages.h"
 
@@ -75,33 +77,68 @@ static Twist friction(Twist slip, Surface surface) {
                    -slip.w * surface.around / (left + surface.around)};
 }
 
-// The velocity at the centre of mass of a body of the conveyor under it: of several that which was spawned last.
-static Twist conveyed(const World *world, const Body *body) {
-    Twist velocity = {0};
-    for (int place = 0; place < world->body_count; place++) {
-        const Body *conveyor = world->bodies + place;
-        if ((conveyor->surface.x == 0.0 && conveyor->surface.y == 0.0) || conveyor == body) {
-            continue;
-        }
-        Rotation by = rotation(conveyor->begin.yaw);
-        Vec around = sub(body->begin.p, conveyor->begin.p), local = rotated_back(around, by);
-        for (const cpShape *shape = conveyor->engine->shapeList; shape != NULL; shape = shape->next) {
-            if (covers(shape, local)) {
-                Vec surface = rotated(conveyor->surface, by);
-                velocity = (Twist){add(velocity_at(conveyor->twist, around), surface), conveyor->twist.w};
-            }
-        }
-    }
-    return velocity;
+// The conveyors of a world, in the order of their bodies, and the boxes about them.
+typedef struct Conveyors {
+    const Body **list;
+    int count;
+    Tree tree;
+} Conveyors;
+
+static bool is_conveyor(const Body *body) {
+    return body->surface.x != 0.0 || body->surface.y != 0.0;
 }
 
-static bool has_conveyors(const World *world) {
+static Conveyors conveyors_of(World *world) {
+    Arena *arena = &world->own->arena;
+    Conveyors conveyors = {.count = 0};
     for (int place = 0; place < world->body_count; place++) {
-        if (world->bodies[place].surface.x != 0.0 || world->bodies[place].surface.y != 0.0) {
-            return true;
+        conveyors.count += is_conveyor(world->bodies + place);
+    }
+    conveyors.list = TAKE(arena, const Body *, conveyors.count);
+    Box *boxes = TAKE(arena, Box, conveyors.count);
+    int count = 0;
+    for (int place = 0; place < world->body_count; place++) {
+        const Body *body = world->bodies + place;
+        if (is_conveyor(body)) {
+            Vec reach = vec(body->reach, body->reach);
+            boxes[count] = (Box){sub(body->begin.p, reach), add(body->begin.p, reach)};
+            conveyors.list[count++] = body;
         }
     }
-    return false;
+    conveyors.tree = tree_of(boxes, count, arena);
+    return conveyors;
+}
+
+// The conveyor under a body: of several that which was spawned last; -1 is none.
+typedef struct Under {
+    const Conveyors *conveyors;
+    const Body *body;
+    int last;
+} Under;
+
+static bool find_under(int number, void *data) {
+    Under *under = data;
+    const Body *conveyor = under->conveyors->list[number];
+    Rotation by = rotation(conveyor->begin.yaw);
+    Vec local = rotated_back(sub(under->body->begin.p, conveyor->begin.p), by);
+    const cpShape *shape = conveyor != under->body && number > under->last ? conveyor->engine->shapeList : NULL;
+    for (; shape != NULL; shape = shape->next) {
+        under->last = covers(shape, local) ? number : under->last;
+    }
+    return true;
+}
+
+// The velocity at the centre of mass of a body of the conveyor under it.
+static Twist conveyed(const Conveyors *conveyors, const Body *body) {
+    Under under = {conveyors, body, -1};
+    tree_query(&conveyors->tree, (Box){body->begin.p, body->begin.p}, find_under, &under);
+    if (under.last < 0) {
+        return (Twist){0};
+    }
+    const Body *conveyor = conveyors->list[under.last];
+    Vec surface = rotated(conveyor->surface, rotation(conveyor->begin.yaw));
+    Vec around = sub(body->begin.p, conveyor->begin.p);
+    return (Twist){add(velocity_at(conveyor->twist, around), surface), conveyor->twist.w};
 }
 
 // The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
@@ -169,7 +206,7 @@ void pull_by_floor(World *world) {
         return;
     }
     roll_wheels(world);
-    bool conveyors = has_conveyors(world);
+    Conveyors conveyors = conveyors_of(world);
     // Robots are listed in the order of the bodies, and so are actors.
     Robot *robot = world->robots, *last = world->robots + world->robot_count;
     const Actor *actor = world->actors, *last_actor = world->actors + world->actor_count;
@@ -189,7 +226,7 @@ void pull_by_floor(World *world) {
             actor++;
         }
         if (body->floor_friction > 0.0) {
-            Twist belt = conveyors ? conveyed(world, body) : (Twist){0};
+            Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             pull(world, body, towed, twist_sum(mean, belt, 1.0), twist_sum(end, belt, 1.0));
         }
     }

@@ -38,7 +38,8 @@ typedef struct Mover {
     Twist rate;           // way of the centre of rotation, and turn, in a whole step [m, rad]
     double depth;         // how far it may be entered in a step unseen [m]
     double turning;       // how far out its turning counts [m]
-    double corners;       // the cost of comparing it
+    double shapes;        // count of its convex shapes
+    double corners;       // of these, the cost of comparing it
     double horizon;       // share of the step up to which it is followed
     Vec start, end;       // centres at the beginning of the motion and at the horizon [m]
     Vec half;             // half the size of its box at a moment, about the line between them [m]

@@ -13,9 +13,9 @@
 
 #include "swept_boxes.h"
 
-// Pairs of corners that an island may compare in a round of impacts: those of 125 boxes that all may meet each other,
-// or of one box and 15,000 others.
-static const double budget = 250000.0;
+// Corners that an island may go through in a round of impacts, those of both shapes for each pair of convex shapes:
+// those of 125 boxes that all may meet each other, or of one box and 15,000 others.
+static const double budget = 125000.0;
 // Corners of a polygon whose time of impact costs as much as that of a round shape.
 static const double round_cost = 4.0;
 // Greatest count of cuts of a horizon, by half each, after which a body is not followed at all.
@@ -42,6 +42,7 @@ static Mover static_mover(Body *body, const cpShape *shape) {
                    .pose = pose_of(body->engine),
                    .pivot = body->engine->p,
                    .depth = body->safe_depth,
+                   .shapes = 1.0,
                    .corners = greatest((double)corner_count(shape), round_cost),
                    .horizon = 1.0,
                    .start = middle,
@@ -91,47 +92,64 @@ void fit_box(Mover *mover) {
     mover->box = (Box){sub(mover->box.low, mover->half), add(mover->box.high, mover->half)};
 }
 
-// Corners near a body.
+// Convex shapes, and corners of them.
+typedef struct Amount {
+    double shapes, corners;
+} Amount;
+
+static void add_amount(Amount *amount, const Mover *mover) {
+    amount->shapes += mover->shapes;
+    amount->corners += mover->corners;
+}
+
+// The corners of all pairs of shapes of which one is of the first, one of the second amount.
+static double corners_of_pairs(Amount one, Amount other) {
+    return one.shapes * other.corners + other.shapes * one.corners;
+}
+
+// What is near a body, and what of that is fast.
 typedef struct Cost {
     const Sweep *sweep;
     int offset; // number of the first member of the tree
-    double near, fast;
+    Amount near, fast;
 } Cost;
 
 static bool add_cost(int number, void *data) {
     Cost *cost = data;
     number += cost->offset;
-    double corners = mover_at(cost->sweep, number)->corners;
-    cost->near += corners;
-    cost->fast += number < cost->sweep->count && cost->sweep->followed[number] ? corners : 0.0;
-    return cost->near * cost->fast <= budget;
+    const Mover *mover = mover_at(cost->sweep, number);
+    add_amount(&cost->near, mover);
+    if (number < cost->sweep->count && cost->sweep->followed[number]) {
+        add_amount(&cost->fast, mover);
+    }
+    return corners_of_pairs(cost->near, cost->fast) <= budget;
 }
 
-// Whether a body may meet more than the budget permits: corners near it, times those of fast bodies.
+// Whether a body may meet more than the budget permits: pairs of what is near it with what is fast there.
 static bool costs_too_much(const Sweep *sweep, const Mover *mover) {
     Cost cost = {.sweep = sweep, .offset = 0};
     tree_query(&sweep->tree, mover->box, add_cost, &cost);
     cost.offset = sweep->count;
-    if (cost.near * cost.fast <= budget) {
+    if (corners_of_pairs(cost.near, cost.fast) <= budget) {
         tree_query(&sweep->statics->tree, mover->box, add_cost, &cost);
     }
-    return cost.near * cost.fast > budget;
+    return corners_of_pairs(cost.near, cost.fast) > budget;
 }
 
 void cut_horizons(Sweep *sweep, const int *bodies, int count) {
-    double all = 0.0, fast = 0.0;
+    Amount all = {0}, fast = {0};
     for (int number = 0; number < sweep->count + sweep->statics->count; number++) {
-        all += mover_at(sweep, number)->corners;
+        add_amount(&all, mover_at(sweep, number));
     }
     for (int number = 0; number < sweep->count; number++) {
         sweep->followed[number] = false;
     }
     for (int number = 0; number < count; number++) {
         sweep->followed[bodies[number]] = true;
-        fast += sweep->movers[bodies[number]].corners;
+        add_amount(&fast, sweep->movers + bodies[number]);
     }
     // If all fit the budget together, each does.
-    if (fast * all <= budget) {
+    if (corners_of_pairs(fast, all) <= budget) {
         return;
     }
     bool *crowded = TAKE(&sweep->world->own->arena, bool, count);
@@ -193,6 +211,7 @@ Mover mover_of(Body *body, Twist way) {
                    .pivot = body->engine->p,
                    .depth = body->safe_depth,
                    .turning = body->turning_radius,
+                   .shapes = body->pieces,
                    .corners = body->corners,
                    .horizon = 1.0,
                    .island = -1,

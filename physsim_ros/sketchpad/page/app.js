@@ -21,6 +21,7 @@ import {Lessons} from './ui/lessons.js';
 import {Links} from './ui/links.js';
 import {Narrator, Sound} from './ui/narrator.js';
 import {Notes, Refusals} from './ui/notes.js';
+import {Menu} from './input/menu.js';
 import {Numbers} from './measures/numbers.js';
 import {Panel} from './panels/panel.js';
 import {PlotWindow} from './measures/plot_window.js';
@@ -84,6 +85,7 @@ export class App {
     this.hints = new Hints(this);
     this.toolbar = new Toolbar(this);
     this.pointers = new Pointers(this);
+    this.menu = new Menu(this);
     this.keyboard = new Keyboard(this);
     this.topBar = new TopBar(this);
     this.classroom = new Classroom(this);

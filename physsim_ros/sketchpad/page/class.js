@@ -25,8 +25,7 @@ const GAP = 4; // px around the world in its picture
 class Card {
   /** @param {number} number of the seat */
   constructor(number) {
-    this.framed = -1; // epoch of the scene that was framed
-    this.width = 0; // of the picture then [px]
+    this.framed = ''; // epoch of the scene that was framed, and size of the picture then [px]
     this.seated = ''; // name of the pupil who has the seat
     this.frozen = false;
     this.running = false;
@@ -52,11 +51,15 @@ class Card {
         this.running = !paused;
         this.show();
       }
-      if (scene.epoch === this.framed && camera.width === this.width) return;
+      if (!this.framed.startsWith(`${scene.epoch} `)) this.show();
+    });
+    this.view.overlays.push((view) => {
       // A world without bounds keeps its frame until it changes.
-      [this.framed, this.width] = [scene.epoch, camera.width];
+      const shown = `${this.world.scene.epoch} ${camera.width} ${camera.height}`;
+      if (shown === this.framed || !this.world.count) return;
+      this.framed = shown;
       camera.fit(this.world.extent(), {left: GAP, top: GAP, right: GAP, bottom: GAP});
-      this.show();
+      view.dirty = true;
     });
     connection.on('class', ({people, frozen}) => {
       this.pupil = people.find((/** @type {Classmate} */ {role}) => role === 'draw');

@@ -164,6 +164,8 @@ export interface Sample {
   /** Mean acceleration since the sample before [m/s²]. */
   ax?: number;
   ay?: number;
+  /** Mean angular acceleration since then [rad/s²]. */
+  spinning?: number;
   /** Forces on it by their kind [N], where they were shown or plotted. */
   forces?: Record<string, number>;
 }

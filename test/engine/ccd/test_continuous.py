@@ -382,3 +382,25 @@ def test_a_fast_body_passes_where_walls_were_taken_down():
 
     assert reached == pytest.approx(8.0, abs=1e-9)
     assert left.poses[row, 0] == pytest.approx(16.0, abs=1e-9)
+
+
+@pytest.mark.parametrize('corners', [4, 100, 1000])
+def test_a_crowd_of_any_corners_stays_on_its_side_of_a_thin_wall(corners):
+    sim = simulation(gravity=NOWHERE, elasticity=0.5)
+    spawn(sim, 'wall/0', Box(width=0.05, height=30.0), anchored=True)
+    turns = math.tau * np.arange(corners) / corners
+    outline = 0.2 * np.column_stack((np.cos(turns), 0.7 * np.sin(turns)))
+    shape = Polygon(outline=tuple(map(tuple, outline.tolist())))
+    rows = [
+        spawn(
+            sim,
+            f'egg/{number}',
+            shape,
+            (-1.0 - 0.5 * (number % 3), 0.5 * (number // 3), 0.3 * number),
+            velocity=(500.0 + number, 0.0),
+            spin=100.0 * number,
+        )
+        for number in range(9)
+    ]
+    for now in steps(sim, 20):
+        assert (now.poses[rows, 0] < 0.0).all()

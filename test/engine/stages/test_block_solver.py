@@ -118,3 +118,15 @@ def test_what_falls_on_a_pile_of_light_and_heavy_boxes_throws_none_of_them_out(s
     energies = [energy(each) for each in steps(sim, 960)]
     # None that has been lost comes back.
     assert np.max(energies - np.minimum.accumulate(energies)) < 0.02 * energies[0]
+
+
+def test_the_push_of_an_impact_on_a_floor_is_what_its_bodies_gave_each_other():
+    sim = simulation(gravity=NOWHERE, floor_friction=0.3)
+    said = {'mass': 1.0, 'elasticity': 0.0, 'friction': 0.0}
+    spawn(sim, 'a/0', Box(width=0.4, height=0.4), (0.0, 0.0, 0.0), **said, velocity=(2.0, 0.0))
+    row = spawn(sim, 'b/0', Box(width=0.4, height=0.4), (0.5, 0.0, 0.0), **said)
+    next(each for each in steps(sim, 60) if each.twists[row, 0] > 0.0)
+    pushes = sim.world.space.table.pushes[:, 0]
+    # Of 0.92 m/s, halved in each sub-step since.
+    assert pushes[1] > 0.05
+    assert pushes[0] == pytest.approx(-pushes[1], abs=1e-9)

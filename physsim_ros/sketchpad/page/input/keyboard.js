@@ -37,7 +37,7 @@ export class Keyboard {
       Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
       j: callService('rewind'), J: callService('fast_rewind'), k: callService('pause'), l: callService('play'),
       L: callService('fast_forward'),
-      '.': callService('step'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(), 5: () => app.toolbar.showFew(!app.toolbar.few && Boolean(app.world.scene.lesson)),
+      '.': callService('step'), ',': callService('step_back'), 0: callService('reset'), 7: () => app.stopwatch.press(), 6: () => app.stopwatch.lap(), 5: () => app.toolbar.showFew(!app.toolbar.few && Boolean(app.world.scene.lesson)),
     };
     for (const {id, key} of TOOLS.flat()) this.keys[key] = () => app.toolbar.selectTool(id);
   }
@@ -63,7 +63,15 @@ export class Keyboard {
     if (event.ctrlKey || event.metaKey) {
       const undo = key === 'z' && !event.shiftKey, redo = key === 'y' || key.toLowerCase() === 'z';
       if (undo || redo) app.time.callService(undo ? 'undo' : 'redo');
-      if (undo || redo) event.preventDefault();
+      const edit = {c: () => app.selection.keep(false), x: () => app.selection.keep(true), d: () => app.selection.duplicate(), a: () => app.selection.selectAll(),
+        v: () => app.selection.paste(app.selection.hoveredAt ? app.camera.toWorld(...app.selection.hoveredAt) : null)}[key];
+      edit?.();
+      if (undo || redo || edit) event.preventDefault();
+      return;
+    }
+    if (/^ContextMenu$/.test(key) || key === 'F10' && event.shiftKey) {
+      app.menu.open(app.cursor.shown ? app.cursor.touch.page : [app.camera.width / 2, app.camera.height / 2]);
+      event.preventDefault();
       return;
     }
     const button = target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement ||

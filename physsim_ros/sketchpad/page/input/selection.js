@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The selection: bodies that are selected, and the one that is pointed at, with its name beside it. */
 
+import {t} from '../strings.js';
+
 /** @import {App, Body, Point, SceneView, Touch} from '../types.js' */
 
+const BESIDE = 0.5; // m between bodies and their copies
 const NEAR = 8; // px: a tap that far from a joint means it
 
 export class Selection {
@@ -11,6 +14,8 @@ export class Selection {
     this.app = app;
     /** @type {Set<string>} of bodies */
     this.names = new Set();
+    /** Bodies that were copied, or cut: pasted, those are moved. @type {{names: string[], cut: boolean}} */
+    this.kept = {names: [], cut: false};
     this.hovered = ''; // name of a body
     /** @type {Point | undefined} [px] */
     this.hoveredAt = undefined;
@@ -37,6 +42,34 @@ export class Selection {
     const joint = name === this.app.panel.joint ? '' : name;
     this.select(row < 0 || joint ? [] : [world.scene.bodies[row].name]);
     if (joint) this.app.panel.show('joint', [joint]);
+  }
+
+  selectAll() {
+    this.select(this.app.world.scene.bodies.map(({name}) => name));
+  }
+
+  /** @param {boolean} cut whether the selected bodies are moved, not copied, where they are pasted */
+  keep(cut) {
+    if (!this.names.size) return;
+    this.kept = {names: [...this.names], cut};
+    this.app.notes.showMessage(cut ? t('Cut: paste it elsewhere') : t('Copied'));
+  }
+
+  /** @param {?Point} at where the middle of the bodies comes to lie [m]; null is beside them */
+  paste(at) {
+    const {world, connection} = this.app, {kept} = this, names = kept.names.filter((name) => world.row(name) >= 0);
+    if (!names.length) return;
+    const [left, low, right, high] = world.boundsOfAll(names);
+    connection.send(kept.cut ? 'move_bodies' : 'copy_machine', {names, by: at ? [at[0] - (left + right) / 2, at[1] - (low + high) / 2] : [right - left + BESIDE, 0]});
+    kept.cut = false;
+  }
+
+  /** Copy the selected bodies beside them. */
+  duplicate() {
+    const before = this.kept;
+    this.kept = {names: [...this.names], cut: false};
+    this.paste(null);
+    this.kept = before;
   }
 
   /** Delete the selected bodies, or the joint. */

@@ -30,6 +30,7 @@ export class Numbers {
     this.ahead = null;
     this.line = createElement('p');
     this.momentum = createElement('p');
+    this.turning = createElement('p', {className: 'pairs'}); // moment of inertia and angular momentum
     this.pairs = createElement('p', {className: 'pairs'}); // friction with what the body touches
     this.bars = ENERGIES.map((word) => createElement('meter', {min: 0, 'aria-label': word}));
     this.labels = ENERGIES.map((word) => createElement('span', {}, word));
@@ -50,10 +51,12 @@ export class Numbers {
   show(name) {
     const {world} = this.app, row = world.row(name);
     if (row < 0) return;
-    const body = world.scene.bodies[row], {vx, vy} = motionOf(world, row), {mass} = body;
+    const body = world.scene.bodies[row], {vx, vy, spin} = motionOf(world, row), {mass} = body;
     // The line breaks between quantities, not before a unit.
     showText(this.line, `${threeDigits(mass)} kg · ${placed(world, row)}`.replace(/(?<!·) /g, '\u00a0'));
     showText(this.momentum, t('Momentum {momentum}', {momentum: momentumText([mass * vx, mass * vy])}));
+    showText(this.turning, t('Angular momentum {turning} N m s · moment of inertia {moment} kg m²',
+      {turning: twoPlaces(body.moment * spin), moment: threeDigits(body.moment)}));
     showText(this.pairs, this.#pairsOf(row));
     this.#showTyped(body, row);
     this.#showEnergies(body, row);

@@ -26,6 +26,7 @@ export class PlotWindow {
     this.names = [];
     this.axes = {x: 'time', y: 'y'};
     this.sums = false; // the sum over the bodies is shown, too
+    this.differs = false; // in place of this run and the last one, their difference is shown
     this.canvas = createElement('canvas', {role: 'img', 'aria-label': t('Large plot')});
     this.reading = createElement('output', {}, '');
     this.legend = createElement('div', {className: 'row legend'});
@@ -55,7 +56,7 @@ export class PlotWindow {
       this.axes[axis] = key;
       this.#draw();
     });
-    const rest = inRow(this.#adder(), this.#summer(), textButton(t('Copy table'), () => this.#copyTable()));
+    const rest = inRow(this.#adder(), this.#summer(), this.#subtracter(), textButton(t('Copy table'), () => this.#copyTable()));
     rest.classList.add('rest');
     const more = foldButton(t('Bodies, sum, table'), () => {
       more.setAttribute('aria-expanded', String(!this.element.classList.toggle('folded')));
@@ -91,6 +92,16 @@ export class PlotWindow {
     return button;
   }
 
+  /** @returns {HTMLElement} the switch of the difference between this run and the last one */
+  #subtracter() {
+    const button = toggling(textButton(t('Difference'), () => {}), () => this.differs, () => {
+      this.differs = !this.differs;
+      this.#draw();
+    });
+    button.title = t('This run less the last one, at the same times');
+    return button;
+  }
+
   #adder() {
     const input = choice(t('Add a body'), this.app.words.choices(t('Add a body …')), '', (added) => {
       this.#show([...this.names.filter((name) => name !== added), added]);
@@ -123,7 +134,8 @@ export class PlotWindow {
       const points = (/** @type {Sample[]} */ samples) => samples.map((sample) =>
         [QUANTITIES[x].of(sample, body, gravity), QUANTITIES[y].of(sample, body, gravity)]).filter((point) => point.every(Number.isFinite));
       const color = palette[COLORS[i % COLORS.length]];
-      curves.push({points: points(record.samples), color, width: 3},
+      if (this.differs && x === 'time') curves.push({points: differenceOf(points(record.samples), points(record.left)), color, width: 3});
+      else curves.push({points: points(record.samples), color, width: 3},
         {points: points(record.left), color, width: 2, dash: [6, 6], alpha: 0.7});
     });
     if (this.sums && QUANTITIES[y].sums && x === 'time') curves.push({points: sumOf(curves.filter(({dash}) => !dash)), color: palette.ink, width: 4});
@@ -187,6 +199,19 @@ export class PlotWindow {
       this.saveTable(this.names);
     }
   }
+}
+
+/**
+ * @param {number[][]} points over time
+ * @param {number[][]} others
+ * @returns {number[][]} points of their difference, at the times that both have
+ */
+function differenceOf(points, others) {
+  const before = new Map(others.map(([time, value]) => [time.toFixed(4), value]));
+  return points.flatMap(([time, value]) => {
+    const other = before.get(time.toFixed(4));
+    return other === undefined ? [] : [[time, value - other]];
+  });
 }
 
 /**

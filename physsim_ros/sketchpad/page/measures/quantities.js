@@ -115,6 +115,8 @@ export const QUANTITIES = {
   px: {label: 'px [N s]', sums: true, of: ({vx}, {mass}) => mass * vx},
   py: {label: 'py [N s]', sums: true, of: ({vy}, {mass}) => mass * vy},
   momentum: {label: t('Momentum [N s]'), of: ({vx, vy}, {mass}) => mass * Math.hypot(vx, vy)},
+  turning: {label: t('Angular momentum [N m s]'), of: ({spin}, {moment}) => moment * spin},
+  torque: {label: t('Torque, of all forces [N m]'), of: ({spinning = NaN}, {moment}) => moment * spinning},
   ax: {label: 'ax [m/s²]', of: ({ax = NaN}) => ax},
   ay: {label: 'ay [m/s²]', of: ({ay = NaN}) => ay},
   acceleration: {label: t('Acceleration [m/s²]'), of: ({ax = NaN, ay = NaN}) => Math.hypot(ax, ay)},

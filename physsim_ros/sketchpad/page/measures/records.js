@@ -131,7 +131,7 @@ export class Records {
 function accelerate(sample, before) {
   if (!before) return;
   const time = sample.time - before.time;
-  [sample.ax, sample.ay] = [(sample.vx - before.vx) / time, (sample.vy - before.vy) / time];
+  [sample.ax, sample.ay, sample.spinning] = [(sample.vx - before.vx) / time, (sample.vy - before.vy) / time, (sample.spin - before.spin) / time];
 }
 
 /**
@@ -148,7 +148,7 @@ function sizesOf(forces) {
 
 const FLASH = 0.1; // s from flash to flash
 const MOST_FLASHES = 100;
-const APART = 24, ASIDE = 12; // px: least distance of images, and from an image to its number
+const APART = 24, ASIDE = 12; // px: least distance of images with numbers, and from an image to its number
 const LONGEST = 90; // px: longer arrows, of impacts, are cut
 const ACCELERATION = 0.2; // s: the arrow of a is as long as that of the velocity that it gives in this time
 
@@ -202,10 +202,11 @@ export class Trail {
     let last = /** @type {Point} */ ([-Infinity, -Infinity]);
     flashesOf(samples).forEach((number, i) => {
       const {x, y, vx, vy} = samples[number], at = view.camera.toPage(x, y);
-      // On a slow way one in so many, so that images do not hide each other.
-      if (distance(at, last) < APART) return;
+      // Images are at equal times, however near; numbers and arrows, where there is room for them.
+      const isApart = distance(at, last) >= APART;
+      this.#flash(view, row, samples[number], isApart);
+      if (!isApart) return;
       last = at;
-      this.#flash(view, row, samples, number);
       const speed = Math.hypot(vx, vy) || 1, aside = /** @type {Point} */ ([vy / speed, vx / speed]);
       view.number({text: String(i + 1), color: palette.ink, tip: [at[0] - ASIDE * aside[0], at[1] - ASIDE * aside[1]], along: [-aside[0], -aside[1]]});
     });
@@ -214,13 +215,14 @@ export class Trail {
   /**
    * @param {SceneView} view
    * @param {number} row
-   * @param {Sample[]} samples
-   * @param {number} number of the sample
+   * @param {Sample} sample
+   * @param {boolean} hasArrows
    */
-  #flash(view, row, samples, number) {
-    const {world, camera, arrows} = this.app, {palette} = view, sample = samples[number];
+  #flash(view, row, sample, hasArrows) {
+    const {world, camera, arrows} = this.app, {palette} = view;
     const {x, y, yaw, vx, vy, ax = 0, ay = 0} = sample, [nowX, nowY] = world.place(row, world.scene.bodies[row].centroid);
     view.outline(row, palette.faint, [x - nowX, y - nowY], {turn: yaw - world.frame.yaw[row], scale: 1});
+    if (!hasArrows) return;
     const from = camera.toPage(x, y), pixels = arrows.speeds.length(1);
     drawArrow(view, from, vx * pixels, vy * pixels, palette.accent);
     drawArrow(view, from, ax * pixels * ACCELERATION, ay * pixels * ACCELERATION, palette.weight);

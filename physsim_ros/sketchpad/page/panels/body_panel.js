@@ -38,7 +38,7 @@ export function bodyContent(app, [name]) {
     first: [app.numbers.element, ...inclineFields(app, body),
       ...body.actor ? actorLines(body.actor) : [], ...body.robot ? app.driving.show(body.robot) : []],
     rest: [
-      app.numbers.typed,
+      app.numbers.turning, app.numbers.typed,
       ...material,
       createElement('label', {}, t('Label'), label),
       // A robot is neither.

@@ -31,6 +31,7 @@ const MOVING = [
   [t('Alt, held'), t('Hand and lasso drag a copy')],
   ['7, 6', t('Stopwatch by hand: start and stop; lap')],
   ['5', t('In a lesson: all tools, or those that it needs')],
+  [t('Ctrl+C, X, V, D, A'), t('Copy, cut, paste, duplicate, select all; the same by the right button')],
   [t('Delete'), t('Delete the selection')],
   [t('Esc'), t('Cancel')],
   ['+, −, F', t('Zoom; frame the world')],

@@ -10,7 +10,8 @@ import {localized, t} from '../strings.js';
 /** Name, service, key, and what else it says. @type {[string, string, string, string?][]} */
 export const TIME = [
   [t('Fast rewind'), 'fast_rewind', 'Shift+J'], [t('Rewind'), 'rewind', 'J'], [t('Pause'), 'pause', 'K'],
-  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'], [t('Step'), 'step', '.', t('one frame forward')],
+  [t('Play'), 'play', 'L'], [t('Fast forward'), 'fast_forward', 'Shift+L'],
+  [t('Step back'), 'step_back', ',', t('one frame back')], [t('Step'), 'step', '.', t('one frame forward')],
 ];
 /** @type {typeof TIME} */
 export const EDIT = [[t('Undo'), 'undo', 'Ctrl+Z'], [t('Redo'), 'redo', 'Ctrl+Y'], [t('Reset'), 'reset', '0', t('back to the beginning')]];
@@ -67,11 +68,20 @@ export class TimeBar {
 
   /** @param {string} service */
   callService(service) {
+    if (service === 'step_back') return this.#stepBack();
     if (service === 'step' && !this.app.world.paused) this.callService('pause');
     if (service === 'play' && this.rate !== 1) this.app.connection.send('speed', {speed: this.rate});
     // Where several people draw, each undoes what is its own.
     else if (service === 'undo' && this.app.classroom.isShared) this.app.connection.send('take_back');
     else this.app.connection.send('service', {name: service});
+  }
+
+  /** Pause, and go to the frame before the one that is shown. */
+  #stepBack() {
+    const {frame, rate, timeline, paused} = this.app.world;
+    if (!paused) this.callService('pause');
+    this.wanted = Math.max(Math.round((this.wanted ?? frame.time) * rate - 1) / rate, timeline.oldest);
+    this.#seek();
   }
 
   toggle() {
@@ -134,8 +144,7 @@ export class TimeBar {
   /** @param {number} speed */
   #showSpeed(speed) {
     const pace = this.#slowPace, text = `${localized(String(Number((pace || speed).toFixed(2))))}×`;
-    const count = this.app.world.scene.bodies.length;
-    const reason = pace ? t('Slower than {speed}×: {count} bodies are as much as this machine can do', {speed, count}) : '';
+    const reason = pace ? t('Slower than {speed}×: the machine of the world has not the time', {speed}) : '';
     this.#explain(reason);
     if (text === this.shown) return;
     this.shown = text;

@@ -12,7 +12,7 @@ import {TOOLS} from '../tools/tools.js';
 
 /** @import {App, Tool} from '../types.js' */
 
-const FEW = ['hand', 'ruler', 'protractor', 'note']; // tools that a lesson needs
+const FEW = ['hand', 'ruler', 'protractor', 'predict', 'note']; // tools that a lesson needs
 
 export class Toolbar {
   /** @param {App} app */

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The menu at a place of the canvas, by a click of the right button or the key for menus: what can be done with the
+ * body there, or with the world (WAI-ARIA, pattern *Menu*).
+ */
+
+import {createElement, textButton} from '../dom.js';
+import {t} from '../strings.js';
+import {distance} from '../vectors.js';
+
+/** @import {App, Point} from '../types.js' */
+
+const STILL = 4; // px: a right button that is dragged further moves the view
+
+export class Menu {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    this.element = document.body.appendChild(createElement('div', {id: 'menu', role: 'menu', 'aria-label': t('Menu'), hidden: true}));
+    /** @type {Point} where the right button was pressed [px] */
+    this.pressed = [0, 0];
+    const {canvas} = app.view;
+    canvas.addEventListener('pointerdown', ({button, clientX, clientY}) => {
+      this.close();
+      if (button === 2) this.pressed = [clientX, clientY];
+    });
+    canvas.addEventListener('pointerup', ({button, pointerType, clientX, clientY}) => {
+      if (button === 2 && pointerType === 'mouse' && distance(this.pressed, [clientX, clientY]) < STILL) this.open([clientX, clientY]);
+    });
+    this.element.addEventListener('focusout', ({relatedTarget}) => this.element.contains(/** @type {?Node} */ (relatedTarget)) || this.close());
+    this.element.addEventListener('keydown', (event) => this.#move(event));
+  }
+
+  /** @param {Point} page where it is opened [px] */
+  open([x, y]) {
+    const {app, element} = this, {selection, world, camera} = app, at = camera.toWorld(x, y), row = world.bodyAt(at);
+    if (app.viewOnly) return;
+    const name = row < 0 ? '' : world.scene.bodies[row].name;
+    if (name && !selection.names.has(name)) selection.select([name]);
+    const item = (/** @type {string} */ label, /** @type {() => void} */ done) => {
+      const button = textButton(label, () => {
+        this.close();
+        done();
+      });
+      button.role = 'menuitem';
+      return button;
+    };
+    const names = [...selection.names];
+    element.replaceChildren(...name ? [
+      item(t('Copy (Ctrl+C)'), () => selection.keep(false)), item(t('Cut (Ctrl+X)'), () => selection.keep(true)),
+      item(t('Duplicate (Ctrl+D)'), () => selection.duplicate()), item(t('Plot'), () => app.plotWindow.open(names)),
+      item(t('Delete (Del)'), () => selection.deleteSelected())] : [],
+    ...selection.kept.names.length ? [item(t('Paste (Ctrl+V)'), () => selection.paste(at))] : [],
+    ...name ? [] : [item(t('Select all (Ctrl+A)'), () => selection.selectAll()), item(t('Frame the world (F)'), () => app.room.frameAll())]);
+    element.hidden = false;
+    // The view makes room for the panel of what was selected.
+    [x, y] = camera.toPage(...at);
+    element.style.left = `${Math.min(x, innerWidth - element.offsetWidth - STILL)}px`;
+    element.style.top = `${Math.min(y, innerHeight - element.offsetHeight - STILL)}px`;
+    element.querySelector('button')?.focus();
+  }
+
+  close() {
+    if (this.element.hidden) return;
+    this.element.hidden = true;
+    this.app.view.canvas.focus({preventScroll: true});
+  }
+
+  /** @param {KeyboardEvent} event */
+  #move(event) {
+    const all = [...this.element.querySelectorAll('button')], at = all.findIndex((each) => each === document.activeElement);
+    if (event.key === 'Escape' || event.key === 'Tab') this.close();
+    else if (event.key === 'ArrowDown') all[(at + 1) % all.length].focus();
+    else if (event.key === 'ArrowUp') all.at(at - 1)?.focus();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}

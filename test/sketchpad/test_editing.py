@@ -1,0 +1,73 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Keys and the menu that every editor has, and a frame back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+import math
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.begin()
+    yield sheet
+    sheet.close()
+
+
+def test_bodies_are_copied_cut_pasted_and_all_selected_by_keys(sheet: Sheet) -> None:
+    keyboard, before = sheet.page.keyboard, sheet.names()
+    sheet.press('Hand')
+    sheet.page.mouse.click(*sheet.place(0.0, 0.5))
+    keyboard.press('Control+c')
+    sheet.page.mouse.move(*sheet.place(-2.0, 6.0))
+    keyboard.press('Control+v')
+    name = sheet.wait_for_new(before)
+    assert math.dist(sheet.pose(name)[:2], (-2.0, 6.0)) < 0.1
+    # What is cut is moved where it is pasted, and keeps its name.
+    keyboard.press('Control+x')
+    sheet.page.mouse.move(*sheet.place(2.0, 6.0))
+    keyboard.press('Control+v')
+    sheet.wait(
+        'Math.hypot(physsim.bodies["ball/0"][0] - 2, physsim.bodies["ball/0"][1] - 6) < 0.1'
+    )
+    keyboard.press('Control+d')
+    sheet.wait('Object.keys(physsim.bodies).length === 5')
+    keyboard.press('Control+a')
+    sheet.page.get_by_role('heading', name='5 bodies').wait_for()
+
+
+def test_the_right_button_opens_a_menu_of_the_body_there(sheet: Sheet) -> None:
+    menu = sheet.page.get_by_role('menu')
+    sheet.page.mouse.click(*sheet.place(4.0, 0.5), button='right')
+    menu.get_by_role('menuitem', name='Delete (Del)').click()
+    sheet.wait('!("box/0" in physsim.bodies)')
+    assert menu.is_hidden()
+    # By keys it is opened at the cursor, and goes by Esc.
+    sheet.page.keyboard.press('Shift+F10')
+    menu.wait_for()
+    sheet.page.keyboard.press('Escape')
+    menu.wait_for(state='hidden')
+    # A drag by the right button moves the view.
+    before = sheet.place(0.0, 0.0)
+    x, y = sheet.place(0.0, 6.0)
+    sheet.page.mouse.move(x, y)
+    sheet.page.mouse.down(button='right')
+    sheet.page.mouse.move(x + 40, y, steps=3)
+    sheet.page.mouse.up(button='right')
+    assert sheet.place(0.0, 0.0) != before
+    assert menu.is_hidden()
+
+
+def test_a_step_back_is_one_frame(sheet: Sheet) -> None:
+    time = sheet.play_until(0.3)
+    sheet.press('Step back')
+    sheet.wait('time => Math.abs(time - physsim.time - 1 / 60) < 1e-6', time)
