@@ -42,6 +42,9 @@ from pymunk._chipmunk_cffi import lib
 # impact on a row acts on all discs at once. Ten times the rounding of a position within a
 # kilometre of the origin (1.1e-13 m).
 GRAZE = 1e-12
+# Polygons are rounded by this [m] (Box2D: polygon skin). Otherwise rounding tells whether what lies
+# on their faces touches them. A hundred times the same rounding.
+SKIN = 1e-11
 # Properties on which the engine's objects of a body do not depend.
 _OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'
 # Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
@@ -233,7 +236,7 @@ def _shape(piece: Piece, pm_body: pymunk.Body, offset: Point) -> pymunk.Shape:
         case Capsule(start, end, radius):
             return pymunk.Segment(pm_body, local(start), local(end), radius)
         case Convex(vertices):
-            return pymunk.Poly(pm_body, [local(vertex) for vertex in vertices])
+            return pymunk.Poly(pm_body, [local(vertex) for vertex in vertices], radius=SKIN)
 
 
 def _set_neighbors(segments: list[pymunk.Segment]) -> None:

@@ -19,8 +19,9 @@ from physsim_ros.ros.robots import Fleet
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 
-# Time after which a tick simulates no further publish period [ns]: requests, services and signals
-# wait at most so long, which a person hardly notices. At speed 64 a frame has 64 periods.
+# Time after which a tick simulates no further publish period [ns], or where the last tick took
+# longer, no further step: requests, services and signals wait at most so long, which a person
+# hardly notices, or for one step. At speed 64 a frame has 64 periods.
 MOST_TICK_NS = 100_000_000
 # Time after which no further request is applied in a tick [ns]; or as long as the rest of the last
 # tick took, since in a crowded world each tick with a request makes the scene anew.
@@ -83,6 +84,8 @@ class FrameLoop:
                 now_ns,
                 is_overdue=lambda: self._fleet.in_lockstep or _is_overdue(began),
                 is_spent=request_time.is_spent,
+                # Controllers answer whole frames.
+                by_steps=self._rest_ns > MOST_TICK_NS and not self._fleet.in_lockstep,
             )
         elif self._simulation.playback.changed:
             # By a service, as a reset, after which a robot may be gone, or its scan.

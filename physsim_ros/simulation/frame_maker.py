@@ -178,6 +178,7 @@ class FrameMaker:
         *,
         is_overdue: Callable[[], bool] = lambda: False,
         is_spent: Callable[[], bool] = lambda: False,
+        by_steps: bool = False,
     ) -> tuple[Frame, ...]:
         """
         Apply the requests that wait, and advance, or rewind, by the steps that are due.
@@ -189,6 +190,8 @@ class FrameMaker:
         :param is_overdue: whether the call has taken too long; a frame that advances then ends at
             the next publish period, however many steps are due, so that requests do not wait
         :param is_spent: whether there is no time for a further request in this call
+        :param by_steps: whether a frame that takes too long ends after any step, not at a publish
+            period only; a later call makes the other steps
         :return: the frames, in the order in which they are shown; empty where nothing is due and
             nothing has changed
         """
@@ -211,12 +214,14 @@ class FrameMaker:
         self.requests.hands.note_time(now_ns, paused=playback.speed == 0)
         if playback.speed > 0:
             self.requests.release_grips()
-        frames = tuple(self._due_frames(now_ns, is_overdue))
+        frames = tuple(self._due_frames(now_ns, is_overdue, by_steps=by_steps))
         if not frames and playback.changed:
             return (self._observe_frame(moved=False),)
         return frames
 
-    def _due_frames(self, now_ns: int, is_overdue: Callable[[], bool]) -> Iterator[Frame]:
+    def _due_frames(
+        self, now_ns: int, is_overdue: Callable[[], bool], *, by_steps: bool
+    ) -> Iterator[Frame]:
         """Yield the frames that are due at a steady time [ns], and make them."""
         playback = self.playback
         for _ in range(_FRAMES_A_CALL):
@@ -224,7 +229,7 @@ class FrameMaker:
             if steps == 0:
                 return
             if steps > 0:
-                _carry_out(playback.play(steps), is_overdue)
+                _carry_out(playback.play(steps, by_steps=by_steps), is_overdue)
                 yield self._observe_frame(moved=True)
             elif frame := self._rewind_frame(-steps, is_overdue):
                 yield frame

@@ -240,13 +240,17 @@ class Playback:
         self.frames_due += 1
         return round(step * 1e9 / self._past.physics_rate)
 
-    def play(self, steps: int) -> Iterator[None]:
-        """Advance by steps; yield at each multiple of the publish period, and at the end."""
+    def play(self, steps: int, *, by_steps: bool = False) -> Iterator[None]:
+        """
+        Advance by steps; yield at each multiple of the publish period, and at the end.
+
+        :param by_steps: whether to yield after each step, as of a world whose steps take long
+        """
         self.seek_shown()
         self._lacks_contacts, self.changed = False, True
         cursor = self._past.cursor
         while steps > 0:
-            some = min(steps, self.steps_to_period)
+            some = 1 if by_steps else min(steps, self.steps_to_period)
             cursor.advance(some)
             cursor.build_ahead(some)
             steps -= some

@@ -3,121 +3,13 @@
 
 """Laws 29 and 30: nothing far away changes anything here, and contacts report the whole weight."""
 
-import itertools
-import random
-
 import numpy as np
-from physsim_ros.model.requests import Command
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
 from .scenes import DT, floor, G, join, run, simulation, spawn
-from ..slow import slow
 
 FAR = 50.0
-
-
-def pendulum(sim):
-    spawn(sim, 'here/0', Box(width=1.0, height=0.1), (0.5, 4.0, 0.0))
-    join(sim, 'here/0', 'axle', [(0.0, 4.0)], a='here/0', b='world')
-
-
-def machine(sim):
-    for number in range(4):
-        spawn(sim, f'here/{number}', Box(width=1.0, height=0.1), (number + 0.5, 6.0, 0.0))
-        other = f'here/{number - 1}' if number else 'world'
-        join(sim, f'here/{number}', 'axle', [(float(number), 6.0)], a=f'here/{number}', b=other)
-
-
-def stack(sim):
-    for number in range(5):
-        spawn(sim, f'here/{number}', Box(width=1.0, height=1.0), (0.0, number + 0.5, 0.0))
-
-
-def cradle(sim):
-    for number in range(5):
-        x = 0.4 * number
-        place = (x - 1.5, 5.5, 0.0) if number == 0 else (x, 4.0, 0.0)
-        said = {'friction': 0.0, 'elasticity': 1.0}
-        spawn(sim, f'here/{number}', Disc(radius=0.2), place, **said)
-        anchor = (x, 4.0 + np.hypot(1.5, 1.5) if number == 0 else 6.0)
-        join(sim, f'here/{number}', 'rod', [place[:2], anchor], a=f'here/{number}', b='world')
-
-
-def bouncing_disc(sim):
-    said = {'velocity': (6.0, -3.0), 'spin': 4.0, 'elasticity': 0.7, 'friction': 0.5}
-    spawn(sim, 'here/0', Disc(radius=0.2), (0.0, 3.0, 0.0), **said)
-
-
-def motor(sim):
-    spawn(sim, 'far/0', Box(width=1.0, height=0.1), (FAR, 4.0, 0.0))
-    said = {'a': 'far/0', 'b': 'world', 'rate': 3.0, 'max_torque': 50.0}
-    join(sim, 'far/0', 'motor', [(FAR, 4.0)], **said)
-
-
-def wrench(sim):
-    spawn(sim, 'far/0', Disc(radius=0.3), (FAR, 0.3, 0.0))
-    sim.perform(Command(names=('far/0',), wrenches=((3.0, 0.0, 0.0),)))
-
-
-def grain(sim):
-    spawn(sim, 'far/0', Disc(radius=0.002), (FAR, 0.002, 0.0))
-
-
-def tangle(sim):
-    pick = random.Random(3)
-    for number in range(6):
-        place = (FAR + pick.uniform(-1.0, 1.0), pick.uniform(2.0, 4.0), 0.0)
-        spawn(sim, f'far/{number}', Box(width=0.6, height=0.4), place)
-    for number in range(8):
-        a, b = pick.sample(range(6), 2)
-        point = (FAR + pick.uniform(-1.0, 1.0), pick.uniform(2.0, 4.0))
-        join(sim, f'far/{number}', 'axle', [point], a=f'far/{a}', b=f'far/{b}')
-
-
-def elastic_discs(sim):
-    pick = random.Random(4)
-    for number in range(100):
-        place = (FAR + 0.5 * (number % 10), 0.5 + 0.5 * (number // 10), 0.0)
-        said = {'elasticity': 1.0, 'velocity': (pick.uniform(-3.0, 3.0), 0.0)}
-        spawn(sim, f'far/{number}', Disc(radius=0.2), place, **said)
-
-
-def boxes(sim):
-    for number in range(400):
-        place = (FAR + 1.0 * (number % 40), 0.5 + number // 40, 0.0)
-        spawn(sim, f'far/{number}', Box(width=1.0, height=1.0), place)
-
-
-# Each of both at least once.
-QUICK = {
-    (pendulum, motor),
-    (machine, wrench),
-    (stack, tangle),
-    (cradle, elastic_discs),
-    (pendulum, boxes),
-    (bouncing_disc, grain),
-}
-PAIRS = itertools.product(
-    (pendulum, machine, stack, cradle, bouncing_disc),
-    (motor, wrench, grain, tangle, elastic_discs, boxes),
-)
-
-
-@pytest.mark.parametrize(
-    ('here', 'far'), [pair if pair in QUICK else slow(*pair) for pair in PAIRS]
-)
-def test_far_away_changes_nothing(report, here, far):
-    alone, beside = (simulation(command_timeout=0.0) for _ in range(2))
-    for sim in (alone, beside):
-        floor(sim)
-        here(sim)
-    count = len(alone.world)
-    far(beside)
-    off = np.abs(run(alone, 1.5).poses - run(beside, 1.5).poses[:count]).max()
-    # Chains of contacts are solved in the order in which the engine has found them.
-    tolerance = 1e-9 if here in (pendulum, machine, bouncing_disc) else 2e-3
-    report.check(29, f'{here.__name__} beside {far.__name__}', off, 0.0, tolerance, 'm')
 
 
 @pytest.mark.parametrize('turn', [0.0, 1e-15])

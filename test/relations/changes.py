@@ -584,6 +584,35 @@ def tied(state, kind, **said):
     return replace(state, joints=(*state.joints, *joints))
 
 
+def limited(state):
+    """Set limits that are never reached: of forces of all joints, of ways of axles and sliders."""
+
+    def joint(each):
+        said = each.properties
+        far = {'break_force': 1e9 if said.break_force is None else said.break_force}
+        far['max_force'] = 1e9 if said.max_force is None else said.max_force
+        if each.kind in {JointKind.AXLE, JointKind.SLIDER}:
+            far['lower'] = -1e3 if said.lower is None else said.lower
+            far['upper'] = 1e3 if said.upper is None else said.upper
+        return joint_properties(each, **far)
+
+    return with_joints(state, joint)
+
+
+def beside(state, other, by):
+    """Put bodies and joints of another world beside those of a world, moved by a vector [m]."""
+    names = {WORLD: WORLD} | {held.body.name: f'far/{held.body.name}' for held in other.bodies}
+    far = moved(other, by)
+    far = with_bodies(
+        far, lambda held: replace(held, body=replace(held.body, name=names[held.body.name]))
+    )
+    far = with_joints(
+        far,
+        lambda each: replace(each, name=f'far/{each.name}', a=names[each.a], b=names[each.b]),
+    )
+    return replace(state, bodies=(*state.bodies, *far.bodies), joints=(*state.joints, *far.joints))
+
+
 # Names and orders
 
 

@@ -17,14 +17,17 @@ import tempfile
 
 import numpy as np
 from physsim_ros.files import load_world, save_world
+from physsim_ros.model.actors import SocialForce
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.transform import rotated
 
 from . import changes
 from .films import begin, difference, Film, film_of, FRAMES, play, RATE
-from .scenes import Scene
+from .scenes import far_away, Scene
 
+# To where bodies are put that are far away [m].
+FAR = (300.0, 50.0)
 # Difference of the energies of two films of a chaotic scene, as a share of all that moves or falls
 # [1]: 22 bodies of any elasticity that are moved by a picometre differ by 0.05 after 1.5 s.
 CHAOS = 0.2
@@ -276,6 +279,11 @@ def _has_units(state):
     return plain and not limits and not state.settings.damping
 
 
+def _has_no_side(state):
+    """Return whether nobody keeps to the right, as pedestrians of social forces do."""
+    return not any(isinstance(held.body.actor, SocialForce) for held in state.bodies)
+
+
 def _is_free(state):
     return state.settings.bounds is None
 
@@ -358,6 +366,7 @@ RELATIONS = {
         other=_mirrored,
         tolerance=1e-9,
         reason=ROUNDING,
+        applies=_has_no_side,
     ),
     'turned by 90°': Relation(
         law='a world that is turned with its gravity moves as before',
@@ -410,6 +419,21 @@ RELATIONS = {
         other=_changed(changes.reordered),
         tolerance=1e-9,
         reason=ROUNDING,
+    ),
+    'beside a crowd': Relation(
+        law='what happens three hundred metres away changes nothing',
+        other=lambda scene: play(
+            begin(changes.beside(scene.state, far_away(), FAR)), scene.seconds
+        ),
+        tolerance=1e-9,
+        reason=ROUNDING,
+    ),
+    'limits far off': Relation(
+        law='limits of joints that are not reached change nothing',
+        other=_changed(changes.limited),
+        tolerance=1e-9,
+        reason=ROUNDING,
+        applies=lambda state: bool(state.joints),
     ),
     'renamed': Relation(
         law='names change nothing',

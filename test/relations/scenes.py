@@ -21,7 +21,6 @@ from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.model.states import NEVER
 from physsim_ros.simulation.simulation import Simulation
 
-from ..laws import test_locality as locality
 from ..laws.scenes import (
     bar_among_discs,
     chain,
@@ -42,7 +41,7 @@ from ..laws.test_joints import double_pendulum, tangle
 from ..laws.test_machines import pendulum
 from ..laws.test_random_worlds import random_crowd, random_world
 from ..laws.test_ropes import loaded_rope
-from ..laws.test_rows import _row as row_of_elastic_bodies
+from ..laws.test_rows import row as row_of_elastic_bodies
 from ..laws.test_tracks import ball_in_track
 from ..laws.test_way import plough
 from ..worlds.digests import scene as drawn_scene
@@ -69,19 +68,23 @@ class Scene:
 
     @cached_property
     def state(self):
-        """Return its state at the beginning, as a file written by hand would have it."""
+        """Return its state at the beginning."""
         built = self.build()
-        state = built if isinstance(built, WorldState) else built.save()
-        bodies = tuple(
-            replace(
-                held,
-                motion=None,
-                acting=None,
-                driven=held.driven and held.driven._replace(until=NEVER),
-            )
-            for held in state.bodies
+        return beginning(built if isinstance(built, WorldState) else built.save())
+
+
+def beginning(state):
+    """Return a state without what it has done, as a file written by hand would have it."""
+    bodies = tuple(
+        replace(
+            held,
+            motion=None,
+            acting=None,
+            driven=held.driven and held.driven._replace(until=NEVER),
         )
-        return replace(state, bodies=bodies, memory=None, lesson=None)
+        for held in state.bodies
+    )
+    return replace(state, bodies=bodies, memory=None, lesson=None)
 
 
 # Laws 1 to 9: flight and impacts
@@ -156,11 +159,60 @@ def bounces():
 def bouncing_disc():
     sim = simulation()
     floor(sim)
-    locality.bouncing_disc(sim)
+    said = {'velocity': (6.0, -3.0), 'spin': 4.0, 'elasticity': 0.7, 'friction': 0.5}
+    spawn(sim, 'disc/0', Disc(radius=0.2), (0.0, 3.0, 0.0), **said)
     return sim
 
 
 # Laws 10 to 13: friction
+
+
+def plates(angles):
+    """Return a world with anchored plates, 6 m apart, each turned by its angle [°]."""
+    sim = simulation()
+    plate = Box(width=4.0, height=0.5)
+    for number, angle in enumerate(angles):
+        pose = (6.0 * number, -0.25, math.radians(angle))
+        spawn(sim, f'plate/{number}', plate, pose, anchored=True)
+    return sim
+
+
+def on_plates(elasticity):
+    """Drop discs with spins onto plates of several slopes."""
+    sim = plates(angles := (0, 20, -35, 10))
+    for number, angle in enumerate(angles):
+        shape, place = Disc(radius=0.2 + 0.05 * number), (6.0 * number, 1.0, 0.0)
+        said = {'velocity': (0.3 * number - 0.2, 0.0), 'spin': 2.0 - angle / 10}
+        spawn(sim, f'disc/{number}', shape, place, elasticity=elasticity, **said)
+    return sim
+
+
+def corners_on_plates():
+    """Drop bodies with corners onto plates of several slopes."""
+    sim = plates((0, 25, -15))
+    ell = Polygon(outline=((0.0, 0.0), (0.6, 0.0), (0.6, 0.2), (0.2, 0.2), (0.2, 0.8), (0.0, 0.8)))
+    wheels = Compound(element=Disc(radius=0.15), centers=((-0.4, 0.0), (0.4, 0.1)))
+    for number, shape in enumerate((Box(width=0.5, height=0.3), ell, wheels)):
+        said = {'velocity': (0.5, -1.0), 'spin': 1.0 - number}
+        spawn(sim, f'body/{number}', shape, (6.0 * number, 1.5, 0.4), **said)
+    return sim
+
+
+def pairs_of_all_kinds(friction):
+    """Return discs, boxes and a chain that collide in pairs."""
+    sim = simulation(gravity=NOWHERE, friction=friction)
+    bent = Chain(points=((0.0, -1.0), (0.3, 0.0), (0.0, 1.0)), thickness=0.1)
+    pairs = (
+        (Disc(radius=0.5), Disc(radius=0.3)),
+        (Disc(radius=0.5), Box(width=0.6, height=0.8)),
+        (Box(width=0.6, height=0.8), Box(width=1.0, height=0.4)),
+        (Disc(radius=0.2), bent),
+    )
+    for number, (one, other) in enumerate(pairs):
+        y, said = 5.0 * number, {'velocity': (2.0, 0.1), 'spin': 1.0}
+        spawn(sim, f'one/{number}', one, (-2.0, y + 0.2, 0.3), **said)
+        spawn(sim, f'other/{number}', other, (1.0, y, 0.1), velocity=(-1.0, 0.0))
+    return sim
 
 
 def incline(angle=0.5):
@@ -265,7 +317,23 @@ def pendulum_beside_damper(damping):
 
 def cradle():
     sim = simulation()
-    locality.cradle(sim)
+    for number in range(5):
+        x = 0.4 * number
+        place = (x - 1.5, 5.5, 0.0) if number == 0 else (x, 4.0, 0.0)
+        spawn(sim, f'ball/{number}', Disc(radius=0.2), place, friction=0.0, elasticity=1.0)
+        anchor = (x, 4.0 + math.hypot(1.5, 1.5) if number == 0 else 6.0)
+        join(sim, f'rod/{number}', 'rod', [place[:2], anchor], a=f'ball/{number}', b='world')
+    return sim
+
+
+def four_bars():
+    """Return bars that hang on each other from one end, level at first."""
+    sim = simulation()
+    floor(sim)
+    for number in range(4):
+        spawn(sim, f'bar/{number}', Box(width=1.0, height=0.1), (number + 0.5, 6.0, 0.0))
+        other = f'bar/{number - 1}' if number else 'world'
+        join(sim, f'axle/{number}', 'axle', [(float(number), 6.0)], a=f'bar/{number}', b=other)
     return sim
 
 
@@ -642,6 +710,22 @@ def windy_stack():
 
 
 @cache
+def far_away():
+    """Return a world of much that could change what happens far from it."""
+    sim, _ = tangle(3)
+    said = {'a': 'spun/0', 'b': 'world', 'rate': 3.0, 'max_torque': 50.0}
+    spawn(sim, 'spun/0', Box(width=1.0, height=0.1), (8.0, 4.0, 0.0))
+    join(sim, 'motor/0', 'motor', [(8.0, 4.0)], **said)
+    spawn(sim, 'grain/0', Disc(radius=0.002), (-8.0, 0.002, 0.0))
+    pick = random.Random(4)
+    for number in range(20):
+        place = (10.0 + 0.5 * (number % 5), 0.5 + 0.5 * (number // 5), 0.0)
+        said = {'elasticity': 1.0, 'velocity': (pick.uniform(-3.0, 3.0), 0.0)}
+        spawn(sim, f'disc/{number}', Disc(radius=0.2), place, **said)
+    return beginning(sim.save())
+
+
+@cache
 def _drawn(name):
     return drawn_scene(f'drawings/{name}').save()
 
@@ -662,6 +746,11 @@ def _laws():
         'box falls on a corner': Scene(build=partial(bounce, box, 0.5, 0.4)),
         'nine bounce': Scene(build=bounces, seconds=0.75),
         'disc with spin bounces': Scene(build=bouncing_disc),
+        'discs on plates': Scene(build=partial(on_plates, 0.9)),
+        'dull discs on plates': Scene(build=partial(on_plates, 0.3)),
+        'corners on plates': Scene(build=corners_on_plates, seconds=0.6),
+        'smooth pairs': Scene(build=partial(pairs_of_all_kinds, 0.0)),
+        'rough pairs': Scene(build=partial(pairs_of_all_kinds, 0.5)),
         'incline': Scene(build=incline),
         'block that sticks': Scene(build=partial(block_on_incline, 26.0)),
         'block that slides': Scene(build=partial(block_on_incline, 28.0)),
@@ -679,6 +768,7 @@ def _laws():
         'pendulum beside a damper': Scene(build=partial(pendulum_beside_damper, 0.1)),
         'cradle': Scene(build=cradle),
         'balls on rods': Scene(build=balls_on_rods),
+        'four bars': Scene(build=four_bars),
         'chain of 5': Scene(build=partial(hanging_chain, 5)),
         'chain of 30': Scene(build=partial(hanging_chain, 30)),
         'beam': Scene(build=partial(beam, 0.0)),

@@ -125,3 +125,22 @@ def test_a_refused_request_is_no_hold():
         simulation.requests.refuse(Refusal('no'), topic='~/spawn', subject='', joined=True)
     # Refusals are answers: none of them waits for the world.
     assert tick(simulation, 1) == 1
+
+
+def test_a_frame_of_slow_steps_ends_after_any_step_and_later_calls_make_the_others():
+    slow, fast = Simulation(), Simulation()
+    for simulation in (slow, fast):
+        simulation.perform(spawning('b/0', BOX, (0.0, 5.0, 0.0)))
+    for call in range(1, 9):
+        frames = slow.advance(call * FRAME, is_overdue=lambda: True, by_steps=True)
+        # The first call only shows the box.
+        assert [frame.snapshot.step for frame in frames] == [call - 1]
+    while fast.step < 4:
+        fast.advance_frame()
+    slow.requests.seek(fast.world.stamp)
+    assert (slow.step, slow.world.digest()) == (4, fast.world.digest())
+    # Where there is time, a frame is whole.
+    slow.requests.seek(round(7e9 / 240))
+    (frame,) = slow.advance(20 * FRAME, by_steps=True)
+    (frame,) = slow.advance(21 * FRAME, by_steps=True)
+    assert frame.snapshot.step == 8

@@ -90,7 +90,7 @@ def test_nothing_covers_the_walls_of_a_world_that_is_framed(
     hint.get_by_text('from corner to corner').wait_for()
     (left, top), (right, bottom) = sheet.place(-8.0, 9.0), sheet.place(8.0, 0.0)
     assert 0 < left < right < width
-    for each in ('#top', '#hint', '#status'):
+    for each in ('#files', '#looks', '#hint', '#status'):
         box = sheet.page.locator(each).bounding_box()
         assert box['y'] + box['height'] <= top, each
     tools, bar = (sheet.page.locator(each).bounding_box() for each in ('#tools', '#bar'))

@@ -78,6 +78,7 @@ STAGES = (
     Stage('block solver', lib.STAGE_BLOCK_SOLVER),
     Stage('joint solver', lib.STAGE_JOINTS),
     Stage('impact loads', lib.STAGE_LOADS),
+    Stage('order of contact points', lib.STAGE_ORDER),
     Stage('sleeping', 0, (((settings, 'IDLE_TIME'), math.inf),)),
     Stage(
         'warm start',

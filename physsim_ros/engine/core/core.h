@@ -219,7 +219,8 @@ typedef struct Joint {
     int32_t a, b;       // places of its bodies in the table
     int32_t first_part, part_count;
     int32_t first_row, row_count; // none where Chipmunk alone solves it, as a spring without damping
-    double apart; // of an unstepped one: how far its rows were out of their bounds before the step [m, rad]
+    // Of an unstepped one that is to be drawn together: how far its rows are out of their bounds, else 0 [m, rad].
+    double apart;
 } Joint;
 
 // Functions of Chipmunk, from Pymunk's own library.
@@ -248,7 +249,8 @@ enum {
     STAGE_BLOCK_SOLVER = 2048,
     STAGE_JOINTS = 4096,
     STAGE_LOADS = 8192,
-    STAGE_ALL = 16383
+    STAGE_ORDER = 16384,
+    STAGE_ALL = 32767
 };
 
 enum { SUB_STEPS = 4 };

@@ -215,7 +215,8 @@ static double apart_by(const World *world, const Joint *joint) {
 void find_gaps(World *world) {
     for (int number = 0; number < world->joint_count; number++) {
         Joint *joint = world->joints + number;
-        joint->apart = joint->unstepped ? apart_by(world, joint) : 0.0;
+        double apart = joint->unstepped ? apart_by(world, joint) : 0.0;
+        joint->apart = apart > drawn_apart ? apart : 0.0;
     }
 }
 

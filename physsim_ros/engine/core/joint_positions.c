@@ -235,7 +235,7 @@ static void turn_momenta(Solve *solve, const Displacement *move, const double *i
     read_rows(island, ahead, move->excess, later);
     read_rows(island, solve->poses, move->excess, now);
     for (int row = 0; row < island->joint_row_count; row++) {
-        bool drawn = island->joints[island->joint_of_row[row]]->unstepped;
+        bool drawn = island->joints[island->joint_of_row[row]]->apart > 0.0;
         double impulse = drawn ? impulses[row] / solve->dt : 0.0;
         add_momenta(now[row], island->ends[row], impulse, changes);
         add_momenta(later[row], island->ends[row], -impulse, changes);

@@ -48,6 +48,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
     correct_first_touches(world);
+    order_points(world);
     bound_loads(world);
     time_impacts(world);
     defer_contacts(world);

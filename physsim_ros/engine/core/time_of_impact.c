@@ -189,7 +189,8 @@ static double impact_of_shapes(World *world, const Mover *one, const cpShape *a,
     Arena *arena = &world->own->arena;
     size_t mark = arena_mark(arena);
     double radii = radius_of(a) + radius_of(b), skin = least(world->space->collisionSlop, depth);
-    skin = radii > 0.0 ? least(skin, radii / 2.0) : skin;
+    bool is_round = corner_count(a) < 3 || corner_count(b) < 3;
+    skin = is_round ? least(skin, radii / 2.0) : skin;
     Side first = side_of(one, a, arena), second = side_of(other, b, arena);
     double share = advance(&first, &second, radii, skin, depth);
     arena_release(arena, mark);

@@ -109,7 +109,8 @@ class JointSet:
 
     def clear(self) -> None:
         """Remove all joints from the engine, before its bodies are used in another space."""
-        self._pm_space.remove(*self._constraints())
+        # The last one first, which is the first in Chipmunk's list of those of the background.
+        self._pm_space.remove(*reversed(self._constraints()))
         self._drop_table()
         self._totals.clear()
         self.by_name.clear()
