@@ -30,8 +30,8 @@ typedef struct Private {
     struct Load *loads; // of the contacts of this step
     int load_count;
     struct Islands *joint_islands; // of this step
-    int call_step; // number of the step in this call
-    int sub_step;  // number of the sub-step in this step
+    int call_step;                 // number of the step in this call
+    int sub_step;                  // number of the sub-step in this step
     struct Report *report;
 } Private;
 
