@@ -42,8 +42,8 @@ from pymunk._chipmunk_cffi import lib
 # impact on a row acts on all discs at once. Ten times the rounding of a position within a
 # kilometre of the origin (1.1e-13 m).
 GRAZE = 1e-12
-# Polygons are rounded by this [m] (Box2D: polygon skin). Otherwise rounding tells whether what lies
-# on their faces touches them. A hundred times the same rounding.
+# Polygons are rounded by this [m] (Box2D: polygon skin). Otherwise rounding tells whether what
+# lies on their faces touches them. A hundred times the same rounding.
 SKIN = 1e-11
 # Properties on which the engine's objects of a body do not depend.
 _OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from zlib import crc32
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
@@ -234,9 +233,10 @@ def _scattered(rigid: RigidBody) -> int:
     Return the place of a body in the order in which its shapes enter the engine's tree.
 
     The tree of bodies in a row that enter from left to right is as deep as there are bodies: with
-    20,000 of them it took 10 s. The place depends on no other body.
+    20,000 of them it took 10 s. Rows of the scene are scattered by the golden ratio (Fibonacci
+    hashing: Knuth, "The Art of Computer Programming" 3, section 6.4), so that names do not matter.
     """
-    return crc32(rigid.body.name.encode())
+    return rigid.serial * 2654435761 % 2**32
 
 
 def _rigid_body(body: Body, pool: Mapping[str, RigidBody], row: int) -> RigidBody:

@@ -48,7 +48,8 @@ def test_without_the_memory_it_would_stir():
     nothing = replace(key.memory, **columns)
     world.resume(replace(key, memory=nothing))
     world.step(2)
-    assert fastest(world) > 1e-2
+    # Five times what a renewed stack with its memory may stir.
+    assert fastest(world) > 5e-3
 
 
 def test_renewing_changes_nothing_that_is_seen():

@@ -5,6 +5,7 @@
 
 import math
 
+import numpy as np
 from physsim_ros.model.shapes import Disc
 import pytest
 
@@ -95,3 +96,37 @@ def test_a_joint_that_is_strong_enough_holds(report, kind, end, said):
     what = f'3 kg on a {kind} of a little more force'
     report.check(49, f'{what}, fall in 1 s', fall, 0.0, 1e-3, 'm')
     report.check(49, f'{what}, force', force, 3.0 * G, 0.01, 'N', relative=True)
+
+
+def swung(stiffness, damping, anchor, rest, seconds, dt=1e-5):
+    """Return where a pendulum of 1 m and 1 kg with a spring to an anchor is, by its equation."""
+    angle, rate = math.atan2(0.6, 0.8), 0.0
+    for _ in range(round(seconds / dt)):
+        at = np.array([math.sin(angle), -math.cos(angle)])
+        along = np.array([math.cos(angle), math.sin(angle)])
+        span = math.dist(at, anchor)
+        line = (at - anchor) / span
+        force = stiffness * (span - rest) + damping * rate * (along @ line)
+        rate -= dt * (G * math.sin(angle) + force * (along @ line))
+        angle += dt * rate
+    return math.sin(angle), -math.cos(angle)
+
+
+# 1e-9 N s/m is a damper that has no effect, so that its pendulum moves as one without it.
+@pytest.mark.parametrize('damping', [0.0, 1e-9, 0.1])
+@pytest.mark.parametrize('anchor', [(2.0, 0.0), (0.6, 0.2)])
+def test_a_pendulum_with_a_damped_spring_at_its_side_swings_by_its_equation(
+    report, anchor, damping
+):
+    sim = simulation()
+    start = (0.6, -0.8)
+    rest = math.dist(start, anchor)
+    spawn(sim, 'bob/0', Disc(radius=0.1), (*start, 0.0), mass=1.0)
+    join(sim, 'rod/0', 'rod', [start, (0.0, 0.0)], a='bob/0', b='world')
+    said = {'stiffness': 1.0, 'damping': damping, 'rest_length': rest}
+    join(sim, 'spring/0', 'spring', [start, anchor], a='bob/0', b='world', **said)
+
+    at = run(sim, 2.0).poses[0, :2]
+
+    off = math.dist(at, swung(1.0, damping, anchor, rest, 2.0))
+    report.check(49, 'pendulum with a damped spring at its side, after 2 s', off, 0.0, 1e-3, 'm')

@@ -188,8 +188,6 @@ static int number_in(const World *world, Island *island, int *numbers, int *plac
         int number = island->body_count - 1;
         island->engine[number] = engine;
         island->jointed[number] = world->bodies[body].jointed;
-        island->poses[number] = pose_of(engine);
-        island->velocities[number] = twist_of(engine);
         island->inverses[number] = (Inverse){engine->m_inv, engine->i_inv};
     }
     return numbers[body] - 1;
@@ -207,6 +205,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
     island->rows = TAKE(arena, const Row *, island->joint_row_count);
     island->joint_of_row = TAKE(arena, int, island->joint_row_count);
     island->impulses = TAKE(arena, double *, island->joint_row_count);
+    island->last = TAKE(arena, double, island->row_count);
     island->closing = TAKE(arena, double *, island->joint_row_count);
     island->ends = TAKE(arena, Ends, island->row_count);
     island->groups = TAKE(arena, int, island->row_count);
@@ -221,6 +220,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
             const Row *of_joint = island->rows[row];
             Part *part = world->parts + of_joint->part;
             island->impulses[row] = impulse_at(part, of_joint->component);
+            island->last[row] = *island->impulses[row];
             island->closing[row] = of_joint->component == 0 ? &part->closing.x : &part->closing.y;
             island->ends[row] = ends;
             island->groups[row] = group;
@@ -231,6 +231,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
             const Bearing *touch = island->touches + number;
             bool same = number > 0 && touch->a == touch[-1].a && touch->b == touch[-1].b;
             group += same ? 0 : 1;
+            island->last[row] = side == 0 ? touch->point->jnAcc : touch->point->jtAcc;
             island->ends[row] = (Ends){number_in(world, island, numbers, places, touch->a),
                                        number_in(world, island, numbers, places, touch->b)};
             island->groups[row] = group;

@@ -25,6 +25,7 @@ typedef struct Island {
     const Row **rows; // (joint_row_count)
     int *joint_of_row;
     double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
+    double *last;      // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]
     double **closing;  // (joint_row_count): where those of the positions are stored [N s, N m s]
     Bearing *touches;
     cpBody **engine; // (body_count): dynamic bodies, and those that do not move but are touched or joined
@@ -41,7 +42,7 @@ typedef struct Islands {
     Island *islands;
 } Islands;
 
-// Return the islands of jointed bodies and of what they touch, after the step of Chipmunk.
+// Return the islands of jointed bodies and of what they touch, between Chipmunk's narrow phase and its solver.
 Islands joint_islands(World *world);
 
 #endif

@@ -180,7 +180,7 @@ static Solution newton_step(Solve *solve, const Displacement *move) {
         }
         solution.sides[row] = side_of(move->impulses[row], lower[row], upper[row]);
     }
-    Problem problem = {move->jacobians, wanted, lower, upper, soft, NULL};
+    Problem problem = {move->jacobians, wanted, lower, upper, soft, NULL, NULL};
     solve_problem(&solve->system, &problem, &solution, arena);
     return solution;
 }

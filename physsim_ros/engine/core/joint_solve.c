@@ -35,6 +35,10 @@ Solve joint_solve(World *world, const Island *island) {
     Solve solve = {.arena = arena, .space = world->space, .dt = world->dt, .island = island};
     solve.velocities = island->velocities;
     solve.poses = island->poses;
+    for (int body = 0; body < island->body_count; body++) {
+        island->poses[body] = pose_of(island->engine[body]);
+        island->velocities[body] = twist_of(island->engine[body]);
+    }
     solve.excess = TAKE(arena, double, island->joint_row_count);
     solve.jacobians = TAKE(arena, Jacobian, island->row_count);
     solve.holds = TAKE(arena, bool, island->joint_row_count);

@@ -7,7 +7,7 @@
 // carries by tension alone, which no row of velocities asks for. A gap that is closed by a velocity becomes energy
 // where joints and contacts contradict each other. Method: all rows of an island are solved together (`mixed_lcp`),
 // in velocities (`joint_velocities`) and then in positions (`joint_positions`). Cost: 5 µs a step for a pendulum, 150
-// µs for a chain of fifty axles. Without it laws 14 to 16, 20, 22, 23, 33 and 34 fail. Chipmunk's impulses are the
+// µs for a chain of fifty axles. Without it laws 14 to 16, 20, 22, 23, 33, 34 and 61 fail. Chipmunk's impulses are the
 // first guess. Impulses of springs and motors, and contacts between bodies without joints, stay Chipmunk's.
 
 #include "joint_positions.h"
@@ -40,12 +40,19 @@ static void solve_island(World *world, const Island *island) {
     arena_release(&world->own->arena, mark);
 }
 
+void find_joint_islands(World *world) {
+    if (has_stage(world, STAGE_JOINTS)) {
+        world->own->joint_islands = TAKE(&world->own->arena, Islands, 1);
+        *world->own->joint_islands = joint_islands(world);
+    }
+}
+
 void solve_joints(World *world) {
     if (!has_stage(world, STAGE_JOINTS)) {
         return;
     }
-    Islands found = joint_islands(world);
-    for (int number = 0; number < found.count; number++) {
-        solve_island(world, found.islands + number);
+    const Islands *found = world->own->joint_islands;
+    for (int number = 0; number < found->count; number++) {
+        solve_island(world, found->islands + number);
     }
 }

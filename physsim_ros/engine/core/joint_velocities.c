@@ -3,10 +3,18 @@
 
 // Velocities of jointed bodies.
 //
-// The impulses that Chipmunk gave to the rows of an island are taken back. Joints and contacts along their normals are
-// solved without friction, friction then within its cone (staggered projections: Kaufman, Sueda, James and Pai,
-// SIGGRAPH Asia 2008). Both are projections, by which kinetic energy can only fall; contacts that bounce can make it
-// rise. An island then has the greatest share of its bounces with which their impulses do no work.
+// Problem: Chipmunk bounds friction by the normal impulse of its iteration, which is wrong where joints load a contact,
+// and a solution of normals and friction in turn lets the floor pull. Method: the impulses that Chipmunk gave to the
+// rows of an island are taken back, and joints, normals and friction are one problem. In two dimensions the friction
+// cone of a contact has two edges, so that Coulomb friction is two rows with λ >= 0 (Anitescu, "Optimization-based
+// simulation of nonsmooth rigid multibody dynamics", Mathematical Programming 105, 2006). A contact that slides by v
+// would lift by μ |v|; its target is lowered by that, until v is what the solution has (De Saxcé and Feng, "The
+// bipotential method", Mathematical and Computer Modelling 28, 1998). Load that statics does not determine stays where
+// it was: each contact is drawn to its impulse of the step before (proximal point method: Rockafellar, SIAM Journal on
+// Control and Optimization 14, 1976). `docs/decisions/joint_friction.md` has what else was tried.
+//
+// Energy: without bounces it can only fall; contacts that bounce can make it rise. An island then has the greatest
+// share of its bounces with which their impulses do no work.
 //
 // Curvature: a point on a circle leaves its tangent in half a step, so that rows are solved for
 // J v = - dt / 2 (dJ/dt) v, as SHAKE has it (Ryckaert, Ciccotti and Berendsen, J. Comput. Phys. 23, 1977); without that
@@ -19,21 +27,37 @@
 #include "mixed_lcp.h"
 #include <string.h>
 
-// E, as a share of the diagonal of J M⁻¹ Jᵀ. The impulses are Chipmunk's next guess; without E those of joints that
-// contradict each other would be of any size.
-static const double softness = 1e-6;
+// E, as a share of the diagonal of J M⁻¹ Jᵀ. Of joints it keeps the impulses of those that contradict each other from
+// being of any size. Of contacts it draws λ to that of the step before; a belt of 75 links is solved with a fifth of
+// the exchanges that 1e-4 needs.
+static const double joint_softness = 1e-6, contact_softness = 1e-2;
+// Refinements of a solution against E: one for joints, further ones where contacts are soft.
+enum { REFINEMENTS = 3 };
+// Solutions whose targets follow the slips, at most.
+enum { PASSES = 8 };
+// Share of the normal impulse below which an impulse along an edge is rounding.
+static const double rounding = 1e-9;
+// Slips that are solved as rest: contacts lift by less than μ times that [m/s]. Light links of a loaded rope tremble
+// by some 0.1 mm/s.
+static const double least_slip = 1e-3;
+// Difference of slips that needs no further solution, in m/s and as a share of the slip.
+static const double slip_error = 1e-4, slip_share = 1e-3;
 
 // Springs with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the impulse
 // of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the damper;
 // Catto, "Soft Constraints", GDC 2011), with all loads and joints that act.
 
-// The rows of an island in velocities.
+// The rows of an island in velocities: those of joints, then the two edges of the friction cone of each contact. The
+// impulse along an edge, λ >= 0, is one along the normal and μ times as much across it, to one side or the other.
 typedef struct Impact {
     Problem problem;
+    Jacobian *jacobians;            // (row_count)
     double *wanted, *lower, *upper; // of the problem
     double *rates;                  // (row_count): J v without impulses
-    double *given;                  // (row_count): λ of Chipmunk
+    double *last;                   // (row_count): λ of the step before
     double *bounce;                 // (touch_count): least velocity along the normal that Chipmunk seeks [m/s]
+    double *free_slips;             // (touch_count): velocity across the normal without impulses [m/s]
+    double *slips;                  // (touch_count): greatness of the same after the step
 } Impact;
 
 // Impulses, and what they change.
@@ -46,7 +70,7 @@ typedef struct Change {
 static double softness_of(const Solve *solve, int row) {
     const Row *of_joint = solve->island->rows[row];
     if (of_joint->kind != ROW_SPRING) {
-        return softness;
+        return joint_softness;
     }
     Ends ends = solve->island->ends[row];
     const Inverse *inverses = solve->island->inverses;
@@ -54,107 +78,170 @@ static double softness_of(const Solve *solve, int row) {
     return 1.0 / (solve->dt * of_joint->damping * own);
 }
 
-static Impact begin(Solve *solve, const Twist *without) {
-    const Island *island = solve->island;
-    Arena *arena = solve->arena;
-    Impact impact = {.wanted = TAKE(arena, double, island->row_count),
-                     .lower = TAKE(arena, double, island->row_count),
-                     .upper = TAKE(arena, double, island->row_count),
-                     .rates = TAKE(arena, double, island->row_count),
-                     .bounce = TAKE(arena, double, island->touch_count)};
-    double *soft = TAKE(arena, double, island->row_count);
-    for (int row = 0; row < island->row_count; row++) {
-        soft[row] = row < island->joint_row_count ? softness_of(solve, row) : softness;
-        impact.rates[row] = rate(solve->jacobians[row], island->ends[row], without);
-    }
-    for (int number = 0; number < island->touch_count; number++) {
-        impact.bounce[number] = -island->touches[number].point->bounce;
-    }
-    impact.problem = (Problem){solve->jacobians, impact.wanted, impact.lower, impact.upper, soft, solve->springs};
-    return impact;
+// The impulses along the two edges of a cone, by those along and across its normal.
+typedef struct Edges {
+    double left, right;
+} Edges;
+
+static Edges edges_of(double friction, double normal, double tangent) {
+    double across = friction > 0.0 ? tangent / friction : normal;
+    // Rounding leaves no impulse on the edge that a contact does not slide along.
+    double least_edge = rounding * normal, left = (normal + across) / 2.0, right = (normal - across) / 2.0;
+    return (Edges){left > least_edge ? left : 0.0, right > least_edge ? right : 0.0};
 }
 
-// λ that Chipmunk gave, and velocities without them.
-static double *take_back(Solve *solve, Twist *without) {
+static Jacobian edge_jacobian(Jacobian normal, Jacobian tangent, double share) {
+    return (Jacobian){twist_sum(normal.a, tangent.a, share), twist_sum(normal.b, tangent.b, share)};
+}
+
+// Velocities without the impulses that Chipmunk gave to the rows.
+static void take_back(const Solve *solve, Twist *without) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
-    double *given = TAKE(solve->arena, double, island->row_count);
     for (int row = 0; row < normal; row++) {
-        given[row] = *island->impulses[row] * sign_of(island->rows[row], solve->excess[row]);
+        double impulse = *island->impulses[row] * sign_of(island->rows[row], solve->excess[row]);
+        add_momenta(solve->jacobians[row], island->ends[row], -impulse, without);
     }
     for (int number = 0; number < island->touch_count; number++) {
-        given[normal + number] = island->touches[number].point->jnAcc;
-        given[tangent + number] = island->touches[number].point->jtAcc;
-    }
-    for (int row = 0; row < island->row_count; row++) {
-        add_momenta(solve->jacobians[row], island->ends[row], -given[row], without);
+        const cpContact *point = island->touches[number].point;
+        Ends ends = island->ends[normal + number];
+        add_momenta(solve->jacobians[normal + number], ends, -point->jnAcc, without);
+        add_momenta(solve->jacobians[tangent + number], ends, -point->jtAcc, without);
     }
     for (int body = 0; body < island->body_count; body++) {
         Inverse inverse = island->inverses[body];
         without[body].v = add(solve->velocities[body].v, scaled(without[body].v, inverse.mass));
         without[body].w = solve->velocities[body].w + without[body].w * inverse.moment;
     }
-    return given;
 }
 
-static void solve_friction(Solve *solve, Impact *impact, Solution *solution) {
+// λ of the step before.
+static double *last_impulses(const Solve *solve) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
-    // Contacts that press are equalities, and what is at a bound stays there.
-    for (int row = 0; row < island->row_count; row++) {
-        bool acts = solution->sides[row] == 0;
-        impact->lower[row] = acts ? -INFINITY : solution->impulses[row];
-        impact->upper[row] = acts ? INFINITY : solution->impulses[row];
+    double *last = TAKE(solve->arena, double, island->row_count);
+    for (int row = 0; row < normal; row++) {
+        last[row] = island->last[row] * sign_of(island->rows[row], solve->excess[row]);
     }
     for (int number = 0; number < island->touch_count; number++) {
-        double friction = island->touches[number].friction, guess = impact->given[tangent + number];
-        double most = friction * greatest(solution->impulses[normal + number], 0.0);
-        double known = friction * impact->given[normal + number] * (1.0 - 1e-9);
-        bool slides = fabs(guess) >= known || most == 0.0;
-        impact->lower[tangent + number] = -most;
-        impact->upper[tangent + number] = most;
-        solution->sides[tangent + number] = (int8_t)(slides ? (guess < 0.0 ? -1 : 1) : 0);
+        double along = island->last[normal + number], across = island->last[tangent + number];
+        Edges edges = edges_of(island->touches[number].friction, along, across);
+        last[normal + number] = edges.left;
+        last[tangent + number] = edges.right;
     }
-    solve_problem(&solve->system, &impact->problem, solution, solve->arena);
-    if (solution->wrong_count == 0) {
-        return;
-    }
-    for (int row = tangent; row < island->row_count; row++) {
-        if (solution->wrong[row]) {
-            impact->lower[row] = impact->upper[row] = 0.0;
-            solution->sides[row] = -1;
-        }
-    }
-    solve_problem(&solve->system, &impact->problem, solution, solve->arena);
+    return last;
 }
 
-// Return the solution, friction included, with some least velocities along the normals of contacts [m/s].
-static Solution solve_impact(Solve *solve, Impact *impact, const double *bounce) {
+static void begin_joints(const Solve *solve, Impact *impact, double *soft) {
+    const Island *island = solve->island;
+    memcpy(impact->jacobians, solve->jacobians, (size_t)island->joint_row_count * sizeof(Jacobian));
+    for (int row = 0; row < island->joint_row_count; row++) {
+        const Row *of_joint = island->rows[row];
+        impact->lower[row] = greatest(lower_bound(of_joint, true, solve->excess[row]), -of_joint->most);
+        impact->upper[row] = least(upper_bound(of_joint, true, solve->excess[row]), of_joint->most);
+        soft[row] = softness_of(solve, row);
+    }
+}
+
+// The rows of contacts. A slip begins as that of the step before, less what friction can stop: where rest is possible,
+// it is found.
+static void begin_contacts(const Solve *solve, Impact *impact, double *soft, double *prior, const Twist *without) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
-    Solution solution = solution_for(&solve->system, solve->arena);
+    for (int number = 0; number < island->touch_count; number++) {
+        const Bearing *touch = island->touches + number;
+        int left = normal + number, right = tangent + number;
+        Ends ends = island->ends[left];
+        Jacobian along = solve->jacobians[left], across = solve->jacobians[right];
+        impact->jacobians[left] = edge_jacobian(along, across, touch->friction);
+        impact->jacobians[right] = edge_jacobian(along, across, -touch->friction);
+        impact->upper[left] = INFINITY;
+        impact->upper[right] = touch->friction > 0.0 ? INFINITY : 0.0;
+        soft[left] = soft[right] = contact_softness;
+        prior[left] = impact->last[left];
+        prior[right] = impact->last[right];
+        impact->bounce[number] = -touch->point->bounce;
+        impact->free_slips[number] = rate(across, ends, without) + touch->slide;
+        Twist begun[] = {body_of(island->engine[ends.a])->twist, body_of(island->engine[ends.b])->twist};
+        double unit = softness_unit(across, island->inverses[ends.a], island->inverses[ends.b]);
+        double stopped = unit * touch->friction * (prior[left] + prior[right]);
+        impact->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + touch->slide) - stopped, 0.0);
+    }
+}
+
+static Impact begin(Solve *solve, const Twist *without) {
+    const Island *island = solve->island;
+    Arena *arena = solve->arena;
+    Impact impact = {.jacobians = TAKE(arena, Jacobian, island->row_count),
+                     .wanted = TAKE(arena, double, island->row_count),
+                     .lower = TAKE(arena, double, island->row_count),
+                     .upper = TAKE(arena, double, island->row_count),
+                     .rates = TAKE(arena, double, island->row_count),
+                     .last = last_impulses(solve),
+                     .bounce = TAKE(arena, double, island->touch_count),
+                     .free_slips = TAKE(arena, double, island->touch_count),
+                     .slips = TAKE(arena, double, island->touch_count)};
+    double *soft = TAKE(arena, double, island->row_count), *prior = TAKE(arena, double, island->row_count);
+    begin_joints(solve, &impact, soft);
+    begin_contacts(solve, &impact, soft, prior, without);
     for (int row = 0; row < island->row_count; row++) {
-        double target = row < normal    ? 0.0
-                        : row < tangent ? bounce[row - normal]
-                                        : -island->touches[row - tangent].slide;
-        impact->wanted[row] = target - impact->rates[row];
-        impact->lower[row] = 0.0;
-        impact->upper[row] = row >= normal && row < tangent ? INFINITY : 0.0;
-        if (row < normal) {
-            const Row *of_joint = island->rows[row];
-            if (of_joint->kind == ROW_SPRING) {
-                impact->wanted[row] -= of_joint->stiffness * solve->excess[row] / of_joint->damping;
-            }
-            impact->lower[row] = greatest(lower_bound(of_joint, true, solve->excess[row]), -of_joint->most);
-            impact->upper[row] = least(upper_bound(of_joint, true, solve->excess[row]), of_joint->most);
-        }
-        solution.sides[row] = side_of(impact->given[row], impact->lower[row], impact->upper[row]);
+        impact.rates[row] = rate(impact.jacobians[row], island->ends[row], without);
     }
+    impact.problem =
+        (Problem){impact.jacobians, impact.wanted, impact.lower, impact.upper, soft, prior, solve->springs};
+    return impact;
+}
+
+// Aim at the targets of joints, and at those of contacts that slide by `slips`.
+static void set_targets(const Solve *solve, Impact *impact, const double *bounce) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    for (int row = 0; row < normal; row++) {
+        const Row *of_joint = island->rows[row];
+        bool is_spring = of_joint->kind == ROW_SPRING;
+        double pull = is_spring ? of_joint->stiffness * solve->excess[row] / of_joint->damping : 0.0;
+        impact->wanted[row] = -pull - impact->rates[row];
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        const Bearing *touch = island->touches + number;
+        double least_rate = bounce[number] - touch->friction * impact->slips[number];
+        double slide = touch->friction * touch->slide;
+        impact->wanted[normal + number] = least_rate - slide - impact->rates[normal + number];
+        impact->wanted[tangent + number] = least_rate + slide - impact->rates[tangent + number];
+    }
+}
+
+// Take slips from a solution; return whether targets change by it.
+static bool update_slips(const Solve *solve, Impact *impact, const Solution *solution) {
+    const Island *island = solve->island;
+    int tangent = island->joint_row_count + island->touch_count;
+    bool changed = false;
+    for (int number = 0; number < island->touch_count; number++) {
+        Ends ends = island->ends[tangent + number];
+        double change = rate(solve->jacobians[tangent + number], ends, solution->changes);
+        double slip = fabs(impact->free_slips[number] + change);
+        slip = slip < least_slip ? 0.0 : slip;
+        changed = changed || fabs(slip - impact->slips[number]) > slip_error + slip_share * slip;
+        impact->slips[number] = slip;
+    }
+    return changed;
+}
+
+// Return the solution with some least velocities along the normals of contacts [m/s].
+static Solution solve_impact(Solve *solve, Impact *impact, const double *bounce) {
+    Solution solution = solution_for(&solve->system, solve->arena);
+    for (int row = 0; row < solve->island->row_count; row++) {
+        solution.sides[row] = side_of(impact->last[row], impact->lower[row], impact->upper[row]);
+    }
+    set_targets(solve, impact, bounce);
     solve_problem(&solve->system, &impact->problem, &solution, solve->arena);
-    if (island->touch_count > 0) {
-        solve_friction(solve, impact, &solution);
+    for (int pass = 1; pass < PASSES && update_slips(solve, impact, &solution); pass++) {
+        set_targets(solve, impact, bounce);
+        solve_again(&solve->system, &impact->problem, &solution, solve->arena);
     }
-    refine(&solve->system, &impact->problem, &solution, solve->arena);
+    for (int number = 0; number < (solve->island->touch_count > 0 ? REFINEMENTS : 1); number++) {
+        refine(&solve->system, &impact->problem, &solution, solve->arena);
+    }
     return solution;
 }
 
@@ -166,14 +253,23 @@ static double work_of(const Solve *solve, const Impact *impact, const Solution *
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     double work = 0.0;
-    for (int row = 0; row < island->row_count; row++) {
-        double before = impact->rates[row] + (row >= tangent ? island->touches[row - tangent].slide : 0.0);
+    for (int row = 0; row < normal; row++) {
+        double before = impact->rates[row];
         double after = before + rate(solve->jacobians[row], island->ends[row], solution->changes);
-        if (row >= normal && row < tangent && impact->bounce[row - normal] > 0.0) {
-            before = least(before, -impact->bounce[row - normal]);
-        }
         // A spring gives back what it has taken.
-        work += row < normal && solve->springs[row] ? 0.0 : solution->impulses[row] * (before + after) / 2.0;
+        work += solve->springs[row] ? 0.0 : solution->impulses[row] * (before + after) / 2.0;
+    }
+    for (int number = 0; number < island->touch_count; number++) {
+        int left = normal + number, right = tangent + number;
+        double friction = island->touches[number].friction;
+        double along = solution->impulses[left] + solution->impulses[right];
+        double across = friction * (solution->impulses[left] - solution->impulses[right]);
+        double before = (impact->rates[left] + impact->rates[right]) / 2.0;
+        double after = before + rate(solve->jacobians[left], island->ends[left], solution->changes);
+        double slip = impact->free_slips[number];
+        double slip_after = slip + rate(solve->jacobians[right], island->ends[right], solution->changes);
+        before = impact->bounce[number] > 0.0 ? least(before, -impact->bounce[number]) : before;
+        work += along * (before + after) / 2.0 + across * (slip + slip_after) / 2.0;
     }
     return work;
 }
@@ -231,8 +327,8 @@ static Change changed_by(Solve *solve, const Solution *solution, const double *r
 static void bend(Solve *solve, Solution *solution, Twist *velocities) {
     const Island *island = solve->island;
     Arena *arena = solve->arena;
-    Pose *halfway = TAKE(arena, Pose, island->body_count);
     Twist *begun = TAKE(arena, Twist, island->body_count);
+    Pose *halfway = TAKE(arena, Pose, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
         velocities[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
         halfway[body] = moved(solve->poses[body], velocities[body], solve->dt / 2.0);
@@ -268,8 +364,9 @@ static void write_impulses(Solve *solve, const Solution *solution) {
         *island->impulses[row] = solution->impulses[row] / sign_of(island->rows[row], solve->excess[row]);
     }
     for (int number = 0; number < island->touch_count; number++) {
-        island->touches[number].point->jnAcc = solution->impulses[normal + number];
-        island->touches[number].point->jtAcc = solution->impulses[tangent + number];
+        double left = solution->impulses[normal + number], right = solution->impulses[tangent + number];
+        island->touches[number].point->jnAcc = left + right;
+        island->touches[number].point->jtAcc = island->touches[number].friction * (left - right);
     }
 }
 
@@ -291,9 +388,8 @@ void solve_velocities(Solve *solve) {
     const Island *island = solve->island;
     size_t mark = arena_mark(solve->arena);
     Twist *velocities = TAKE(solve->arena, Twist, island->body_count);
-    double *given = take_back(solve, velocities);
+    take_back(solve, velocities);
     Impact impact = begin(solve, velocities);
-    impact.given = given;
     Solution solution = solve_bounces(solve, &impact);
     bend(solve, &solution, velocities);
     for (int body = 0; body < island->body_count; body++) {

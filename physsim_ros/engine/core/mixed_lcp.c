@@ -6,33 +6,36 @@
 // Where λ of a row of a `saddle_point` has bounds, J v reaches the target of the row, or λ is at a bound and J v is on
 // the other side of the target. Block principal pivoting (J. J. Júdice and F. M. Pires, "A block principal pivoting
 // algorithm for large-scale strictly monotone linear complementarity problems", Computers & Operations Research 1994):
-// all rows on the wrong side change it at once. That may go in a circle, even with three rows of one body; an interior
-// point method (`interior_point`) then finds the sides, and they are exchanged once more from there.
+// all rows on the wrong side change it at once, as long as their count falls; else the one that is furthest on it does.
 
 #include "mixed_lcp.h"
-#include "interior_point.h"
 
 // Rounding of J v: a row is on the wrong side of its target beyond that [m/s], or [m] of positions.
 static const double rounding = 1e-7;
 // Rounding of λ, as a share of the greatest one.
 static const double share_of_rounding = 1e-9;
 
-// Factorisations by which rows are exchanged, at most.
-enum { ROUNDS = 8 };
+// Exchanges, at most: a belt that is spanned over its wheels takes some ten in a step in which a link meets a wheel.
+enum { ROUNDS = 40 };
+
+// What the softness of a row is a share of.
+static double unit_of(const System *system, const Problem *problem, int row) {
+    Ends ends = system->ends[row];
+    return softness_unit(problem->jacobians[row], system->inverses[ends.a], system->inverses[ends.b]);
+}
 
 static void factor(System *system, const Problem *problem, const int8_t *sides) {
     for (int row = 0; row < system->row_count; row++) {
+        double unit = sides[row] == 0 ? unit_of(system, problem, row) : 0.0;
         Jacobian used = sides[row] == 0 ? problem->jacobians[row] : (Jacobian){0};
-        Ends ends = system->ends[row];
-        double own = softness_unit(used, system->inverses[ends.a], system->inverses[ends.b]);
-        set_row(system, row, used, own > 0.0 ? problem->softness[row] * own : 1.0);
+        set_row(system, row, used, unit > 0.0 ? problem->softness[row] * unit : 1.0);
     }
     ldl_factor(&system->factors);
 }
 
-// Find the rows on the wrong side, and return their count; `sides` gets what each ought to be on.
-static int find_wrong(const System *system, const Problem *problem, Solution *solution, int8_t *sides) {
-    double greatest_impulse = 0.0;
+// Find the rows on the wrong side, the furthest one among them, and their count; `sides` gets what each ought to be on.
+static void find_wrong(const System *system, const Problem *problem, Solution *solution, int8_t *sides, int *furthest) {
+    double greatest_impulse = 0.0, most = 0.0;
     for (int row = 0; row < system->row_count; row++) {
         greatest_impulse = greatest(greatest_impulse, fabs(solution->impulses[row]));
     }
@@ -40,53 +43,88 @@ static int find_wrong(const System *system, const Problem *problem, Solution *so
     solution->wrong_count = 0;
     for (int row = 0; row < system->row_count; row++) {
         double impulse = solution->impulses[row], lower = problem->lower[row], upper = problem->upper[row];
-        bool below = impulse<lower - slack, above = impulse> upper + slack, inward = false;
+        double outside = greatest(lower - impulse, impulse - upper), beyond = 0.0;
         if (solution->sides[row] != 0 && lower < upper) {
-            double rate_of_row = rate(problem->jacobians[row], system->ends[row], solution->changes);
-            double beyond = rate_of_row - problem->wanted[row];
-            inward = solution->sides[row] < 0 ? beyond < -rounding : beyond > rounding;
+            double reached = rate(problem->jacobians[row], system->ends[row], solution->changes);
+            beyond = (reached - problem->wanted[row]) * solution->sides[row];
         }
-        sides[row] = (int8_t)(below ? -1 : above ? 1 : 0);
-        solution->wrong[row] = below || above || inward;
-        solution->wrong_count += solution->wrong[row];
+        solution->wrong[row] = outside > slack || beyond > rounding;
+        if (solution->wrong[row]) {
+            double distance = greatest(beyond, outside * unit_of(system, problem, row));
+            sides[row] = (int8_t)(outside <= slack ? 0 : impulse < lower ? -1 : 1);
+            *furthest = distance > most || solution->wrong_count == 0 ? row : *furthest;
+            most = greatest(most, distance);
+            solution->wrong_count++;
+        }
     }
-    return solution->wrong_count;
 }
 
-// Exchange the rows that are on the wrong side, until none is.
-static void pivot(System *system, const Problem *problem, Solution *solution, int rounds, Arena *arena) {
+// Exchange rows that are on the wrong side, all or the furthest alone; return whether that changes which are at a
+// bound.
+static bool exchange(const System *system, Solution *solution, const int8_t *right, bool all, int furthest) {
+    bool changed = false;
+    for (int row = 0; row < system->row_count; row++) {
+        if (all ? solution->wrong[row] : row == furthest) {
+            changed = changed || (solution->sides[row] == 0) != (right[row] == 0);
+            solution->sides[row] = right[row];
+        }
+    }
+    return changed;
+}
+
+// Solve the rows for their sides.
+static void solve_sides(System *system, const Problem *problem, Solution *solution, Twist *momenta) {
+    for (int body = 0; body < system->body_count; body++) {
+        momenta[body] = (Twist){0};
+    }
+    for (int row = 0; row < system->row_count; row++) {
+        if (solution->sides[row] != 0) {
+            double bound = solution->sides[row] < 0 ? problem->lower[row] : problem->upper[row];
+            solution->impulses[row] = bound;
+            add_momenta(problem->jacobians[row], system->ends[row], bound, momenta);
+        }
+    }
+    solve_with(system, solution->sides, problem->wanted, momenta, solution->impulses, solution->changes);
+}
+
+// The problem whose targets draw λ to its prior.
+static Problem drawn(const System *system, const Problem *problem, Arena *arena) {
+    Problem drawn = *problem;
+    if (problem->prior != NULL) {
+        double *wanted = TAKE(arena, double, system->row_count);
+        for (int row = 0; row < system->row_count; row++) {
+            double stiffness = problem->softness[row] * unit_of(system, problem, row);
+            wanted[row] = problem->wanted[row] + stiffness * problem->prior[row];
+        }
+        drawn.wanted = wanted;
+    }
+    return drawn;
+}
+
+void solve_again(System *system, const Problem *problem, Solution *solution, Arena *arena) {
     size_t mark = arena_mark(arena);
+    Problem aimed = drawn(system, problem, arena);
     int8_t *right = TAKE(arena, int8_t, system->row_count);
     Twist *momenta = TAKE(arena, Twist, system->body_count);
-    for (int round = 0; round < rounds; round++) {
-        for (int row = 0; row < system->row_count && round > 0; row++) {
-            solution->sides[row] = solution->wrong[row] ? right[row] : solution->sides[row];
-        }
-        for (int body = 0; body < system->body_count; body++) {
-            momenta[body] = (Twist){0};
-        }
-        for (int row = 0; row < system->row_count; row++) {
-            if (solution->sides[row] != 0) {
-                double bound = solution->sides[row] < 0 ? problem->lower[row] : problem->upper[row];
-                solution->impulses[row] = bound;
-                add_momenta(problem->jacobians[row], system->ends[row], bound, momenta);
-            }
-        }
-        factor(system, problem, solution->sides);
-        solve_with(system, solution->sides, problem->wanted, momenta, solution->impulses, solution->changes);
-        if (find_wrong(system, problem, solution, right) == 0) {
+    int fewest = system->row_count + 1, furthest = 0;
+    for (int round = 0; round < ROUNDS; round++) {
+        solve_sides(system, &aimed, solution, momenta);
+        find_wrong(system, &aimed, solution, right, &furthest);
+        if (solution->wrong_count == 0 || round == ROUNDS - 1) {
             break;
         }
+        bool fewer = solution->wrong_count < fewest;
+        if (exchange(system, solution, right, fewer, furthest)) {
+            factor(system, problem, solution->sides);
+        }
+        fewest = fewer ? solution->wrong_count : fewest;
     }
     arena_release(arena, mark);
 }
 
 void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena) {
-    pivot(system, problem, solution, ROUNDS, arena);
-    if (solution->wrong_count > 0) {
-        find_sides(system, problem, solution, arena);
-        pivot(system, problem, solution, ROUNDS, arena);
-    }
+    factor(system, problem, solution->sides);
+    solve_again(system, problem, solution, arena);
 }
 
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena) {
@@ -97,9 +135,7 @@ void refine(System *system, const Problem *problem, Solution *solution, Arena *a
         Ends ends = system->ends[row];
         left[row] = problem->wanted[row] - rate(problem->jacobians[row], ends, solution->changes);
         if (problem->springs != NULL && problem->springs[row]) {
-            const Inverse *inverses = system->inverses;
-            double own = softness_unit(problem->jacobians[row], inverses[ends.a], inverses[ends.b]);
-            left[row] -= problem->softness[row] * own * solution->impulses[row];
+            left[row] -= problem->softness[row] * unit_of(system, problem, row) * solution->impulses[row];
         }
     }
     solve_active(system, solution->sides, left, impulses, changes);

@@ -9,6 +9,9 @@
 // Solve rows with bounds. `solution` has the first guess of `sides`.
 void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena);
 
+// Solve them with other targets from the sides of the last solution, whose factors the system has.
+void solve_again(System *system, const Problem *problem, Solution *solution, Arena *arena);
+
 // Make one step of iterative refinement against E, which keeps a solution from its targets.
 void refine(System *system, const Problem *problem, Solution *solution, Arena *arena);
 

@@ -43,6 +43,7 @@ typedef struct Problem {
     const double *wanted;        // target - J v [m/s, rad/s]
     const double *lower, *upper; // of λ [N s, N m s]
     const double *softness;      // E as a share of `softness_unit`
+    const double *prior;         // λ that E draws a solution to; NULL is 0
     const bool *springs;         // rows whose softness is meant; that of others is to vanish. NULL is none
 } Problem;
 

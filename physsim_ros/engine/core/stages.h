@@ -49,6 +49,7 @@ void solve_impacts(World *world);
 void time_impacts(World *world);
 
 // Joints, with the contacts that jointed bodies bear (`joint_solver.c`); those that broke (`joint_parts.c`).
+void find_joint_islands(World *world);
 void solve_joints(World *world);
 // The impulses of impacts, from which the next step does not start (`impact_loads.c`).
 void take_out_impacts(World *world);

@@ -53,6 +53,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     time_impacts(world);
     defer_contacts(world);
     solve_impacts(world);
+    find_joint_islands(world);
 }
 
 static void step(World *world) {

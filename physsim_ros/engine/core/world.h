@@ -29,8 +29,9 @@ typedef struct Private {
     int begun_count;
     struct Load *loads; // of the contacts of this step
     int load_count;
-    int call_step; // number of the step in this call
-    int sub_step;  // number of the sub-step in this step
+    struct Islands *joint_islands; // of this step
+    int call_step;                 // number of the step in this call
+    int sub_step;                  // number of the sub-step in this step
     struct Report *report;
 } Private;
 
