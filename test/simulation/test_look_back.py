@@ -79,6 +79,7 @@ OF_SIMULATION: dict[str, Call] = {
     'finish_seek': of_simulation(lambda it: it.finish_seek(lambda: False)),
     'forces_now': of_simulation(lambda it: it.forces_now(it.frame.snapshot)[1]),
     'frame': of_simulation(lambda it: it.frame),
+    'open_world': of_simulation(lambda it: it.open_world(it.save())),
     'limit_history': of_simulation(lambda it: it.limit_history(2.0)),
     'limit_memory': of_simulation(lambda it: it.limit_memory(64.0)),
     'load': of_simulation(lambda it: it.load(it.save())),

@@ -105,7 +105,7 @@ def test_an_action(
     doors.go_on()
 
 
-@pytest.mark.parametrize('part', ['state_from', 'check_locked'])
+@pytest.mark.parametrize('part', ['state_from', 'check_moment'])
 def test_an_upload(doors: PageDoors, part: str) -> None:
     doors.fail(sketchpad, part)
     assert_failed(doors.browser.open_world(WORLD))
