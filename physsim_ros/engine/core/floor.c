@@ -201,33 +201,49 @@ static void pull(World *world, Body *body, Robot *towed, Twist mean, Twist end) 
     }
 }
 
+// What drives a body along on the floor: the velocity that its wheels or feet have, mean and at the end; or it is
+// towed.
+typedef struct Driving {
+    Twist mean, end;
+    Robot *towed;
+} Driving;
+
+// The driving of a body. Robots and actors are listed in the order of the bodies; those of the body are passed.
+static Driving driving_of(const World *world, int place, Robot **robot, const Actor **actor) {
+    Driving driving = {0};
+    if (*robot < world->robots + world->robot_count && (*robot)->body == place) {
+        if ((*robot)->wheel_count == 0) {
+            driving.towed = *robot;
+        } else {
+            driving.mean = (*robot)->under;
+            driving.end = (*robot)->end;
+        }
+        ++*robot;
+    }
+    if (*actor < world->actors + world->actor_count && (*actor)->body == place) {
+        if ((*actor)->robot < 0) {
+            driving.mean = driving.end = (*actor)->wish;
+        }
+        ++*actor;
+    }
+    return driving;
+}
+
 void pull_by_floor(World *world) {
     if (!has_stage(world, STAGE_FLOOR)) {
         return;
     }
     roll_wheels(world);
     Conveyors conveyors = conveyors_of(world);
-    // Robots are listed in the order of the bodies, and so are actors.
-    Robot *robot = world->robots, *last = world->robots + world->robot_count;
-    const Actor *actor = world->actors, *last_actor = world->actors + world->actor_count;
+    Robot *robot = world->robots;
+    const Actor *actor = world->actors;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        Twist mean = {0}, end = {0};
-        Robot *towed = NULL;
-        if (robot < last && robot->body == place) {
-            towed = robot->wheel_count == 0 ? robot : NULL;
-            mean = towed == NULL ? robot->under : mean;
-            end = towed == NULL ? robot->end : end;
-            robot++;
-        }
-        if (actor < last_actor && actor->body == place) {
-            mean = actor->robot < 0 ? actor->wish : mean;
-            end = actor->robot < 0 ? actor->wish : end;
-            actor++;
-        }
+        Driving driving = driving_of(world, place, &robot, &actor);
         if (body->floor_friction > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
-            pull(world, body, towed, twist_sum(mean, belt, 1.0), twist_sum(end, belt, 1.0));
+            Twist mean = twist_sum(driving.mean, belt, 1.0), end = twist_sum(driving.end, belt, 1.0);
+            pull(world, body, driving.towed, mean, end);
         }
     }
 }

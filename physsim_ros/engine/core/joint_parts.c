@@ -223,7 +223,7 @@ void find_gaps(World *world) {
 // Whether an unstepped joint has come nearer in the step, and is still apart.
 static bool is_drawn(const World *world, const Joint *joint) {
     double apart = apart_by(world, joint);
-    return apart > drawn_apart && joint->apart - apart > drawn_least * SUB_STEPS * world->dt;
+    return apart > drawn_apart && joint->apart - apart > drawn_least * (double)SUB_STEPS * world->dt;
 }
 
 void find_broken(World *world) {

@@ -83,7 +83,7 @@ static void try_faces(const Side *side, const Side *other, bool of_first, Separa
     int facing = foremost(other, negated(side->corners[0].normal));
     Vec corner = side->corners[side->count - 1].place;
     for (int number = 0; number <= side->count; number++) {
-        const Corner *face = side->corners + number % side->count;
+        const Corner *face = side->corners + (number < side->count ? number : 0);
         int next = (facing + 1) % other->count;
         keep_nearer(sub(other->corners[facing].place, corner), of_first, nearest);
         while (dot(face->normal, sub(other->corners[next].place, other->corners[facing].place)) < 0.0) {
