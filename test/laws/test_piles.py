@@ -41,7 +41,7 @@ def test_discs_and_boxes_that_fall_into_a_bin_stay_out_of_each_other(report, cou
     for seconds in (2.0, 2.0, 4.0):
         depths = _overlaps(run(sim, seconds).poses[rows])
         what = f'{count} bodies in a bin, elasticity {elasticity:g}'
-        # Where bodies bounce, 5 to 12.5 mm by the order of shapes in the tree of the engine.
+        # The overlap of bodies that bounce is 5 to 12.5 mm, by the order of shapes in the tree.
         most = 13e-3 if elasticity > 0.0 else 6e-3
         report.check(55, f'{what}: greatest overlap', depths.max(), 0.0, most, 'm')
         report.check(55, f'{what}: mean overlap', depths.mean(), 0.0, 2e-3, 'm')
