@@ -330,16 +330,16 @@ static void find_impulses(const World *world, Point *points, int count) {
 // Velocities of a body just before and just after an impact: those of the end of the step, less what its acceleration
 // adds from the impact on, and less the half-step lead while it flies.
 static Twist at_impact(const World *world, const Body *body, Twist end, bool flies) {
-    double share = 2.0 * (body->since + body->left) / world->dt + (flies ? 1.0 : 0.0);
-    return body->dynamic ? twist_sum(end, body->lead, -share) : end;
+    double share = 2.0 * (body->scratch.since + body->scratch.left) / world->dt + (flies ? 1.0 : 0.0);
+    return body->dynamic ? twist_sum(end, body->state.lead, -share) : end;
 }
 
 static Twist before_impact(const World *world, const cpBody *body) {
-    return at_impact(world, body_of(body), free_twist(world, body), body_of(body)->free);
+    return at_impact(world, body_of(body), free_twist(world, body), body_of(body)->state.free);
 }
 
 static Twist after_impact(const World *world, const cpBody *body, Twist end) {
-    return at_impact(world, body_of(body), end, body_of(body)->parts);
+    return at_impact(world, body_of(body), end, body_of(body)->scratch.parts);
 }
 
 // The energy that the impulses give to the bodies [J]; < 0 is lost. What is gained by rounding counts as nothing.

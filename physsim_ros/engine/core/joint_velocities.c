@@ -162,7 +162,8 @@ static void begin_contacts(const Solve *solve, Impact *impact, double *soft, dou
         prior[right] = impact->last[right];
         impact->bounce[number] = -touch->point->bounce;
         impact->free_slips[number] = rate(across, ends, without) + touch->slide;
-        Twist begun[] = {body_of(island->engine[ends.a])->twist, body_of(island->engine[ends.b])->twist};
+        Twist begun[] = {body_of(island->engine[ends.a])->scratch.twist,
+                         body_of(island->engine[ends.b])->scratch.twist};
         double unit = softness_unit(across, island->inverses[ends.a], island->inverses[ends.b]);
         double stopped = unit * touch->friction * (prior[left] + prior[right]);
         impact->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + touch->slide) - stopped, 0.0);
@@ -332,7 +333,7 @@ static void bend(Solve *solve, Solution *solution, Twist *velocities) {
     for (int body = 0; body < island->body_count; body++) {
         velocities[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
         halfway[body] = moved(solve->poses[body], velocities[body], solve->dt / 2.0);
-        begun[body] = body_of(island->engine[body])->twist;
+        begun[body] = body_of(island->engine[body])->scratch.twist;
     }
     double *excess = TAKE(arena, double, island->joint_row_count);
     Jacobian *jacobians = TAKE(arena, Jacobian, island->joint_row_count);

@@ -29,14 +29,14 @@ typedef struct Search {
 // The way that a body has gone in the sub-step.
 static Twist way_of(const Body *body) {
     Pose end = pose_of(body->engine);
-    return (Twist){sub(end.p, body->begin.p), end.yaw - body->begin.yaw};
+    return (Twist){sub(end.p, body->scratch.begin.p), end.yaw - body->scratch.begin.yaw};
 }
 
 // A body as the sub-step began, with the way that it has gone since.
 static Mover gone(Body *body) {
     Mover mover = mover_of(body, way_of(body));
-    mover.pose = body->begin;
-    mover.pivot = body->begin.p;
+    mover.pose = body->scratch.begin;
+    mover.pivot = body->scratch.begin.p;
     fit_box(&mover);
     return mover;
 }

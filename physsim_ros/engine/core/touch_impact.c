@@ -27,7 +27,8 @@ static Moments moments_of(const World *world, const Touch *touch, int side) {
     const Body *body = body_of(touch->engines[side]);
     bool is_disc = kind_of(shape) == SHAPE_CIRCLE;
     Vec offset = is_disc ? ((const cpCircleShape *)shape)->c : vec(0.0, 0.0);
-    Pose poses[3] = {body->begin, moved(body->begin, body->twist, world->dt), pose_of(touch->engines[side])};
+    Pose poses[3] = {body->scratch.begin, moved(body->scratch.begin, body->scratch.twist, world->dt),
+                     pose_of(touch->engines[side])};
     Vec places[3];
     for (int number = 0; number < 3; number++) {
         places[number] = add(poses[number].p, rotated(offset, rotation(poses[number].yaw)));
