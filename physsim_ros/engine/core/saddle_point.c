@@ -193,10 +193,14 @@ double softness_unit(Jacobian jacobian, Inverse a, Inverse b) {
 
 void set_row(System *system, int row, Jacobian jacobian, double stiffness) {
     double entries[6] = {jacobian.a.v.x, jacobian.a.v.y, jacobian.a.w, jacobian.b.v.x, jacobian.b.v.y, jacobian.b.w};
-    system->factors.diagonal[system->row_unknowns[row]] = -stiffness;
+    int own = system->row_unknowns[row], column = 0, line = 0;
+    system->factors.diagonal[own] = -stiffness;
+    system->factors.changed[own] = true;
     for (int number = 0; number < 6; number++) {
         if (system->places[row][number] != NONE) {
+            entry_at(system, row, number, &column, &line);
             system->factors.values[system->places[row][number]] = entries[number];
+            system->factors.changed[column] = true;
         }
     }
 }
