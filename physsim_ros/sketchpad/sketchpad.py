@@ -67,7 +67,7 @@ class Sketchpad:
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts(world.simulation.forces_now)
         own_worlds = OwnWorlds(world.world_dir, world.lesson_dir)
-        self._autosave = Autosave(world.world_dir, self._world_text)
+        self._autosave = Autosave(world.world_dir, self._world_text, self._named_people)
         results = Results(results_file(world.world_dir))
         self._server = Server(
             address=address,
@@ -217,6 +217,12 @@ class Sketchpad:
             self._autosave.save()
         return ()
 
+    def _named_people(self) -> list[str]:
+        """Return the names that people who draw have chosen."""
+        present = self._sessions.values()
+        drawing = [each for each in present if each.role.draws and not each.watches]
+        return sorted({each.person for each in drawing if each.person != each.unnamed})
+
     def _world_text(self, longest: int) -> str:
         """
         Return the world as the text of a world file.
@@ -269,6 +275,7 @@ class Sketchpad:
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,
                 'unsaved': self._autosave.unsaved_at if role.draws else 0.0,
+                'unsaved_by': self._autosave.unsaved_by if role.draws else [],
                 'settings': {
                     'density': settings.density,
                     'friction': settings.friction,

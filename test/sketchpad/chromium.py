@@ -92,7 +92,7 @@ SPACE = """() => {
         document.activeElement.dispatchEvent(event);
     }
 }"""
-UNFOLDED = "localStorage['physsim-panel'] ??= '1';"
+UNFOLDED = "if (location.protocol !== 'about:') localStorage['physsim-panel'] ??= '1';"
 # Press Pause at the first frame after a time [s].
 PAUSE_AFTER = """seconds => {
     const look = () => {

@@ -132,15 +132,15 @@ export class App {
       if (lost) this.notes.showMessage(t('Connected again. Of what you did meanwhile, {count} may be lost.', {count: lost}), {ok: false});
       else if (sent) this.notes.showMessage(t('Connected again. What you did meanwhile is sent now.'));
     });
-    connection.on('closed', (status) => {
+    connection.on('closed', ({status, opened}) => {
       // The server forgets the gestures that it knows of; a stroke is drawn to its end.
       if (!away && this.tool.atServer) this.tool.cancel?.();
       away = true;
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
         t('Wrong token: open the address that the node printed.') :
-        status ? t('The server refused this page; trying again …') :
-          t('The server is gone. This page comes back with it.');
+        !status ? t('The server is gone. This page comes back with it.') :
+          opened ? t('Connecting again …') : t('The server refused this page; trying again …');
     });
   }
 
