@@ -25,7 +25,7 @@ from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession, Shared
-from physsim_ros.sketchpad.past import BodyPasts, PastTouches, timeline_content, TimelineReport
+from physsim_ros.sketchpad.past import BodyPasts, PastContacts, timeline_content, TimelineReport
 from physsim_ros.sketchpad.results import Results, results_file
 from physsim_ros.sketchpad.rights import check_moment, check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
@@ -82,7 +82,7 @@ class Sketchpad:
             world,
             self._server.send,
             BodyPasts(world.simulation, self._server.send),
-            PastTouches(world.simulation, self._server.send),
+            PastContacts(world.simulation, self._server.send),
             own_worlds,
             self._autosave,
             results,
@@ -169,7 +169,7 @@ class Sketchpad:
         for session in self._sessions.values():
             session.keep_hand(now)
         self._shared.pasts.send_due(now)
-        self._shared.past_touches.send_due()
+        self._shared.past_contacts.send_due()
         if self._autosave.is_due(now):
             # Where too many requests wait, the world is saved later.
             with suppress(Busy):

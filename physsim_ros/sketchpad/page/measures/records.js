@@ -5,7 +5,7 @@
  */
 
 import {checkField} from '../dom.js';
-import {forcesOf, sumsOf} from '../view/forces.js';
+import {forcesOf, pastForcesOf, sumsOf} from '../view/forces.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
@@ -29,6 +29,7 @@ export class Records {
     app.connection.on('frame', () => this.#record());
     app.connection.on('timeline', ({course, now}) => this.#follow(course, now));
     app.connection.on('body', (body) => this.#addPast(body));
+    app.connection.on('past_forces', (forces) => this.#addForces(forces));
     // The answers to what was asked are lost.
     app.connection.on('open', () => this.#ask());
     // In another world, a body of the same name is another body.
@@ -88,6 +89,17 @@ export class Records {
     record.samples.forEach((sample, i, all) => accelerate(sample, all[i - 1]));
   }
 
+  /** @param {{name: string, time: number[], normal: Point[], friction: Point[], joint: Point[]}} columns of its past */
+  #addForces({name, time, normal, friction, joint}) {
+    const {world} = this.app, body = world.body(name), samples = this.bodies.get(name)?.samples;
+    if (!body || !samples || body.anchored || body.kinematic) return;
+    const byTime = new Map(samples.map((sample) => [sample.time, sample]));
+    time.forEach((at, i) => {
+      const sample = byTime.get(at);
+      if (sample) sample.forces ??= sizesOf(pastForcesOf(world, body, sample, {normal: normal[i], friction: friction[i], joint: joint[i]}));
+    });
+  }
+
   #record() {
     const {world} = this.app, {frame: {time, yaw, velocities}} = world;
     if (this.opened) this.began = time;
@@ -135,7 +147,7 @@ function accelerate(sample, before) {
 }
 
 /**
- * @param {Force[]} forces on a body
+ * @param {{kind: Force['kind'], x: number, y: number}[]} forces on a body
  * @returns {Record<string, number>} the size of the sum of each kind [N]
  */
 function sizesOf(forces) {
