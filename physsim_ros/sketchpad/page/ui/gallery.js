@@ -2,7 +2,7 @@
 /** Worlds: a gallery to open from, saving by name, files, a picture. */
 
 import {ownName} from './classroom.js';
-import {createElement, download, fieldForm, icon, inRow, textButton} from '../dom.js';
+import {createElement, download, fieldForm, inRow, textButton} from '../dom.js';
 import {language, t} from '../strings.js';
 import {capital} from '../words.js';
 
@@ -56,7 +56,7 @@ export class Gallery {
     const heading = shipped ? t(capital(name.replaceAll('_', ' '))) : name;
     const open = () => this.follow(this.app.connection.openWorld(name), heading, shipped ? '' : name);
     const card = createElement('button', {type: 'button', className: 'card', onclick: open},
-      picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
+      createElement('img', {src: picture, alt: '', loading: 'lazy'}),
       createElement('strong', {}, heading),
       // A title that only repeats the name tells nothing.
       ...shipped && t(title) !== heading ? [createElement('small', {}, t(title))] : []);
