@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import Sheet, started_world
+from .chromium import NOTE_TEXTS, Sheet, started_world
 from ..outside import Outside
 
 G = 9.81
@@ -161,14 +161,7 @@ def test_a_stroboscope_shows_where_a_body_was_with_v_and_a(sheet: Sheet) -> None
 
 
 def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
-    sheet.page.evaluate("""() => {
-        window.texts = [];
-        const write = CanvasRenderingContext2D.prototype.fillText;
-        CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
-            window.texts.push(text);
-            write.call(this, text, ...at);
-        };
-    }""")
+    sheet.page.evaluate(NOTE_TEXTS)
     sheet.press('Ruler')
     sheet.page.keyboard.down('Shift')
     sheet.drag((-4.03, 4.02), (0.05, 7.18))
@@ -187,6 +180,25 @@ def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
     sheet.press('Frame the world')
     sheet.wait('window.texts.includes("45°")')
     assert not sheet.page.evaluate('window.texts.includes("5.12 m, 38.7°")')
+
+
+def test_a_meter_stays_beside_its_body_until_the_world_is_another(sheet: Sheet) -> None:
+    sheet.page.evaluate(NOTE_TEXTS)
+    chosen(sheet, -3.0, 2.4)
+    sheet.page.get_by_label('Meter in the world').select_option('Speed [m/s]')
+    sheet.page.keyboard.press('Escape')
+    sheet.play_until(0.3)
+    sheet.wait('window.texts.includes("Speed 1.5 m/s")')
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name='Dominoes').click()
+    sheet.wait('!("cart/0" in physsim.bodies)')
+    sheet.page.evaluate('window.texts = []')
+    sheet.press('Frame the world')
+    sheet.wait('window.texts.some((text) => text.endsWith(" m"))')
+    assert not sheet.page.evaluate('window.texts.some((text) => text.startsWith("Speed"))')
+    # The next test has the same world.
+    sheet.press('Undo')
+    sheet.wait('"cart/0" in physsim.bodies')
 
 
 def test_gates_start_and_stop_the_clock_to_the_step(sheet: Sheet) -> None:

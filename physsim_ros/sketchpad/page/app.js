@@ -22,6 +22,7 @@ import {Links} from './ui/links.js';
 import {Narrator, Sound} from './ui/narrator.js';
 import {Notes, Refusals} from './ui/notes.js';
 import {Menu} from './input/menu.js';
+import {Meters} from './measures/meters.js';
 import {Numbers} from './measures/numbers.js';
 import {Panel} from './panels/panel.js';
 import {PlotWindow} from './measures/plot_window.js';
@@ -69,6 +70,7 @@ export class App {
     this.sound = new Sound(this);
     this.records = new Records(this);
     this.trail = new Trail(this);
+    this.meters = new Meters(this);
     this.plotWindow = new PlotWindow(this);
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);

@@ -3,8 +3,7 @@
 
 import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
-import {QUANTITIES, tableOf} from './quantities.js';
-import {threeDigits} from '../rounding.js';
+import {QUANTITIES, tableOf, toldOf} from './quantities.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
@@ -163,9 +162,7 @@ export class PlotWindow {
       if (far < least) [least, nearest, color] = [far, point, curve.color];
     }
     if (!color) return;
-    const told = (/** @type {'x' | 'y'} */ axis, /** @type {number} */ value) =>
-      QUANTITIES[this.axes[axis]].label.replace('[', `${threeDigits(value)} `).replace(']', '');
-    this.reading.textContent = `${told('x', nearest[0])} · ${told('y', nearest[1])}`;
+    this.reading.textContent = `${toldOf(this.axes.x, nearest[0])} · ${toldOf(this.axes.y, nearest[1])}`;
     const ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext('2d'));
     ctx.fillStyle = color;
     ctx.beginPath();
