@@ -31,7 +31,6 @@
 #include "outline.h"
 #include "stages.h"
 
-static const double standard_gravity = 9.81; // of weights on the floor [m/s²]
 // The share of the push of the last step that the next one expects where the floor stands still. With all of it, bodies
 // would stay pressed against each other by friction alone, for ever; so 2 % of the push decays in each step.
 static const double relaxed = 0.98;
@@ -159,7 +158,7 @@ static Twist seen_from(const Robot *robot, Twist twist, double yaw) {
 
 // Bring a body to the velocity of the floor under it: its mean in the step, and that at its end. Below a towed body
 // these are the velocities at which its axle rolls.
-static void pull(World *world, Body *body, Robot *towed, Twist mean, Twist end) {
+static void drag(World *world, Body *body, Robot *towed, Twist mean, Twist end) {
     cpBody *engine = body->engine;
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
@@ -243,7 +242,7 @@ void pull_by_floor(World *world) {
         if (body->floor_friction > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             Twist mean = twist_sum(driving.mean, belt, 1.0), end = twist_sum(driving.end, belt, 1.0);
-            pull(world, body, driving.towed, mean, end);
+            drag(world, body, driving.towed, mean, end);
         }
     }
 }

@@ -26,7 +26,7 @@
 #include <string.h>
 
 // Difference of a sum in another order, as a share of the velocity.
-static const double rounding = 1e-12;
+static const double rounding_of_velocity = 1e-12;
 
 // Bodies that support each other.
 typedef struct Support {
@@ -201,9 +201,9 @@ void find_free(World *world) {
         flown = twist_sum(
             (Twist){scaled(body->scratch.twist.v, world->own->kept), body->scratch.twist.w * world->own->kept}, flown,
             2.0);
-        body->state.free = fabs(flown.v.x - after.v.x) <= rounding * (1.0 + fabs(after.v.x)) &&
-                           fabs(flown.v.y - after.v.y) <= rounding * (1.0 + fabs(after.v.y)) &&
-                           fabs(flown.w - after.w) <= rounding * (1.0 + fabs(after.w));
+        body->state.free = fabs(flown.v.x - after.v.x) <= rounding_of_velocity * (1.0 + fabs(after.v.x)) &&
+                           fabs(flown.v.y - after.v.y) <= rounding_of_velocity * (1.0 + fabs(after.v.y)) &&
+                           fabs(flown.w - after.w) <= rounding_of_velocity * (1.0 + fabs(after.w));
     }
 }
 
