@@ -4,6 +4,12 @@
 // What tests call; it stands behind all sources of the core, in one translation unit (`one_unit.py`).
 
 #include "calls.h"
+#include "boxes.h"
+#include "elimination_order.h"
+#include "lcp.h"
+#include "mixed_lcp.h"
+#include "time_of_impact.h"
+#include <string.h>
 
 void call_ldl(int size, const int *starts, const int *rows, double *values, double *diagonal, double *x) {
     Arena arena = {0};
@@ -22,8 +28,7 @@ int call_mixed_lcp(int body_count, const double *inverses, int row_count, const 
                    const double *jacobians, const double *wanted, const double *lower, const double *upper,
                    const double *softness, double *impulses, double *changes) {
     Arena arena = {0};
-    System system =
-        system_of(&arena, body_count, (const Inverse *)inverses, row_count, (const Ends *)ends, groups);
+    System system = system_of(&arena, body_count, (const Inverse *)inverses, row_count, (const Ends *)ends, groups);
     Problem problem = {(const Jacobian *)jacobians, wanted, lower, upper, softness, NULL, NULL};
     Solution solution = solution_for(&system, &arena);
     solve_problem(&system, &problem, &solution, &arena);

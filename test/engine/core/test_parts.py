@@ -147,8 +147,7 @@ def test_impulses_of_rows_are_the_only_ones_of_all_sets_of_bounds(call, seed):
     changes, at_changes = call.array(np.zeros((bodies, 3)))
     dense = np.zeros((rows, 3 * bodies))
     for row, (a, b) in enumerate(ends):
-        dense[row, 3 * a : 3 * a + 3] = jacobians[row, :3]
-        dense[row, 3 * b : 3 * b + 3] += jacobians[row, 3:]
+        dense.reshape(rows, bodies, 3)[row, [a, b]] = jacobians[row].reshape(2, 3)
     inverse_mass = np.repeat(inverses, (2, 1), axis=1).ravel()
     # E, as a share of J M⁻¹ Jᵀ as if the row acted at the centres of mass.
     linear = np.einsum(
