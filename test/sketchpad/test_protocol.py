@@ -234,7 +234,7 @@ def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) ->
     assert shipped['newtons_cradle']['shipped']
     picture = browser.fetch(shipped['newtons_cradle']['picture'])
     assert picture.code == 200
-    assert picture.headers['Content-Type'] == 'image/png'
+    assert picture.headers['Content-Type'] == 'image/svg+xml'
     assert page.spawn('a/0')['ok']
     before = physsim.names, physsim.pose('a/0')
     assert page.ask('save', name='mine')['ok']

@@ -146,6 +146,13 @@ export class App {
     });
   }
 
+  /** Show the help, which is loaded when somebody asks for it. */
+  async showHelp() {
+    const help = await import('./ui/help.js').catch(() => null);
+    if (help) help.showHelp(this);
+    else this.notes.showMessage(t('Not done: the server is not reachable'), {ok: false});
+  }
+
   /** Ask for the parts of frames that are shown. */
   askForParts() {
     const {arrows, records, panel: {name}} = this, told = this.settings?.speaks || this.selection.names.size > 0;
