@@ -25,7 +25,6 @@ import {Menu} from './input/menu.js';
 import {Meters} from './measures/meters.js';
 import {Numbers} from './measures/numbers.js';
 import {Panel} from './panels/panel.js';
-import {PlotWindow} from './measures/plot_window.js';
 import {Plots} from './measures/plots.js';
 import {Pointers} from './input/pointer.js';
 import {Records, Trail} from './measures/records.js';
@@ -41,6 +40,7 @@ import {makeToolbar, Toolbar, TopBar} from './ui/toolbar.js';
 import {Words} from './words.js';
 import {WorldState} from './world_state.js';
 
+/** @import {PlotWindow} from './measures/plot_window.js' */
 /** @import {Tool} from './types.js' */
 
 export class App {
@@ -71,7 +71,8 @@ export class App {
     this.records = new Records(this);
     this.trail = new Trail(this);
     this.meters = new Meters(this);
-    this.plotWindow = new PlotWindow(this);
+    /** @type {?PlotWindow} null until a plot is asked for */
+    this.plotWindow = null;
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);
     this.panel = new Panel(this);
@@ -146,11 +147,28 @@ export class App {
     });
   }
 
-  /** Show the help, which is loaded when somebody asks for it. */
-  async showHelp() {
-    const help = await import('./ui/help.js').catch(() => null);
-    if (help) help.showHelp(this);
+  /**
+   * Work with a script that is loaded when somebody asks for it.
+   * @template T
+   * @param {Promise<T>} loading
+   * @param {(script: T) => void} work
+   */
+  async with(loading, work) {
+    const script = await loading.catch(() => null);
+    if (script) work(script);
     else this.notes.showMessage(t('Not done: the server is not reachable'), {ok: false});
+  }
+
+  showHelp() {
+    this.with(import('./ui/help.js'), ({showHelp}) => showHelp(this));
+  }
+
+  /**
+   * Show the large plot, or a table of it.
+   * @param {(plot: PlotWindow) => void} work
+   */
+  plot(work) {
+    this.with(import('./measures/plot_window.js'), ({PlotWindow: Plot}) => work(this.plotWindow ??= new Plot(this)));
   }
 
   /** Ask for the parts of frames that are shown. */

@@ -118,7 +118,7 @@ export class Keyboard {
 
   #drop() {
     const {app} = this, {plotWindow} = app;
-    if (!plotWindow.element.hidden) return plotWindow.close();
+    if (plotWindow?.isOpen) return plotWindow.close();
     app.tool.cancel?.();
     app.readings.dismiss();
     app.cursor.hide();

@@ -155,11 +155,8 @@ export class Classroom {
     return [createElement('h3', {}, t('Teacher')), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
       ...locked.length ? [textButton(t('Unlock all'), lockThem([]))] : []),
     ...locked.length ? [createElement('p', {}, t('Locked: {names}', {names: locked.join(', ')}))] : [],
-    inRow(textButton(t('Results'), async () => {
-      // Only teachers need them.
-      const {showResults} = await import('./results.js');
-      showResults(this.app.dialog, this.app.lessons.list, () => connection.send('forget_results'));
-    })),
+    inRow(textButton(t('Results'), () => this.app.with(import('./results.js'), ({showResults}) =>
+      showResults(this.app.dialog, this.app.lessons.list, () => connection.send('forget_results'))))),
     // Pupils of a class come by its own page.
     ...sessionStorage.getItem(LOOKS_IN) !== null ? [] : [createElement('h3', {}, t('Pupils come here')),
       createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})]];
