@@ -67,7 +67,7 @@ void roll_wheels(World *world) {
             // Towed: its wheels turn as the floor goes by (`floor.c`).
             continue;
         }
-        double yaw = world->bodies[robot->body].begin.yaw;
+        double yaw = world->bodies[robot->body].scratch.begin.yaw;
         Twist aim = world->step < robot->until ? robot->aim : (Twist){0}, after = robot->rolling;
         if (!is_same(robot->rolling, aim) || !is_same(aim, robot->aim)) {
             after = accelerated(robot, aim, world->dt);
@@ -114,7 +114,7 @@ void reckon_odometry(World *world) {
         Robot *robot = world->robots + number;
         const Body *body = world->bodies + robot->body;
         Vec way = scaled(robot->mean.v, world->dt), measured = way;
-        double turn = body->engine->a - body->begin.yaw, drift = 0.0, distance = length(way);
+        double turn = body->engine->a - body->scratch.begin.yaw, drift = 0.0, distance = length(way);
         if (robot->noise != NULL) {
             const cpVect noise = scaled(robot->noise[world->own->call_step], 1.0 / sqrt(SUB_STEPS));
             double share = distance > 0.0 ? 1.0 + noise.x * robot->slip[0] / sqrt(distance) : 1.0;

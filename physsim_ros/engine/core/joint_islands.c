@@ -16,7 +16,7 @@
 
 // Points of a body that is touched, at most, for all of them to be rows: what bears more, as a platform full of boxes,
 // is as heavy as many of them, so that Chipmunk's iterations converge on it.
-enum { MOST_POINTS = 32 };
+enum { MOST_BEARINGS = 32 };
 
 typedef struct Touches {
     Bearing *list;
@@ -44,7 +44,7 @@ static int compare_touches(const void *one, const void *other) {
     return 0;
 }
 
-static void add_contact(World *world, Touches *touches, const cpArbiter *arbiter) {
+static void add_bearings(World *world, Touches *touches, const cpArbiter *arbiter) {
     Vec tangent = perpendicular(arbiter->n);
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
@@ -88,7 +88,7 @@ static Members members_of(World *world) {
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             const cpBody *other = each->body_a == body ? each->body_b : each->body_a;
             int place = place_of(world, other);
-            if (!members.marks[place] && world->bodies[place].dynamic && point_count(other) <= MOST_POINTS) {
+            if (!members.marks[place] && world->bodies[place].dynamic && point_count(other) <= MOST_BEARINGS) {
                 members.marks[place] = true;
                 members.places[members.count++] = place;
             }
@@ -109,7 +109,7 @@ static Touches touches_of_jointed(World *world) {
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             // Each is in the lists of both its bodies.
             if (each->body_a == body || !members.marks[place_of(world, each->body_a)]) {
-                add_contact(world, &touches, each);
+                add_bearings(world, &touches, each);
             }
         }
     }

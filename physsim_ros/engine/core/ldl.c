@@ -12,7 +12,7 @@
 
 #include "ldl.h"
 
-enum { ROOT = -1 };
+enum { NO_PARENT = -1 };
 
 static void sort_ascending(int *numbers, int count) {
     for (int i = 1; i < count; i++) {
@@ -48,7 +48,7 @@ void ldl_analyse(Ldl *system, Arena *arena) {
     // The parent of a column in the elimination tree is the first row below it in L.
     int *counts = TAKE(arena, int, size);
     for (int column = 0; column < size; column++) {
-        parents[column] = ROOT;
+        parents[column] = NO_PARENT;
         marks[column] = column + 1;
         int row_count = 0;
         for (int entry = system->starts[column]; entry < system->starts[column + 1]; entry++) {
@@ -57,7 +57,7 @@ void ldl_analyse(Ldl *system, Arena *arena) {
                 marks[node] = column + 1;
                 counts[node]++;
                 row_count++;
-                if (parents[node] == ROOT) {
+                if (parents[node] == NO_PARENT) {
                     parents[node] = column;
                 }
                 node = parents[node];
