@@ -27,6 +27,7 @@ void find_leads(World *world) {
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
         // Forces are listed in the order of their bodies.
+        assert(last == NULL || last <= body);
         body->state.lead = body == last ? body->state.lead : body->steady_lead;
         last = body;
         Twist wrench = wrench_of(applied, engine->a);
