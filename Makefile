@@ -76,7 +76,7 @@ test-all: $(TOOLS)  ## run every test: a quarter of an hour
 	$(PYTEST) $(ARGS)
 
 # Side by side; ament's checks take a minute the first time, then look only at files that have changed.
-LINTS := lint-ruff lint-mypy lint-imports lint-style lint-core lint-page lint-workflow
+LINTS := lint-ruff lint-mypy lint-imports lint-style lint-core lint-page
 .PHONY: $(LINTS)
 lint: $(TOOLS)  ## check style, types, imports, links of documents and the core in C
 	@$(MAKE) --no-print-directory --jobs=4 --output-sync --keep-going $(LINTS)
@@ -100,9 +100,6 @@ lint-core:
 lint-page:
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi
-lint-workflow:
-	@if command -v actionlint >/dev/null; then actionlint; \
-	else echo 'actionlint is not installed: the workflow is not checked here.'; fi
 
 tables: $(BUILT)  ## write anew what docs/ and config/ repeat from the code
 	$(BIN)/python -m tools.tables
