@@ -9,16 +9,18 @@
 // acceleration; what is reported is the true one. A body is in free flight if its velocity changed in the last step by
 // its acceleration and by nothing else. True velocities do not jump when a body begins or ceases to fly.
 //
-// Support graph. Problem: where a floor, an anchor or a joint is removed, Chipmunk still warm starts with the impulses
-// that carried the pile on it, which would accelerate its bodies upward; and a body that falls from that moment on has
-// no lead yet, so that its reported velocity would begin with half a step of gravity upward. Method: bodies that
-// contacts or joints tie to nothing that stands are in free fall as one, without the impulses of the step before; a
-// search for that moment only.
+// Support graph.
+// Problem: where a floor, an anchor or a joint is removed, Chipmunk still warm starts with the impulses that carried
+// the pile on it, which would accelerate its bodies upward; and a body that falls from that moment on has no lead
+// yet, so that its reported velocity would begin with half a step of gravity upward.
+// Method: bodies that contacts or joints tie to nothing that stands are in free fall as one, without the impulses of
+// the step before; a search for that moment only.
 //
-// Reports. Problem: an impulse that ends a flight takes back the lead, too, so that what carries a body at rest from
-// now on would report half a sub-step of weight too much, once. Method: of such an impulse that share is reported with
-// which the true velocity goes into the velocity of the engine, along the impulse; at most the momenta of both leads
-// are taken off.
+// Reports.
+// Problem: an impulse that ends a flight takes back the lead, too, so that what carries a body at rest from now on
+// would report half a sub-step of weight too much, once.
+// Method: of such an impulse that share is reported with which the true velocity goes into the velocity of the
+// engine, along the impulse; at most the momenta of both leads are taken off.
 //
 // Cost: a comparison of velocities before and after each step.
 
@@ -26,7 +28,7 @@
 #include <string.h>
 
 // Difference of a sum in another order, as a share of the velocity.
-static const double rounding = 1e-12;
+static const double rounding_of_velocity = 1e-12;
 
 // Bodies that support each other.
 typedef struct Support {
@@ -201,9 +203,9 @@ void find_free(World *world) {
         flown = twist_sum(
             (Twist){scaled(body->scratch.twist.v, world->own->kept), body->scratch.twist.w * world->own->kept}, flown,
             2.0);
-        body->state.free = fabs(flown.v.x - after.v.x) <= rounding * (1.0 + fabs(after.v.x)) &&
-                           fabs(flown.v.y - after.v.y) <= rounding * (1.0 + fabs(after.v.y)) &&
-                           fabs(flown.w - after.w) <= rounding * (1.0 + fabs(after.w));
+        body->state.free = fabs(flown.v.x - after.v.x) <= rounding_of_velocity * (1.0 + fabs(after.v.x)) &&
+                           fabs(flown.v.y - after.v.y) <= rounding_of_velocity * (1.0 + fabs(after.v.y)) &&
+                           fabs(flown.w - after.w) <= rounding_of_velocity * (1.0 + fabs(after.w));
     }
 }
 
@@ -241,6 +243,7 @@ void core_observe(World *world, Pose *poses, Twist *twists) {
 
 void core_write_state(World *world, const Motion *motions) {
     for (int place = 0; place < world->body_count - 1; place++) {
+        assert(!sleeps(world->bodies + place));
         set_pose(world->bodies[place].engine, motions[place].pose);
         set_twist(world->bodies[place].engine, motions[place].twist);
     }

@@ -3,12 +3,13 @@
 
 // Islands: dynamic bodies that joints with rows and contacts tie together, each solved by itself.
 //
-// The contacts of jointed bodies are rows of their island, and so are those of what they touch: Chipmunk's iterations
-// diverge where much rests on light joined bodies, and the impulses by which that then presses on its other neighbours
-// are as wrong (80 boxes of 5 kg on planks of 0.2 kg gained a fifth of the energy of their fall). Contacts are sorted
-// by bodies, shapes and points, so that what Chipmunk finds elsewhere, and the order in which it finds it, changes
-// nothing. Islands are found by union-find with path halving (Tarjan and van Leeuwen, "Worst-Case Analysis of Set Union
-// Algorithms", JACM 1984).
+// Problem: Chipmunk's iterations diverge where much rests on light joined bodies, and the impulses by which that then
+// presses on its other neighbours are as wrong (80 boxes of 5 kg on planks of 0.2 kg gained a fifth of the energy of
+// their fall).
+// Method: the contacts of jointed bodies are rows of their island, and so are those of what they touch. Islands are
+// found by union-find (`root_of` of `world.h`).
+// Law: contacts are sorted by bodies, shapes and points, so that an island does not depend on what Chipmunk finds
+// elsewhere, nor on the order in which it finds it.
 
 #include "joint_islands.h"
 #include "joint_parts.h"
@@ -17,7 +18,7 @@
 
 // Points of a body that is touched, at most, for all of them to be rows: what bears more, as a platform full of boxes,
 // is as heavy as many of them, so that Chipmunk's iterations converge on it.
-enum { MOST_POINTS = 32 };
+enum { MOST_BEARINGS = 32 };
 
 typedef struct Touches {
     Bearing *list;
@@ -45,7 +46,7 @@ static int compare_touches(const void *one, const void *other) {
     return 0;
 }
 
-static void add_contact(World *world, Touches *touches, const cpArbiter *arbiter) {
+static void add_bearings(World *world, Touches *touches, const cpArbiter *arbiter) {
     Vec tangent = perpendicular(arbiter->n);
     bool begins = arbiter->state == ARBITER_FIRST_COLLISION;
     double left = begins ? time_left(body_of(arbiter->body_a), body_of(arbiter->body_b)) : 0.0;
@@ -92,7 +93,7 @@ static Members members_of(World *world) {
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             const cpBody *other = each->body_a == body ? each->body_b : each->body_a;
             int place = place_of(world, other);
-            if (!members.marks[place] && world->bodies[place].dynamic && point_count(other) <= MOST_POINTS) {
+            if (!members.marks[place] && world->bodies[place].dynamic && point_count(other) <= MOST_BEARINGS) {
                 members.marks[place] = true;
                 members.places[members.count++] = place;
             }
@@ -113,10 +114,11 @@ static Touches touches_of_jointed(World *world) {
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             // Each is in the lists of both its bodies.
             if (each->body_a == body || !members.marks[place_of(world, each->body_a)]) {
-                add_contact(world, &touches, each);
+                add_bearings(world, &touches, each);
             }
         }
     }
+    assert(touches.count <= most);
     qsort(touches.list, (size_t)touches.count, sizeof(Bearing), compare_touches);
     return touches;
 }
@@ -129,7 +131,9 @@ static void unite_dynamic(const World *world, int *parents, int a, int b) {
 
 // The number of the island that a joint or contact belongs to.
 static int island_of(const World *world, int *parents, const int *numbers, int a, int b) {
-    return numbers[root_of(parents, world->bodies[a].dynamic ? a : b)] - 1;
+    int number = numbers[root_of(parents, world->bodies[a].dynamic ? a : b)];
+    assert(number > 0); // a joint has made it
+    return number - 1;
 }
 
 // Return the islands, with their joints and contacts, in the order of their first joints.
@@ -153,6 +157,7 @@ static Islands split(World *world, Touches touches) {
             if (numbers[root] == 0) {
                 numbers[root] = ++found.count;
             }
+            assert(found.count <= world->own->jointed_count);
             found.islands[numbers[root] - 1].joint_count++;
             found.islands[numbers[root] - 1].joint_row_count += joint->row_count;
         }
@@ -186,6 +191,7 @@ static Islands split(World *world, Touches touches) {
 // Return the number of a body in an island, to which it is added if it is not there yet. `numbers` are 0 for such.
 static int number_in(const World *world, Island *island, int *numbers, int *places, int body) {
     if (numbers[body] == 0) {
+        assert(island->body_count < 2 * (island->joint_count + island->touch_count));
         places[island->body_count] = body;
         numbers[body] = ++island->body_count;
         cpBody *engine = world->bodies[body].engine;
@@ -241,6 +247,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
             island->groups[row] = group;
         }
     }
+    assert(row == island->row_count);
     for (int number = 0; number < island->body_count; number++) {
         numbers[places[number]] = 0;
     }

@@ -14,7 +14,7 @@
 
 #include "ldl.h"
 
-enum { ROOT = -1 };
+enum { NO_PARENT = -1 };
 
 static void sort_ascending(int *numbers, int count) {
     for (int i = 1; i < count; i++) {
@@ -51,17 +51,18 @@ void ldl_analyse(Ldl *system, Arena *arena) {
     // The parent of a column in the elimination tree is the first row below it in L.
     int *counts = TAKE(arena, int, size);
     for (int column = 0; column < size; column++) {
-        parents[column] = ROOT;
+        parents[column] = NO_PARENT;
         marks[column] = column + 1;
         system->changed[column] = true;
         int row_count = 0;
         for (int entry = system->starts[column]; entry < system->starts[column + 1]; entry++) {
             int node = system->rows[entry];
+            assert(node >= 0 && node < column);
             while (marks[node] != column + 1) {
                 marks[node] = column + 1;
                 counts[node]++;
                 row_count++;
-                if (parents[node] == ROOT) {
+                if (parents[node] == NO_PARENT) {
                     parents[node] = column;
                 }
                 node = parents[node];
@@ -85,6 +86,7 @@ void ldl_analyse(Ldl *system, Arena *arena) {
         sort_ascending(found, count);
         for (int k = 0; k < count; k++) {
             int place = counts[found[k]]++;
+            assert(place < system->factor_starts[found[k] + 1]);
             system->places[system->pattern_starts[row] + k] = place;
             system->factor_rows[place] = row;
         }
@@ -115,7 +117,7 @@ void ldl_factor(Ldl *system) {
         if (system->changed[row]) {
             factor_row(system, row);
             system->changed[row] = false;
-            if (system->parents[row] != ROOT) {
+            if (system->parents[row] != NO_PARENT) {
                 system->changed[system->parents[row]] = true;
             }
         }

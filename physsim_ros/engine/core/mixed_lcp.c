@@ -11,12 +11,12 @@
 #include "mixed_lcp.h"
 
 // Rounding of J v: a row is on the wrong side of its target beyond that [m/s], or [m] of positions.
-static const double rounding = 1e-7;
+static const double rounding_of_rows = 1e-7;
 // Rounding of λ, as a share of the greatest one.
 static const double share_of_rounding = 1e-9;
 
 // Exchanges, at most: a belt that is spanned over its wheels takes some ten in a step in which a link meets a wheel.
-enum { ROUNDS = 40 };
+enum { MIXED_EXCHANGES = 40 };
 
 // What the softness of a row is a share of.
 static double unit_of(const System *system, const Problem *problem, int row) {
@@ -40,13 +40,14 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
     double slack = share_of_rounding * greatest_impulse;
     solution->wrong_count = 0;
     for (int row = 0; row < system->row_count; row++) {
+        assert(problem->lower[row] <= problem->upper[row]);
         double impulse = solution->impulses[row], lower = problem->lower[row], upper = problem->upper[row];
         double outside = greatest(lower - impulse, impulse - upper), beyond = 0.0;
         if (solution->sides[row] != 0 && lower < upper) {
             double reached = rate(problem->jacobians[row], system->ends[row], solution->changes);
             beyond = (reached - problem->wanted[row]) * solution->sides[row];
         }
-        solution->wrong[row] = outside > slack || beyond > rounding;
+        solution->wrong[row] = outside > slack || beyond > rounding_of_rows;
         if (solution->wrong[row]) {
             double distance = greatest(beyond, outside * unit_of(system, problem, row));
             sides[row] = (int8_t)(outside <= slack ? 0 : impulse < lower ? -1 : 1);
@@ -58,8 +59,8 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
 }
 
 // Exchange rows that are on the wrong side, all or the furthest alone.
-static void exchange(System *system, const Problem *problem, Solution *solution, const int8_t *right, bool all,
-                     int furthest) {
+static void exchange_sides(System *system, const Problem *problem, Solution *solution, const int8_t *right, bool all,
+                           int furthest) {
     for (int row = 0; row < system->row_count; row++) {
         if (all ? solution->wrong[row] : row == furthest) {
             bool active = right[row] == 0;
@@ -107,14 +108,14 @@ void solve_again(System *system, const Problem *problem, Solution *solution, Are
     int8_t *right = TAKE(arena, int8_t, system->row_count);
     Twist *momenta = TAKE(arena, Twist, system->body_count);
     int fewest = system->row_count + 1, furthest = 0;
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < MIXED_EXCHANGES; round++) {
         solve_sides(system, &aimed, solution, momenta);
         find_wrong(system, &aimed, solution, right, &furthest);
-        if (solution->wrong_count == 0 || round == ROUNDS - 1) {
+        if (solution->wrong_count == 0 || round == MIXED_EXCHANGES - 1) {
             break;
         }
         bool fewer = solution->wrong_count < fewest;
-        exchange(system, problem, solution, right, fewer, furthest);
+        exchange_sides(system, problem, solution, right, fewer, furthest);
         fewest = fewer ? solution->wrong_count : fewest;
     }
     arena_release(arena, mark);

@@ -3,23 +3,22 @@
 
 // Mouse joints: the forces by which hands draw bodies to themselves.
 //
-// Problem: a body that is dragged has to follow the hand without oscillation, at any mass, and must not crush or throw
-// what is in its way.
+// Problem: a body that is dragged has to follow the hand without oscillation, at any mass, and must not crush or
+// throw what is in its way.
 // Method: Box2D's mouse joint, a soft constraint at the point of the grip with a greatest force (E. Catto, "Soft
 // Constraints", GDC 2011; `b2MakeSoft` and `mouse_joint.c` in Box2D v3): a spring of 5 Hz, the default of
-// `b2MouseJointDef`, damped critically, which acts on the effective mass at the grip, so that its response is the same
-// for any mass and anchor. It is solved implicitly for the pose and velocity that Chipmunk's step will have, and
-// applied as a force of that step, before contacts and joints. Several hands on one body are solved by projected
-// Gauss-Seidel, as many sweeps as hands, and at most as many as the iterations of Chipmunk's solver. Cost: 0.1 µs a
-// step for each grip. Without it nothing can be dragged.
+// `b2MouseJointDef`, damped critically, which acts on the effective mass at the grip, so that its response is the
+// same for any mass and anchor. It is solved implicitly for the pose and velocity that Chipmunk's step will have,
+// and applied as a force of that step, before contacts and joints. Several hands on one body are solved by projected
+// Gauss-Seidel, as many sweeps as hands, and at most as many as the iterations of Chipmunk's solver.
+// Cost: 0.1 µs a step for each grip.
+// Without it nothing can be dragged.
 
 #include "stages.h"
 
 static const double pi = 3.14159265358979323846;
 // Undamped frequency of the spring [Hz], and its damping ratio: 1 is critical.
 static const double frequency = 5.0, damping_ratio = 1.0;
-// Standard gravity [m/s²], of the forces of hands in worlds without gravity.
-static const double standard_gravity = 9.81;
 
 // The spring in one step (`b2MakeSoft`).
 typedef struct Softness {
@@ -39,7 +38,8 @@ static double greatest_force(const World *world, double mass) {
 }
 
 // Solve one grip on a body that has a velocity, which is changed. Return its impulse, which was `before` [N s].
-static Vec pull(const World *world, const Body *body, const Grip *grip, Vec arm, Pose pose, Twist *twist, Vec before) {
+static Vec solve_grip(const World *world, const Body *body, const Grip *grip, Vec arm, Pose pose, Twist *twist,
+                      Vec before) {
     double mass_inverse = body->engine->m_inv, moment_inverse = body->engine->i_inv;
     Softness soft = softness(world->dt);
     // dC/dt + bias_rate C
@@ -78,7 +78,7 @@ static void pull_body(World *world, Body *body, const Grip **grips, int count) {
     int sweeps = count < world->space->iterations ? count : world->space->iterations;
     for (int sweep = 0; sweep < sweeps; sweep++) {
         for (int number = 0; number < count; number++) {
-            impulses[number] = pull(world, body, grips[number], arms[number], pose, &twist, impulses[number]);
+            impulses[number] = solve_grip(world, body, grips[number], arms[number], pose, &twist, impulses[number]);
         }
     }
     for (int number = 0; number < count; number++) {
@@ -93,6 +93,7 @@ void pull_grips(World *world) {
     for (int first = 0; first < world->grip_count; first++) {
         int place = world->grips[first].body, count = 0;
         bool done = false;
+        assert(place >= 0 && place < world->body_count);
         for (int number = 0; number < world->grip_count; number++) {
             if (world->grips[number].body == place) {
                 done = done || number < first;
