@@ -12,6 +12,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.scene_columns import columns_of
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.checkpoint import NO_PUSHES
 from physsim_ros.model.noise import normals
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.states import (
@@ -24,7 +25,7 @@ from physsim_ros.model.states import (
     RobotState,
     states_in,
 )
-from physsim_ros.model.transform import NO_WRENCH
+from physsim_ros.model.transform import NO_WRENCH, REST
 import pymunk
 
 # A body beyond this position or speed is removed [m, m/s, rad, rad/s]; `step.c` has it too.
@@ -67,6 +68,8 @@ class BodyTable:
         for name in ('free', 'released', 'thrown'):
             own[name] = [getattr(rigid, name) for rigid in bodies]
         for row, rigid in enumerate(bodies):
+            if rigid.field_lead != REST:
+                own['field'][row] = rigid.field_lead
             if rigid.wrench != NO_WRENCH:
                 self.set_wrench(row, scene.settings.gravity, dt)
             if rigid.push != NO_WRENCH:
@@ -97,12 +100,28 @@ class BodyTable:
         for row in np.flatnonzero(pushes.any(axis=1)).tolist():
             x, y, turn = pushes[row].tolist()
             self.bodies[row].push = x, y, turn
+        if self.has_fields:
+            for rigid, (x, y, turn) in zip(self.bodies, own['field'].tolist(), strict=True):
+                rigid.field_lead = x, y, turn
         driven = states_in(self.robot_states, RobotState)
         for row, state in zip(self.robots['body'].tolist(), driven, strict=True):
             self.bodies[row].driven = state
         acting = states_in(self.actor_states, ActorState)
         for row, each in zip(self.actors['body'].tolist(), acting, strict=True):
             self.bodies[row].acting = each
+
+    # Fields
+
+    @property
+    def has_fields(self) -> bool:
+        """Return whether fields act on the bodies, or velocities lead by them."""
+        return len(self.columns.regions) > 0 or bool(self.records['state']['field'].any())
+
+    @property
+    def fields(self) -> Floats:
+        """Return the leads of velocities by fields, (n, 3) float64; none where all are 0."""
+        fields: Floats = self.records['state']['field'][:-1]
+        return fields.copy() if fields.any() else NO_PUSHES
 
     def lost(self) -> list[str]:
         """Return the names of the bodies whose state is not finite, or too large."""

@@ -66,6 +66,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             ),
             totals=space.joints.totals(),
             pushes=table.pushes,
+            fields=table.fields,
         ),
         grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
@@ -204,6 +205,8 @@ def restore_checkpoint(
     acting = states_in(checkpoint.actors, ActorState)
     for row, each in zip(scene.actor_rows.tolist(), acting, strict=True):
         rigids[row].acting = each
+    for rigid, (x, y, turn) in zip(rigids, checkpoint.memory.fields.tolist(), strict=False):
+        rigid.field_lead = x, y, turn
     space.bodies.add_without_shapes(rigids)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)

@@ -74,6 +74,8 @@ class Space:
         self._table: BodyTable | None = None
         # Row of the background in the last table; -1 if there was none.
         self._background = -1
+        # Media of the last table.
+        self._media = b''
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
         self.grips = GripSet()
@@ -116,7 +118,19 @@ class Space:
         rigids, background = tuple(self.bodies.by_name.values()), self.pm_space.static_body
         self._table = table = BodyTable(scene, rigids, background, self.dt)
         self._core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
-        self._core.use(forces=table.columns.forces, robots=table.robots, actors=table.actors)
+        columns = table.columns
+        media = columns.regions.tobytes()
+        if media != self._media:
+            # What rests in a region may not rest any more.
+            wake_bodies(rigid.pm_body for rigid in rigids)
+            self._media = media
+        self._core.use(
+            forces=columns.forces,
+            regions=columns.regions,
+            robots=table.robots,
+            actors=table.actors,
+        )
+        self._core.use_fields(act=table.has_fields)
         self._background = len(rigids)
         for row, rigid in enumerate(rigids):
             rigid.row = row
@@ -205,7 +219,10 @@ class Space:
         rigid.pose = self.joints.with_turns(rigid, pose)
         self.bodies.note_moved()
         self.bodies.wake_around(rigid, touching)
+        if rigid.body.medium is not None:
+            wake_bodies(each.pm_body for each in self.bodies.by_name.values())
         self._core.note_moved_static()
+        self._core.note_changed_fields()
         self._release(touching)
         self.changes += 1
 
@@ -216,6 +233,7 @@ class Space:
         if not rigid.body.anchored:
             self._set_flag(rigid, 'free', free)
             self._set_flag(rigid, 'thrown', True)
+        self._core.note_changed_fields()
         self.changes += 1
 
     def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
@@ -381,10 +399,13 @@ class Space:
         self._release(touching)
 
     def _is_free(self, rigid: RigidBody) -> bool:
-        """Return whether a body is in free flight."""
+        """Return whether a body is in free flight, and read by how much its velocity leads."""
         if self._table is None:
             return rigid.free
-        return bool(self._table.records['state']['free'][rigid.row])
+        state = self._table.records['state'][rigid.row]
+        x, y, turn = state['field'].tolist()
+        rigid.field_lead = x, y, turn
+        return bool(state['free'])
 
     def _set_flag(self, rigid: RigidBody, flag: str, value: bool) -> None:  # noqa: FBT001
         """Set a flag of a body that outlives the table."""

@@ -84,7 +84,7 @@ class WorldState:
     memory: ImpulseCache | None = field(default=None, compare=False)
 
 
-# The pushes of a world without a floor, in memory once.
+# The pushes of a world without a floor, and its fields, in memory once.
 NO_PUSHES: Floats = np.empty((0, 3))
 NO_TOTALS: Floats = np.empty((0, 2))
 
@@ -105,6 +105,8 @@ class ImpulseCache:
         unknown
     :param pushes: (k, 3) float64: changes of velocity [m/s] and spin [rad/s] by contacts and
         joints, of the bodies that a floor acts on
+    :param fields: (n, 3) float64: leads of velocities [m/s] and spins [rad/s] by fields, of all
+        bodies; none where all are 0
     """
 
     ids: Ints
@@ -116,12 +118,14 @@ class ImpulseCache:
     joints: Floats
     totals: Floats = field(default_factory=lambda: NO_TOTALS)
     pushes: Floats = field(default_factory=lambda: NO_PUSHES)
+    fields: Floats = field(default_factory=lambda: NO_PUSHES)
 
     @property
     def nbytes(self) -> int:
         """Memory of its arrays [bytes]."""
         contacts = self.ids, self.pairs, self.hashes, self.impulses
-        return sum(array.nbytes for array in (*contacts, self.joints, self.totals, self.pushes))
+        motions = self.joints, self.totals, self.pushes, self.fields
+        return sum(array.nbytes for array in (*contacts, *motions))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
