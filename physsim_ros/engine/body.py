@@ -69,6 +69,7 @@ class RigidBody:
         state of a body that is in no table
     :param released: something that it touched was removed or moved since the last step
     :param thrown: its velocity was set since the last step
+    :param fresh: its lead by fields is to be found as the next step begins
     :param field_lead: the lead of its velocity by fields [m/s, rad/s]
     :param push: changes of velocity [m/s] and spin [rad/s] by contacts and joints, on a floor
     :param driven: of a robot, the state of drive and odometry
@@ -87,6 +88,7 @@ class RigidBody:
     free: bool = True
     released: bool = False
     thrown: bool = False
+    fresh: bool = True
     field_lead: Twist = REST
     push: Twist = REST
     driven: RobotState = SPAWNED

@@ -117,15 +117,11 @@ class CoreWorld:
 
     def use_fields(self, *, act: bool) -> None:
         """
-        Have the core begin the next step with fields anew.
+        Have the core apply fields, or not.
 
         :param act: whether fields act on the bodies, or velocities lead by them
         """
-        self._world.has_fields, self._world.fields_changed = act, True
-
-    def note_changed_fields(self) -> None:
-        """Note that a pose or velocity was set, on which the forces of fields depend."""
-        self._world.fields_changed = True
+        self._world.has_fields = act
 
     # Steps
 

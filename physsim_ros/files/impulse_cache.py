@@ -39,9 +39,8 @@ _ARRAYS: dict[str, tuple[DTypeLike, int]] = {
     'joints': (np.float64, 2),
     'totals': (np.float64, 2),
     'pushes': (np.float64, 3),
-    'fields': (np.float64, 3),
 }
-_MAY_LACK = ('totals', 'pushes', 'fields')
+_MAY_LACK = ('totals', 'pushes')
 
 
 def cache_entry(cache: ImpulseCache) -> dict[str, object]:
@@ -75,10 +74,7 @@ def cache_from(entry: object, state: WorldState) -> ImpulseCache | None:
         raise BadProperty('memory is not what was saved', field='memory')
     scene = Scene(bodies=tuple(each.body for each in state.bodies), settings=state.settings)
     on_floor = np.count_nonzero(scene.floor_friction)
-    count = len(state.bodies)
-    if len(cache.ids) != count or len(cache.pushes) not in (0, on_floor):
-        return None
-    if len(cache.fields) not in (0, count):
+    if len(cache.ids) != len(state.bodies) or len(cache.pushes) not in (0, on_floor):
         return None
     # The shapes of a body, and the walls, have consecutive numbers; each number occurs once.
     counts = [len(each.body.shape.form.pieces) for each in state.bodies]

@@ -19,6 +19,7 @@ import physsim_ros
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.actors import ACTORS, Start
 from physsim_ros.model.applied_forces import AppliedForce
+from physsim_ros.model.media import Medium
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
@@ -60,6 +61,7 @@ def files() -> dict[Path, str]:
         'interface/properties': {
             'properties of a body': _table(Properties.FIELDS.values()),
             'keys of a force': _rows(_COLUMNS, *_fields_of(AppliedForce)),
+            'keys of a medium': _rows(_COLUMNS, *_fields_of(Medium)),
             'kinds of joints': _joint_kinds(),
             'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
             'keys of a robot': _robot_keys(),

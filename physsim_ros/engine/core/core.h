@@ -35,6 +35,7 @@ typedef struct BodyState {
     uint8_t free;     // in free flight, so that its velocity leads by `lead`
     uint8_t released; // something that it touched was removed or moved since the last step
     uint8_t thrown;   // its velocity was set since the last step
+    uint8_t fresh;    // its lead by fields is to be found as the next step begins
     Twist lead;       // half a step of gravity and all forces: the lead of its velocity in free flight
     Twist field;      // the part of fields (`fields.c`) in that lead
     Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
@@ -328,7 +329,6 @@ typedef struct World {
     uint8_t reports_contacts;
     uint8_t statics_moved; // an anchored body or a wall has been moved since the last step
     uint8_t has_fields;    // fields act, or velocities lead by them
-    uint8_t fields_changed; // fields, poses or velocities have been set since the last step
     double drag_force;     // greatest force of a hand, in weights of the body
     int64_t step;          // count of steps that the world has made
     int64_t age;           // count of steps since the space was built

@@ -24,25 +24,16 @@ static Twist weight_of(const World *world, const cpBody *engine) {
     return (Twist){add(engine->f, scaled(world->space->gravity, engine->m)), engine->t};
 }
 
-// Find the forces of media on all bodies for the time between now and a later moment [s], at its middle.
-static void find_pulls(World *world, double ahead, double lapse) {
-    if (world->own->pulls == NULL) {
-        world->own->pulls = allocated((size_t)world->body_count, sizeof(Pull));
+// Find the force of media on a body for the time between now and a later moment [s], at its middle.
+static void find_pull(World *world, const Media *media, Body *body, double ahead, double lapse) {
+    // A body in free flight goes on with the acceleration that is half in its lead.
+    Twist change = {0}, twist = true_twist(body->engine);
+    if (body->state.free) {
+        change = body->state.lead;
     }
-    Media media = media_of(world, ahead);
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
-        if (is_moved_by_fields(body)) {
-            // A body in free flight goes on with the acceleration that is half in its lead.
-            Twist change = {0}, twist = true_twist(body->engine);
-            if (body->state.free) {
-                change = body->state.lead;
-            }
-            Pose pose = moved(pose_of(body->engine), twist_sum(twist, change, ahead / world->dt), ahead);
-            twist = twist_sum(twist, change, 2.0 * ahead / world->dt);
-            world->own->pulls[place] = pull_of_media(world, &media, body, pose, twist, lapse);
-        }
-    }
+    Pose pose = moved(pose_of(body->engine), twist_sum(twist, change, ahead / world->dt), ahead);
+    twist = twist_sum(twist, change, 2.0 * ahead / world->dt);
+    world->own->pulls[body - world->bodies] = pull_of_media(world, media, body, pose, twist, lapse);
 }
 
 // Half of what a force changes a velocity by in a sub-step.
@@ -50,50 +41,68 @@ static Twist half_change(const World *world, const cpBody *engine, Twist force) 
     return (Twist){scaled(force.v, engine->m_inv * world->dt / 2.0), force.w * engine->i_inv * world->dt / 2.0};
 }
 
+static bool have_fields(const World *world) {
+    return world->has_fields && has_stage(world, STAGE_FIELDS);
+}
+
+static Twist force_of_fields(const World *world, const Body *body, Twist twist) {
+    const Pull *pull = world->own->pulls + (body - world->bodies);
+    return force_of_pull(pull, body->engine, twist, weight_of(world, body->engine));
+}
+
 void begin_fields(World *world) {
-    if (!world->has_fields || !world->fields_changed || !has_stage(world, STAGE_FIELDS)) {
+    if (!have_fields(world) || world->own->sub_step > 0) {
         return;
     }
-    world->fields_changed = false;
+    if (world->own->pulls == NULL) {
+        world->own->pulls = allocated((size_t)world->body_count, sizeof(Pull));
+    }
     find_leads(world);
-    find_pulls(world, 0.0, world->dt / 2.0);
+    Media media = media_of(world, 0.0);
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        if (is_moved_by_fields(body)) {
-            Twist twist = true_twist(body->engine), others = weight_of(world, body->engine);
-            Twist force = force_of_pull(world->own->pulls + place, body->engine, twist, others);
-            Twist field = half_change(world, body->engine, force);
+        if (body->state.fresh && is_moved_by_fields(body)) {
+            find_pull(world, &media, body, 0.0, world->dt / 2.0);
+            Twist field = half_change(world, body->engine, force_of_fields(world, body, true_twist(body->engine)));
             if (body->state.free) {
                 Twist more = twist_sum(field, body->state.field, -1.0);
                 set_twist(body->engine, twist_sum(twist_of(body->engine), more, 1.0));
             }
             body->state.field = field;
         }
+        body->state.fresh = false;
     }
 }
 
 void apply_fields(World *world) {
-    if (!world->has_fields || !has_stage(world, STAGE_FIELDS)) {
+    if (!have_fields(world)) {
         return;
     }
+    Media media = {0};
     if (world->own->sub_step == 0) {
         // Velocities change at the ends of the four sub-steps.
-        find_pulls(world, world->dt * (SUB_STEPS + 1) / 2.0, world->dt);
+        media = media_of(world, world->dt * (SUB_STEPS + 1) / 2.0);
     }
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        if (is_moved_by_fields(body)) {
-            Twist twist = twist_of(body->engine), others = weight_of(world, body->engine);
-            Twist force = force_of_pull(world->own->pulls + place, body->engine, twist, others);
-            body->scratch.field = half_change(world, body->engine, force);
-            body->engine->f = add(body->engine->f, force.v);
-            body->engine->t += force.w;
+        if (sleeps(body) && reaches(&media, body)) {
+            world->chipmunk.body_activate(body->engine);
         }
+        if (!is_moved_by_fields(body)) {
+            continue;
+        }
+        if (world->own->sub_step == 0) {
+            find_pull(world, &media, body, world->dt * (SUB_STEPS + 1) / 2.0, world->dt);
+        }
+        Twist force = force_of_fields(world, body, twist_of(body->engine));
+        body->scratch.field = half_change(world, body->engine, force);
+        body->engine->f = add(body->engine->f, force.v);
+        body->engine->t += force.w;
     }
 }
 
 void keep_fields(World *world) {
-    for (int place = 0; world->has_fields && place < world->body_count; place++) {
+    for (int place = 0; have_fields(world) && place < world->body_count; place++) {
         Body *body = world->bodies + place;
         if (is_moved_by_fields(body)) {
             body->state.field = body->scratch.field;

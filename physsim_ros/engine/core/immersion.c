@@ -45,7 +45,10 @@ static void add_round(Basin *basin, Vec center, double radius, double from, int 
 
 Basin basin_of(const Region *region, const cpShape *shape, Pose pose, Arena *arena) {
     int count = corner_count(shape), most = count < 3 ? ROUND_CORNERS : count;
-    Basin basin = {.region = region, .shape = shape, .corners = TAKE(arena, Vec, most),
+    const cpBody *engine = shape->body;
+    Basin basin = {.region = region,
+                   .moves = engine->v.x != 0.0 || engine->v.y != 0.0 || engine->w != 0.0,
+                   .corners = TAKE(arena, Vec, most),
                    .normals = TAKE(arena, Vec, most)};
     Rotation by = rotation(pose.yaw);
     if (count < 3) {

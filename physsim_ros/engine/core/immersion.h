@@ -19,7 +19,7 @@
 // A convex piece of a region, in the world.
 typedef struct Basin {
     const Region *region;
-    const cpShape *shape;
+    bool moves;    // with its body
     Vec center;    // of a disc around it [m]
     double radius; // of that disc [m]
     Vec *corners;  // counter-clockwise [m]

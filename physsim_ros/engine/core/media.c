@@ -224,7 +224,7 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, Twis
         bool outlined = resists(basin->region) || (air != NULL && resists(air));
         Wet wet = immersed(body, pose, fit == INSIDE ? NULL : basin, outlined, arena);
         body->scratch.afloat = body->scratch.afloat || fit == CROSSING;
-        body->scratch.stirred = body->scratch.stirred || basin->region->gusty;
+        body->scratch.stirred = body->scratch.stirred || basin->region->gusty || basin->moves;
         add_medium(&pull, &wet, basin->region, media->currents[number], twist, gravity, 1.0);
         if (air != NULL) {
             add_medium(&pull, &wet, air, media->wind, twist, gravity, -1.0);
@@ -239,6 +239,16 @@ Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, Twis
     }
     arena_release(arena, mark);
     return pull;
+}
+
+bool reaches(const Media *media, const Body *body) {
+    for (int number = 0; number < media->basin_count; number++) {
+        const Basin *basin = media->basins + number;
+        if (basin->moves && fit_of(basin, body->engine->p, body->reach) != OUTSIDE) {
+            return true;
+        }
+    }
+    return false;
 }
 
 Twist force_of_pull(const Pull *pull, const cpBody *engine, Twist twist, Twist others) {

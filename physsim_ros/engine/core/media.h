@@ -36,6 +36,9 @@ Media media_of(World *world, double ahead);
 // The force of the media on a body at a pose, of twists near one, in times of a length [s].
 Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, Twist twist, double lapse);
 
+// Whether a region that moves has come to a body.
+bool reaches(const Media *media, const Body *body);
+
 // The mean of that force in such a time, which begins with a twist, under other forces [N, N m].
 Twist force_of_pull(const Pull *pull, const cpBody *engine, Twist twist, Twist others);
 
