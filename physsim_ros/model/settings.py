@@ -98,9 +98,7 @@ class WorldSettings(Checked):
     air_drag: Annotated[float, DRAG, 'coefficient of the drag by v²'] = field(
         default=1.0, repr=False
     )
-    wind: Annotated[Point, VELOCITY, 'velocity of the air'] = field(
-        default=(0.0, 0.0), repr=False
-    )
+    wind: Annotated[Point, VELOCITY, 'velocity of the air'] = field(default=(0.0, 0.0), repr=False)
     gusts: Annotated[
         float, GUSTS, 'root mean square of the gusts of the wind, in x and in y; by `seed`'
     ] = field(default=0.0, repr=False)

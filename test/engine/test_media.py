@@ -151,7 +151,9 @@ def test_a_region_stays_a_sensor():
 
 
 def test_the_hull_of_pieces_goes_around_them():
-    shape = Triangles(vertices=((0, 0), (1, 0), (0, 1), (3, 0), (4, 0), (4, 2), (1, 0), (2, 0), (2, 0.1)))
+    shape = Triangles(
+        vertices=((0, 0), (1, 0), (0, 1), (3, 0), (4, 0), (4, 2), (1, 0), (2, 0), (2, 0.1))
+    )
     hull = hull_of(shape.form) + shape.form.centroid
 
     expected = [(0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (0.0, 1.0)]

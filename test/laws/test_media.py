@@ -199,7 +199,9 @@ def test_what_is_full_sinks_by_the_difference_of_the_densities(report):
     [
         Disc(radius=3.0),
         Chain(points=((-2.0, 0.0), (2.0, 0.0)), thickness=3.0),
-        Polygon(outline=((-3.0, -2.0), (0.0, -3.0), (3.0, -2.0), (3.0, 2.0), (0.0, 1.0), (-3.0, 2.0))),
+        Polygon(
+            outline=((-3.0, -2.0), (0.0, -3.0), (3.0, -2.0), (3.0, 2.0), (0.0, 1.0), (-3.0, 2.0))
+        ),
     ],
     ids=['disc', 'capsule', 'concave'],
 )
@@ -389,7 +391,9 @@ def test_a_medium_at_rest_never_gives_energy(report, viscosity, density):
         begun = last
         for snapshot in steps(sim, 120):
             energy = snapshot.kinetic_energy
-            report.check(71, 'energy gained in a step', max(energy - last, 0.0) / begun, 0.0, 1e-6, '-')
+            report.check(
+                71, 'energy gained in a step', max(energy - last, 0.0) / begun, 0.0, 1e-6, '-'
+            )
             last = energy
 
 
@@ -426,4 +430,6 @@ def test_a_floor_under_water_carries_what_sinks_by_its_weight_in_water(report):
     for _ in range(60):
         frame = sim.advance_frame()
     pressed = frame.contacts.impulses[:, 1].sum() / (frame.contacts.steps * DT)
-    report.check(70, 'force of what lies on the ground', abs(pressed) / (500.0 * G), 1.0, 1e-3, '-')
+    report.check(
+        70, 'force of what lies on the ground', abs(pressed) / (500.0 * G), 1.0, 1e-3, '-'
+    )

@@ -315,9 +315,7 @@ def heavier(state, factor):
         return replace(held, body=replace(held.body, mass=mass, forces=forces))
 
     def medium(each):
-        return replace(
-            each, density=each.density * factor, viscosity=each.viscosity * factor
-        )
+        return replace(each, density=each.density * factor, viscosity=each.viscosity * factor)
 
     names = ('max_torque', 'stiffness', 'damping', 'max_force', 'break_force')
     return with_joints(
@@ -381,6 +379,7 @@ def larger(state, size, time):
         if state.settings.bounds is None
         else tuple(size * side for side in state.settings.bounds),
     )
+
     def medium(each):
         return replace(
             each,

@@ -713,7 +713,7 @@ def windy_stack():
 
 
 def floats():
-    """Return bodies that fall into water: one floats, one sinks, one rolls, one is in a current."""
+    """Return bodies that fall into water; one sinks, one is in a current."""
     sim = simulation(elasticity=0.0)
     said = {'anchored': True, 'sensor': True}
     water = {'density': 10.0, 'drag': 0.0, 'viscosity': 0.1}

@@ -19,10 +19,10 @@ import physsim_ros
 from physsim_ros.drawing import DrawingSettings
 from physsim_ros.model.actors import ACTORS, Start
 from physsim_ros.model.applied_forces import AppliedForce
-from physsim_ros.model.media import Medium
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
+from physsim_ros.model.media import Medium
 from physsim_ros.model.requests import Request
 from physsim_ros.model.robots import DRIVES, Odometry, Robot
 from physsim_ros.model.robots.sensors import SENSORS

@@ -31,8 +31,8 @@ void find_leads(World *world) {
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
         // Forces are listed in the order of their bodies.
-        body->state.lead =
-            body == last ? body->state.lead : twist_sum(body->steady_lead, body->state.field, 1.0);
+        assert(last == NULL || last <= body);
+        body->state.lead = body == last ? body->state.lead : twist_sum(body->steady_lead, body->state.field, 1.0);
         last = body;
         Twist wrench = wrench_of(applied, engine->a);
         double half = world->dt / 2.0;

@@ -224,6 +224,7 @@ static Twist *velocity_of(Velocities *velocities, const cpBody *body) {
         number++;
     }
     if (number == velocities->count) {
+        assert(number < 2 * CLUSTER_POINTS);
         velocities->bodies[velocities->count++] = body;
     }
     return velocities->twists + number;
@@ -235,6 +236,7 @@ static int list_points(const Cluster *cluster, Velocities *velocities, Point *po
         cpArbiter *each = cluster->contacts[number];
         // Far away a distance can be lost in rounding, and with it the direction.
         for (int point = 0; point < each->count && (each->n.x != 0.0 || each->n.y != 0.0); point++) {
+            assert(count < CLUSTER_POINTS);
             bool begins = each->state == ARBITER_FIRST_COLLISION;
             cpContact *contact = each->contacts + point;
             points[count++] = (Point){contact,

@@ -43,18 +43,18 @@ typedef struct BodyState {
 
 // What stages of a step tell each other of a body; nothing of it outlives the step.
 typedef struct BodyScratch {
-    uint8_t slides; // on a floor that does not carry it along
-    Pose begin;     // as the step begins
-    Twist twist;    // with which Chipmunk begins
-    Twist under;    // mean velocity of the floor under it
-    Twist without;  // velocity after the step without contacts, on a floor; scratch of block_solver.c
-    double left;    // of the step after continuous collision has stopped it [s]
-    Twist carried;  // way with what has stopped it, in that time [m, rad]
-    double since;   // time from its first impact to the end of its motion [s]
-    uint8_t parts;  // its impact throws it off, so gravity acts on the new velocity
-    double idle;    // for which it has been at rest as the step begins; < 0 while it sleeps [s]
-    Twist field;    // half of what fields change its velocity by in this step
-    uint8_t afloat; // the surface of a medium crosses it
+    uint8_t slides;  // on a floor that does not carry it along
+    Pose begin;      // as the step begins
+    Twist twist;     // with which Chipmunk begins
+    Twist under;     // mean velocity of the floor under it
+    Twist without;   // velocity after the step without contacts, on a floor; scratch of block_solver.c
+    double left;     // of the step after continuous collision has stopped it [s]
+    Twist carried;   // way with what has stopped it, in that time [m, rad]
+    double since;    // time from its first impact to the end of its motion [s]
+    uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
+    double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
+    Twist field;     // half of what fields change its velocity by in this step
+    uint8_t afloat;  // the surface of a medium crosses it
     uint8_t stirred; // fields act on it that change while it rests
 } BodyScratch;
 

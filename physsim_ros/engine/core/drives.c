@@ -29,6 +29,7 @@ static double chord_by_arc(double turn) {
 
 static double rim_speed(const Robot *robot, Twist velocity) {
     double most = 0.0;
+    assert(robot->wheel_count <= (int)(sizeof(robot->wheels) / sizeof(robot->wheels[0])));
     for (int wheel = 0; wheel < robot->wheel_count; wheel++) {
         Twist by = robot->wheels[wheel];
         most = greatest(most, fabs(dot(by.v, velocity.v) + by.w * velocity.w));

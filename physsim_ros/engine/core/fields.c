@@ -5,10 +5,10 @@
 //
 // Problem: as of applied forces (`applied_forces.c`), a force at the pose and velocity with which a sub-step begins is
 // that of a moment too early: what floats or swings gains energy, and what falls in air is too fast.
-// Method: velocity Verlet, as of gravity in `half_step.c`: forces are those of the poses after the move, and the lead of
-// a body in free flight has half of what they change its velocity by. Unlike gravity, that half depends on velocities,
-// and on other bodies; so it is state, and what a request sets is made into it as the next step begins: by the force at
-// the true velocity, over half a sub-step. True velocities do not jump where a field begins or ends.
+// Method: velocity Verlet, as of gravity in `half_step.c`: forces are those of the poses after the move, and the lead
+// of a body in free flight has half of what they change its velocity by. Unlike gravity, that half depends on
+// velocities, and on other bodies; so it is state, and what a request sets is made into it as the next step begins: by
+// the force at the true velocity, over half a sub-step. True velocities do not jump where a field begins or ends.
 // Bodies that fields pull while they rest do not sleep where the field changes, nor before they float still.
 //
 // Cost: none without fields.

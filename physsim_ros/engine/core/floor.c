@@ -245,6 +245,7 @@ void pull_by_floor(World *world) {
             drag(world, body, driving.towed, mean, end);
         }
     }
+    assert(robot == world->robots + world->robot_count && actor == world->actors + world->actor_count);
 }
 
 void find_pushes(World *world) {

@@ -241,6 +241,7 @@ void core_observe(World *world, Pose *poses, Twist *twists) {
 
 void core_write_state(World *world, const Motion *motions) {
     for (int place = 0; place < world->body_count - 1; place++) {
+        assert(!sleeps(world->bodies + place));
         set_pose(world->bodies[place].engine, motions[place].pose);
         set_twist(world->bodies[place].engine, motions[place].twist);
     }

@@ -36,7 +36,7 @@ static void add_corner(Outline *outline, Vec corner, bool own) {
 
 // Add corners on an arc, as a polygon of the same area has them.
 static void add_round(Basin *basin, Vec center, double radius, double from, int count) {
-    double step = 2.0 * pi / ROUND_CORNERS, outer = radius * sqrt(step / sin(step));
+    double step = 2.0 * pi / (double)ROUND_CORNERS, outer = radius * sqrt(step / sin(step));
     for (int number = 0; number < count; number++) {
         Rotation by = rotation(from + step * (number + 0.5));
         basin->corners[basin->count++] = add(center, vec(outer * by.c, outer * by.s));

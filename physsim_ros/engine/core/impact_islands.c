@@ -155,6 +155,7 @@ static int list_members(const Sweep *sweep, Impact impact, int *members) {
     for (int end = 0; end < (are_one ? 1 : 2); end++) {
         if (mover_at(sweep, ends[end])->movable) {
             for (int each = sweep->movers[ends[end]].island; each >= 0; each = sweep->movers[each].next) {
+                assert(count < sweep->count);
                 members[count++] = each;
             }
         }
@@ -240,6 +241,8 @@ static int resolve(Sweep *sweep, const Impacts *impacts, int *changed) {
             continue;
         }
         for (int member = 0; member < count; member++) {
+            // No island is joined twice in a round.
+            assert(passed.count < sweep->count);
             passed.boxes[passed.count++] = sweep->movers[members[member]].box;
             changed[changed_count++] = members[member];
         }

@@ -113,6 +113,7 @@ static Touches touches_of_jointed(World *world) {
             }
         }
     }
+    assert(touches.count <= most);
     qsort(touches.list, (size_t)touches.count, sizeof(Bearing), compare_touches);
     return touches;
 }
@@ -125,7 +126,9 @@ static void unite_dynamic(const World *world, int *parents, int a, int b) {
 
 // The number of the island that a joint or contact belongs to.
 static int island_of(const World *world, int *parents, const int *numbers, int a, int b) {
-    return numbers[root_of(parents, world->bodies[a].dynamic ? a : b)] - 1;
+    int number = numbers[root_of(parents, world->bodies[a].dynamic ? a : b)];
+    assert(number > 0); // a joint has made it
+    return number - 1;
 }
 
 // Return the islands, with their joints and contacts, in the order of their first joints.
@@ -149,6 +152,7 @@ static Islands split(World *world, Touches touches) {
             if (numbers[root] == 0) {
                 numbers[root] = ++found.count;
             }
+            assert(found.count <= world->own->jointed_count);
             found.islands[numbers[root] - 1].joint_count++;
             found.islands[numbers[root] - 1].joint_row_count += joint->row_count;
         }
@@ -182,6 +186,7 @@ static Islands split(World *world, Touches touches) {
 // Return the number of a body in an island, to which it is added if it is not there yet. `numbers` are 0 for such.
 static int number_in(const World *world, Island *island, int *numbers, int *places, int body) {
     if (numbers[body] == 0) {
+        assert(island->body_count < 2 * (island->joint_count + island->touch_count));
         places[island->body_count] = body;
         numbers[body] = ++island->body_count;
         cpBody *engine = world->bodies[body].engine;
@@ -237,6 +242,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
             island->groups[row] = group;
         }
     }
+    assert(row == island->row_count);
     for (int number = 0; number < island->body_count; number++) {
         numbers[places[number]] = 0;
     }

@@ -35,6 +35,7 @@ double *impulse_at(const Part *part, int component) {
     case PART_MOTOR:
         return &((cpSimpleMotor *)part->constraint)->jAcc;
     default:
+        assert(part->kind == PART_SPRING);
         return &((cpDampedSpring *)part->constraint)->jAcc;
     }
 }

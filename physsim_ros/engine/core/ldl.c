@@ -53,6 +53,7 @@ void ldl_analyse(Ldl *system, Arena *arena) {
         int row_count = 0;
         for (int entry = system->starts[column]; entry < system->starts[column + 1]; entry++) {
             int node = system->rows[entry];
+            assert(node >= 0 && node < column);
             while (marks[node] != column + 1) {
                 marks[node] = column + 1;
                 counts[node]++;
@@ -91,6 +92,7 @@ void ldl_factor(Ldl *system) {
         }
         for (int k = system->pattern_starts[row]; k < system->pattern_starts[row + 1]; k++) {
             int column = system->pattern[k], end = system->filled[column];
+            assert(end < system->factor_starts[column + 1]);
             double value = work[column];
             work[column] = 0.0;
             for (int below = system->factor_starts[column]; below < end; below++) {

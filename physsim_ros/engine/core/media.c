@@ -11,14 +11,14 @@
 //   Quadratic drag: -½ c ρ |n·u| u for each metre of outline that faces the flow, n its normal; in all ½ c ρ v² times
 //   the width across the flow. Turning counts by its part along n, at the centre of a round piece: friction alone would
 //   slow down the spin of a disc, and quadratic drag has none.
-// Both drags are -D (q - f) of the twists q of body and f of medium, with a matrix D that is symmetric and not negative:
-// drag takes energy from what moves in a medium at rest. What is dry, what is wet and their sum are the same outline.
-// Time: buoyancy and D are found once a step, for its middle; drag in each sub-step, of the velocity in the middle of
-// that (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the middle, by
-// exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J. Numer.
-// Anal. 1970): no drag is too strong for the steps.
-// Scope: no mass of medium that moves along (added mass), no lift, no waves; a medium is not pushed.
-// Cost: 0.1 µs a body and sub-step within a region, 0.5 µs at its surface. Without it law 60 fails: nothing floats.
+// Both drags are -D (q - f) of the twists q of body and f of medium, with a matrix D that is symmetric and not
+// negative: drag takes energy from what moves in a medium at rest. What is dry, what is wet and their sum are the same
+// outline. Time: buoyancy and D are found once a step, for its middle; drag in each sub-step, of the velocity in the
+// middle of that (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the
+// middle, by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J.
+// Numer. Anal. 1970): no drag is too strong for the steps. Scope: no mass of medium that moves along (added mass), no
+// lift, no waves; a medium is not pushed. Cost: 0.1 µs a body and sub-step within a region, 0.5 µs at its surface.
+// Without it laws 70 and 71 fail: nothing floats.
 
 #include "media.h"
 #include "stages.h"
@@ -38,7 +38,7 @@ static Vec gust_of(const Region *region, double time) {
 Media media_of(World *world, double ahead) {
     Arena *arena = &world->own->arena;
     Media media = {0};
-    double time = ((double)world->step * SUB_STEPS + world->own->sub_step) * world->dt + ahead;
+    double time = (double)(world->step * SUB_STEPS + world->own->sub_step) * world->dt + ahead;
     int count = 0;
     for (int number = 0; number < world->region_count; number++) {
         const Region *region = world->regions + number;
@@ -163,9 +163,9 @@ static Resistance times(Resistance d, double share) {
 }
 
 static Twist resisted(Resistance d, Twist twist) {
-    return (Twist){{d.xx * twist.v.x + d.xy * twist.v.y + d.xw * twist.w,
-                    d.xy * twist.v.x + d.yy * twist.v.y + d.yw * twist.w},
-                   d.xw * twist.v.x + d.yw * twist.v.y + d.ww * twist.w};
+    return (Twist){
+        {d.xx * twist.v.x + d.xy * twist.v.y + d.xw * twist.w, d.xy * twist.v.x + d.yy * twist.v.y + d.yw * twist.w},
+        d.xw * twist.v.x + d.yw * twist.v.y + d.ww * twist.w};
 }
 
 // The inverse of M + D, which is positive definite.

@@ -24,7 +24,7 @@ typedef struct Resistance {
 
 // The force of the media on a body: steady - D q, of its twist q.
 typedef struct Pull {
-    Twist steady; // buoyancy, and the drag of what flows [N, N m]
+    Twist steady;          // buoyancy, and the drag of what flows [N, N m]
     Resistance resistance; // D
     bool has_drag;
     Resistance inverse; // of M + D t, with the time t after which the velocity counts

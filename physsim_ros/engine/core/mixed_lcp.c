@@ -42,6 +42,7 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
     double slack = share_of_rounding * greatest_impulse;
     solution->wrong_count = 0;
     for (int row = 0; row < system->row_count; row++) {
+        assert(problem->lower[row] <= problem->upper[row]);
         double impulse = solution->impulses[row], lower = problem->lower[row], upper = problem->upper[row];
         double outside = greatest(lower - impulse, impulse - upper), beyond = 0.0;
         if (solution->sides[row] != 0 && lower < upper) {

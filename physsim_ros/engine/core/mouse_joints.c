@@ -92,6 +92,7 @@ void pull_grips(World *world) {
     for (int first = 0; first < world->grip_count; first++) {
         int place = world->grips[first].body, count = 0;
         bool done = false;
+        assert(place >= 0 && place < world->body_count);
         for (int number = 0; number < world->grip_count; number++) {
             if (world->grips[number].body == place) {
                 done = done || number < first;

@@ -320,7 +320,7 @@ def hull_of(form: Form) -> Floats:
 
 
 def _right_chain(points: list[Point]) -> list[Point]:
-    """Return the corners of the hull to the right of the way through sorted points, less the last."""
+    """Return the corners of the hull to the right of the way along sorted points, but the last."""
     chain: list[Point] = []
     for x, y in points:
         while len(chain) > 1 and (

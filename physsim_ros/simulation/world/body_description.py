@@ -55,7 +55,7 @@ def changed_body(
 
     :param changes: other fields of the body, by name
     :param settings: of the world, the defaults of properties
-    :raises BadProperty: it would be too light or too heavy, or a robot, a conveyor or a region that
+    :raises BadProperty: it would be too light or too heavy, or a robot, conveyor or region that
         cannot be
     """
     values = {name: _default(name, settings) for name in request.unset}
