@@ -9,7 +9,8 @@
 // forces are those of the pose after the move; and the lead of a body in free flight, half a step of its acceleration,
 // is that of the pose that it has now.
 //
-// Cost: 15 ns a force and sub-step. Without it thrusters and ropes cannot be put on bodies.
+// Cost: 15 ns a force and sub-step.
+// Without it thrusters and ropes cannot be put on bodies.
 
 #include "stages.h"
 

@@ -133,7 +133,7 @@ typedef struct Robot {
     double acceleration; // greatest of the rim of a wheel [m/s²]
     double curvature;    // greatest of its way [1/m]
     cpVect center;       // of mass in the frame of the body [m]
-    double slip[2];      // deviation of the odometry after 1 m of way: of the way [√m], of the heading [rad/√m]
+    double slip[2];      // deviation of the odometry after 1 m of way: in distance [√m], in heading [rad/√m]
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     // These fields are state; velocities are as seen from the robot.
     int64_t until;        // step at which the command ends
