@@ -160,7 +160,7 @@ static double advance(Side *a, Side *b, double radii, double skin, double depth)
         double distance = found.distance - radii;
         bool met = distance <= target + tolerance * skin;
         if (number == 0 && met) {
-            if (distance < -skin - depth / safe_share) {
+            if (distance < -skin - depth * SAFE_DEPTHS) {
                 return INFINITY;
             }
             target = distance - skin;
