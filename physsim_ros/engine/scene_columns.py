@@ -14,27 +14,26 @@ import numpy as np
 from physsim_ros.engine.core import dtype_of, lib
 from physsim_ros.engine.core_world import Table
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
-from physsim_ros.model.actors import ACTORS, Pedestrian, REPEATS
+from physsim_ros.model.actors import Pedestrian
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.attraction import attracts
 from physsim_ros.model.joints import JointKind
+from physsim_ros.model.media import gust_waves
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Chain, Convex, Form, lever_of
+from physsim_ros.model.shapes import Chain, Convex, Form, hull_of, lever_of
 
-# A pair that approaches by less than this share of the lesser inner radius in a step needs no time
-# of impact: each keeps its centre well on the side it came from. `time_of_impact.h` has it too.
-SAFE_SHARE = 0.25
-# Corners of a polygon whose time of impact costs as much as that of a round shape, most of which
-# does not depend on the corners.
-ROUND_COST = 4
 _BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
-_FORCE = dtype_of('AppliedForce')
+_FORCE, _REGION = dtype_of('AppliedForce'), dtype_of('Region')
+_ATTRACTOR = dtype_of('Attractor')
 
 
 class SceneColumns(NamedTuple):
     """
-    The columns of a scene, for n bodies, f applied forces, r robots and a actors.
+    The columns of a scene.
+
+    Of n bodies, f applied forces, m media, k attractors, r robots and a actors.
 
     :ivar rows: name -> row
     :ivar moving: whether there is a body that is not anchored; else a step changes nothing
@@ -42,9 +41,12 @@ class SceneColumns(NamedTuple):
     :ivar bodies: (n + 1,) `Body`: the fields that follow from the scene; the last one is the
         background
     :ivar forces: (f,) `AppliedForce`, in the order of their bodies
+    :ivar regions: (m,) `Region`, in the order of their bodies; the air comes last
+    :ivar attractors: (k,) `Attractor`, in the order of their bodies
     :ivar robots: (r,) `Robot`: the same
     :ivar actors: (a,) `Actor`: the same
     :ivar tracks: their points, which the records refer to
+    :ivar hulls: the hulls of bodies, the same
     """
 
     rows: dict[str, int]
@@ -52,9 +54,12 @@ class SceneColumns(NamedTuple):
     expiries: dict[int, list[str]]
     bodies: Table
     forces: Table
+    regions: Table
+    attractors: Table
     robots: Table
     actors: Table
     tracks: tuple[Floats, ...]
+    hulls: tuple[Floats, ...]
 
 
 def check_columns(body: Body, settings: WorldSettings, dt: float) -> None:
@@ -67,7 +72,8 @@ def check_columns(body: Body, settings: WorldSettings, dt: float) -> None:
     :param dt: of a sub-step [s]
     """
     roles = body.robot, body.actor
-    if roles != (None, None) or body.forces or settings.floor_friction:
+    has_medium = body.medium is not None or settings.air.acts
+    if roles != (None, None) or body.forces or has_medium or settings.floor_friction:
         _make_columns(Scene(bodies=(body,), settings=settings), dt)
 
 
@@ -91,15 +97,19 @@ def _make_columns(scene: Scene, dt: float) -> SceneColumns:
     tracks = tuple(
         np.array(body.actor.track, np.float64) for body in scene.bodies if body.actor is not None
     )
+    bodies, regions = _body_records(scene, rows, dt), _region_records(scene)
     return SceneColumns(
         rows=rows,
         moving=not all(body.anchored for body in scene.bodies),
         expiries=expiries,
-        bodies=_body_records(scene, rows, dt),
+        bodies=bodies,
         forces=_force_records(scene),
+        regions=regions,
+        attractors=_attractor_records(scene),
         robots=_robot_records(scene),
         actors=_actor_records(scene, rows, tracks, dt),
         tracks=tracks,
+        hulls=_put_hulls(bodies, scene) if len(regions) else (),
     )
 
 
@@ -121,6 +131,7 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     names = 'reach', 'half_width', 'turning_radius', 'corners', 'pieces'
     for name, values in zip(names, numbers.T, strict=True):
         own[name] = values
+    own['area'] = [form.area for form in forms]
     own['safe_depth'] = [_safe_depth(body) for body in bodies]
     own['slop'] = [_slop(body) for body in bodies]
     gravity = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
@@ -146,7 +157,7 @@ def _safe_depth(body: Body) -> float:
     """
     if body.anchored and isinstance(body.shape, Chain):
         return math.inf
-    return body.shape.form.inner * SAFE_SHARE
+    return body.shape.form.inner / int(lib.SAFE_DEPTHS)
 
 
 def _slop(body: Body) -> float:
@@ -159,7 +170,8 @@ def _numbers_of(form: Form) -> tuple[float, float, float, int, int]:
     # A disc covers the same ground however it turns.
     turning_radius = 0.0 if form.inner >= form.outer else form.outer
     corners = sum(
-        len(piece.vertices) if isinstance(piece, Convex) else ROUND_COST for piece in form.pieces
+        len(piece.vertices) if isinstance(piece, Convex) else lib.ROUND_COST
+        for piece in form.pieces
     )
     return form.outer, form.inner, turning_radius, corners, len(form.pieces)
 
@@ -208,6 +220,47 @@ def _force_records(scene: Scene) -> Table:
     return np.array(found, _FORCE)
 
 
+def _region_records(scene: Scene) -> Table:
+    air, seed = scene.settings.air, scene.settings.seed
+    media = [
+        (row, body.name, body.medium)
+        for row, body in enumerate(scene.bodies)
+        if body.medium is not None
+    ]
+    if air.acts:
+        media.append((-1, '', air))
+    records = np.zeros(len(media), _REGION)
+    for record, (row, name, medium) in zip(records, media, strict=True):
+        record['body'], record['gusty'] = row, medium.gusts > 0.0
+        for field in ('density', 'viscosity', 'drag', 'flow'):
+            record[field] = getattr(medium, field)
+        if medium.gusts:
+            record['waves'] = gust_waves(medium, seed, name)
+    return records
+
+
+def _attractor_records(scene: Scene) -> Table:
+    settings = scene.settings
+    found = [
+        (row, offset, body.total_mass * (not body.sensor), body.charge)
+        for row, body in enumerate(scene.bodies)
+        if attracts(body, settings)
+        for offset in (body.shape.form.centroid if body.anchored else (0.0, 0.0),)
+    ]
+    return np.array(found, _ATTRACTOR)
+
+
+def _put_hulls(records: Table, scene: Scene) -> tuple[Floats, ...]:
+    """Set the hulls of the bodies of several pieces that forces move, and return them."""
+    hulls = []
+    for record, body in zip(records[:-1], scene.bodies, strict=True):
+        if body.dynamic and len(body.shape.form.pieces) > 1:
+            hull = hull_of(body.shape.form)
+            record['hull'], record['hull_count'] = hull.ctypes.data, len(hull)
+            hulls.append(hull)
+    return tuple(hulls)
+
+
 def _robot_records(scene: Scene) -> Table:
     found = [(row, body) for row, body in enumerate(scene.bodies) if body.robot is not None]
     records = np.zeros(len(found), _ROBOT)
@@ -229,12 +282,12 @@ def _actor_records(
 ) -> Table:
     records = np.zeros(len(tracks), _ACTOR)
     robots = {row: number for number, row in enumerate(scene.robot_rows.tolist())}
-    kinds = list(ACTORS)
     for record, row, track in zip(records, scene.actor_rows.tolist(), tracks, strict=True):
         body = scene.bodies[row]
         actor, start = body.actor, body.actor.start
         record['body'], record['robot'] = row, robots.get(row, -1)
-        record['kind'], record['repeat'] = kinds.index(actor.KIND), REPEATS.index(actor.repeat)
+        record['kind'] = getattr(lib, f'ACTOR_{actor.KIND.upper()}')
+        record['repeat'] = getattr(lib, actor.repeat.upper())
         for name in ('gate', 'by', 'near'):
             record[name] = rows.get(getattr(start, name), -1)
         record['waits'] = start.gate is not None or start.near is not None

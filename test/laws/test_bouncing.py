@@ -6,7 +6,9 @@
 import math
 
 import numpy as np
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Polygon
+from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .scenes import DT, energy, floor, G, NOWHERE, run, simulation, spawn, steps, turned, walls
@@ -40,6 +42,20 @@ def test_a_body_bounces_to_the_square_of_its_elasticity(report, elasticity, shap
     report.check(8, f'bounce from 1 m, e = {elasticity:g}', first, elasticity**2, 0.02, '–',
                  relative=True)  # fmt: skip
     assert len(heights) >= 4
+
+
+@pytest.mark.parametrize('elasticity', [1.0, 0.8])
+@pytest.mark.parametrize('rate', [120.0, 240.0])
+def test_a_ball_loses_the_same_share_of_its_height_in_each_bounce(report, rate, elasticity):
+    sim = Simulation(settings=WorldSettings(elasticity=elasticity), physics_rate=rate)
+    floor(sim)
+    row = spawn(sim, 'ball/0', Disc(radius=0.1), (0.0, 1.1, 0.0))
+    heights = np.array([snapshot.poses[row, 1] - 0.1 for snapshot in steps(sim, round(6 * rate))])
+    highest = (heights[1:-1] > heights[:-2]) & (heights[1:-1] >= heights[2:])
+
+    # Impacts take place between two steps, and gravity acts on after them.
+    shares = heights[1:-1][highest][:6] / elasticity ** (2 * np.arange(1, 7))
+    report.check(8, 'six bounces, height by e²', np.abs(shares - 1.0).max(), 0.0, 5e-4, '–')
 
 
 # Outlines that stand on y = 0.

@@ -4,20 +4,18 @@
 // Swept boxes: which bodies could meet in the coming step, at a bounded cost.
 //
 // Problem: boxes of fast bodies span the world, so that n bodies make n² pairs in a step that no signal ends.
-// Method: an island has a budget of pairs, shared by its fast bodies. A body whose swept box meets more than its share
-// is followed not to the end of the step, but to a *horizon* at which the box meets so many; Chipmunk's own result
-// holds from there on. Known engines bound the same by a greatest speed of bodies (`b2_maxTranslation` in Box2D, 2 m a
-// step; Jolt's `mMaxLinearVelocity`), but here every finite velocity is a velocity. Laws: a horizon follows from what a
-// body itself could meet, and a body that meets little is followed to the end, however fast it is and however many
-// others there are elsewhere.
+// Method: an island has a budget of pairs, shared by its fast bodies. A body whose swept box meets more than its
+// share is followed not to the end of the step, but to a *horizon* at which the box meets so many; Chipmunk's own
+// result holds from there on. Known engines bound the same by a greatest speed of bodies (`b2_maxTranslation` in
+// Box2D, 2 m a step; Jolt's `mMaxLinearVelocity`), but here every finite velocity is a velocity.
+// Laws: a horizon follows from what a body itself could meet, and a body that meets little is followed to the end,
+// however fast it is and however many others there are elsewhere.
 
 #include "swept_boxes.h"
 
 // Corners that an island may go through in a round of impacts, those of both shapes for each pair of convex shapes:
 // those of 125 boxes that all may meet each other, or of one box and 15,000 others.
 static const double budget = 125000.0;
-// Corners of a polygon whose time of impact costs as much as that of a round shape.
-static const double round_cost = 4.0;
 // Greatest count of cuts of a horizon, by half each, after which a body is not followed at all.
 enum { CUTS = 8 };
 
@@ -43,7 +41,7 @@ static Mover static_mover(Body *body, const cpShape *shape) {
                    .pivot = body->engine->p,
                    .depth = body->safe_depth,
                    .shapes = 1.0,
-                   .corners = greatest((double)corner_count(shape), round_cost),
+                   .corners = greatest(corner_count(shape), ROUND_COST),
                    .horizon = 1.0,
                    .start = middle,
                    .end = middle,
