@@ -70,7 +70,7 @@ export class Records {
   /** Ask for one past after the other: of several the server sends the last. */
   #ask() {
     const [name] = this.asking;
-    if (name) this.app.connection.send('watch', {name});
+    if (name) this.app.connection.send('watch', {name, forces: true});
   }
 
   /** @param {Record<string, any>} body with the columns of its past */
