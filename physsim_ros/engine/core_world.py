@@ -28,7 +28,13 @@ _FUNCTIONS = {
     'point_query': 'cpShapePointQuery',
 }
 # Structs of the tables that `CoreWorld.use` takes.
-_STRUCTS = {'grips': 'Grip', 'forces': 'AppliedForce', 'robots': 'Robot', 'actors': 'Actor'}
+_STRUCTS = {
+    'grips': 'Grip',
+    'forces': 'AppliedForce',
+    'regions': 'Region',
+    'robots': 'Robot',
+    'actors': 'Actor',
+}
 _CONTACT, _BEGUN = dtype_of('Contact'), dtype_of('Begun')
 check_layout()
 
@@ -67,7 +73,7 @@ class CoreWorld:
 
     def use_bodies(self, bodies: Table, former: Sequence[int]) -> None:
         """
-        Have the core step these bodies; `forces`, `robots` and `actors` of theirs are next.
+        Have the core step these bodies; `forces`, `regions`, `robots`, `actors` are next.
 
         :param bodies: (n + 1,) `Body`; the last one is the background
         :param former: place of each in the table before; -1 for those that are new
@@ -97,8 +103,8 @@ class CoreWorld:
         """
         Have the core use tables, each in place of the one of its name.
 
-        :param tables: `grips`, and in the order of their bodies `forces`, `robots` and `actors`;
-            of the structs of `_STRUCTS`
+        :param tables: `grips`, and in the order of their bodies `forces`, `regions`, `robots` and
+            `actors`; of the structs of `_STRUCTS`
         """
         for name, table in tables.items():
             setattr(self._world, name, pointer(table, _STRUCTS[name]))
@@ -108,6 +114,14 @@ class CoreWorld:
     def note_moved_static(self) -> None:
         """Note that an anchored body or a wall has been moved."""
         self._world.statics_moved = True
+
+    def use_fields(self, *, act: bool) -> None:
+        """
+        Have the core apply fields, or not.
+
+        :param act: whether fields act on the bodies, or velocities lead by them
+        """
+        self._world.has_fields = act
 
     # Steps
 

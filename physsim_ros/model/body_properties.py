@@ -23,6 +23,7 @@ from physsim_ros.model.checks import (
 )
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.media import Medium
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.texts import is_printable
 from physsim_ros.model.transform import Point
@@ -106,6 +107,11 @@ class Properties(Checked):
         tuple[AppliedForce, ...] | None,
         forces_from,
         'constant forces on the body, a list of mappings; `[]` is none',
+    ] = None
+    medium: Annotated[
+        Medium | None,
+        Medium.from_value,
+        'fills an anchored or kinematic sensor with water, air or another fluid: a mapping',
     ] = None
     label: Annotated[
         str | None,

@@ -6,9 +6,10 @@
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST, Row, Vector, Whole, Within
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST, Row, Vector, VELOCITY, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.media import DRAG, FLUID_DENSITY, GUST_TIME, GUSTS, Medium, VISCOSITY
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import Point
 
@@ -82,8 +83,27 @@ class WorldSettings(Checked):
         'coefficient of friction between bodies and the floor of a world seen from above; 0 for a '
         'world seen from the side',
     ] = field(default=0.0, repr=False)
-    seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of all noise of robots'] = field(
+    seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of the noise of robots, and of gusts'] = field(
         default=0, repr=False
+    )
+    air_density: Annotated[
+        float,
+        FLUID_DENSITY,
+        'of the air, which fills the world where no body has a `medium`; it buoys bodies up, and '
+        'resists them by v²',
+    ] = field(default=0.0, repr=False)
+    air_viscosity: Annotated[
+        float, VISCOSITY, 'of the air, which resists bodies by v as well (Stokes)'
+    ] = field(default=0.0, repr=False)
+    air_drag: Annotated[float, DRAG, 'coefficient of the drag by v²'] = field(
+        default=1.0, repr=False
+    )
+    wind: Annotated[Point, VELOCITY, 'velocity of the air'] = field(default=(0.0, 0.0), repr=False)
+    gusts: Annotated[
+        float, GUSTS, 'root mean square of the gusts of the wind, in x and in y; by `seed`'
+    ] = field(default=0.0, repr=False)
+    gust_time: Annotated[float, GUST_TIME, 'typical time from one gust to the next'] = field(
+        default=2.0, repr=False
     )
     datum: Annotated[
         Point | None,
@@ -121,6 +141,18 @@ class WorldSettings(Checked):
         f'most joints, of which {MOST_JOINTS_ON_BODY} on one body; a joint beyond it is refused',
         LIMIT,
     ] = 20000
+
+    @property
+    def air(self) -> Medium:
+        """Return the air, as a medium that fills the world."""
+        return Medium(
+            density=self.air_density,
+            viscosity=self.air_viscosity,
+            drag=self.air_drag,
+            flow=self.wind,
+            gusts=self.gusts,
+            gust_time=self.gust_time,
+        )
 
 
 def check_setting(name: str) -> None:

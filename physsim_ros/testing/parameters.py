@@ -76,6 +76,12 @@ class Parameters(TypedDict, total=False):
     elasticity: float
     floor_friction: float
     seed: int
+    air_density: float
+    air_viscosity: float
+    air_drag: float
+    wind: Sequence[float]
+    gusts: float
+    gust_time: float
     datum: Sequence[float]
     command_timeout: float
     drag_force: float
