@@ -116,7 +116,8 @@ class BodyTable:
     @property
     def has_fields(self) -> bool:
         """Return whether fields act on the bodies, or velocities lead by them."""
-        return len(self.columns.regions) > 0 or bool(self.records['state']['field'].any())
+        sources = len(self.columns.regions) + len(self.columns.attractors)
+        return sources > 0 or bool(self.records['state']['field'].any())
 
     @property
     def field_leads(self) -> Floats:

@@ -16,6 +16,7 @@ from physsim_ros.engine.core_world import Table
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
 from physsim_ros.model.actors import ACTORS, Pedestrian, REPEATS
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.attraction import attracts
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.media import gust_waves
 from physsim_ros.model.names import WORLD
@@ -31,11 +32,14 @@ SAFE_SHARE = 0.25
 ROUND_COST = 4
 _BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
 _FORCE, _REGION = dtype_of('AppliedForce'), dtype_of('Region')
+_ATTRACTOR = dtype_of('Attractor')
 
 
 class SceneColumns(NamedTuple):
     """
-    The columns of a scene, for n bodies, f applied forces, m media, r robots and a actors.
+    The columns of a scene.
+
+    Of n bodies, f applied forces, m media, k attractors, r robots and a actors.
 
     :ivar rows: name -> row
     :ivar moving: whether there is a body that is not anchored; else a step changes nothing
@@ -44,6 +48,7 @@ class SceneColumns(NamedTuple):
         background
     :ivar forces: (f,) `AppliedForce`, in the order of their bodies
     :ivar regions: (m,) `Region`, in the order of their bodies; the air comes last
+    :ivar attractors: (k,) `Attractor`, in the order of their bodies
     :ivar robots: (r,) `Robot`: the same
     :ivar actors: (a,) `Actor`: the same
     :ivar tracks: their points, which the records refer to
@@ -56,6 +61,7 @@ class SceneColumns(NamedTuple):
     bodies: Table
     forces: Table
     regions: Table
+    attractors: Table
     robots: Table
     actors: Table
     tracks: tuple[Floats, ...]
@@ -105,6 +111,7 @@ def _make_columns(scene: Scene, dt: float) -> SceneColumns:
         bodies=bodies,
         forces=_force_records(scene),
         regions=regions,
+        attractors=_attractor_records(scene),
         robots=_robot_records(scene),
         actors=_actor_records(scene, rows, tracks, dt),
         tracks=tracks,
@@ -235,6 +242,17 @@ def _region_records(scene: Scene) -> Table:
         if medium.gusts:
             record['waves'] = gust_waves(medium, seed, name)
     return records
+
+
+def _attractor_records(scene: Scene) -> Table:
+    settings = scene.settings
+    found = [
+        (row, offset, body.total_mass * (not body.sensor), body.charge)
+        for row, body in enumerate(scene.bodies)
+        if attracts(body, settings)
+        for offset in (body.shape.form.centroid if body.anchored else (0.0, 0.0),)
+    ]
+    return np.array(found, _ATTRACTOR)
 
 
 def _put_hulls(records: Table, scene: Scene) -> tuple[Floats, ...]:

@@ -74,8 +74,8 @@ class Space:
         self._table: BodyTable | None = None
         # Row of the background in the last table; -1 if there was none.
         self._background = -1
-        # Media of the last table; None if there was none.
-        self._media: bytes | None = None
+        # Fields of the last table; None if there was none.
+        self._fields: tuple[object, ...] | None = None
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
         self.grips = GripSet()
@@ -116,30 +116,37 @@ class Space:
     def lay_out(self, scene: Scene) -> BodyTable:
         """Return a new table of the bodies, which the core steps from now on."""
         rigids, background = tuple(self.bodies.by_name.values()), self.pm_space.static_body
-        self._note_media(scene)
+        self._note_fields(scene)
         self._table = table = BodyTable(scene, rigids, background, self.dt)
         self._core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
         self._core.use(
             forces=table.columns.forces,
             regions=table.columns.regions,
+            attractors=table.columns.attractors,
             robots=table.robots,
             actors=table.actors,
         )
-        self._core.use_fields(act=table.has_fields)
+        self._core.use_fields(self._settings, act=table.has_fields)
         self._background = len(rigids)
         for row, rigid in enumerate(rigids):
             rigid.row = row
         self.lay_out_joints()
         return table
 
-    def _note_media(self, scene: Scene) -> None:
-        """Have bodies wake, and begin with the fields of now, where media are others."""
-        media = columns_of(scene, self.dt).regions.tobytes()
-        if self._media not in (None, media):
+    def _note_fields(self, scene: Scene) -> None:
+        """Have bodies wake, and begin with the fields of now, where these are others."""
+        columns, settings = columns_of(scene, self.dt), scene.settings
+        fields = (
+            columns.regions.tobytes(),
+            columns.attractors.tobytes(),
+            (settings.gravitation, settings.coulomb),
+            (settings.attraction_power, settings.softening),
+        )
+        if self._fields not in (None, fields):
             wake_bodies(rigid.pm_body for rigid in self.bodies.by_name.values())
             for rigid in self.bodies.by_name.values():
                 rigid.fresh = True
-        self._media = media
+        self._fields = fields
 
     def lay_out_joints(self) -> None:
         """Have the core step the joints that there are."""
@@ -226,7 +233,10 @@ class Space:
         if rigid.body.medium is not None:
             wake_bodies(each.pm_body for each in self.bodies.by_name.values())
         self._core.note_moved_static()
-        self._set_flag(rigid, 'fresh', value=True)
+        # It attracts others from another place.
+        attracting = len(self._table.columns.attractors) if self._table is not None else 0
+        for each in self.bodies.by_name.values() if attracting else (rigid,):
+            self._set_flag(each, 'fresh', value=True)
         self._release(touching)
         self.changes += 1
 

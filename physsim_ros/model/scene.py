@@ -62,6 +62,7 @@ class Body:
     label: str = field(default='', repr=False)
     actor: Actor | None = field(default=None, repr=False)
     forces: tuple[AppliedForce, ...] = field(default=(), repr=False)
+    charge: float = field(default=0.0, repr=False)
     medium: Medium | None = field(default=None, repr=False)
 
     @property

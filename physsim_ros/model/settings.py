@@ -105,6 +105,28 @@ class WorldSettings(Checked):
     gust_time: Annotated[float, GUST_TIME, 'typical time from one gust to the next'] = field(
         default=2.0, repr=False
     )
+    gravitation: Annotated[
+        float,
+        Within(0.0, HEAVIEST, 'N m²/kg²'),
+        'G of the attraction G m m / r² between all bodies but sensors; the unit follows '
+        '`attraction_power`',
+    ] = field(default=0.0, repr=False)
+    coulomb: Annotated[
+        float,
+        Within(0.0, HEAVIEST, 'N m²/C²'),
+        'k of the force k q q / r² between bodies with a `charge`; the unit follows '
+        '`attraction_power`',
+    ] = field(default=0.0, repr=False)
+    attraction_power: Annotated[
+        float,
+        Within(-1.0, 4.0),
+        'power p of the distance, in 1 / r^p, of both: 2 as on earth, 1 in a flat world',
+    ] = field(default=2.0, repr=False)
+    softening: Annotated[
+        float,
+        Within(0.0, 1000.0, 'm'),
+        'length ε that bounds both where two bodies pass each other: r² is r² + ε²',
+    ] = field(default=0.001, repr=False)
     datum: Annotated[
         Point | None,
         Row((Within(-90.0, 90.0, 'deg'), Within(-180.0, 180.0, 'deg'))),

@@ -49,6 +49,7 @@ EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
     'circle': ('disc', 'disk', 'sphere', 'radius', 'diameter'),
     'box': ('rectangle', 'cube', 'size', 'width', 'height'),
     'forces': ('force', 'applied_force', 'thrust', 'thruster', 'push'),
+    'charge': ('q', 'coulomb', 'electric_charge'),
     'medium': ('water', 'fluid', 'liquid', 'air', 'buoyancy', 'wind', 'region'),
     'label': ('text', 'caption', 'note', 'title'),
     'lower': ('min', 'minimum', 'from'),

@@ -82,6 +82,10 @@ class Parameters(TypedDict, total=False):
     wind: Sequence[float]
     gusts: float
     gust_time: float
+    gravitation: float
+    coulomb: float
+    attraction_power: float
+    softening: float
     datum: Sequence[float]
     command_timeout: float
     drag_force: float

@@ -317,6 +317,12 @@ def heavier(state, factor):
     def medium(each):
         return replace(each, density=each.density * factor, viscosity=each.viscosity * factor)
 
+    settings = replace(
+        state.settings,
+        gravitation=state.settings.gravitation / factor,
+        coulomb=state.settings.coulomb * factor,
+    )
+    state = replace(state, settings=settings)
     names = ('max_torque', 'stiffness', 'damping', 'max_force', 'break_force')
     return with_joints(
         with_media(with_bodies(state, body), medium),
@@ -372,8 +378,12 @@ def larger(state, size, time):
             upper=along,
         )
 
+    of_attraction = size ** (1 + state.settings.attraction_power) / time**2
     settings = replace(
         state.settings,
+        gravitation=state.settings.gravitation * of_attraction,
+        coulomb=state.settings.coulomb * of_attraction,
+        softening=state.settings.softening * size,
         gravity=tuple(part * speed / time for part in state.settings.gravity),
         bounds=None
         if state.settings.bounds is None

@@ -741,6 +741,22 @@ def leaves():
     return sim
 
 
+# Law 72: attraction
+
+
+def planets():
+    """Return a sun with two planets and a comet, and two charges on one of the planets' ways."""
+    sim = simulation(gravity=NOWHERE, gravitation=1.0, coulomb=2.0)
+    spawn(sim, 'sun/0', Disc(radius=0.1), mass=4.0, anchored=True)
+    for number, (radius, mass) in enumerate(((1.0, 0.01), (1.6, 0.02))):
+        said = {'mass': mass, 'velocity': (0.0, math.sqrt(4.0 / radius))}
+        spawn(sim, f'planet/{number}', Disc(radius=0.03), (radius, 0.0, 0.0), **said)
+    spawn(sim, 'comet/0', ELL, (-5.0, 3.0, 0.2), mass=1e-3, velocity=(1.0, 0.2), charge=0.01)
+    spawn(sim, 'ion/0', Disc(radius=0.05), (0.0, 3.0, 0.0), mass=0.1, charge=0.2)
+    spawn(sim, 'ion/1', Disc(radius=0.05), (1.0, 3.0, 0.0), mass=0.1, charge=-0.1)
+    return sim
+
+
 @cache
 def far_away():
     """Return a world of much that could change what happens far from it."""
@@ -848,6 +864,7 @@ def _laws():
         'stack in the wind': Scene(build=windy_stack),
         'floats': Scene(build=floats),
         'leaves in the wind': Scene(build=leaves),
+        'planets and ions': Scene(build=planets),
     }.items()
     for kind in ('axle', 'rod', 'rope'):
         yield f'pendulum by a(n) {kind} on a box', Scene(build=partial(pendulum_on_box, kind))

@@ -124,6 +124,14 @@ typedef struct Region {
     Wave waves[WAVES];
 } Region;
 
+// A body that attracts others, and is attracted where forces move it.
+typedef struct Attractor {
+    int32_t body;
+    cpVect center; // of mass, from the engine's origin [m]
+    double mass;   // [kg]
+    double charge; // [C]
+} Attractor;
+
 // A robot: its drive, and what its wheels and its odometry have done.
 typedef struct Robot {
     // These fields are set by Python.
@@ -330,20 +338,23 @@ typedef struct World {
     uint8_t statics_moved; // an anchored body or a wall has been moved since the last step
     uint8_t has_fields;    // fields act, or velocities lead by them
     double drag_force;     // greatest force of a hand, in weights of the body
-    int64_t step;          // count of steps that the world has made
-    int64_t age;           // count of steps since the space was built
+    // Of attraction (`attraction.c`): G [N m^p/kg²], k [N m^p/C²], p and ε [m].
+    double gravitation, coulomb, attraction_power, softening;
+    int64_t step; // count of steps that the world has made
+    int64_t age;  // count of steps since the space was built
     // The bodies with the background, the others as they are in the world.
     Body *bodies;
     Joint *joints;
     Part *parts;
     Row *rows;
     Grip *grips;
-    AppliedForce *forces; // in the order of their bodies
-    Region *regions;      // in the order of their bodies; the air comes last
+    AppliedForce *forces;  // in the order of their bodies
+    Region *regions;       // in the order of their bodies; the air comes last
+    Attractor *attractors; // in the order of their bodies
     Robot *robots;
     Actor *actors;
-    int32_t body_count, joint_count, part_count, row_count, grip_count, force_count, region_count, robot_count,
-        actor_count;
+    int32_t body_count, joint_count, part_count, row_count, grip_count, force_count, region_count, attractor_count,
+        robot_count, actor_count;
     // These fields are results of the last steps.
     uint8_t has_broken; // a joint
     uint8_t has_lost;   // a body has left the range of numbers
