@@ -186,17 +186,22 @@ enum {
     ROW_ANGLE,    // ratio yaw_b - yaw_a [rad]
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
-    ROW_ALONG,    // way of the first anchor along that axis [m]
-    ROW_SPRING    // distance of the two anchors, as a spring and its damper give it [m]
+    ROW_ALONG     // way of the first anchor along that axis [m]
 };
 
-// A constraint row: lower <= x <= upper, both the same for an equality; a spring has its rest length in both.
+// Laws of constraint rows: lower <= x <= upper, both the same for an equality; the force of a spring and its damper,
+// without which x is `lower`; x changes at `rate`, with a force of any size up to `most`.
+enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE };
+
+// A constraint row.
 typedef struct Row {
     int32_t kind;
+    int32_t law;
     int32_t part, component; // which impulse of which constraint is that of the row
     double lower, upper;     // [m, rad]
     double below, above;     // factors from Chipmunk's impulse to λ, where x is below the lower bound, and elsewhere
     double most;             // greatest absolute value of λ in a step [N s, N m s]
+    double rate;             // of x, which is driven [m/s, rad/s]
     double stiffness;        // of a spring [N/m]
     double damping;          // of a spring, with what its stiffness adds to it [N s/m]
 } Row;

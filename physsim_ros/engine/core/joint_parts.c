@@ -206,8 +206,7 @@ static double apart_by(const World *world, const Joint *joint) {
     double most = 0.0;
     for (const Row *row = world->rows + joint->first_row, *end = row + joint->row_count; row < end; row++) {
         double x = row_at(row, joint, &anchors, a, b, &jacobian);
-        bool holds = row->kind != ROW_SPRING;
-        most = greatest(most, holds ? greatest(x - row->upper, row->lower - x) : 0.0);
+        most = greatest(most, row->law == LAW_BOUNDS ? greatest(x - row->upper, row->lower - x) : 0.0);
     }
     return most;
 }

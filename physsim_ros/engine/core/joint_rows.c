@@ -39,8 +39,7 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
     case ROW_ANGLE:
         *jacobian = (Jacobian){{{0.0, 0.0}, -1.0}, {{0.0, 0.0}, joint->ratio}};
         return joint->ratio * b.yaw - a.yaw;
-    case ROW_DISTANCE:
-    case ROW_SPRING: {
+    case ROW_DISTANCE: {
         double distance = length(anchors->apart);
         // Anchors on each other have no direction; any one parts them.
         Vec direction = distance > 0.0 ? scaled(anchors->apart, 1.0 / distance) : vec(1.0, 0.0);

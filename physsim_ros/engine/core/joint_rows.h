@@ -16,12 +16,12 @@ typedef struct Anchors {
 
 Anchors anchors_at(const Joint *joint, Pose a, Pose b);
 
-// Return x of a row, and its Jacobian.
 // Whether a row holds x where it is, rather than by a force.
 static inline bool is_equality(const Row *row) {
-    return row->lower == row->upper && row->kind != ROW_SPRING;
+    return row->law == LAW_BOUNDS && row->lower == row->upper;
 }
 
+// Return x of a row, and its Jacobian.
 double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a, Pose b, Jacobian *jacobian);
 
 // The Jacobian of direction . (p_a - p_b), for points that are `arm_a` and `arm_b` from the centres of mass.

@@ -34,11 +34,11 @@ static inline double sign_of(const Row *row, double excess) {
 
 // Bounds of λ of a row of a joint, without its greatest force.
 static inline double lower_bound(const Row *row, bool holds, double excess) {
-    return holds && (row->kind == ROW_SPRING || row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
+    return holds && (row->law != LAW_BOUNDS || row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
 }
 
 static inline double upper_bound(const Row *row, bool holds, double excess) {
-    return holds && (row->kind == ROW_SPRING || row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
+    return holds && (row->law != LAW_BOUNDS || row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
 }
 
 // The side of a row by a guess of λ.

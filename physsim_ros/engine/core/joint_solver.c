@@ -8,7 +8,7 @@
 // where joints and contacts contradict each other. Method: all rows of an island are solved together (`mixed_lcp`),
 // in velocities (`joint_velocities`) and then in positions (`joint_positions`). Cost: 5 µs a step for a pendulum, 150
 // µs for a chain of fifty axles. Without it laws 14 to 16, 20, 22, 23, 33, 34 and 61 fail. Chipmunk's impulses are the
-// first guess. Impulses of springs and motors, and contacts between bodies without joints, stay Chipmunk's.
+// first guess. Impulses of springs without dampers, and contacts between bodies without joints, stay Chipmunk's.
 
 #include "joint_positions.h"
 #include "joint_velocities.h"
@@ -17,7 +17,7 @@
 // Whether springs and dampers alone join an island: sleeping.c finds whether it rests.
 static bool of_springs(const Island *island) {
     for (int row = 0; row < island->joint_row_count; row++) {
-        if (island->rows[row]->kind != ROW_SPRING) {
+        if (island->rows[row]->law != LAW_SPRING) {
             return false;
         }
     }

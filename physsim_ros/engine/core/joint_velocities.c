@@ -69,7 +69,7 @@ typedef struct Change {
 
 static double softness_of(const Solve *solve, int row) {
     const Row *of_joint = solve->island->rows[row];
-    if (of_joint->kind != ROW_SPRING) {
+    if (of_joint->law != LAW_SPRING) {
         return joint_softness;
     }
     Ends ends = solve->island->ends[row];
@@ -198,9 +198,8 @@ static void set_targets(const Solve *solve, VelocityRows *rows, const double *bo
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     for (int row = 0; row < normal; row++) {
         const Row *of_joint = island->rows[row];
-        bool is_spring = of_joint->kind == ROW_SPRING;
-        double pull = is_spring ? of_joint->stiffness * solve->excess[row] / of_joint->damping : 0.0;
-        rows->wanted[row] = -pull - rows->rates[row];
+        double pull = solve->springs[row] ? of_joint->stiffness * solve->excess[row] / of_joint->damping : 0.0;
+        rows->wanted[row] = of_joint->rate - pull - rows->rates[row];
     }
     for (int number = 0; number < island->touch_count; number++) {
         const Bearing *touch = island->touches + number;
@@ -247,7 +246,7 @@ static Solution solve_with_bounce(Solve *solve, VelocityRows *rows, const double
 
 // The work of the impulses of a solution [J].
 //
-// Velocities are relative to the surfaces that touch: the work that a kinematic body or a conveyor does is not counted.
+// Velocities are relative to the surfaces that touch: the work that a kinematic body, a conveyor does is not counted.
 // Chipmunk measures the approach before gravity and springs act on it, so that it may have been as fast as `bounce`.
 static double work_of(const Solve *solve, const VelocityRows *rows, const Solution *solution) {
     const Island *island = solve->island;
@@ -256,8 +255,9 @@ static double work_of(const Solve *solve, const VelocityRows *rows, const Soluti
     for (int row = 0; row < normal; row++) {
         double before = rows->rates[row];
         double after = before + rate(solve->jacobians[row], island->ends[row], solution->changes);
-        // A spring gives back what it has taken.
-        work += solve->springs[row] ? 0.0 : solution->impulses[row] * (before + after) / 2.0;
+        // A spring gives back what it has taken, and a drive gives energy.
+        bool bounds = island->rows[row]->law == LAW_BOUNDS;
+        work += bounds ? solution->impulses[row] * (before + after) / 2.0 : 0.0;
     }
     for (int number = 0; number < island->touch_count; number++) {
         int left = normal + number, right = tangent + number;
@@ -341,7 +341,7 @@ static void bend(Solve *solve, Solution *solution, Twist *velocities) {
     for (int row = 0; row < island->joint_row_count; row++) {
         Ends ends = island->ends[row];
         double bent = rate(solve->jacobians[row], ends, velocities) - rate(jacobians[row], ends, velocities);
-        bool pressed_on = solve->excess[row] * bent < 0.0;
+        bool pressed_on = island->rows[row]->law != LAW_DRIVE && solve->excess[row] * bent < 0.0;
         if (solution->sides[row] == 0 && (is_equality(island->rows[row]) || pressed_on)) {
             before[row] = -rate(solve->jacobians[row], ends, begun);
             wanted[row] = bent;
@@ -370,11 +370,12 @@ static void write_impulses(Solve *solve, const Solution *solution) {
     }
 }
 
-// A joint of which a row has reached its greatest force does not hold.
+// A joint of which a row has reached its greatest force does not hold; one that is driven holds all the same.
 static void find_yielded(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
     for (int row = 0; row < island->joint_row_count; row++) {
-        if (fabs(solution->impulses[row]) >= island->rows[row]->most) {
+        const Row *of_joint = island->rows[row];
+        if (of_joint->law != LAW_DRIVE && fabs(solution->impulses[row]) >= of_joint->most) {
             for (int other = 0; other < island->joint_row_count; other++) {
                 if (island->joint_of_row[other] == island->joint_of_row[row]) {
                     solve->holds[other] = false;

@@ -131,10 +131,11 @@ def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[t
             if not damping:
                 continue
         for component, row in enumerate(part.rows):
-            most = math.inf if force is None else force * dt * abs(row.above)
-            spring = (each.joint.stiffness, damping) if row.kind == lib.ROW_SPRING else (0.0, 0.0)
-            bounds = row.lower, row.upper, row.below, row.above, most
-            rows.append((row.kind, number, component, *bounds, *spring))
+            greatest = force if row.most is None else row.most
+            most = math.inf if greatest is None else greatest * dt * abs(row.above)
+            spring = (each.joint.stiffness, damping) if row.law == lib.LAW_SPRING else (0.0, 0.0)
+            bounds = row.lower, row.upper, row.below, row.above, most, row.rate
+            rows.append((row.kind, row.law, number, component, *bounds, *spring))
     return rows
 
 

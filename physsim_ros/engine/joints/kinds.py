@@ -5,8 +5,8 @@
 The kinds of joints: the constraints of Chipmunk that each consists of, and their rows.
 
 Chipmunk solves the constraints together with contacts, without their bias, a velocity that closes
-gaps; the core then solves the rows (`core/joint_solver.c`). A constraint without rows, as
-that of a motor, is solved by Chipmunk alone.
+gaps; the core then solves the rows (`core/joint_solver.c`). A constraint without rows is solved by
+Chipmunk alone.
 """
 
 from __future__ import annotations
@@ -43,6 +43,9 @@ class Row(NamedTuple):
     :ivar upper: greatest x [m, rad]
     :ivar below: λ by the impulse that Chipmunk stores, where x is below its bounds
     :ivar above: the same where it is not
+    :ivar law: one of `LAW_BOUNDS` ... of `engine/core/core.h`
+    :ivar rate: of x, where it is driven [m/s, rad/s]
+    :ivar most: its greatest force [N, N m]; None is that of the joint
     """
 
     kind: int
@@ -50,6 +53,9 @@ class Row(NamedTuple):
     upper: float = 0.0
     below: float = 1.0
     above: float = 1.0
+    law: int = lib.LAW_BOUNDS
+    rate: float = 0.0
+    most: float | None = None
 
 
 class Part(NamedTuple):
@@ -145,9 +151,11 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
 def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """Return an axle that turns one body against the other at a rate, with a greatest torque."""
-    motor = pymunk.SimpleMotor(ends.a, ends.b, joint.number('rate'))
-    motor.max_force = joint.number('max_torque')
-    return _pivot(ends), Part(lib.PART_MOTOR, motor)
+    rate, most = joint.number('rate'), joint.number('max_torque')
+    motor = pymunk.SimpleMotor(ends.a, ends.b, rate)
+    motor.max_force = most
+    row = Row(lib.ROW_ANGLE, law=lib.LAW_DRIVE, rate=-rate, most=most)
+    return _pivot(ends), Part(lib.PART_MOTOR, motor, (row,))
 
 
 def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -155,7 +163,7 @@ def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     rest, stiffness = joint.rest_length, joint.stiffness
     anchors = ends.at_a, ends.at_b
     spring = pymunk.DampedSpring(ends.a, ends.b, *anchors, rest, stiffness, damping=0.0)
-    return (Part(lib.PART_SPRING, spring, (Row(lib.ROW_SPRING, rest, rest),)),)
+    return (Part(lib.PART_SPRING, spring, (Row(lib.ROW_DISTANCE, rest, rest, law=lib.LAW_SPRING),)),)
 
 
 def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:
