@@ -69,6 +69,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         ),
         grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
+        bounds=space.joints.bounds(),
         robots=table.robot_states,
         actors=table.actor_states,
     )
@@ -109,7 +110,7 @@ def saved_state(space: Space, step: int) -> WorldState:
     return WorldState(
         settings=checkpoint.scene.settings,
         bodies=tuple(bodies),
-        joints=checkpoint.scene.joints,
+        joints=space.joints.drawn_now(),
         lesson=checkpoint.scene.lesson,
         memory=memory,
     )
@@ -220,6 +221,7 @@ def restore_checkpoint(
     for joint in scene.joints:
         space.joints.add(joint)
     space.joints.set_unstepped(checkpoint.unstepped)
+    space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()
     space.joints.set_impulses(checkpoint.memory.joints)
     space.joints.set_totals(checkpoint.memory.totals)

@@ -6,6 +6,9 @@
 
 #include "joint_islands.h"
 
+// Violated limits are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
+static const double limit_slop = 1e-4;
+
 // One island in one step.
 typedef struct Solve {
     Arena *arena;
@@ -16,7 +19,7 @@ typedef struct Solve {
     Twist *velocities;   // (body_count): of this step
     Pose *poses;         // (body_count)
     double *excess;      // (joint_row_count): C [m, rad]
-    Jacobian *jacobians; // (row_count): where the step of Chipmunk ends
+    Jacobian *jacobians; // (link_count): where the step of Chipmunk ends
     bool *holds;         // (joint_row_count): rows of joints that have not reached their greatest force
     bool *springs;       // (row_count)
 } Solve;

@@ -24,11 +24,27 @@ static bool of_springs(const Island *island) {
     return true;
 }
 
+// Move the upper bounds that have a rate: by that as long as the joint holds, else no further than to where x will be
+// in the next step.
+static void move_bounds(World *world, const Solve *solve) {
+    const Island *island = solve->island;
+    for (int number = 0; number < island->joint_row_count; number++) {
+        Row *row = world->rows + (island->rows[number] - world->rows);
+        if (row->law == LAW_BOUNDS && row->rate != 0.0) {
+            double next = clamped(row->upper + row->rate * solve->dt, row->least, row->greatest);
+            double ahead = row_rate(&solve->system, solve->jacobians, number, solve->velocities) * solve->dt;
+            double given = row->upper + solve->excess[number] + ahead - limit_slop;
+            row->upper = solve->holds[number] ? next : greatest(next, given);
+        }
+    }
+}
+
 static void solve_island(World *world, const Island *island) {
     size_t mark = arena_mark(&world->own->arena);
     Solve solve = joint_solve(world, island);
     solve_velocities(&solve);
     solve_positions(&solve);
+    move_bounds(world, &solve);
     bool may_sleep = of_springs(island);
     for (int body = 0; body < island->body_count; body++) {
         if (island->inverses[body].mass > 0.0) {

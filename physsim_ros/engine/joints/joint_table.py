@@ -11,13 +11,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.core import dtype_of, lib
-from physsim_ros.engine.joints.kinds import EngineJoint
+from physsim_ros.engine.joints.kinds import EngineGuide, EngineJoint
 from physsim_ros.engine.layout import address_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 import pymunk
 
-_JOINT, _PART, _ROW = dtype_of('Joint'), dtype_of('Part'), dtype_of('Row')
+_JOINT, _PART, _ROW, _GUIDE = map(dtype_of, ('Joint', 'Part', 'Row', 'Guide'))
 # Kinds whose part may push their bodies apart.
 _PRESSING = {JointKind.ROD, JointKind.SPRING}
 
@@ -29,12 +29,14 @@ class JointTable:
     :param joints: of the set
     :param unstepped: names of joints whose first step is to come
     :param totals: (k, 2) float64 of each joint: impulses of its constraints in the last step
+    :param bounds: of the rows of joints, which have moved: `lower` and `upper`, by name
     :param soft: damping of the springs that Chipmunk does not solve, by name [N s/m]
     :param dt: of a sub-step [s]
 
     :ivar joints: (j,) `Joint`
     :ivar parts: (p,) `Part`: the constraints, joint by joint
     :ivar rows: (r,) `Row`: joint by joint
+    :ivar guides: (g,) `Guide`: row by row
     """
 
     def __init__(
@@ -42,6 +44,7 @@ class JointTable:
         joints: Sequence[EngineJoint],
         unstepped: Collection[str],
         totals: Mapping[str, Floats],
+        bounds: Mapping[str, NDArray[np.void]],
         soft: Mapping[str, float],
         dt: float,
     ) -> None:
@@ -72,12 +75,21 @@ class JointTable:
             if 0 < len(former := totals.get(name, ())) == len(of_joint):
                 of_joint[:] = former
         self.rows = np.zeros(sum(map(len, rows)), _ROW)
-        _fill(self.rows, [row for each in rows for row in each])
+        _fill(self.rows, [row for each in rows for row, _ in each])
+        self._guides = [guide for each in rows for _, guides in each for guide in guides]
+        self.rows['guide_count'] = counts = [len(guides) for each in rows for _, guides in each]
+        self.rows['first_guide'] = np.cumsum(counts) - counts
+        self.guides = np.zeros(len(self._guides), _GUIDE)
+        _fill(self.guides, [(-1, *guide[1:6]) for guide in self._guides])
+        for name, of_joint in zip(self.names, self._bounds, strict=True):
+            if 0 < len(former := bounds.get(name, ())) == len(of_joint):
+                of_joint[['lower', 'upper']] = former
 
     def place_ends(self, places: Mapping[pymunk.Body, int]) -> None:
         """Set the places of bodies in the table of bodies, the background among them."""
         self.joints['a'] = [places[ends.a] for ends in self._ends]
         self.joints['b'] = [places[ends.b] for ends in self._ends]
+        self.guides['body'] = [places[guide.body] for guide in self._guides]
 
     @property
     def broken(self) -> list[int]:
@@ -89,6 +101,18 @@ class JointTable:
     def totals(self) -> dict[str, Floats]:
         """Return (k, 2) float64 of each joint: impulses of its constraints in the last step."""
         return dict(zip(self.names, self._totals, strict=True))
+
+    @property
+    def bounds(self) -> dict[str, NDArray[np.void]]:
+        """Return `lower` and `upper` of the rows of each joint that has one which moves."""
+        pairs = zip(self.names, self._bounds, strict=True)
+        return {
+            name: rows[['lower', 'upper']].copy() for name, rows in pairs if rows['rate'].any()
+        }
+
+    @property
+    def _bounds(self) -> list[NDArray[np.void]]:
+        return np.split(self.rows, self.joints['first_row'][1:])
 
     @property
     def _totals(self) -> list[Floats]:
@@ -115,15 +139,17 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
     )
 
 
-def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[tuple[object, ...]]:
+def _rows_of(
+    each: EngineJoint, first: int, damping: float, dt: float
+) -> list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]]:
     """
-    Return the rows of a joint.
+    Return the rows of a joint, each with its guides.
 
     :param first: number of its first part
     :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
     """
     force = each.joint.properties.max_force
-    rows: list[tuple[object, ...]] = []
+    rows = []
     for number, part in enumerate(each.parts, first):
         if part.kind == lib.PART_SPRING:
             # One of the two gives its force.
@@ -134,8 +160,9 @@ def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[t
             greatest = force if row.most is None else row.most
             most = math.inf if greatest is None else greatest * dt * abs(row.above)
             spring = (each.joint.stiffness, damping) if row.law == lib.LAW_SPRING else (0.0, 0.0)
-            bounds = row.lower, row.upper, row.below, row.above, most, row.rate
-            rows.append((row.kind, row.law, number, component, *bounds, *spring))
+            bounds = row.lower, row.upper, row.below, row.above, most, row.rate, *row.reach
+            fields = (row.kind, row.law, number, component, *bounds, row.offset, *spring)
+            rows.append((fields, row.guides))
     return rows
 
 
