@@ -85,9 +85,7 @@ def _saved_joint(name: str, terms: Mapping[Any, Any], saved: object) -> Joint:
     kind, a, b, properties = joined_from(terms)
     properties.check_kind(kind)
     seat, guides = _seat(saved, properties.over or ())
-    return Joint(
-        name=name, kind=kind, a=a, b=b, seat=seat, properties=properties, guides=guides
-    )
+    return Joint(name=name, kind=kind, a=a, b=b, seat=seat, properties=properties, guides=guides)
 
 
 def _is_unedited(

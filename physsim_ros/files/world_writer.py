@@ -98,7 +98,8 @@ def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
     points = joint.drawn_points(poses)
     entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
     entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
-    return entry | joint.properties.entry() | {'seat': _seat_entry(joint)}
+    properties: dict[str, object] = joint.properties.entry()
+    return entry | properties | {'seat': _seat_entry(joint)}
 
 
 def _seat_entry(joint: Joint) -> list[float]:

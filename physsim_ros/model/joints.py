@@ -27,6 +27,9 @@ MOST_RATIO = 1e6
 _MOST_PHASE = 1e6
 
 
+# Points of a rope, at most: each is looked at in every step.
+MOST_STOPS = 64
+
 # The properties of every kind.
 _COMMON = ('max_force', 'break_force', 'collide')
 
@@ -211,7 +214,9 @@ class JointProperties(Checked):
         'they were joined; of a winch, its least length',
     ] = None
     upper: Annotated[
-        float | None, Within(-LARGEST, LARGEST, 'rad or m'), 'greatest angle, displacement or length'
+        float | None,
+        Within(-LARGEST, LARGEST, 'rad or m'),
+        'greatest angle, displacement or length',
     ] = None
     rate: Annotated[
         float | None,

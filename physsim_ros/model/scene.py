@@ -308,10 +308,14 @@ class Scene:
         return np.array([body.shape.form.outer for body in self.bodies], np.float64)
 
     @cached_property
+    def row_of(self) -> Mapping[str, int]:
+        """Rows of the bodies by name; -1 is the background."""
+        return {name: row for row, name in enumerate(self.names)} | {WORLD: -1}
+
+    @cached_property
     def joint_rows(self) -> Ints:
         """(j, 2) int64: rows of the bodies a and b of each joint; -1 is the background."""
-        rows = {name: row for row, name in enumerate(self.names)} | {WORLD: -1}
-        pairs = [(rows[joint.a], rows[joint.b]) for joint in self.joints]
+        pairs = [(self.row_of[joint.a], self.row_of[joint.b]) for joint in self.joints]
         return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
     @cached_property

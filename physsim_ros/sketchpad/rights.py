@@ -209,10 +209,12 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
         case requests.Spawn() | requests.ChangeBody() | requests.Delete() | requests.DriveRobot():
             return (request.name,)
         case requests.Join(a=a, b=b, points=points, properties=properties):
-            over = properties.over or ('',) * (len(points) - 2)
+            names = (a, *(properties.over or ('',) * (len(points) - 2)), b)
+            # One point is that of both ends.
+            places = points if len(points) > 1 else points * 2
             return tuple(
                 each
-                for name, point in ((a, points[0]), *zip(over, points[1:]), (b, points[-1]))
+                for name, point in zip(names, places, strict=True)
                 for each in ((name,) if name else query.bodies_at(point)[:1])
             )
         case requests.Rejoin(a=a, b=b):

@@ -150,10 +150,10 @@ class JointSet:
                 list(self.by_name.values()),
                 self._unstepped,
                 self._totals,
-                self._bounds,
                 self._soft_springs(),
                 self._dt,
             )
+            self._table.set_bounds(self._bounds)
         self._table.place_ends(places)
         table = self._table
         self._core.use_joints(table.joints, table.parts, table.rows, table.guides)

@@ -29,7 +29,6 @@ class JointTable:
     :param joints: of the set
     :param unstepped: names of joints whose first step is to come
     :param totals: (k, 2) float64 of each joint: impulses of its constraints in the last step
-    :param bounds: of the rows of joints, which have moved: `lower` and `upper`, by name
     :param soft: damping of the springs that Chipmunk does not solve, by name [N s/m]
     :param dt: of a sub-step [s]
 
@@ -44,7 +43,6 @@ class JointTable:
         joints: Sequence[EngineJoint],
         unstepped: Collection[str],
         totals: Mapping[str, Floats],
-        bounds: Mapping[str, NDArray[np.void]],
         soft: Mapping[str, float],
         dt: float,
     ) -> None:
@@ -81,9 +79,6 @@ class JointTable:
         self.rows['first_guide'] = np.cumsum(counts) - counts
         self.guides = np.zeros(len(self._guides), _GUIDE)
         _fill(self.guides, [(-1, *guide[1:6]) for guide in self._guides])
-        for name, of_joint in zip(self.names, self._bounds, strict=True):
-            if 0 < len(former := bounds.get(name, ())) == len(of_joint):
-                of_joint[['lower', 'upper']] = former
 
     def place_ends(self, places: Mapping[pymunk.Body, int]) -> None:
         """Set the places of bodies in the table of bodies, the background among them."""
@@ -102,12 +97,21 @@ class JointTable:
         """Return (k, 2) float64 of each joint: impulses of its constraints in the last step."""
         return dict(zip(self.names, self._totals, strict=True))
 
+    def set_bounds(self, bounds: Mapping[str, NDArray[np.void]]) -> None:
+        """Set `lower` and `upper` of the rows of joints, by name."""
+        for name, rows in zip(self.names, self._bounds, strict=True):
+            former = bounds.get(name)
+            if former is not None and len(former) == len(rows):
+                rows[['lower', 'upper']] = former
+
     @property
     def bounds(self) -> dict[str, NDArray[np.void]]:
         """Return `lower` and `upper` of the rows of each joint that has one which moves."""
         pairs = zip(self.names, self._bounds, strict=True)
         return {
-            name: rows[['lower', 'upper']].copy() for name, rows in pairs if rows['rate'].any()
+            name: rows[['lower', 'upper']].copy()
+            for name, rows in pairs
+            if (rows['rate'][rows['law'] == lib.LAW_BOUNDS] != 0.0).any()
         }
 
     @property
@@ -149,7 +153,7 @@ def _rows_of(
     :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
     """
     force = each.joint.properties.max_force
-    rows = []
+    rows: list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]] = []
     for number, part in enumerate(each.parts, first):
         if part.kind == lib.PART_SPRING:
             # One of the two gives its force.

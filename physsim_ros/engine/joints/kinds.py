@@ -190,7 +190,9 @@ def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     rest, stiffness = joint.rest_length, joint.stiffness
     anchors = ends.at_a, ends.at_b
     spring = pymunk.DampedSpring(ends.a, ends.b, *anchors, rest, stiffness, damping=0.0)
-    return (Part(lib.PART_SPRING, spring, (Row(lib.ROW_DISTANCE, rest, rest, law=lib.LAW_SPRING),)),)
+    return (
+        Part(lib.PART_SPRING, spring, (Row(lib.ROW_DISTANCE, rest, rest, law=lib.LAW_SPRING),)),
+    )
 
 
 def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:

@@ -11,7 +11,13 @@ from typing import Annotated, Any
 from physsim_ros.model.checks import check_point, OfClass, shown, text
 from physsim_ros.model.declarations import Checked, without_unset
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
-from physsim_ros.model.joints import joined_from, JointKind, JointProperties, kind_from
+from physsim_ros.model.joints import (
+    joined_from,
+    JointKind,
+    JointProperties,
+    kind_from,
+    MOST_STOPS,
+)
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests.bodies import ChangeBody, Spawn
 from physsim_ros.model.requests.request import (
@@ -58,7 +64,9 @@ class Join(Request):
     name: Annotated[str, check_name, 'of the joint']
     kind: Annotated[JointKind, lambda value, name: kind_from(text(value, name)), 'of joint']
     points: Annotated[
-        tuple[Point, ...], _points, 'anchor points, one or two as the kind requires; a rope may have others between them [m]'
+        tuple[Point, ...],
+        _points,
+        'anchor points, one or two as the kind requires; a rope may have others between them [m]',
     ]
     frame: Annotated[str, text, "of the points: '' for the world, or a body's name"] = ''
     a: Annotated[str, text, "name of a body; '' is the topmost one at the first point"] = ''
@@ -83,6 +91,8 @@ class Join(Request):
                 f'{" or more" * passes}, not {len(self.points)}',
                 field='points',
             )
+        if len(self.points) > MOST_STOPS:
+            raise BadProperty(f'a rope has at most {MOST_STOPS} points', field='points')
         over = self.properties.over
         if over is not None and len(over) != len(self.points) - count:
             raise BadProperty(

@@ -60,9 +60,12 @@ def join(live: LiveSpace, request: Join) -> Answer:
     if passed:
         names = _passed_bodies(space, properties.over, passed)
         properties = replace(properties, over=names)
-        points = (points[0], *starmap(partial(_center, space), zip(names, passed)), points[-1])
-    same = kept is not None and (kept.a, kept.b) == (a, b) and _is_at(space, kept, points)
-    if same and kept.properties.over == properties.over:
+        points = (points[0], *map(partial(_center, space), names, passed), points[-1])
+    if (
+        kept is not None
+        and (kept.a, kept.b, kept.properties.over) == (a, b, properties.over)
+        and _is_at(space, kept, points)
+    ):
         seat, guides = kept.seat, kept.guides
         if not {'phase', 'ratio'}.isdisjoint((*request.properties.explicit(), *request.unset)):
             seat = seat._replace(phase=_phase(space, a, b, properties))
