@@ -9,7 +9,8 @@
 // forces are those of the pose after the move; and the lead of a body in free flight, half a step of its acceleration,
 // is that of the pose that it has now.
 //
-// Cost: 15 ns a force and sub-step. Without it thrusters and ropes cannot be put on bodies.
+// Cost: 15 ns a force and sub-step.
+// Without it thrusters and ropes cannot be put on bodies.
 
 #include "stages.h"
 
@@ -27,6 +28,7 @@ void find_leads(World *world) {
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
         // Forces are listed in the order of their bodies.
+        assert(last == NULL || last <= body);
         body->state.lead = body == last ? body->state.lead : body->steady_lead;
         last = body;
         Twist wrench = wrench_of(applied, engine->a);

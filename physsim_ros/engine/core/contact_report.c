@@ -3,11 +3,13 @@
 
 // Contact report: which pairs of bodies touched in a frame, where, and with which impulse.
 //
-// Problem: a frame has several steps; a pair that touches in one of them has to be told, with the sum of its impulses.
+// Problem: a frame has several steps; a pair that touches in one of them has to be told, with the sum of its
+// impulses.
 // Method: a hash table of pairs by the places of their bodies, which each step updates. A pair has the mean of its
 // points and normals of the last step in which it touched. Chipmunk does not list the contacts of sleeping bodies:
-// while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch is that
-// at which a sensor is met, else that of the impact, within the step. Cost: 15 ns a contact and step.
+// while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch is
+// that at which a sensor is met, else that of the impact, within the step.
+// Cost: 15 ns a contact and step.
 
 #include "stages.h"
 #include <stdlib.h>
@@ -61,6 +63,8 @@ void free_report(World *world) {
 // Where a pair is in the table, or belongs (Fibonacci hashing; Knuth, The Art of Computer Programming 3, 6.4).
 static Pair *slot_of(const Report *report, int a, int b) {
     uint64_t key = ((uint64_t)(uint32_t)a << 32U) | (uint32_t)b;
+    // A free slot ends the search.
+    assert(report->count < report->room && (report->room & (report->room - 1)) == 0);
     uint64_t slot = (key * 0x9E3779B97F4A7C15U) >> 20U, mask = (uint64_t)report->room - 1;
     for (slot &= mask; report->pairs[slot].counts; slot = (slot + 1) & mask) {
         if (report->pairs[slot].a == a && report->pairs[slot].b == b) {
@@ -90,6 +94,7 @@ static void make_room(Report *report, int64_t first) {
 }
 
 static Pair *pair_of(Report *report, int a, int b) {
+    assert(a >= 0 && a <= b);
     if (report->room < 2 * (report->count + 1)) {
         make_room(report, NEVER);
     }
@@ -326,6 +331,7 @@ void rename_contacts(World *world, const int32_t *former, int count) {
         places[old] = -1;
     }
     for (int place = 0; place < count; place++) {
+        assert(former[place] < world->body_count);
         if (former[place] >= 0) {
             places[former[place]] = place;
         }
@@ -340,6 +346,7 @@ void rename_contacts(World *world, const int32_t *former, int count) {
             // The order of bodies stays, so that the lesser place is that of the same body.
             pair.a = places[pair.a];
             pair.b = places[pair.b];
+            assert(pair.a <= pair.b);
             *slot_of(report, pair.a, pair.b) = pair;
             report->count++;
         }

@@ -43,6 +43,7 @@ static bool boxes_meet(World *world, const Statics *statics) {
     int count = 0;
     for (int place = 0; place < world->body_count; place++) {
         if (is_fast(world, world->bodies + place)) {
+            assert(count < FEW);
             fast[count++] = mover_of(world->bodies + place, way_of(world, world->bodies + place));
         }
     }

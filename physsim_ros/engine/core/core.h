@@ -106,7 +106,7 @@ typedef struct Robot {
     double acceleration; // greatest of the rim of a wheel [m/s²]
     double curvature;    // greatest of its way [1/m]
     cpVect center;       // of mass in the frame of the body [m]
-    double slip[2];      // deviation of the odometry after 1 m of way: of the way [√m], of the heading [rad/√m]
+    double slip[2];      // deviation of the odometry after 1 m of way: in distance [√m], in heading [rad/√m]
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     // These fields are state; velocities are as seen from the robot.
     int64_t until;        // step at which the command ends
@@ -197,10 +197,10 @@ enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE };
 // What a rope passes, in the order of its way: the bodies at its ends, rings, and wheels. Of a gear it is the carrier.
 typedef struct Guide {
     int32_t body;
-    cpVect anchor;                    // the centre of a wheel in the frame of its body, from the centre of mass [m]
-    double radius;                    // > 0 where the rope runs counter-clockwise around a wheel, < 0 clockwise [m]
-    double yaw;                       // of the body, as the joint was drawn [rad]
-    double heading_in, heading_out;   // of the rope as it was drawn: where it comes, and where it goes [rad]
+    cpVect anchor;                  // the centre of a wheel in the frame of its body, from the centre of mass [m]
+    double radius;                  // > 0 where the rope runs counter-clockwise around a wheel, < 0 clockwise [m]
+    double yaw;                     // of the body, as the joint was drawn [rad]
+    double heading_in, heading_out; // of the rope as it was drawn: where it comes, and where it goes [rad]
 } Guide;
 
 // A constraint row.
@@ -332,7 +332,8 @@ typedef struct World {
     AppliedForce *forces; // in the order of their bodies
     Robot *robots;
     Actor *actors;
-    int32_t body_count, joint_count, part_count, row_count, guide_count, grip_count, force_count, robot_count, actor_count;
+    int32_t body_count, joint_count, part_count, row_count, guide_count, grip_count, force_count, robot_count,
+        actor_count;
     // These fields are results of the last steps.
     uint8_t has_broken; // a joint
     uint8_t has_lost;   // a body has left the range of numbers

@@ -109,6 +109,7 @@ static int make_element(Quotient *graph, int pivot, Arena *arena) {
     for (int k = 0; k < graph->element_counts[pivot]; k++) {
         graph->member_counts[elements[k]] = 0;
     }
+    assert(count <= most);
     graph->members[pivot] = members;
     graph->member_counts[pivot] = count;
     return weight;
@@ -155,6 +156,7 @@ static void update_node(Quotient *graph, int node, int pivot, int weight, int to
         }
     }
     // There is room: the pivot, or an element that it has absorbed, was in the list.
+    assert(nodes + elements < old_nodes + old_elements);
     list[nodes + elements++] = pivot;
     graph->node_counts[node] = nodes;
     graph->element_counts[node] = elements;
@@ -173,6 +175,7 @@ int *elimination_order(Graph given, Arena *arena) {
     for (int place = 0, least = 0; place < given.count; place++) {
         while (graph.heads[least] == NO_NODE) {
             least++;
+            assert(least <= total);
         }
         int pivot = graph.heads[least];
         unlink_node(&graph, pivot);

@@ -3,8 +3,11 @@
 
 // Islands of bodies that have met in the coming step, and move on as one.
 //
-// Each round finds the impacts to come, and joins those that meet before anything near them does. The two go on with
-// their common momentum and angular momentum, or as the anchored or kinematic body that they have met, the leader.
+// Problem: a body that has met another one meets others on the way that the two then go together.
+// Method: rounds. Each finds the impacts to come, and joins those that meet before anything near them does. The two go
+// on with their common momentum and angular momentum, or as the anchored or kinematic body that they have met, the
+// leader.
+// Cost: `swept_boxes.c` bounds the pairs of a round, and `IMPACT_ROUNDS` the rounds.
 
 #include "impact_islands.h"
 #include "time_of_impact.h"
@@ -155,6 +158,7 @@ static int list_members(const Sweep *sweep, Impact impact, int *members) {
     for (int end = 0; end < (are_one ? 1 : 2); end++) {
         if (mover_at(sweep, ends[end])->movable) {
             for (int each = sweep->movers[ends[end]].island; each >= 0; each = sweep->movers[each].next) {
+                assert(count < sweep->count);
                 members[count++] = each;
             }
         }
@@ -240,6 +244,8 @@ static int resolve(Sweep *sweep, const Impacts *impacts, int *changed) {
             continue;
         }
         for (int member = 0; member < count; member++) {
+            // No island is joined twice in a round.
+            assert(passed.count < sweep->count);
             passed.boxes[passed.count++] = sweep->movers[members[member]].box;
             changed[changed_count++] = members[member];
         }

@@ -3,12 +3,13 @@
 
 // Islands: dynamic bodies that joints with rows and contacts tie together, each solved by itself.
 //
-// The contacts of jointed bodies are rows of their island, and so are those of what they touch: Chipmunk's iterations
-// diverge where much rests on light joined bodies, and the impulses by which that then presses on its other neighbours
-// are as wrong (80 boxes of 5 kg on planks of 0.2 kg gained a fifth of the energy of their fall). Contacts are sorted
-// by bodies, shapes and points, so that what Chipmunk finds elsewhere, and the order in which it finds it, changes
-// nothing. Islands are found by union-find with path halving (Tarjan and van Leeuwen, "Worst-Case Analysis of Set Union
-// Algorithms", JACM 1984).
+// Problem: Chipmunk's iterations diverge where much rests on light joined bodies, and the impulses by which that then
+// presses on its other neighbours are as wrong (80 boxes of 5 kg on planks of 0.2 kg gained a fifth of the energy of
+// their fall).
+// Method: the contacts of jointed bodies are rows of their island, and so are those of what they touch. Islands are
+// found by union-find (`root_of` of `world.h`).
+// Law: contacts are sorted by bodies, shapes and points, so that an island does not depend on what Chipmunk finds
+// elsewhere, nor on the order in which it finds it.
 
 #include "joint_islands.h"
 #include "joint_parts.h"
@@ -113,6 +114,7 @@ static Touches touches_of_jointed(World *world) {
             }
         }
     }
+    assert(touches.count <= most);
     qsort(touches.list, (size_t)touches.count, sizeof(Bearing), compare_touches);
     return touches;
 }
@@ -147,7 +149,9 @@ static void unite_guides(const World *world, int *parents, const Joint *joint) {
 
 // The number of the island that a joint or contact belongs to.
 static int island_of(const World *world, int *parents, const int *numbers, int a, int b) {
-    return numbers[root_of(parents, world->bodies[a].dynamic ? a : b)] - 1;
+    int number = numbers[root_of(parents, world->bodies[a].dynamic ? a : b)];
+    assert(number > 0); // a joint has made it
+    return number - 1;
 }
 
 // Return the islands, with their joints and contacts, in the order of their first joints.
@@ -172,6 +176,7 @@ static Islands split(World *world, Touches touches) {
             if (numbers[root] == 0) {
                 numbers[root] = ++found.count;
             }
+            assert(found.count <= world->own->jointed_count);
             found.islands[numbers[root] - 1].joint_count++;
             found.islands[numbers[root] - 1].joint_row_count += joint->row_count;
         }
@@ -206,6 +211,7 @@ static Islands split(World *world, Touches touches) {
 // Return the number of a body in an island, to which it is added if it is not there yet. `numbers` are 0 for such.
 static int number_in(const World *world, Island *island, int *numbers, int *places, int body) {
     if (numbers[body] == 0) {
+        assert(island->body_count < 2 * (island->joint_count + island->touch_count));
         places[island->body_count] = body;
         numbers[body] = ++island->body_count;
         cpBody *engine = world->bodies[body].engine;
@@ -293,6 +299,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
         }
     }
     island->further[row] = link;
+    assert(row == island->row_count);
     for (int number = 0; number < island->body_count; number++) {
         numbers[places[number]] = 0;
     }

@@ -37,6 +37,7 @@ double *impulse_at(const Part *part, int component) {
     case PART_ROPE:
         return &((cpSimpleMotor *)part->constraint)->jAcc;
     default:
+        assert(part->kind == PART_SPRING);
         return &((cpDampedSpring *)part->constraint)->jAcc;
     }
 }
@@ -230,9 +231,8 @@ static double place_of_row(const World *world, const Joint *joint, const Row *ro
     }
     Anchors anchors = anchors_at(joint, a, b);
     x += row_at(row, joint, &anchors, a, b, &jacobian);
-    return row->guide_count == 0
-               ? x
-               : x + carrier_at(joint, guide, pose_of(world->bodies[guide->body].engine), &jacobian);
+    return row->guide_count == 0 ? x
+                                 : x + carrier_at(joint, guide, pose_of(world->bodies[guide->body].engine), &jacobian);
 }
 
 // How far the row of a joint that is furthest out of its bounds is out of them [m, rad].

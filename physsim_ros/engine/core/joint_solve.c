@@ -59,9 +59,8 @@ Solve joint_solve(World *world, const Island *island) {
     solve.jacobians = TAKE(arena, Jacobian, island->further[island->row_count]);
     solve.holds = TAKE(arena, bool, island->joint_row_count);
     solve.springs = TAKE(arena, bool, island->row_count);
-    solve.system =
-        system_of(arena, island->body_count, island->inverses, island->row_count, island->ends,
-                  island->further, island->groups);
+    solve.system = system_of(arena, island->body_count, island->inverses, island->row_count, island->ends,
+                             island->further, island->groups);
     for (int row = 0; row < island->joint_row_count; row++) {
         solve.holds[row] = island->rows[row]->law == LAW_BOUNDS;
         solve.springs[row] = island->rows[row]->law == LAW_SPRING;

@@ -9,6 +9,7 @@
 // strictly monotone linear complementarity problems", 1994): all rows that are on the wrong side change it at once.
 
 #include "lcp.h"
+#include <assert.h>
 #include <math.h>
 
 // Part of the diagonal of A that is added to it: where many λ solve the problem, it chooses the most even ones in units
@@ -89,9 +90,7 @@ bool solve_lcp(int count, double matrix[LCP_ROWS][LCP_ROWS], const double *rates
     Scaled problem = {.count = count};
     double scale[LCP_ROWS] = {0}, found[LCP_ROWS] = {0}, most_wanted = 0.0, most_found = 0.0;
     bool active[LCP_ROWS] = {false};
-    if (count > LCP_ROWS) {
-        return false;
-    }
+    assert(count <= LCP_ROWS);
     for (int i = 0; i < count; i++) {
         scale[i] = 1.0 / sqrt(matrix[i][i]);
         problem.wanted[i] = -rates[i] * scale[i];

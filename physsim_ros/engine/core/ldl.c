@@ -5,10 +5,10 @@
 //
 // Problem: the rows of a machine are solved again and again, with other values in the same places.
 // Method: the pattern of L by the elimination tree, then row by row (up-looking; T. Davis, "Algorithm 849: A concise
-// sparse Cholesky factorization package", ACM TOMS 2005). A quasi-definite matrix has such factors in every order (R.
-// J. Vanderbei, "Symmetric Quasidefinite Matrices", SIAM Journal on Optimization 1995), so that nothing is pivoted, and
-// the order of each sum is that of the pattern: the same on every processor. Cost: 12 µs for a chain of fifty axles,
-// 250 unknowns.
+// sparse Cholesky factorization package", ACM TOMS 2005). A quasi-definite matrix has such factors in every order
+// (R. J. Vanderbei, "Symmetric Quasidefinite Matrices", SIAM Journal on Optimization 1995), so that nothing is
+// pivoted, and the order of each sum is that of the pattern: the same on every processor.
+// Cost: 12 µs for a chain of fifty axles, 250 unknowns.
 
 #include "ldl.h"
 
@@ -53,6 +53,7 @@ void ldl_analyse(Ldl *system, Arena *arena) {
         int row_count = 0;
         for (int entry = system->starts[column]; entry < system->starts[column + 1]; entry++) {
             int node = system->rows[entry];
+            assert(node >= 0 && node < column);
             while (marks[node] != column + 1) {
                 marks[node] = column + 1;
                 counts[node]++;
@@ -92,6 +93,7 @@ void ldl_factor(Ldl *system) {
         }
         for (int k = system->pattern_starts[row]; k < system->pattern_starts[row + 1]; k++) {
             int column = system->pattern[k], end = system->filled[column];
+            assert(end < system->factor_starts[column + 1]);
             double value = work[column];
             work[column] = 0.0;
             for (int below = system->factor_starts[column]; below < end; below++) {

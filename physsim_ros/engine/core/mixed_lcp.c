@@ -26,7 +26,8 @@ static double unit_of(const System *system, const Problem *problem, int row) {
 static void factor_sides(System *system, const Problem *problem, const int8_t *sides) {
     for (int row = 0; row < system->row_count; row++) {
         double unit = sides[row] == 0 ? unit_of(system, problem, row) : 0.0;
-        set_row(system, row, sides[row] == 0 ? problem->jacobians : NULL, unit > 0.0 ? problem->softness[row] * unit : 1.0);
+        set_row(system, row, sides[row] == 0 ? problem->jacobians : NULL,
+                unit > 0.0 ? problem->softness[row] * unit : 1.0);
     }
     ldl_factor(&system->factors);
 }
@@ -40,6 +41,7 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
     double slack = share_of_rounding * greatest_impulse;
     solution->wrong_count = 0;
     for (int row = 0; row < system->row_count; row++) {
+        assert(problem->lower[row] <= problem->upper[row]);
         double impulse = solution->impulses[row], lower = problem->lower[row], upper = problem->upper[row];
         double outside = greatest(lower - impulse, impulse - upper), beyond = 0.0;
         if (solution->sides[row] != 0 && lower < upper) {

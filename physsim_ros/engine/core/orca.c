@@ -172,6 +172,7 @@ Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *ac
         }
     }
     int fixed = programme.count;
+    assert(fixed <= around->disc_count + around->wall_count);
     for (int number = 0; number < around->disc_count; number++) {
         if (sees_disc(self, around->discs + number)) {
             planes[programme.count++] = avoiding(self, around->discs + number, model->horizon);

@@ -105,17 +105,17 @@ void finish_moves(World *world) {
         return;
     }
     Sweep sweep = sweep_of(world, far_way);
-    int *far = TAKE(&world->own->arena, int, count);
-    count = 0;
+    int *far = TAKE(&world->own->arena, int, count), far_count = 0;
     for (int number = 0; number < sweep.count; number++) {
         Mover *mover = sweep.movers + number;
         mover->movable = goes(mover->rate);
         if (mover->movable) {
-            far[count++] = number;
+            assert(far_count < count);
+            far[far_count++] = number;
         }
     }
-    join_impacts(&sweep, far, count);
-    for (int number = 0; number < count; number++) {
+    join_impacts(&sweep, far, far_count);
+    for (int number = 0; number < far_count; number++) {
         const Mover *mover = sweep.movers + far[number];
         Vec pivot;
         Pose pose = pose_at(mover, 1.0, &pivot);

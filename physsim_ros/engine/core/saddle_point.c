@@ -116,11 +116,13 @@ static int number_unknowns(System *system, const Nodes *nodes, const int *order)
             system->row_unknowns[row] = count++;
         }
     }
+    assert(count == 3 * nodes->body_count + system->row_count);
     return count;
 }
 
 // The column and the line of an entry of J of a link above the diagonal; whether there is one.
 static bool entry_at(const System *system, int row, int link, int number, int *column, int *line) {
+    assert(number >= 0 && number < 6);
     int body = system->body_unknowns[number < 3 ? system->ends[link].a : system->ends[link].b];
     int unknown = body + number % 3, own = system->row_unknowns[row];
     *column = own > unknown ? own : unknown;

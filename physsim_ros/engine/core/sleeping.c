@@ -4,11 +4,13 @@
 // Sleeping by island, as Chipmunk has it: an island at rest costs nothing until something wakes it.
 //
 // Problem: a settled pile costs as much as a falling one.
-// Method: Chipmunk's sleeping (contact graph and joints make islands; an island whose bodies all had little energy for
-// a while is taken out of the solver; Box2D does the same). Bodies that are slow for another reason than rest stay
-// awake: in free flight nothing would stop them (Newton's first law), at the turn of a swing they have only stopped for
-// a moment, and a floor that moves carries them on. A checkpoint wakes all, so that a restored space and the one that
-// went on are in the same state. Cost: none. Without it 1,000 bodies at rest cost as much as 1,000 that move.
+// Method: Chipmunk's sleeping (contact graph and joints make islands; an island whose bodies all had little energy
+// for a while is taken out of the solver; Box2D does the same). Bodies that are slow for another reason than rest
+// stay awake: in free flight nothing would stop them (Newton's first law), at the turn of a swing they have only
+// stopped for a moment, and a floor that moves carries them on. A checkpoint wakes all, so that a restored space and
+// the one that went on are in the same state.
+// Cost: none.
+// Without it 1,000 bodies at rest cost as much as 1,000 that move.
 
 #include "stages.h"
 

@@ -11,6 +11,7 @@ static const double lost = 1e12;
 static void begin_bodies(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
+        assert(body_of(body->engine) == body);
         body->scratch.begin = pose_of(body->engine);
         body->scratch.twist = twist_of(body->engine);
         body->scratch.carried = (Twist){0};

@@ -48,7 +48,9 @@ static inline Body *body_of(const cpBody *engine) {
 }
 
 static inline int place_of(const World *world, const cpBody *engine) {
-    return (int)(body_of(engine) - world->bodies);
+    int place = (int)(body_of(engine) - world->bodies);
+    assert(place >= 0 && place < world->body_count);
+    return place;
 }
 
 // How far the bodies of a contact may overlap at rest [m].
