@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
+from physsim_ros.appearance.rope_corners import corner_count
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.rope_path import corner_count
 from physsim_ros.model.scene import Joint
 
 # Turns of a coil; corners of a turn of it, of a circle, of a rope.

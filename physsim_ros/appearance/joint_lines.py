@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance.joint_colors import JointColors
 from physsim_ros.appearance.joint_glyphs import is_rigid, joint_strips, Strip
+from physsim_ros.appearance.rope_corners import corner_count, path_corners
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.rope_path import corner_count, path_corners
 from physsim_ros.model.scene import Joint, Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, rotated_each

@@ -15,12 +15,7 @@ from itertools import pairwise
 import math
 from typing import NamedTuple
 
-import numpy as np
-from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import Point
-
-# Corners of the line that a rope on a wheel is drawn as.
-_ARC = 12
 
 
 class Span(NamedTuple):
@@ -85,36 +80,3 @@ def side(before: Point, center: Point, after: Point) -> float:
     """Return 1 where a line turns to the left at a point, and -1 where to the right."""
     (x, y), (x1, y1), (x2, y2) = before, center, after
     return 1.0 if (x1 - x) * (y2 - y1) - (y1 - y) * (x2 - x1) >= 0.0 else -1.0
-
-
-def corner_count(guides: int) -> int:
-    """
-    Return the count of corners of the line that a rope is drawn as.
-
-    :param guides: count of what it passes between its ends
-    """
-    return 2 + _ARC * guides
-
-
-def path_corners(centers: Floats, radii: Floats) -> Floats:
-    """
-    Return the corners of a rope's line, (..., c, 2) float64 [m].
-
-    :param centers: (..., k, 2) float64: as those of `spans`, at several times [m]
-    :param radii: (k,) float64 [m]
-    """
-    apart = np.diff(centers, axis=-2)
-    distance = np.maximum(np.hypot(apart[..., 0], apart[..., 1]), 1e-9)
-    slant = np.arcsin(np.clip(-np.diff(radii) / distance, -1.0, 1.0))
-    heading = np.arctan2(apart[..., 1], apart[..., 0]) + slant
-    turn = np.diff(heading, axis=-1)
-    turn -= math.tau * np.round(turn / math.tau)
-    wheel = radii[1:-1]
-    turn += math.tau * np.sign(wheel) * (wheel * turn < 0.0)
-    shares = np.linspace(0.0, 1.0, _ARC)
-    angles = heading[..., :-1, None] + turn[..., None] * shares
-    outward = np.stack((np.sin(angles), -np.cos(angles)), axis=-1)
-    arcs = centers[..., 1:-1, None, :] + wheel[:, None, None] * outward
-    arcs = arcs.reshape(*centers.shape[:-2], -1, 2)
-    path: Floats = np.concatenate((centers[..., :1, :], arcs, centers[..., -1:, :]), axis=-2)
-    return path

@@ -51,7 +51,6 @@ def join(live: LiveSpace, request: Join) -> Answer:
     points = points_in_world(space, request.points, request.frame)
     old = space.joints.by_name.get(request.name)
     a, b, points = _members(space, request, points)
-    _check_members(space, request.kind, a, b)
     kept = old.joint if old is not None and old.joint.kind is request.kind else None
     properties, passed = request.properties, points[1:-1] if request.kind.schema.passes else ()
     if kept is not None:
@@ -61,6 +60,7 @@ def join(live: LiveSpace, request: Join) -> Answer:
         names = _passed_bodies(space, properties.over, passed)
         properties = replace(properties, over=names)
         points = (points[0], *map(partial(_center, space), names, passed), points[-1])
+    _check_members(space, request.kind, (a, *(properties.over or ()), b))
     if (
         kept is not None
         and (kept.a, kept.b, kept.properties.over) == (a, b, properties.over)
@@ -255,14 +255,14 @@ def _rope(
     )
 
 
-def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
-    """Refuse a joint of two bodies that are not dynamic."""
-    bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
+def _check_members(space: Space, kind: JointKind, names: tuple[str, ...]) -> None:
+    """Refuse a joint none of whose bodies is dynamic."""
+    bodies = [space.bodies.by_name[name].body for name in dict.fromkeys(names) if name != WORLD]
     if not any(body.dynamic for body in bodies):
         immovable = ' and '.join(
             f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies
         )
-        other = '' if len(bodies) == 2 else ', and so is the background'
+        other = ', and so is the background' if WORLD in names else ''
         message = f'{immovable}{other}; there is nothing for the {kind} to hold'
         raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
 
