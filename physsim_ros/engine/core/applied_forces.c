@@ -23,13 +23,17 @@ static Twist wrench_of(const AppliedForce *applied, double yaw) {
 
 void find_leads(World *world) {
     const Body *last = NULL;
+    for (int place = 0; world->has_fields && place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        body->state.lead = twist_sum(body->steady_lead, body->state.field, 1.0);
+    }
     for (int number = 0; number < world->force_count; number++) {
         const AppliedForce *applied = world->forces + number;
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
         // Forces are listed in the order of their bodies.
         assert(last == NULL || last <= body);
-        body->state.lead = body == last ? body->state.lead : body->steady_lead;
+        body->state.lead = body == last ? body->state.lead : twist_sum(body->steady_lead, body->state.field, 1.0);
         last = body;
         Twist wrench = wrench_of(applied, engine->a);
         double half = world->dt / 2.0;
