@@ -239,16 +239,33 @@ static int lay_out_links(const World *world, Island *island, int row, int link, 
     return link;
 }
 
+static int link_count(const World *world, const Island *island) {
+    int count = island->row_count;
+    for (int number = 0; number < island->joint_count; number++) {
+        for (int each = 0; each < island->joints[number]->row_count; each++) {
+            count += further_count(world->rows + island->joints[number]->first_row + each);
+        }
+    }
+    return count;
+}
+
+// Find where Chipmunk stores the impulses of a row of a joint.
+static void take_impulse(const World *world, Island *island, int row) {
+    const Row *of_joint = island->rows[row];
+    Part *part = world->parts + of_joint->part;
+    island->impulses[row] = impulse_at(part, of_joint->component);
+    island->last[row] = *island->impulses[row];
+    if (part->kind == PART_OWN || part->kind == PART_ROPE) {
+        // Chipmunk gives none.
+        *island->impulses[row] = 0.0;
+    }
+    island->closing[row] = of_joint->component == 0 ? &part->closing.x : &part->closing.y;
+}
+
 // Number the bodies of an island, and the ends of its rows.
 static void lay_out(World *world, Island *island, int *numbers) {
     Arena *arena = &world->own->arena;
-    int link = island->row_count, row = 0, group = 0;
-    for (int number = 0; number < island->joint_count; number++) {
-        for (int each = 0; each < island->joints[number]->row_count; each++) {
-            link += further_count(world->rows + island->joints[number]->first_row + each);
-        }
-    }
-    int most = 2 * link;
+    int link = link_count(world, island), most = 2 * link, row = 0, group = 0;
     island->engine = TAKE(arena, cpBody *, most);
     island->jointed = TAKE(arena, bool, most);
     island->inverses = TAKE(arena, Inverse, most);
@@ -270,18 +287,10 @@ static void lay_out(World *world, Island *island, int *numbers) {
         for (int each = 0; each < joint->row_count; each++, row++) {
             island->rows[row] = world->rows + joint->first_row + each;
             island->joint_of_row[row] = number;
-            const Row *of_joint = island->rows[row];
-            Part *part = world->parts + of_joint->part;
-            island->impulses[row] = impulse_at(part, of_joint->component);
-            island->last[row] = *island->impulses[row];
-            if (part->kind == PART_OWN || part->kind == PART_ROPE) {
-                // Chipmunk gives none.
-                *island->impulses[row] = 0.0;
-            }
-            island->closing[row] = of_joint->component == 0 ? &part->closing.x : &part->closing.y;
+            take_impulse(world, island, row);
             island->further[row] = link;
             // Rows with guides have bodies of their own.
-            group += each > 0 && of_joint->guide_count > 0;
+            group += each > 0 && island->rows[row]->guide_count > 0;
             link = lay_out_links(world, island, row, link, joint, numbers, places);
             island->groups[row] = group;
         }
