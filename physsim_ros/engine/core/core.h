@@ -155,7 +155,7 @@ typedef struct Robot {
     Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes
 } Robot;
 
-// What moves an actor, and what it does at its last point; both in the order of `model/actors`.
+// What moves an actor, and what it does at its last point; Python finds both by their names in `model/actors`.
 enum { ACTOR_PATH, ACTOR_SOCIAL_FORCE, ACTOR_ORCA };
 enum { ONCE, LOOP, TO_AND_FRO };
 
@@ -316,6 +316,14 @@ enum {
 };
 
 enum { SUB_STEPS = 4 };
+
+// Of each body, safe depths in its inner radius: two that approach by less than the lesser safe depth in a step need no
+// time of impact, since each keeps its centre well on the side it came from.
+enum { SAFE_DEPTHS = 4 };
+
+// Corners of a polygon whose time of impact costs as much as that of a round shape, most of which does not depend on
+// the corners.
+enum { ROUND_COST = 4 };
 
 // A pair of bodies that touched during a frame; -1, always second, is the background.
 typedef struct Contact {
