@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import pair, Within
+from physsim_ros.model.checks import flag, HEAVIEST, pair, VELOCITY, Within
 from physsim_ros.model.declarations import without_unset
 from physsim_ros.model.errors import BadProperty, no_joint
 from physsim_ros.model.joints import JointProperties
+from physsim_ros.model.media import FLUID_DENSITY, GUSTS, VISCOSITY
 from physsim_ros.model.requests import (
     ChangeBody,
     Command,
@@ -32,7 +33,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, Pose, REST, Twist
-from physsim_ros.sketchpad.message import message, Origin
+from physsim_ros.sketchpad.message import message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
@@ -122,11 +123,15 @@ def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     page.submit(origin, (DeleteBodies(names=names),))
 
 
-@message('watch', 'page', Right.LOOK, name=fields.text)
-def watch(page: PageSession, origin: Origin, name: str) -> None:
-    """Send the page motion and forces of a body in this course, also beyond now; '' is none."""
+@message('watch', 'page', Right.LOOK, name=fields.text, forces=Optional(flag))
+def watch(page: PageSession, origin: Origin, name: str, *, forces: bool = False) -> None:
+    """
+    Send the page the motion of a body in this course, also beyond now; '' is no body.
+
+    :param forces: whether the forces on it are sent, too
+    """
     page.shared.pasts.ask(page.number, name, origin.request)
-    if name:
+    if name and forces:
         page.shared.past_contacts.ask_forces(page.number, name)
 
 
@@ -186,7 +191,17 @@ def gravity(page: PageSession, origin: Origin, gravity: Point) -> None:
     page.submit(origin, (Configure(changes={'gravity': gravity}),))
 
 
-@message('air', '~/set_parameters', damping=Within(0.0, 1.0))
-def air(page: PageSession, origin: Origin, damping: float) -> None:
-    """Set the share of velocity that bodies lose to the air each second."""
-    page.submit(origin, (Configure(changes={'damping': damping}),))
+@message(
+    'air',
+    '~/set_parameters',
+    damping=Optional(Within(0.0, 1.0)),
+    air_density=Optional(FLUID_DENSITY),
+    air_viscosity=Optional(VISCOSITY),
+    wind=Optional(VELOCITY),
+    gusts=Optional(GUSTS),
+    gravitation=Optional(Within(0.0, HEAVIEST)),
+    coulomb=Optional(Within(0.0, HEAVIEST)),
+)
+def air(page: PageSession, origin: Origin, **changes: Any) -> None:
+    """Set the air and the attraction of the world, by the names of its settings."""
+    page.submit(origin, (Configure(changes=changes),))

@@ -11,7 +11,8 @@ export class WorldState {
   constructor(connection) {
     /** @type {Scene} */
     this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0,
-      density: 1, friction: 0.5, elasticity: 0.5};
+      density: 1, friction: 0.5, elasticity: 0.5,
+      air_density: 0, air_viscosity: 0, wind: [0, 0], gusts: 0, gravitation: 0, coulomb: 0};
     /** @type {Frame} */
     this.frame = {epoch: -1, time: 0, speed: 0, ghost: false,
       x: new Float32Array(), y: new Float32Array(), yaw: new Float32Array()};
@@ -178,11 +179,12 @@ export class WorldState {
    * @returns {string} the name of the joint there; '' where there is none
    */
   jointAt(point, reach, onBody) {
-    const near = this.scene.joints.filter(({kind, a, b, points}) => {
+    const near = this.scene.joints.filter(({kind, a, b, points, guides}) => {
       const p = this.place(a, points[0]);
       if (['axle', 'motor', 'pin'].includes(kind)) return distance(p, point) <= reach;
       if (onBody || kind === 'gear') return false;
-      return distanceTo([p, this.place(b, points[1])], ...point) <= reach;
+      const passed = (guides ?? []).map(([row, x, y]) => this.place(row, [x, y]));
+      return distanceTo([p, ...passed, this.place(b, points[1])], ...point) <= reach;
     });
     return near.at(-1)?.name ?? '';
   }

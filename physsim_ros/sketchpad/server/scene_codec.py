@@ -10,6 +10,7 @@ body costs one text.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 import json
 from typing import Any
 
@@ -60,10 +61,7 @@ class SceneCodec:
             texts[body.name] = kept if kept and known else (body, compact(body_entry(body)))
         self._texts = texts
         settings = scene.settings
-        joints = [
-            joint_entry(joint, rows)
-            for joint, rows in zip(scene.joints, scene.joint_rows.tolist(), strict=True)
-        ]
+        joints = [joint_entry(joint, scene.row_of) for joint in scene.joints]
         rest = compact(
             {
                 'type': kind,
@@ -75,6 +73,12 @@ class SceneCodec:
                 'density': settings.density,
                 'friction': settings.friction,
                 'elasticity': settings.elasticity,
+                'air_density': settings.air_density,
+                'air_viscosity': settings.air_viscosity,
+                'wind': settings.wind,
+                'gusts': settings.gusts,
+                'gravitation': settings.gravitation,
+                'coulomb': settings.coulomb,
                 'lesson': None if scene.lesson is None else scene.lesson.entry(),
             }
         )
@@ -107,6 +111,8 @@ def body_entry(body: Body) -> dict[str, Any]:
         'label': body.label,
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
         **({} if body.actor is None else {'actor': body.actor.entry()}),
+        **({} if body.medium is None else {'medium': body.medium.entry()}),
+        **({'charge': body.charge} if body.charge else {}),
         **({'forces': [each.entry() for each in body.forces]} if body.forces else {}),
     }
 
@@ -125,22 +131,27 @@ def robot_entry(body: str, robot: Robot) -> dict[str, Any]:
     }
 
 
-def joint_entry(joint: Joint, rows: list[int]) -> dict[str, Any]:
+def joint_entry(joint: Joint, rows: Mapping[str, int]) -> dict[str, Any]:
     """
     Return a joint.
 
-    :param rows: of its bodies a and b in the scene; -1 is the background
+    :param rows: of bodies in the scene by name; -1 is the background
     """
     seat = joint.seat
     return {
         'name': joint.name,
         'kind': str(joint.kind),
-        'a': rows[0],
-        'b': rows[1],
+        'a': rows[joint.a],
+        'b': rows[joint.b],
         'points': [[seat.ax, seat.ay], [seat.bx, seat.by]],
         'axis': [seat.ux, seat.uy],
         'rest_length': joint.rest_length,
-        **joint.properties.explicit(),
+        **(
+            {'guides': [[rows[each.body], each.x, each.y, each.radius] for each in joint.guides]}
+            if joint.guides
+            else {}
+        ),
+        **joint.properties.entry(),
     }
 
 
