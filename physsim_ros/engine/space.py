@@ -23,7 +23,7 @@ from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.scene_columns import check_columns, columns_of
+from physsim_ros.engine.scene_columns import check_columns, check_floor, columns_of
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
@@ -162,6 +162,7 @@ class Space:
 
     def configure(self, settings: WorldSettings) -> None:
         """Replace the settings: gravity, damping, iterations, and the walls of `bounds`."""
+        check_floor(self._scene, settings, self.dt)
         self._drop_table()
         old, self._settings = self._settings, settings
         self.changes += old != settings
@@ -206,6 +207,7 @@ class Space:
         self._take_out(old)
         self._insert(rigid, pose, twist)
         self.joints.attach(body.name)
+        self.joints.check(self.joints.names_on(body.name))
         if not body.dynamic:
             self.grips.remove_from(body.name)
         rigid.driven, rigid.acting = states_after(old, body)
@@ -333,6 +335,7 @@ class Space:
         self._drop_table()
         self.changes += 1
         self.joints.add(joint)
+        self.joints.check([joint.name])
 
     def unjoin(self, name: str) -> None:
         """Remove a joint."""
