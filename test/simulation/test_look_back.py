@@ -100,6 +100,7 @@ OF_SIMULATION: dict[str, Call] = {
     'seek': of_simulation(lambda it: it.seek(2 * SECOND)),
     'settings': of_simulation(lambda it: it.settings),
     'speed': of_simulation(set_speed),
+    'state_of_run': of_simulation(Simulation.state_of_run),
     'status': of_simulation(lambda it: it.status),
     'step': of_simulation(lambda it: it.step),
     'stop_driving': of_simulation(Simulation.stop_driving),
