@@ -25,7 +25,7 @@ from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Contacts, Grip, NO_PULLS, Snapshot
+from physsim_ros.model.snapshot import Answer, Contacts, Grip, NO_VECTORS, Snapshot
 from physsim_ros.model.texts import counted
 from physsim_ros.simulation.world import (
     body_requests,
@@ -150,6 +150,9 @@ class World(LiveSpace):
         """Return the snapshot of this step."""
         poses, twists = self.space.core.observe()
         forces, pulls, pressing = self.space.joints.report()
+        fields = NO_VECTORS
+        if self.reports_contacts:
+            fields = self.space.table.field_forces(self.space.dt)
         return Snapshot(
             step=self.step_count,
             stamp=self.stamp,
@@ -161,7 +164,8 @@ class World(LiveSpace):
             springs=self.space.joints.springs(),
             grips=self.grips,
             robots=self.space.table.robot_states,
-            pulls=pulls if self.reports_contacts else NO_PULLS,
+            pulls=pulls if self.reports_contacts else NO_VECTORS,
+            fields=fields,
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
