@@ -221,6 +221,9 @@ def past_forces(frames: Sequence[CachedFrame], name: str, rate: float) -> dict[s
         row = _row_of(name, snapshot.scene, row)
         if row < 0 or contacts is None or not contacts.steps:
             continue
+        # The force of a hand is not known.
+        if any(grip.body == name for grip in snapshot.grips):
+            continue
         # 1 for what acts on b, -1 on a, 0 on other bodies.
         sides = _sides(contacts.pairs, row)
         acting = contacts.impulses * sides[:, None] * (rate / contacts.steps)
