@@ -71,6 +71,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         field_leads=table.field_leads,
         grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
+        bounds=space.joints.bounds(),
         robots=table.robot_states,
         actors=table.actor_states,
     )
@@ -113,7 +114,7 @@ def saved_state(space: Space, step: int) -> WorldState:
     return WorldState(
         settings=checkpoint.scene.settings,
         bodies=tuple(bodies),
-        joints=checkpoint.scene.joints,
+        joints=space.joints.drawn_now(),
         lesson=checkpoint.scene.lesson,
         memory=memory,
     )
@@ -238,6 +239,7 @@ def restore_checkpoint(
     for joint in scene.joints:
         space.joints.add(joint)
     space.joints.set_unstepped(checkpoint.unstepped)
+    space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()
     space.joints.set_impulses(checkpoint.memory.joints)
     space.joints.set_totals(checkpoint.memory.totals)

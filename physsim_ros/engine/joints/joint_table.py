@@ -11,13 +11,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.core import dtype_of, lib
-from physsim_ros.engine.joints.kinds import EngineJoint
+from physsim_ros.engine.joints.kinds import EngineGuide, EngineJoint
 from physsim_ros.engine.layout import address_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 import pymunk
 
-_JOINT, _PART, _ROW = dtype_of('Joint'), dtype_of('Part'), dtype_of('Row')
+_JOINT, _PART, _ROW, _GUIDE = map(dtype_of, ('Joint', 'Part', 'Row', 'Guide'))
 # Kinds whose part may push their bodies apart.
 _PRESSING = {JointKind.ROD, JointKind.SPRING}
 
@@ -35,6 +35,7 @@ class JointTable:
     :ivar joints: (j,) `Joint`
     :ivar parts: (p,) `Part`: the constraints, joint by joint
     :ivar rows: (r,) `Row`: joint by joint
+    :ivar guides: (g,) `Guide`: row by row
     """
 
     def __init__(
@@ -72,12 +73,18 @@ class JointTable:
             if 0 < len(former := totals.get(name, ())) == len(of_joint):
                 of_joint[:] = former
         self.rows = np.zeros(sum(map(len, rows)), _ROW)
-        _fill(self.rows, [row for each in rows for row in each])
+        _fill(self.rows, [row for each in rows for row, _ in each])
+        self._guides = [guide for each in rows for _, guides in each for guide in guides]
+        self.rows['guide_count'] = counts = [len(guides) for each in rows for _, guides in each]
+        self.rows['first_guide'] = np.cumsum(counts) - counts
+        self.guides = np.zeros(len(self._guides), _GUIDE)
+        _fill(self.guides, [(-1, *guide[1:6]) for guide in self._guides])
 
     def place_ends(self, places: Mapping[pymunk.Body, int]) -> None:
         """Set the places of bodies in the table of bodies, the background among them."""
         self.joints['a'] = [places[ends.a] for ends in self._ends]
         self.joints['b'] = [places[ends.b] for ends in self._ends]
+        self.guides['body'] = [places[guide.body] for guide in self._guides]
 
     @property
     def broken(self) -> list[int]:
@@ -89,6 +96,27 @@ class JointTable:
     def totals(self) -> dict[str, Floats]:
         """Return (k, 2) float64 of each joint: impulses of its constraints in the last step."""
         return dict(zip(self.names, self._totals, strict=True))
+
+    def set_bounds(self, bounds: Mapping[str, NDArray[np.void]]) -> None:
+        """Set `lower` and `upper` of the rows of joints, by name."""
+        for name, rows in zip(self.names, self._bounds, strict=True):
+            former = bounds.get(name)
+            if former is not None and len(former) == len(rows):
+                rows[['lower', 'upper']] = former
+
+    @property
+    def bounds(self) -> dict[str, NDArray[np.void]]:
+        """Return `lower` and `upper` of the rows of each joint that has one which moves."""
+        pairs = zip(self.names, self._bounds, strict=True)
+        return {
+            name: rows[['lower', 'upper']].copy()
+            for name, rows in pairs
+            if (rows['rate'][rows['law'] == lib.LAW_BOUNDS] != 0.0).any()
+        }
+
+    @property
+    def _bounds(self) -> list[NDArray[np.void]]:
+        return np.split(self.rows, self.joints['first_row'][1:])
 
     @property
     def _totals(self) -> list[Floats]:
@@ -115,15 +143,17 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
     )
 
 
-def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[tuple[object, ...]]:
+def _rows_of(
+    each: EngineJoint, first: int, damping: float, dt: float
+) -> list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]]:
     """
-    Return the rows of a joint.
+    Return the rows of a joint, each with its guides.
 
     :param first: number of its first part
     :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
     """
     force = each.joint.properties.max_force
-    rows: list[tuple[object, ...]] = []
+    rows: list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]] = []
     for number, part in enumerate(each.parts, first):
         if part.kind == lib.PART_SPRING:
             # One of the two gives its force.
@@ -131,10 +161,12 @@ def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[t
             if not damping:
                 continue
         for component, row in enumerate(part.rows):
-            most = math.inf if force is None else force * dt * abs(row.above)
-            spring = (each.joint.stiffness, damping) if row.kind == lib.ROW_SPRING else (0.0, 0.0)
-            bounds = row.lower, row.upper, row.below, row.above, most
-            rows.append((row.kind, number, component, *bounds, *spring))
+            greatest = force if row.most is None else row.most
+            most = math.inf if greatest is None else greatest * dt * abs(row.above)
+            spring = (each.joint.stiffness, damping) if row.law == lib.LAW_SPRING else (0.0, 0.0)
+            bounds = row.lower, row.upper, row.below, row.above, most, row.rate, *row.reach
+            fields = (row.kind, row.law, number, component, *bounds, row.offset, *spring)
+            rows.append((fields, row.guides))
     return rows
 
 

@@ -73,12 +73,12 @@ export class ClickTool extends Gesture {
   }
 
   /**
-   * Close an open polygon.
+   * Close an open polygon, or end a rope.
    * @returns {boolean} whether there was one
    */
   finish() {
-    const open = this.id === 'polygon' && this.points.length > 2;
-    if (open) this.#click(this.points[0]);
+    const polygon = this.id === 'polygon', open = this.clicks === Infinity && this.points.length > (polygon ? 2 : 1);
+    if (open) this.#click(this.points[polygon ? 0 : this.points.length - 1]);
     return open;
   }
 
@@ -116,10 +116,11 @@ export class ClickTool extends Gesture {
 
   /** @param {Touch} touch */
   #click(touch) {
-    const {app, points} = this, closing = this.id === 'polygon' && points.length > 2 &&
-      distance(touch.page, points[0].page) < CLOSE;
+    const {app, points} = this, end = points[this.id === 'polygon' ? 0 : points.length - 1];
+    const closing = this.clicks === Infinity && points.length > (this.id === 'polygon' ? 2 : 1) &&
+      distance(touch.page, end.page) < CLOSE;
     this.request = app.connection.send('click',
-      {tool: this.id, point: closing ? points[0].at : this.#meant(touch)});
+      {tool: this.id, point: closing && this.id === 'polygon' ? end.at : this.#meant(closing ? end : touch)});
     if (this.request) points.push(touch);
     else this.points = [];
     if (closing || touch === points[0] && points.length > 1 || points.length >= this.clicks) {
