@@ -89,14 +89,14 @@ export class Records {
     record.samples.forEach((sample, i, all) => accelerate(sample, all[i - 1]));
   }
 
-  /** @param {{name: string, time: number[], normal: Point[], friction: Point[], joint: Point[]}} columns of its past */
-  #addForces({name, time, normal, friction, joint}) {
+  /** @param {{name: string, time: number[]} & Record<string, Point[]>} columns of its past, with a column of each kind of force */
+  #addForces({name, time, type, ...kinds}) {
     const {world} = this.app, body = world.body(name), samples = this.bodies.get(name)?.samples;
     if (!body || !samples || body.anchored || body.kinematic) return;
     const byTime = new Map(samples.map((sample) => [sample.time, sample]));
     time.forEach((at, i) => {
       const sample = byTime.get(at);
-      if (sample) sample.forces ??= sizesOf(pastForcesOf(world, body, sample, {normal: normal[i], friction: friction[i], joint: joint[i]}));
+      if (sample) sample.forces ??= sizesOf(pastForcesOf(world, body, sample, Object.entries(kinds).map(([kind, column]) => [kind, ...column[i]])));
     });
   }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The forces on bodies in newtons: weight, constant forces, normal force and friction of contacts, joints, air, and
- * their sum.
+ * The forces on bodies in newtons: weight, constant forces, normal force and friction of contacts, joints, air
+ * and other fields, and their sum.
  *
  * A contact's impulse is divided by the simulated time that it was summed over, so that a force does not
  * depend on how fast the world plays. Hands and commanded wrenches are not among them.
@@ -18,7 +18,7 @@ const LEAST = 1e-3; // N: below that, rounding of what does not act
  * @returns {Force[]} on the bodies that forces move
  */
 export function forcesOf(world) {
-  const {frame: {contacts, pulls, velocities, yaw}, scene} = world, {bodies, joints} = scene;
+  const {frame: {contacts, pulls, velocities, fields, yaw}, scene} = world, {bodies, joints} = scene;
   /** @type {Force[]} */
   const forces = [];
   const moves = (/** @type {number} */ row) => row >= 0 && !bodies[row].anchored && !bodies[row].kinematic;
@@ -36,6 +36,7 @@ export function forcesOf(world) {
   for (let row = 0; row < world.count; row++) {
     const motion = {yaw: yaw[row], vx: velocities?.x[row] ?? 0, vy: velocities?.y[row] ?? 0};
     for (const {kind, at, x, y} of ownForces(scene, bodies[row], motion)) add(kind, row, world.place(row, at), x, y);
+    if (fields) add('air', row, world.place(row, bodies[row].centroid), fields.x[row], fields.y[row]);
   }
   for (let i = 0; contacts && contacts.steps && i < contacts.x.length; i++) {
     const {a, b, nx, ny} = contacts, rate = world.physicsRate / contacts.steps;
@@ -85,11 +86,11 @@ function ownForces({gravity: [gx, gy], damping}, {mass, centroid, forces = []}, 
  * @param {WorldState} world
  * @param {Body} body
  * @param {Sample} motion of that body in the past
- * @param {Record<string, Point>} others sums of the forces of contacts and joints then, by their kind [N]
+ * @param {[kind: string, x: number, y: number][]} others sums of the other forces then [N]
  * @returns {{kind: Force['kind'], x: number, y: number}[]} all that acted on it [N], and their sum
  */
 export function pastForcesOf({scene}, body, motion, others) {
-  const given = Object.entries(others).map(([kind, [x, y]]) => ({kind: /** @type {Force['kind']} */ (kind), x, y}));
+  const given = others.map(([kind, x, y]) => ({kind: /** @type {Force['kind']} */ (kind), x, y}));
   const all = [...ownForces(scene, body, motion), ...given].filter(({x, y}) => Math.hypot(x, y) > LEAST);
   const total = (/** @type {'x' | 'y'} */ axis) => all.reduce((sum, force) => sum + force[axis], 0);
   return [...all, {kind: 'sum', x: total('x'), y: total('y')}];
