@@ -103,6 +103,7 @@ def body_entry(body: Body) -> dict[str, Any]:
         'elasticity': body.elasticity,
         'group': body.group,
         'label': body.label,
+        **({'belt': body.belt} if body.belt else {}),
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
         **({} if body.actor is None else {'actor': body.actor.entry()}),
         **({'forces': [each.entry() for each in body.forces]} if body.forces else {}),
