@@ -91,6 +91,8 @@ class Snapshot:
     :param grips: of hands on bodies
     :param pulls: (j, 2) float64: force of each joint on its body b in the last step, world axes
         [N]; empty if contacts were not requested
+    :param fields: (n, 2) float64: force of media and attraction on each body in the last sub-step,
+        world axes [N]; empty if there are none, or contacts were not requested
     :param robots: (r,) `ROBOT_STATE`: states of the robots, in the order of `scene.robot_rows`
     """
 
@@ -104,6 +106,7 @@ class Snapshot:
     springs: Springs = NO_SPRINGS
     grips: tuple[Grip, ...] = ()
     pulls: Floats = field(default_factory=lambda: np.empty((0, 2)))
+    fields: Floats = field(default_factory=lambda: np.empty((0, 2)))
     robots: Records = field(default_factory=lambda: NO_ROBOTS)
 
     def row(self, name: str) -> int:
@@ -120,7 +123,7 @@ class Snapshot:
     @property
     def nbytes(self) -> int:
         """Memory of its arrays [bytes], without cached properties."""
-        size = self.poses.nbytes + self.twists.nbytes + self.robots.nbytes
+        size = self.poses.nbytes + self.twists.nbytes + self.robots.nbytes + self.fields.nbytes
         if len(self.forces):
             arrays = self.forces, self.compressed, self.pulls, *self.springs
             size += sum(array.nbytes for array in arrays)

@@ -150,6 +150,8 @@ class World(LiveSpace):
         """Return the snapshot of this step."""
         poses, twists = self.space.core.observe()
         forces, pulls, pressing = self.space.joints.report()
+        nothing = np.empty((0, 2))
+        fields = self.space.table.field_forces(self.space.dt) if self.reports_contacts else nothing
         return Snapshot(
             step=self.step_count,
             stamp=self.stamp,
@@ -161,7 +163,8 @@ class World(LiveSpace):
             springs=self.space.joints.springs(),
             grips=self.grips,
             robots=self.space.table.robot_states,
-            pulls=pulls if self.reports_contacts else np.empty((0, 2)),
+            pulls=pulls if self.reports_contacts else nothing,
+            fields=fields,
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:

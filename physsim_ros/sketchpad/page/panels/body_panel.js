@@ -3,6 +3,7 @@
 
 import {checkField, createElement, inRow, numberField, textButton, textField, textOf} from '../dom.js';
 import {actorLines, drawWay} from './driving.js';
+import {mediumFields} from './field_fields.js';
 import {forceFields} from './force_fields.js';
 import {sizeOf} from '../view/label_view.js';
 import {t} from '../strings.js';
@@ -46,6 +47,7 @@ export function bodyContent(app, [name]) {
         checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
       createElement('label', {}, t('Belt [m/s]'), numberField(body.belt ?? 0, (belt) => change({belt: belt ?? 0}))),
       ...forceFields(app, body, change),
+      ...body.robot ? [] : mediumFields(app, body, change),
       inRow(
         textButton(t('Copy'), () => copy(app, name)),
         textButton(t('Delete body'), () => app.selection.deleteSelected(), 'danger')),
