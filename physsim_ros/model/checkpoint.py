@@ -78,6 +78,8 @@ class WorldState:
     :param joints: in the order in which they were made
     :param memory: impulse cache; None in a file written by hand
     :param lesson: the task that belongs to the world; None is none
+    :param world: the same for states that `replace` makes of one another, as a reset with another
+        seed does
     """
 
     settings: WorldSettings
@@ -85,6 +87,7 @@ class WorldState:
     joints: tuple[Joint, ...] = ()
     lesson: Lesson | None = None
     memory: ImpulseCache | None = field(default=None, compare=False)
+    world: object = field(default_factory=object, compare=False, repr=False)
 
 
 # The pushes of a world without a floor, and the leads of one without fields, in memory once.
