@@ -232,8 +232,7 @@ static double place_of_row(const World *world, const Joint *joint, const Row *ro
     }
     Anchors anchors = anchors_at(joint, a, b);
     x += row_at(row, joint, &anchors, a, b, &jacobian);
-    return row->guide_count == 0 ? x
-                                 : x + carrier_at(joint, guide, pose_of(world->bodies[guide->body].engine), &jacobian);
+    return row->guide_count == 0 ? x : x + carrier_at(joint, pose_of(world->bodies[guide->body].engine), &jacobian);
 }
 
 // How far the row of a joint that is furthest out of its bounds is out of them [m, rad].

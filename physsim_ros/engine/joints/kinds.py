@@ -303,8 +303,13 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
-    """Return a body whose turn is that of the other times a ratio, and a phase."""
-    return (_turn(joint, ends),)
+    """Return a body whose turn about a carrier is that of the other times a ratio, and a phase."""
+    turn = _turn(joint, ends)
+    if not ends.guides:
+        return (turn,)
+    # Chipmunk's gear would not load the carrier.
+    (row,) = turn.rows
+    return (_own(lib.PART_OWN, ends, row._replace(guides=ends.guides)),)
 
 
 KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {
