@@ -257,9 +257,21 @@ typedef struct Row {
     int32_t first_guide, guide_count;
 } Row;
 
-// Kinds of constraints of Chipmunk. PART_OWN and PART_ROPE are solved by the core alone: a motor without torque keeps
-// the impulse of their row. PART_ROPE pulls the second body of its joint along the last span of its path.
-enum { PART_PIVOT, PART_PIN, PART_SLIDE, PART_GEAR, PART_ROTARY_LIMIT, PART_MOTOR, PART_SPRING, PART_OWN, PART_ROPE };
+// Kinds of constraints of Chipmunk. From PART_OWN on the core alone solves them: a motor without torque keeps the
+// impulse of their row. PART_ROPE pulls the second body of its joint along the last span of its path, PART_DRIVE along
+// the axis.
+enum {
+    PART_PIVOT,
+    PART_PIN,
+    PART_SLIDE,
+    PART_GEAR,
+    PART_ROTARY_LIMIT,
+    PART_MOTOR,
+    PART_SPRING,
+    PART_OWN,
+    PART_ROPE,
+    PART_DRIVE
+};
 
 // A constraint of a joint.
 typedef struct Part {
