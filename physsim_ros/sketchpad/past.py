@@ -25,7 +25,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.model.transform import rotated_each
-from physsim_ros.simulation.past.node import CachedFrame
+from physsim_ros.simulation.past.line import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.message import Content

@@ -12,7 +12,7 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
-from physsim_ros.simulation.past.budget import LEAST_MEMORY, MEGABYTE
+from physsim_ros.simulation.past.tree import LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 

@@ -16,7 +16,7 @@ from collections.abc import Generator, Iterator, Sequence
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past.node import Line
+from physsim_ros.simulation.past.line import Line
 from physsim_ros.simulation.past.past import Past
 
 # Greatest simulation time that is simulated again [s].

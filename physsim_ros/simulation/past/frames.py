@@ -21,10 +21,10 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.sizes import frame_size
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.budget import frame_size
-from physsim_ros.simulation.past.node import CachedFrame, Keyframe
-from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.cursor import Replay
+from physsim_ros.simulation.past.line import CachedFrame, Keyframe
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 

@@ -9,8 +9,7 @@ request is applied. After each frame the past is within its budget of memory: th
 are dropped, in this order of kinds: frames of the course in force, which a replay makes again;
 ghosts; courses that were left; lines that were undone; lines before resets; last, the oldest
 checkpoint of the course in force, with the requests up to the next one. The last checkpoint, the
-requests after it, and the frames beside the one that is shown always remain. See `node` for the
-theory of operation.
+requests after it, and the frames beside the one that is shown always remain.
 """
 
 from __future__ import annotations
@@ -24,12 +23,10 @@ from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.simulation.past.budget import Budget
-from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
-from physsim_ros.simulation.past.node import CachedFrame, Line, Moment
-from physsim_ros.simulation.past.replay import Replay
-from physsim_ros.simulation.past.tree import Tree
+from physsim_ros.simulation.past.line import CachedFrame, Line, Moment
+from physsim_ros.simulation.past.tree import Budget, Tree
 from physsim_ros.simulation.world import World
 
 # Check of the times of a past [s].

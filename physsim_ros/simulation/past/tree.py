@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The tree of all lines of events: the one in force, flat, and those that were left.
+The tree of all lines of events: the one in force, those that were left, and their memory.
 
 Law: a line that is not in force is independent of the others; its ghost has the frames that it has
-shown, to the bit, and no others. See `node` for the theory of operation.
+shown, to the bit, and no others. `Past.fit_memory` has the order in which entries are dropped.
 """
 
 from __future__ import annotations
@@ -15,17 +15,26 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.checks import Within
 from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.sizes import checkpoint_size, frame_size, request_size
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.budget import (
-    Budget,
-    checkpoint_size,
-    frame_size,
-    request_size,
+from physsim_ros.simulation.past.line import (
+    CachedFrame,
+    Keyframe,
+    Line,
+    LineInForce,
+    Moment,
+    Node,
 )
-from physsim_ros.simulation.past.line import LineInForce
-from physsim_ros.simulation.past.node import CachedFrame, Keyframe, Line, Moment, Node
+
+# Bytes of a megabyte.
+MEGABYTE = 10**6
+# Least and greatest budget [MB]: a second of a few hundred commands; a large machine.
+LEAST_MEMORY, MOST_MEMORY = 1.0, 1e6
+# Default budget [MB].
+DEFAULT_MEMORY = 256.0
 
 # Greatest number of courses that are kept, as many as a person tells apart; the one that was left
 # first is dropped first.
@@ -33,6 +42,40 @@ MOST_COURSES = 16
 # Share of the budget from which the requests after a checkpoint make the next one due [1], so that
 # the past has at least eight parts that can be dropped.
 _LOG_SHARE = 1 / 8
+
+
+class Budget:
+    """
+    The budget of the past.
+
+    :param megabytes: the budget [MB]
+    :raises BadProperty: it is out of range
+    :raises Malformed: it is not a finite number
+
+    :ivar size: the budget [bytes]
+    :ivar used: memory of the past at the last count [bytes]
+    :ivar told: whether users know that the past was shortened
+    """
+
+    def __init__(self, megabytes: float) -> None:
+        self.used = 0
+        self.megabytes = megabytes
+
+    @property
+    def megabytes(self) -> float:
+        """Return the budget [MB]."""
+        return self.size / MEGABYTE
+
+    @megabytes.setter
+    def megabytes(self, megabytes: float) -> None:
+        megabytes = Within(LEAST_MEMORY, MOST_MEMORY, 'MB')(megabytes, 'history_memory')
+        self.size = round(megabytes * MEGABYTE)
+        self.told = False
+
+    @property
+    def in_megabytes(self) -> tuple[float, float]:
+        """Return the memory of the past at the last count, and the budget [MB]."""
+        return self.used / MEGABYTE, self.megabytes
 
 
 class Tree(LineInForce):
