@@ -90,7 +90,7 @@ class TimelineReport:
         course, seconds = self._beside, snapshot.stamp * 1e-9
         if course is None or not course.begins <= seconds <= course.ends:
             return None
-        return self._simulation.past.ghost(course.number, seconds)
+        return self._simulation.past.course_snapshot(course.number, seconds)
 
 
 def timeline_content(status: TimelineStatus) -> dict[str, Any]:

@@ -56,7 +56,7 @@ class Replay:
     @property
     def _here(self) -> Moment:
         """Step and serial of the world as it is."""
-        return self._world.step_count, self.serial
+        return Moment(self._world.step_count, self.serial)
 
     def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
         """
@@ -197,7 +197,7 @@ class Cursor(Replay):
     @property
     def settings(self) -> WorldSettings:
         """Return the settings of the world at this moment."""
-        return self._tree.node(self.moment[1]).settings
+        return self._tree.node(self.moment.serial).settings
 
     @property
     def moment(self) -> Moment:
@@ -311,10 +311,10 @@ class Cursor(Replay):
 
         :param elsewhere: whether the world is on another line now
         """
-        tree, frame, goal = self._tree, self._world.frame_steps, (step, serial)
+        tree, frame, goal = self._tree, self._world.frame_steps, Moment(step, serial)
         # Contacts are those of one frame, as they were the first time.
         begin = max(tree.oldest, step - (step % frame or frame))
-        start = min((begin, tree.serial_shown_at(begin)), goal)
+        start = min(Moment(begin, tree.serial_shown_at(begin)), goal)
         first = start if self._world.reports_contacts else goal
         keyframe = tree.keyframe_before(*first)
         # A seek that this one replaces has also come to a moment of the line.
@@ -425,7 +425,7 @@ class Cursor(Replay):
         if step < self._tree.tip.end:
             return
         due = self._tree.is_checkpoint_due(step) or (
-            self._resumed is not None and self._resumed[0] == step
+            self._resumed is not None and self._resumed.step == step
         )
         if due and self._tree.keyframe_at(*self._here) is None:
             self.add_keyframe()

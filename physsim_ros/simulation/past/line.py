@@ -23,8 +23,17 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Contacts, Snapshot
 
-# A step, and the number of requests up to it.
-Moment = tuple[int, int]
+
+class Moment(NamedTuple):
+    """
+    A moment of a line.
+
+    :ivar step: of the world
+    :ivar serial: number of requests up to it
+    """
+
+    step: int
+    serial: int
 
 
 class Keyframe(NamedTuple):
@@ -47,7 +56,7 @@ class Keyframe(NamedTuple):
     @property
     def moment(self) -> Moment:
         """Return step and serial."""
-        return self.step, self.serial
+        return Moment(self.step, self.serial)
 
 
 class CachedFrame(NamedTuple):
@@ -88,7 +97,7 @@ class Node:
     :param request: that was applied; of a root, the one that loads the state
     :param settings: of the world after the request
     :param gesture: number of its gesture; requests of one gesture are undone together
-    :param opening: serial of the first request of the gesture
+    :param gesture_start: serial of the first request of the gesture
     :param author: name of the person who did it; '' is nobody
     :param subject: name of the body or joint concerned, or ''
     :param adds: whether it has added a body or joint
@@ -110,7 +119,7 @@ class Node:
     request: Request
     settings: WorldSettings
     gesture: int = 0
-    opening: int = 0
+    gesture_start: int = 0
     author: str = ''
     subject: str = ''
     adds: bool = False
@@ -157,22 +166,21 @@ class Line:
     :param moment: at which it is shown when it is in force again; a serial of None is that with
         which the step was shown
     :param course: number of its course
-    :param era: number of resets before it
+    :param reset_count: number of resets before it
     :param words: phrase for the gesture that was undone in it, or for the reset after it; '' is
         none
 
-    :ivar ghost: frames that it has shown, in the order of time, since it parted from the line that
-        replaced it
-    :ivar size: memory of the ghost [bytes]
+    :ivar frames: that only it has shown, in the order of time; of a course that was left
+    :ivar size: memory of these frames [bytes]
     """
 
     tip: Node
     head: int
     moment: tuple[int, int | None]
     course: int
-    era: int
+    reset_count: int
     words: str = ''
-    ghost: list[CachedFrame] = field(default_factory=list)
+    frames: list[CachedFrame] = field(default_factory=list)
     size: int = 0
 
 
@@ -196,7 +204,7 @@ class LineInForce:
         self.keyframes: list[Keyframe] = []
         self.head = 0
         # Serial of the first request of each gesture.
-        self._openings: dict[int, int] = {}
+        self._gesture_starts: dict[int, int] = {}
 
     @property
     def oldest(self) -> int:
@@ -214,7 +222,7 @@ class LineInForce:
     @property
     def end(self) -> Moment:
         """Return the last moment that was reached."""
-        return self.head, self.tip.serial
+        return Moment(self.head, self.tip.serial)
 
     @property
     def _first(self) -> int:
@@ -295,14 +303,14 @@ class LineInForce:
         """
         if serial <= self._first:
             return None
-        opening = self.node(serial).opening
-        return (self.node(opening), serial - opening + 1) if opening > self._first else None
+        start = self.node(serial).gesture_start
+        return (self.node(start), serial - start + 1) if start > self._first else None
 
     def last_gesture_of(self, author: str) -> Node | None:
         """Return the first request of the last gesture of a person; None if none is kept."""
         for node in reversed(self.nodes[1:]):
             if node.author == author:
-                return self.node(node.opening) if node.opening > self._first else None
+                return self.node(node.gesture_start) if node.gesture_start > self._first else None
         return None
 
     def added_by(self, author: str, scene: Scene) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -327,11 +335,11 @@ class LineInForce:
             tuple(joint.name for joint in scene.joints if joints.get(joint.name) == author),
         )
 
-    def gesture_start(self, gesture: int, serial: int) -> Moment | None:
+    def moment_before_gesture(self, gesture: int, serial: int) -> Moment | None:
         """Return the moment before the first request of a gesture up to a serial, if kept."""
-        opening = self._openings.get(gesture, serial + 1)
-        kept = self._first < opening <= serial
-        return (self.node(opening).step, opening - 1) if kept else None
+        start = self._gesture_starts.get(gesture, serial + 1)
+        kept = self._first < start <= serial
+        return Moment(self.node(start).step, start - 1) if kept else None
 
     def note_shown(self, step: int, serial: int) -> None:
         """Note that a step was shown with the requests up to a serial."""
