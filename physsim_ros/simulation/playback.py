@@ -82,6 +82,11 @@ class Playback:
         return self._shown is None and not self._past.cursor.is_working
 
     @property
+    def has_arrived(self) -> bool:
+        """Whether the moment that was sought last can be shown without a replay."""
+        return self._shown is not None or not self._past.cursor.is_seeking
+
+    @property
     def step(self) -> int:
         """Return the step that is shown."""
         if self._shown is not None:

@@ -217,6 +217,11 @@ class Cursor(Replay):
         return self._work is not None
 
     @property
+    def is_seeking(self) -> bool:
+        """Whether a seek is under way."""
+        return self._work is not None and self._work.kind is _Kind.SEEK
+
+    @property
     def is_stepping(self) -> bool:
         """Whether steps are under way."""
         return self._work is not None and self._work.kind is _Kind.STEPS
