@@ -153,6 +153,7 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     for row in np.flatnonzero(own['floor_friction']).tolist():
         robot = bodies[row].robot
         own[row]['lever'] = lever_of(forms[row]) if robot is None else robot.drive.lever
+    own['belt'] = [body.belt for body in bodies]
     own['surface'][:] = [body.surface_velocity for body in bodies] or np.empty((0, 2))
     # The background has no inner radius: what meets its walls counts alone.
     records[-1]['anchored'], records[-1]['safe_depth'] = True, math.inf

@@ -89,8 +89,9 @@ void prepare_parts(World *world) {
         Vec across = perpendicular(rotated(vec(joint->axis[0], joint->axis[1]), anchors.of_b));
         Vec beside = sub(add(anchors.arm_b, anchors.apart), scaled(across, across_arm));
         pin->anchorA = rotated_back(beside, anchors.of_b);
-        if (joint->part_count > LIMIT_PART) {
-            put_behind(joint, &anchors, (cpSlideJoint *)world->parts[joint->first_part + LIMIT_PART].constraint);
+        const Part *limit = world->parts + joint->first_part + LIMIT_PART;
+        if (joint->part_count > LIMIT_PART && limit->kind == PART_SLIDE) {
+            put_behind(joint, &anchors, (cpSlideJoint *)limit->constraint);
         }
     }
 }
