@@ -50,8 +50,8 @@ node without users is removed. The oldest checkpoint of the line in force is the
 moments that can be shown: when it is dropped, the next one replaces it, and lines that part before
 that are lost. `Past` has the order in which things are dropped.
 
-*Frames.* A course that is left keeps those that only it has shown; a page draws its bodies
-from them. The frames of the line in force are in the frame cache.
+*Frames.* A course that is left keeps those that only it has shown; a page draws its bodies from
+them. The frames of the line in force are in the frame cache.
 
 Source: Driscoll, Sarnak, Sleator, Tarjan, "Making data structures persistent", 1989, full
 persistence. Editors know such a tree as an undo tree.
