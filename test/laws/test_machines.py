@@ -278,7 +278,7 @@ def test_gears_keep_their_ratio(report, ratio):
 
 @pytest.mark.parametrize('way', [1.0, -1.0])
 def test_a_pendulum_with_a_ratchet_stays_where_it_has_risen_to(report, way):
-    # Released 60° below level, and as high on the other side; one that falls the other way is held.
+    # One rises to the other side, as high as it was; one that would fall the other way is held.
     sim = simulation()
     for name, x, side in (('arm/0', 0.0, way), ('arm/1', 3.0, -way)):
         yaw = -math.pi / 2 - side * math.pi / 3
