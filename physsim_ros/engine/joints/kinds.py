@@ -164,18 +164,25 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """
     Return two anchors that coincide; the turn of one body against the other may have limits.
 
+    A ratchet has teeth of any fineness: an angle that is reached is not given back.
+
     `lower` and `upper` are turns of a against b from where they were, rows have the turn of b
     against a, from zero.
     """
     lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
+    ratchet = joint.properties.ratchet
+    parts: tuple[Part, ...] = (_pivot(ends),)
+    if ratchet is not None:
+        law = lib.LAW_FALLS if ratchet > 0.0 else lib.LAW_RISES
+        parts = (*parts, _own(lib.PART_OWN, ends, Row(lib.ROW_ANGLE, law=law)))
     if lower is None and upper is None:
-        return (_pivot(ends),)
+        return parts
     least = -math.inf if upper is None else phase - upper
     most = math.inf if lower is None else phase - lower
     limit = pymunk.RotaryLimitJoint(ends.a, ends.b, least, most)
     limit.error_bias = _NEARLY_NO_BIAS
     row = Row(lib.ROW_ANGLE, least, most)
-    return _pivot(ends), Part(lib.PART_ROTARY_LIMIT, limit, (row,))
+    return *parts, Part(lib.PART_ROTARY_LIMIT, limit, (row,))
 
 
 def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
