@@ -118,8 +118,8 @@ def _seat(value: object, names: tuple[str, ...]) -> tuple[Seat, tuple[Guide, ...
     if not isinstance(value, list) or len(value) != count:
         raise BadProperty(f'seat must be {count} numbers', field='seat')
     numbers = [_IN_SEAT(each, 'seat') for each in value]
-    firsts = range(own, count, each)
-    guides = zip(names, firsts, strict=True)
+    firsts, ends = range(own, count, each), range(own + each, count + 1, each)
+    guides = zip(names, firsts, ends, strict=True)
     return Seat(*numbers[:own]), tuple(
-        Guide(name, *numbers[first : first + each]) for name, first in guides
+        Guide(name, *numbers[first:end]) for name, first, end in guides
     )

@@ -235,12 +235,11 @@ def _path(joint: Joint, ends: Ends) -> tuple[Part, ...]:
         for number, stop in enumerate(stops)
         if stop.radius and stop.body.body_type == pymunk.Body.DYNAMIC
     ]
-    pieces = [
-        tuple(stops[first : last + 1])
-        for first, last in pairwise((0, *wheels, len(stops) - 1))
-        # What a wheel has wound up from a point of its rim neither moves nor stretches.
-        if len({stop.body for stop in stops[first : last + 1]}) > 1
+    spans = [
+        (*stops[first:last], stops[last]) for first, last in pairwise((0, *wheels, len(stops) - 1))
     ]
+    # What a wheel has wound up from a point of its rim neither moves nor stretches.
+    pieces = [span for span in spans if len({stop.body for stop in span}) > 1]
     rows = [
         Row(lib.ROW_PATH, 0.0, sum(stop.span for stop in piece[1:]), guides=piece)
         for piece in pieces
