@@ -105,6 +105,13 @@ class RigidBody:
         offset_x, offset_y = rotated(self.offset, yaw)
         return x - offset_x, y - offset_y, yaw
 
+    def pose_after(self, seconds: float) -> Pose:
+        """Return the body's origin after a time at its present velocity [m, rad]."""
+        (x, y), (vx, vy) = self.pm_body.position, self.pm_body.velocity
+        yaw = self.pm_body.angle + self.pm_body.angular_velocity * seconds
+        offset_x, offset_y = rotated(self.offset, yaw)
+        return x + vx * seconds - offset_x, y + vy * seconds - offset_y, yaw
+
     @pose.setter
     def pose(self, pose: Pose) -> None:
         self.pm_body.angle = pose[2]

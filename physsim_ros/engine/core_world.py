@@ -28,7 +28,13 @@ _FUNCTIONS = {
     'point_query': 'cpShapePointQuery',
 }
 # Structs of the tables that `CoreWorld.use` takes.
-_STRUCTS = {'grips': 'Grip', 'forces': 'AppliedForce', 'robots': 'Robot', 'actors': 'Actor'}
+_STRUCTS = {
+    'grips': 'Grip',
+    'forces': 'AppliedForce',
+    'motors': 'Motor',
+    'robots': 'Robot',
+    'actors': 'Actor',
+}
 _CONTACT, _BEGUN = dtype_of('Contact'), dtype_of('Begun')
 check_layout()
 
@@ -91,14 +97,15 @@ class CoreWorld:
         if 'joints' not in self._tables:
             return
         lib.core_use_joints(self._world, ffi.NULL, 0, ffi.NULL, 0, ffi.NULL, 0)
+        self._world.motor_count = 0
         del self._tables['joints']
 
     def use(self, **tables: Table) -> None:
         """
         Have the core use tables, each in place of the one of its name.
 
-        :param tables: `grips`, and in the order of their bodies `forces`, `robots` and `actors`;
-            of the structs of `_STRUCTS`
+        :param tables: `grips`, `motors` in the order of their joints, and in that of their bodies
+            `forces`, `robots` and `actors`; of the structs of `_STRUCTS`
         """
         for name, table in tables.items():
             setattr(self._world, name, pointer(table, _STRUCTS[name]))

@@ -86,8 +86,9 @@ void prepare_parts(World *world) {
         Vec across = perpendicular(rotated(vec(joint->axis[0], joint->axis[1]), anchors.of_b));
         Vec beside = sub(add(anchors.arm_b, anchors.apart), scaled(across, across_arm));
         pin->anchorA = rotated_back(beside, anchors.of_b);
-        if (joint->part_count > LIMIT_PART) {
-            put_behind(joint, &anchors, (cpSlideJoint *)world->parts[joint->first_part + LIMIT_PART].constraint);
+        const Part *last = world->parts + joint->first_part + LIMIT_PART;
+        if (joint->part_count > LIMIT_PART && last->kind == PART_SLIDE) {
+            put_behind(joint, &anchors, (cpSlideJoint *)last->constraint);
         }
     }
 }
@@ -138,15 +139,19 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     if (part->kind == PART_PIN) {
         return negated(perpendicular(axis));
     }
+    if (part->kind == PART_LINEAR_MOTOR) {
+        return negated(axis);
+    }
     const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
     Vec at_a = world_place(a, vec(joint->anchor_a[0], joint->anchor_a[1]));
     double way = length(sub(at_a, world_place(b, limit->anchorA)));
     return 2.0 * way < limit->min + limit->max ? axis : negated(axis);
 }
 
-// Whether a part acts along the line from one anchor to the other: that of a rod, a rope, a spring or a limit.
+// Whether a part acts along the line from one anchor to the other: that of a rod, a rope, a spring, a limit, a motor.
 static bool is_axial(const Part *part) {
-    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING;
+    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING ||
+           part->kind == PART_LINEAR_MOTOR;
 }
 
 // The unit vector along which an axial part pushes the second body of its joint.
@@ -206,8 +211,7 @@ static double apart_by(const World *world, const Joint *joint) {
     double most = 0.0;
     for (const Row *row = world->rows + joint->first_row, *end = row + joint->row_count; row < end; row++) {
         double x = row_at(row, joint, &anchors, a, b, &jacobian);
-        bool holds = row->kind != ROW_SPRING;
-        most = greatest(most, holds ? greatest(x - row->upper, row->lower - x) : 0.0);
+        most = greatest(most, !is_force(row) ? greatest(x - row->upper, row->lower - x) : 0.0);
     }
     return most;
 }

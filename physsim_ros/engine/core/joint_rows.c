@@ -37,6 +37,7 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
         *jacobian = along(vec(0.0, 1.0), anchors->arm_a, anchors->arm_b);
         return anchors->apart.y;
     case ROW_ANGLE:
+    case ROW_SPIN:
         *jacobian = (Jacobian){{{0.0, 0.0}, -1.0}, {{0.0, 0.0}, joint->ratio}};
         return joint->ratio * b.yaw - a.yaw;
     case ROW_DISTANCE:

@@ -46,8 +46,8 @@ Solve joint_solve(World *world, const Island *island) {
     solve.system =
         system_of(arena, island->body_count, island->inverses, island->row_count, island->ends, island->groups);
     for (int row = 0; row < island->joint_row_count; row++) {
-        solve.holds[row] = island->rows[row]->kind != ROW_SPRING;
-        solve.springs[row] = !solve.holds[row];
+        solve.holds[row] = !is_force(island->rows[row]);
+        solve.springs[row] = island->rows[row]->kind == ROW_SPRING;
     }
     read_rows(island, island->poses, solve.excess, solve.jacobians);
     int normal = island->joint_row_count, tangent = normal + island->touch_count;

@@ -17,7 +17,7 @@ typedef struct Solve {
     Pose *poses;         // (body_count)
     double *excess;      // (joint_row_count): C [m, rad]
     Jacobian *jacobians; // (row_count): where the step of Chipmunk ends
-    bool *holds;         // (joint_row_count): rows of joints that have not reached their greatest force
+    bool *holds;         // (joint_row_count): rows that hold positions and have not reached their greatest force
     bool *springs;       // (row_count)
 } Solve;
 
@@ -34,11 +34,11 @@ static inline double sign_of(const Row *row, double excess) {
 
 // Bounds of λ of a row of a joint, without its greatest force.
 static inline double lower_bound(const Row *row, bool holds, double excess) {
-    return holds && (row->kind == ROW_SPRING || row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
+    return holds && (is_force(row) || row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
 }
 
 static inline double upper_bound(const Row *row, bool holds, double excess) {
-    return holds && (row->kind == ROW_SPRING || row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
+    return holds && (is_force(row) || row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
 }
 
 // The side of a row by a guess of λ.

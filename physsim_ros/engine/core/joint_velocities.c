@@ -200,7 +200,7 @@ static void set_targets(const Solve *solve, Impact *impact, const double *bounce
         const Row *of_joint = island->rows[row];
         bool is_spring = of_joint->kind == ROW_SPRING;
         double pull = is_spring ? of_joint->stiffness * solve->excess[row] / of_joint->damping : 0.0;
-        impact->wanted[row] = -pull - impact->rates[row];
+        impact->wanted[row] = of_joint->rate - pull - impact->rates[row];
     }
     for (int number = 0; number < island->touch_count; number++) {
         const Bearing *touch = island->touches + number;
@@ -256,8 +256,8 @@ static double work_of(const Solve *solve, const Impact *impact, const Solution *
     for (int row = 0; row < normal; row++) {
         double before = impact->rates[row];
         double after = before + rate(solve->jacobians[row], island->ends[row], solution->changes);
-        // A spring gives back what it has taken.
-        work += solve->springs[row] ? 0.0 : solution->impulses[row] * (before + after) / 2.0;
+        // A spring gives back what it has taken, and a motor may do work.
+        work += is_force(island->rows[row]) ? 0.0 : solution->impulses[row] * (before + after) / 2.0;
     }
     for (int number = 0; number < island->touch_count; number++) {
         int left = normal + number, right = tangent + number;
@@ -374,7 +374,7 @@ static void write_impulses(Solve *solve, const Solution *solution) {
 static void find_yielded(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
     for (int row = 0; row < island->joint_row_count; row++) {
-        if (fabs(solution->impulses[row]) >= island->rows[row]->most) {
+        if (!is_motor(island->rows[row]) && fabs(solution->impulses[row]) >= island->rows[row]->most) {
             for (int other = 0; other < island->joint_row_count; other++) {
                 if (island->joint_of_row[other] == island->joint_of_row[row]) {
                     solve->holds[other] = false;

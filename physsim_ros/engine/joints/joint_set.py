@@ -24,6 +24,7 @@ from physsim_ros.engine.joints.joint_table import JointTable
 from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.joints import JointKind
+from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.snapshot import Springs
@@ -67,6 +68,8 @@ class JointSet:
         self._unstepped: set[str] = set()
         # The impulses of each joint in the step before, by name, from the same table.
         self._totals: dict[str, Floats] = {}
+        # The last command of each motor, by the name of its joint, and its step.
+        self.commands: dict[str, tuple[MotorCommand, int]] = {}
 
     def names_on(self, body: str) -> tuple[str, ...]:
         """Return the names of a body's joints, in the order in which they were made."""
@@ -95,6 +98,7 @@ class JointSet:
             self._remove_constraints(old)
             if (old.joint.kind, old.joint.a, old.joint.b) != (joint.kind, joint.a, joint.b):
                 self._totals.pop(joint.name, None)
+                self.commands.pop(joint.name, None)
         self._add_constraints(joint)
         for body in (joint.a, joint.b):
             self._on.setdefault(body, {})[joint.name] = None
@@ -105,6 +109,7 @@ class JointSet:
         """Remove a joint for good."""
         self._remove_constraints(self.by_name[name])
         self._totals.pop(name, None)
+        self.commands.pop(name, None)
         del self.by_name[name], self._serials[name]
 
     def clear(self) -> None:
@@ -113,6 +118,7 @@ class JointSet:
         self._pm_space.remove(*reversed(self._constraints()))
         self._drop_table()
         self._totals.clear()
+        self.commands.clear()
         self.by_name.clear()
         self._on.clear()
         self._serials.clear()
@@ -146,8 +152,21 @@ class JointSet:
                 self._soft_springs(),
                 self._dt,
             )
+            for command, begun in self.commands.values():
+                self._table.command(command, begun)
         self._table.place_ends(places)
         self._core.use_joints(self._table.joints, self._table.parts, self._table.rows)
+        self._core.use(motors=self._table.motors)
+
+    def command(self, command: MotorCommand, begun: int) -> None:
+        """
+        Have the motor of a joint obey a command, in place of its last one.
+
+        :param begun: step at which the command began
+        """
+        self.commands[command.joint] = command, begun
+        if self._table is not None:
+            self._table.command(command, begun)
 
     def _soft_springs(self) -> dict[str, float]:
         """Return the dampings of the springs that Chipmunk does not solve, by name [N s/m]."""

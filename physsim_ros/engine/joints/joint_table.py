@@ -15,9 +15,13 @@ from physsim_ros.engine.joints.kinds import EngineJoint
 from physsim_ros.engine.layout import address_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
+from physsim_ros.model.motor_command import MODES, MotorCommand
+from physsim_ros.model.scene import Joint
 import pymunk
 
 _JOINT, _PART, _ROW = dtype_of('Joint'), dtype_of('Part'), dtype_of('Row')
+_MOTOR, _POINT = dtype_of('Motor'), dtype_of('CommandPoint')
+_MOTOR_ROWS = {lib.ROW_SPIN, lib.ROW_WAY}
 # Kinds whose part may push their bodies apart.
 _PRESSING = {JointKind.ROD, JointKind.SPRING}
 
@@ -35,6 +39,7 @@ class JointTable:
     :ivar joints: (j,) `Joint`
     :ivar parts: (p,) `Part`: the constraints, joint by joint
     :ivar rows: (r,) `Row`: joint by joint
+    :ivar motors: (m,) `Motor`: joint by joint
     """
 
     def __init__(
@@ -73,6 +78,39 @@ class JointTable:
                 of_joint[:] = former
         self.rows = np.zeros(sum(map(len, rows)), _ROW)
         _fill(self.rows, [row for each in rows for row in each])
+        found = [
+            (int(self.rows_of(number)[row]), number)
+            for number, each in enumerate(rows)
+            for row in range(len(each))
+            if each[row][0] in _MOTOR_ROWS
+        ]
+        self.motors = np.zeros(len(found), _MOTOR)
+        _fill(
+            self.motors, [_motor_fields(joints[joint].joint, joint, row) for row, joint in found]
+        )
+        self._motor_of = {self.names[joint]: place for place, (_, joint) in enumerate(found)}
+        # The points of the last commands, which the records refer to.
+        self._points: dict[str, NDArray[np.void]] = {}
+
+    def rows_of(self, number: int) -> range:
+        """Return the numbers of the rows of a joint."""
+        first, count = self.joints[number][['first_row', 'row_count']].tolist()
+        return range(first, first + count)
+
+    def command(self, command: MotorCommand, begun: int) -> None:
+        """
+        Have a motor obey a command; nothing happens where its joint has none.
+
+        :param begun: step at which the command began
+        """
+        place = self._motor_of.get(command.joint)
+        if place is None:
+            return
+        points = np.array([tuple(each) for each in command.points], _POINT)
+        self._points[command.joint] = points
+        record = self.motors[place]
+        record['mode'], record['begun'] = MODES.index(command.mode), begun
+        record['points'], record['point_count'] = points.ctypes.data, len(points)
 
     def place_ends(self, places: Mapping[pymunk.Body, int]) -> None:
         """Set the places of bodies in the table of bodies, the background among them."""
@@ -113,6 +151,13 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
         joint.kind in _PRESSING,
         unstepped,
     )
+
+
+def _motor_fields(joint: Joint, number: int, row: int) -> tuple[object, ...]:
+    """Return the first fields of a motor, in their order."""
+    zero = 0.0 if joint.kind.schema.has_axis else joint.seat.phase
+    numbers = joint.number('max_speed'), joint.number('gain'), zero
+    return number, row, joint.properties.effort, *numbers
 
 
 def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[tuple[object, ...]]:

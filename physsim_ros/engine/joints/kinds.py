@@ -29,6 +29,8 @@ _NO_BIAS = 1.0
 # With 1 Chipmunk takes a limit of an angle whose bias is 0 for one that is not reached: this
 # corrects a share of 4e-7 of an angle in a step of 1/240 s.
 _NEARLY_NO_BIAS = 1.0 - 1e-4
+# Parts that have a greatest force of their own.
+_MOTORS = {lib.PART_MOTOR, lib.PART_LINEAR_MOTOR}
 # How far behind its lower limit the point lies from which the way of a slider is measured [m]; any
 # distance will do.
 _BACK = 1.0
@@ -133,14 +135,36 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     against a, from zero.
     """
     lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
+    parts = _pivot(ends), *_rotary_motor(joint, ends)
     if lower is None and upper is None:
-        return (_pivot(ends),)
+        return parts
     least = -math.inf if upper is None else phase - upper
     most = math.inf if lower is None else phase - lower
     limit = pymunk.RotaryLimitJoint(ends.a, ends.b, least, most)
     limit.error_bias = _NEARLY_NO_BIAS
     row = Row(lib.ROW_ANGLE, least, most)
-    return _pivot(ends), Part(lib.PART_ROTARY_LIMIT, limit, (row,))
+    return *parts, Part(lib.PART_ROTARY_LIMIT, limit, (row,))
+
+
+def _rotary_motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return the motor of an axle, if it has one, whose rate the core sets."""
+    if not joint.properties.effort:
+        return ()
+    motor = pymunk.SimpleMotor(ends.a, ends.b, 0.0)
+    motor.max_force = 0.0
+    return (Part(lib.PART_MOTOR, motor, (Row(lib.ROW_SPIN, -math.inf, math.inf),)),)
+
+
+def _linear_motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """
+    Return the motor of a slider, if it has one, whose rate the core sets.
+
+    Chipmunk has none: a spring that gives no force keeps its impulses.
+    """
+    if not joint.properties.effort:
+        return ()
+    spring = pymunk.DampedSpring(ends.a, ends.b, ends.at_a, ends.at_b, 0.0, 0.0, 0.0)
+    return (Part(lib.PART_LINEAR_MOTOR, spring, (Row(lib.ROW_WAY, -math.inf, math.inf),)),)
 
 
 def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -188,8 +212,9 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     pin.error_bias = _NO_BIAS
     parts = (Part(lib.PART_PIN, pin, (Row(lib.ROW_ACROSS),)), _turn(joint, ends))
     lower, upper = joint.properties.lower, joint.properties.upper
+    motor = _linear_motor(joint, ends)
     if lower is None and upper is None:
-        return parts
+        return *parts, *motor
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
     # Distances from a point of the line that lies behind its lower limit.
     back = _BACK if lower is None else _BACK - lower
@@ -198,7 +223,7 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, nearest, back + most)
     limit.error_bias = _NO_BIAS
     row = Row(lib.ROW_ALONG, least, most, below=-1.0)
-    return *parts, Part(lib.PART_SLIDE, limit, (row,))
+    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *motor
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -250,7 +275,7 @@ def build_joint(
         # With the background, which is the walls of `bounds` too, a body always collides.
         part.constraint.collide_bodies = joint.collide or b is None
         # That of a motor is its greatest torque.
-        if joint.properties.max_force is not None and part.kind != lib.PART_MOTOR:
+        if joint.properties.max_force is not None and part.kind not in _MOTORS:
             part.constraint.max_force = joint.properties.max_force
     return built
 
