@@ -62,7 +62,7 @@ class BodyTable:
         self.actors = self.columns.actors.copy()
         # Blocks of noise by robot and number, until they are used up.
         self._blocks: dict[tuple[int, int], Floats] = {}
-        own = self.records[:-1]
+        own = self.records['state'][:-1]
         self.records['engine'] = [*(rigid.address for rigid in bodies), address_of(background)]
         for name in ('free', 'released', 'thrown'):
             own[name] = [getattr(rigid, name) for rigid in bodies]
@@ -83,12 +83,12 @@ class BodyTable:
         rigid = self.bodies[row]
         self.records['wrench'][row] = rigid.wrench
         # The core adds the part of applied forces, which depends on the pose.
-        for lead in ('lead', 'steady_lead'):
-            self.records[lead][row] = rigid.steady_lead(gravity, dt)
+        for table, lead in ((self.records, 'steady_lead'), (self.records['state'], 'lead')):
+            table[lead][row] = rigid.steady_lead(gravity, dt)
 
     def store(self) -> None:
         """Write to each body what outlives the table, before that is dropped."""
-        own = self.records[:-1]
+        own = self.records['state'][:-1]
         names = 'free', 'released', 'thrown'
         columns = (own[name].astype(np.bool_).tolist() for name in names)
         for rigid, *flags in zip(self.bodies, *columns, strict=True):
@@ -125,13 +125,13 @@ class BodyTable:
         :return: (k, 3) float64: changes of velocity [m/s] and spin [rad/s] of the bodies that the
             floor acts on, in spawn order
         """
-        return self.records['push'][self.records['floor_friction'] > 0.0]
+        return self.records['state']['push'][self.records['floor_friction'] > 0.0]
 
     def set_pushes(self, pushes: Floats) -> None:
         """Continue with what contacts and joints have changed in the last steps."""
         rows = np.flatnonzero(self.records['floor_friction'] > 0.0)
         if len(pushes) == len(rows):
-            self.records['push'][rows] = pushes
+            self.records['state']['push'][rows] = pushes
 
     @property
     def robot_states(self) -> Records:

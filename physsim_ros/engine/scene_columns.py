@@ -124,7 +124,8 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     own['safe_depth'] = [_safe_depth(body) for body in bodies]
     own['slop'] = [_slop(body) for body in bodies]
     gravity = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
-    own['lead'][:] = own['steady_lead'][:] = np.where(dynamic[:, None], gravity, 0.0)
+    own['steady_lead'][:] = np.where(dynamic[:, None], gravity, 0.0)
+    own['state']['lead'][:] = own['steady_lead']
     own['floor_friction'] = scene.floor_friction
     for row in np.flatnonzero(own['floor_friction']).tolist():
         wheels = bodies[row].wheels

@@ -411,14 +411,14 @@ class Space:
         """Return whether a body is in free flight."""
         if self._table is None:
             return rigid.free
-        return bool(self._table.records['free'][rigid.row])
+        return bool(self._table.records['state']['free'][rigid.row])
 
     def _set_flag(self, rigid: RigidBody, flag: str, value: bool) -> None:  # noqa: FBT001
         """Set a flag of a body that outlives the table."""
         if self._table is None:
             setattr(rigid, flag, value)
         else:
-            self._table.records[flag][rigid.row] = value
+            self._table.records['state'][flag][rigid.row] = value
 
     def _release(self, rigids: Iterable[RigidBody]) -> None:
         """Note bodies whose support may have been removed, or moved away."""

@@ -88,9 +88,7 @@ def exact(torques, gravity, seconds, yaw):
         ((5.3, 0.87), DOWN, 0.2, 0.3),
     ],
 )
-def test_an_arm_with_torques_obeys_its_equations_of_motion(
-    report, torques, gravity, yaw, seconds
-):
+def test_an_arm_with_torques_obeys_its_equations_of_motion(report, torques, gravity, yaw, seconds):
     robot = arm(gravity, yaw)
     # Its motors hold it first.
     robot.simulation.run(0.1)

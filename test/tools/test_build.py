@@ -142,3 +142,18 @@ def test_the_core_is_compiled_again_where_a_source_has_another_name(tree):
         text=True,
     ).stdout
     assert Path(printed.strip()).parent == tree / CORE
+
+
+def test_the_core_of_the_source_tree_checks_its_promises():
+    (library,) = (ROOT / CORE).glob('_core.*')
+    assert b'place < world->body_count' in library.read_bytes()
+
+
+@pytest.mark.slow
+@machine_has_a_compiler
+def test_a_core_that_is_shipped_does_not(tree, tmp_path):
+    command = [sys.executable, 'setup.py', '--quiet', 'build_ext', '--build-lib', tmp_path]
+    subprocess.run(command, cwd=tree, check=True)
+
+    (library,) = tmp_path.glob(f'{CORE}/_core.*')
+    assert b'place < world->body_count' not in library.read_bytes()

@@ -44,7 +44,7 @@ class Stage(NamedTuple):
 def _columns_without_lead(scene: Any, dt: float, _columns: Any = body_table.columns_of) -> Any:
     columns = _columns(scene, dt)
     bodies = columns.bodies.copy()
-    bodies['lead'] = 0.0
+    bodies['state']['lead'] = 0.0
     return columns._replace(bodies=bodies)
 
 

@@ -114,7 +114,10 @@ def dtype_of(struct: str) -> np.dtype[np.void]:
 
     Vectors, poses and twists are arrays of float64, pointers are integers.
     """
-    kind = ffi.typeof(struct)
+    return _fields_of(ffi.typeof(struct))
+
+
+def _fields_of(kind: Any) -> np.dtype[np.void]:
     fields = {name: (_dtype(field.type), field.offset) for name, field in kind.fields}
     return np.dtype(
         {
@@ -130,12 +133,21 @@ def _dtype(kind: Any) -> np.dtype[Any]:
     match kind.kind:
         case 'array':
             return np.dtype((_dtype(kind.item), (kind.length,)))
+        case 'struct' if not _is_of_doubles(kind):
+            return _fields_of(kind)
         case 'struct':
             return np.dtype((np.float64, (ffi.sizeof(kind) // 8,)))
         case 'pointer':
             return np.dtype(np.uintp)
     letter = 'f' if kind.cname == 'double' else 'u' if kind.cname.startswith('u') else 'i'
     return np.dtype(f'{letter}{ffi.sizeof(kind)}')
+
+
+def _is_of_doubles(kind: Any) -> bool:
+    """Return whether a struct has no other numbers: a vector, a pose, a twist."""
+    if kind.kind == 'struct':
+        return all(_is_of_doubles(field.type) for _, field in kind.fields)
+    return bool(kind.cname == 'double')
 
 
 lib = _load()

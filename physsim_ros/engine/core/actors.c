@@ -145,6 +145,7 @@ static Twist follow_path(const World *world, const Actor *actor, double dt) {
 // The number of the point to which a pedestrian goes.
 static int next_point(const Actor *actor) {
     int count = actor->point_count;
+    assert(count > 0);
     if (actor->repeat == ONCE) {
         return actor->reached < count ? (int)actor->reached : count - 1;
     }
@@ -174,6 +175,7 @@ static Vec walk(World *world, const Surroundings *around, Actor *actor, double d
     const Disc *self = around->discs;
     while (self->body != world->bodies + actor->body) {
         self++;
+        assert(self < around->discs + around->disc_count);
     }
     Vec desired = desired_velocity(actor, self->place);
     return actor->kind == ACTOR_ORCA ? walk_by_orca(world, around, actor, self, desired)

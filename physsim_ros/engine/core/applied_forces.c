@@ -27,12 +27,13 @@ void find_leads(World *world) {
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
         // Forces are listed in the order of their bodies.
-        body->lead = body == last ? body->lead : body->steady_lead;
+        assert(last == NULL || last <= body);
+        body->state.lead = body == last ? body->state.lead : body->steady_lead;
         last = body;
         Twist wrench = wrench_of(applied, engine->a);
         double half = world->dt / 2.0;
         Twist change = {scaled(wrench.v, engine->m_inv), wrench.w * engine->i_inv};
-        body->lead = twist_sum(body->lead, change, half);
+        body->state.lead = twist_sum(body->state.lead, change, half);
     }
 }
 

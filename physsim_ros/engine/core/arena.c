@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "arena.h"
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,6 +15,7 @@ typedef struct Block {
 } Block;
 
 void *arena_take(Arena *arena, size_t count, size_t size) {
+    assert(size > 0 && count <= SIZE_MAX / 2 / size); // a negative count is not
     size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     void *piece = NULL;
     if (arena->used + bytes <= arena->size) {

@@ -9,6 +9,7 @@
 #ifndef PHYSSIM_ARENA_H
 #define PHYSSIM_ARENA_H
 
+#include <assert.h>
 #include <stddef.h>
 
 typedef struct Arena {
@@ -26,6 +27,7 @@ static inline size_t arena_mark(const Arena *arena) {
 }
 
 static inline void arena_release(Arena *arena, size_t mark) {
+    assert(mark <= arena->used);
     arena->used = mark;
 }
 

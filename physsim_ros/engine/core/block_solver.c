@@ -13,14 +13,14 @@
 // impulses. Friction and what it changes of the normal impulses are found by rounds of sequential impulses over the
 // same points, as Chipmunk makes them. Scope: two bodies that hit each other in two points or more, or one that so hits
 // what forces do not move: the outermost contacts of each normal, between which the others have nothing to add. With
-// them all contacts of these bodies and of those that they touch in turn, up to `MOST_POINTS`: the ground that carries
-// a body which is hit, a short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a part of a
-// pile throw its light bodies out. Energy: Newton's law of restitution can create energy, with several points at once
-// as where a light body is pinched between a heavy one and the ground, with one where friction turns the slip round (T.
-// R. Kane and D. A. Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest share of its
-// restitution with which it gains none. Cost: 1 µs for each pair of bodies that hit each other so. Without it laws 8
-// (bodies that fall flat) and 21 (elastic polygons keep their energy) fail; without its bound of energy laws 6 (oblique
-// impacts) and 34 (random crowds).
+// them all contacts of these bodies and of those that they touch in turn, up to `CLUSTER_POINTS`: the ground that
+// carries a body which is hit, a short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a
+// part of a pile throw its light bodies out. Energy: Newton's law of restitution can create energy, with several points
+// at once as where a light body is pinched between a heavy one and the ground, with one where friction turns the slip
+// round (T. R. Kane and D. A. Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest
+// share of its restitution with which it gains none. Cost: 1 µs for each pair of bodies that hit each other so. Without
+// it laws 8 (bodies that fall flat) and 21 (elastic polygons keep their energy) fail; without its bound of energy laws
+// 6 (oblique impacts) and 34 (random crowds).
 
 #include "impact_propagation.h"
 #include "lcp.h"
@@ -29,9 +29,9 @@
 #include <stdlib.h>
 
 // Points that are solved together, at most: of four boxes on each other and the ground, eight are.
-enum { MOST_POINTS = LCP_ROWS };
+enum { CLUSTER_POINTS = LCP_ROWS };
 // Contacts of an impact, at most; a shape of more pieces is left to Chipmunk.
-enum { MOST_CONTACTS = 64 };
+enum { CLUSTER_CONTACTS = 64 };
 // Normals of one face differ by rounding [1].
 static const double same_normal = 1e-6;
 
@@ -43,11 +43,11 @@ typedef struct Hit {
 } Hit;
 
 // The contacts of an impact, and all others that they reach through bodies that move.
-typedef struct Island {
-    cpArbiter *contacts[MOST_CONTACTS];
+typedef struct Cluster {
+    cpArbiter *contacts[CLUSTER_CONTACTS];
     int count, points;
     bool too_many;
-} Island;
+} Cluster;
 
 // A point of a contact, and the velocities at which its bodies part.
 typedef struct Point {
@@ -61,26 +61,26 @@ typedef struct Point {
     double added, added_t; // impulse that an impact next to it has given it in this step [N s]
 } Point;
 
-static bool moves(const cpBody *body) {
+static bool is_movable(const cpBody *body) {
     return body->m_inv > 0.0;
 }
 
-static bool is_among(const Island *island, const cpArbiter *arbiter) {
-    for (int number = 0; number < island->count; number++) {
-        if (island->contacts[number] == arbiter) {
+static bool is_in_cluster(const Cluster *cluster, const cpArbiter *arbiter) {
+    for (int number = 0; number < cluster->count; number++) {
+        if (cluster->contacts[number] == arbiter) {
             return true;
         }
     }
     return false;
 }
 
-static void add_contact(Island *island, cpArbiter *arbiter) {
-    if (island->count == MOST_CONTACTS || island->points + arbiter->count > MOST_POINTS) {
-        island->too_many = true;
+static void add_to_cluster(Cluster *cluster, cpArbiter *arbiter) {
+    if (cluster->count == CLUSTER_CONTACTS || cluster->points + arbiter->count > CLUSTER_POINTS) {
+        cluster->too_many = true;
         return;
     }
-    island->contacts[island->count++] = arbiter;
-    island->points += arbiter->count;
+    cluster->contacts[cluster->count++] = arbiter;
+    cluster->points += arbiter->count;
 }
 
 static int by_bodies(const void *one, const void *other) {
@@ -101,8 +101,8 @@ static int list_hits(World *world, Hit *hits) {
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *each = arbiter_at(world, number);
         if (is_impact(each)) {
-            int a = moves(each->body_a) ? place_of(world, each->body_a) : world->body_count;
-            int b = moves(each->body_b) ? place_of(world, each->body_b) : world->body_count;
+            int a = is_movable(each->body_a) ? place_of(world, each->body_a) : world->body_count;
+            int b = is_movable(each->body_b) ? place_of(world, each->body_b) : world->body_count;
             hits[count++] = (Hit){each, a < b ? a : b, a < b ? b : a, false};
         }
     }
@@ -145,20 +145,20 @@ static bool is_outermost(const Hit *impact, int count, int own, const cpBody *bo
     return first || last;
 }
 
-// Add what the contacts of an island reach through bodies that move, but for the other contacts of the impact.
-static void add_neighbours(Island *island, const Hit *impact, int count) {
-    for (int number = 0; number < island->count && !island->too_many; number++) {
-        cpBody *bodies[2] = {island->contacts[number]->body_a, island->contacts[number]->body_b};
+// Add what the contacts of a cluster reach through bodies that move, but for the other contacts of the impact.
+static void add_neighbours(Cluster *cluster, const Hit *impact, int count) {
+    for (int number = 0; number < cluster->count && !cluster->too_many; number++) {
+        cpBody *bodies[2] = {cluster->contacts[number]->body_a, cluster->contacts[number]->body_b};
         for (int end = 0; end < 2; end++) {
             const cpBody *body = bodies[end];
-            cpArbiter *each = moves(body) ? body->arbiterList : NULL;
-            for (; each != NULL && !island->too_many; each = next_of(each, body)) {
+            cpArbiter *each = is_movable(body) ? body->arbiterList : NULL;
+            for (; each != NULL && !cluster->too_many; each = next_of(each, body)) {
                 bool of_impact = false;
                 for (int hit = 0; hit < count; hit++) {
                     of_impact = of_impact || impact[hit].contact == each;
                 }
-                if (!of_impact && !is_among(island, each)) {
-                    add_contact(island, each);
+                if (!of_impact && !is_in_cluster(cluster, each)) {
+                    add_to_cluster(cluster, each);
                 }
             }
         }
@@ -168,7 +168,7 @@ static void add_neighbours(Island *island, const Hit *impact, int count) {
 // The velocity of a body at the end of the step without impulses.
 static Twist free_twist(const World *world, const cpBody *body) {
     Twist twist = twist_of(body);
-    if (moves(body)) {
+    if (is_movable(body)) {
         double kept = world->own->kept, dt = world->dt;
         Vec pull = add(world->space->gravity, scaled(body->f, body->m_inv));
         twist = (Twist){add(scaled(twist.v, kept), scaled(pull, dt)), twist.w * kept + body->t * body->i_inv * dt};
@@ -205,7 +205,7 @@ static double change_through(const cpBody *body, const Point *point, const Point
     return change;
 }
 
-static void apply(const World *world, cpBody *body, Vec impulse, Vec arm) {
+static void apply_impulse(const World *world, cpBody *body, Vec impulse, Vec arm) {
     // Chipmunk damps velocities before it solves.
     body->v = add(body->v, scaled(impulse, body->m_inv / world->own->kept));
     body->w += cross(arm, impulse) * body->i_inv / world->own->kept;
@@ -213,8 +213,8 @@ static void apply(const World *world, cpBody *body, Vec impulse, Vec arm) {
 
 // The velocities of the bodies of an impact.
 typedef struct Velocities {
-    const cpBody *bodies[2 * MOST_POINTS];
-    Twist twists[2 * MOST_POINTS];
+    const cpBody *bodies[2 * CLUSTER_POINTS];
+    Twist twists[2 * CLUSTER_POINTS];
     int count;
 } Velocities;
 
@@ -224,17 +224,19 @@ static Twist *velocity_of(Velocities *velocities, const cpBody *body) {
         number++;
     }
     if (number == velocities->count) {
+        assert(number < 2 * CLUSTER_POINTS);
         velocities->bodies[velocities->count++] = body;
     }
     return velocities->twists + number;
 }
 
-static int list_points(const Island *island, Velocities *velocities, Point *points) {
+static int list_points(const Cluster *cluster, Velocities *velocities, Point *points) {
     int count = 0;
-    for (int number = 0; number < island->count; number++) {
-        cpArbiter *each = island->contacts[number];
+    for (int number = 0; number < cluster->count; number++) {
+        cpArbiter *each = cluster->contacts[number];
         // Far away a distance can be lost in rounding, and with it the direction.
         for (int point = 0; point < each->count && (each->n.x != 0.0 || each->n.y != 0.0); point++) {
+            assert(count < CLUSTER_POINTS);
             bool begins = each->state == ARBITER_FIRST_COLLISION;
             cpContact *contact = each->contacts + point;
             points[count++] = (Point){contact,
@@ -253,7 +255,7 @@ static int list_points(const Island *island, Velocities *velocities, Point *poin
     return count;
 }
 
-static void push(const Point *point, Vec impulse) {
+static void push_apart(const Point *point, Vec impulse) {
     Twist *a = point->of_a, *b = point->of_b;
     a->v = sub(a->v, scaled(impulse, point->a->m_inv));
     a->w -= cross(point->contact->r1, impulse) * point->a->i_inv;
@@ -271,22 +273,22 @@ static double improve(const Point *point) {
     double most = point->friction * contact->jnAcc;
     contact->jtAcc = clamped(along - dot(v, tangent) * contact->tMass, -most, most);
     double dn = contact->jnAcc - normal, dt = contact->jtAcc - along;
-    push(point, add(scaled(point->normal, dn), scaled(tangent, dt)));
+    push_apart(point, add(scaled(point->normal, dn), scaled(tangent, dt)));
     return greatest(fabs(dn) / contact->nMass, fabs(dt) / contact->tMass);
 }
 
 // Most rounds of sequential impulses over the points of an impact.
-enum { ROUNDS = 200 };
+enum { SEQUENTIAL_ROUNDS = 200 };
 // Change of velocity below which a round is the last one [m/s].
 static const double settled = 1e-12;
 
 // Energy of an impact below which it is rounding, as a share of what its impulses exchange.
-static const double rounding = 1e-9;
+static const double rounding_of_gain = 1e-9;
 // Guesses at the share of its restitution with which an impact gains no energy, at most, and how well it is found.
 enum { GUESSES = 24 };
-static const double least_share = 1e-9;
+static const double share_error = 1e-9;
 
-static Vec impulse_of(const Point *point) {
+static Vec impulse_at_point(const Point *point) {
     return vec(point->contact->jnAcc - point->added, point->contact->jtAcc - point->added_t);
 }
 
@@ -313,10 +315,10 @@ static void find_impulses(const World *world, Point *points, int count) {
     }
     for (int row = 0; row < count; row++) {
         const Point *point = points + row;
-        Vec impulse = impulse_of(point);
-        push(point, add(scaled(point->normal, impulse.x), scaled(perpendicular(point->normal), impulse.y)));
+        Vec impulse = impulse_at_point(point);
+        push_apart(point, add(scaled(point->normal, impulse.x), scaled(perpendicular(point->normal), impulse.y)));
     }
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < SEQUENTIAL_ROUNDS; round++) {
         double most = 0.0;
         for (int row = 0; row < count; row++) {
             most = greatest(most, improve(points + row));
@@ -330,16 +332,16 @@ static void find_impulses(const World *world, Point *points, int count) {
 // Velocities of a body just before and just after an impact: those of the end of the step, less what its acceleration
 // adds from the impact on, and less the half-step lead while it flies.
 static Twist at_impact(const World *world, const Body *body, Twist end, bool flies) {
-    double share = 2.0 * (body->since + body->left) / world->dt + (flies ? 1.0 : 0.0);
-    return body->dynamic ? twist_sum(end, body->lead, -share) : end;
+    double share = 2.0 * (body->scratch.since + body->scratch.left) / world->dt + (flies ? 1.0 : 0.0);
+    return body->dynamic ? twist_sum(end, body->state.lead, -share) : end;
 }
 
 static Twist before_impact(const World *world, const cpBody *body) {
-    return at_impact(world, body_of(body), free_twist(world, body), body_of(body)->free);
+    return at_impact(world, body_of(body), free_twist(world, body), body_of(body)->state.free);
 }
 
 static Twist after_impact(const World *world, const cpBody *body, Twist end) {
-    return at_impact(world, body_of(body), end, body_of(body)->parts);
+    return at_impact(world, body_of(body), end, body_of(body)->scratch.parts);
 }
 
 // The energy that the impulses give to the bodies [J]; < 0 is lost. What is gained by rounding counts as nothing.
@@ -350,10 +352,10 @@ static double gain_of(const World *world, const Point *points, int count) {
         Vec before = surface_velocity(point, before_impact(world, point->a), before_impact(world, point->b));
         Vec after = surface_velocity(point, after_impact(world, point->a, *point->of_a),
                                      after_impact(world, point->b, *point->of_b));
-        gain += dot(impulse_of(point), add(before, after)) / 2.0;
-        size += length(impulse_of(point)) * (length(before) + length(after)) / 2.0;
+        gain += dot(impulse_at_point(point), add(before, after)) / 2.0;
+        size += length(impulse_at_point(point)) * (length(before) + length(after)) / 2.0;
     }
-    return fabs(gain) > rounding * size ? gain : 0.0;
+    return fabs(gain) > rounding_of_gain * size ? gain : 0.0;
 }
 
 // Find the impulses with a share of the restitution; return the energy that they give to the bodies [J].
@@ -368,13 +370,13 @@ static double gain_with(const World *world, Point *points, int count, const doub
 // Find the impulses with the greatest share of the restitution that gains no energy: its root by the false position
 // (Illinois; Dowell and Jarratt, "A modified regula falsi method for computing the root of an equation", 1971).
 static void lose_gain(const World *world, Point *points, int count, double gain) {
-    double bounce[MOST_POINTS], low = 0.0, high = 1.0, above = gain;
+    double bounce[CLUSTER_POINTS], low = 0.0, high = 1.0, above = gain;
     for (int row = 0; row < count; row++) {
         bounce[row] = points[row].contact->bounce;
     }
     double below = gain_with(world, points, count, bounce, low);
     int side = 0;
-    for (int guess = 0; guess < GUESSES && below < 0.0 && high - low > least_share; guess++) {
+    for (int guess = 0; guess < GUESSES && below < 0.0 && high - low > share_error; guess++) {
         double share = low + (high - low) * below / (below - above);
         double found = gain_with(world, points, count, bounce, share);
         if (found > 0.0) {
@@ -392,11 +394,11 @@ static void lose_gain(const World *world, Point *points, int count, double gain)
     gain_with(world, points, count, bounce, low);
 }
 
-// Set the impulses of an island, and add those of contacts that begin to velocities.
-static void solve(const World *world, const Island *island) {
-    Point points[MOST_POINTS];
+// Set the impulses of a cluster, and add those of contacts that begin to velocities.
+static void solve_cluster(const World *world, const Cluster *cluster) {
+    Point points[CLUSTER_POINTS];
     Velocities velocities = {.count = 0};
-    int count = list_points(island, &velocities, points);
+    int count = list_points(cluster, &velocities, points);
     find_impulses(world, points, count);
     double gain = gain_of(world, points, count);
     if (gain > 0.0) {
@@ -406,29 +408,29 @@ static void solve(const World *world, const Island *island) {
         Point *point = points + row;
         // Chipmunk applies that of other contacts itself (`cpArbiterApplyCachedImpulse`).
         if (point->begins) {
-            Vec along = impulse_of(point);
+            Vec along = impulse_at_point(point);
             Vec impulse = add(scaled(point->normal, along.x), scaled(perpendicular(point->normal), along.y));
-            apply(world, point->a, negated(impulse), point->contact->r1);
-            apply(world, point->b, impulse, point->contact->r2);
+            apply_impulse(world, point->a, negated(impulse), point->contact->r1);
+            apply_impulse(world, point->b, impulse, point->contact->r2);
         }
     }
 }
 
 // Solve the contacts by which two bodies hit each other, with what they reach.
-static void solve_impact(const World *world, const Hit *impact, int count, Hit *hits, int hit_count) {
+static void solve_pair(const World *world, const Hit *impact, int count, Hit *hits, int hit_count) {
     const cpArbiter *first = impact->contact;
-    const cpBody *body = moves(first->body_a) ? first->body_a : first->body_b;
-    Island island = {.count = 0};
+    const cpBody *body = is_movable(first->body_a) ? first->body_a : first->body_b;
+    Cluster cluster = {.count = 0};
     for (int number = 0; number < count; number++) {
         if (is_outermost(impact, count, number, body)) {
-            add_contact(&island, impact[number].contact);
+            add_to_cluster(&cluster, impact[number].contact);
         }
     }
-    add_neighbours(&island, impact, count);
-    if (!island.too_many) {
-        solve(world, &island);
+    add_neighbours(&cluster, impact, count);
+    if (!cluster.too_many) {
+        solve_cluster(world, &cluster);
         for (int number = 0; number < hit_count; number++) {
-            hits[number].done = hits[number].done || is_among(&island, hits[number].contact);
+            hits[number].done = hits[number].done || is_in_cluster(&cluster, hits[number].contact);
         }
     }
 }
@@ -443,7 +445,7 @@ void solve_impacts(World *world) {
         for (last = first; last < count && hits[last].a == hits[first].a && hits[last].b == hits[first].b; last++) {
         }
         if (!hits[first].done) {
-            solve_impact(world, hits + first, last - first, hits, count);
+            solve_pair(world, hits + first, last - first, hits, count);
         }
     }
 }

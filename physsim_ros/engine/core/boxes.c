@@ -77,6 +77,7 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
 }
 
 void tree_set(Tree *tree, int number, Box box) {
+    assert(number >= 0 && number < tree->count);
     size_t node = tree->leaves + (size_t)tree->places[number];
     tree->nodes[node] = box;
     for (node /= 2; node > 0; node /= 2) {
@@ -96,6 +97,7 @@ void tree_query(const Tree *tree, Box box, bool (*found)(int number, void *data)
             continue;
         }
         if (node < tree->leaves) {
+            assert(depth + 2 <= DEEPEST);
             stack[depth++] = 2 * node + 1;
             stack[depth++] = 2 * node;
         } else if (!found(tree->members[node - tree->leaves], data)) {

@@ -13,15 +13,15 @@
 #include "touch.h"
 
 // Friction that tells a direction, as a share of the load [1]: far above rounding.
-static const double least_share = 1e-6;
+static const double telling_friction = 1e-6;
 // Slip that tells the direction of a contact that begins [m/s]: far above rounding.
-static const double least_slip = 1e-6;
+static const double telling_slip = 1e-6;
 
 // The slip along a tangent of the second body on the first, or against it the friction of the step before [m/s, N s].
 static double slip_of(const cpArbiter *arbiter, Vec tangent, Vec gravity_step) {
     const cpContact *one = arbiter->contacts, *other = one + 1;
     double friction = one->jtAcc + other->jtAcc;
-    if (fabs(friction) > least_share * (one->jnAcc + other->jnAcc)) {
+    if (fabs(friction) > telling_friction * (one->jnAcc + other->jnAcc)) {
         return -friction;
     }
     const cpBody *a = arbiter->body_a, *b = arbiter->body_b;
@@ -29,7 +29,7 @@ static double slip_of(const cpArbiter *arbiter, Vec tangent, Vec gravity_step) {
     Vec at_b = velocity_at(twist_of(b), scaled(add(one->r2, other->r2), 0.5));
     Vec fall = scaled(gravity_step, (b->m_inv > 0.0 ? 1.0 : 0.0) - (a->m_inv > 0.0 ? 1.0 : 0.0));
     double slip = dot(add(sub(at_b, at_a), add(fall, arbiter->surface_vr)), tangent);
-    return fabs(slip) > least_slip ? slip : 0.0;
+    return fabs(slip) > telling_slip ? slip : 0.0;
 }
 
 // Whether the second point is to be solved first.

@@ -61,6 +61,8 @@ void free_report(World *world) {
 // Where a pair is in the table, or belongs (Fibonacci hashing; Knuth, The Art of Computer Programming 3, 6.4).
 static Pair *slot_of(const Report *report, int a, int b) {
     uint64_t key = ((uint64_t)(uint32_t)a << 32U) | (uint32_t)b;
+    // A free slot ends the search.
+    assert(report->count < report->room && (report->room & (report->room - 1)) == 0);
     uint64_t slot = (key * 0x9E3779B97F4A7C15U) >> 20U, mask = (uint64_t)report->room - 1;
     for (slot &= mask; report->pairs[slot].counts; slot = (slot + 1) & mask) {
         if (report->pairs[slot].a == a && report->pairs[slot].b == b) {
@@ -90,6 +92,7 @@ static void make_room(Report *report, int64_t first) {
 }
 
 static Pair *pair_of(Report *report, int a, int b) {
+    assert(a >= 0 && a <= b);
     if (report->room < 2 * (report->count + 1)) {
         make_room(report, NEVER);
     }
@@ -106,7 +109,7 @@ static double first_touch(World *world, Body *a, Body *b) {
     if (a->sensor || b->sensor) {
         return crossing_time(world, a, b);
     }
-    return 1.0 - least(a->since + a->left, b->since + b->left) / world->dt;
+    return 1.0 - least(a->scratch.since + a->scratch.left, b->scratch.since + b->scratch.left) / world->dt;
 }
 
 static void add_begun(World *world, Report *report, Begun added) {
@@ -326,6 +329,7 @@ void rename_contacts(World *world, const int32_t *former, int count) {
         places[old] = -1;
     }
     for (int place = 0; place < count; place++) {
+        assert(former[place] < world->body_count);
         if (former[place] >= 0) {
             places[former[place]] = place;
         }
@@ -340,6 +344,7 @@ void rename_contacts(World *world, const int32_t *former, int count) {
             // The order of bodies stays, so that the lesser place is that of the same body.
             pair.a = places[pair.a];
             pair.b = places[pair.b];
+            assert(pair.a <= pair.b);
             *slot_of(report, pair.a, pair.b) = pair;
             report->count++;
         }

@@ -43,6 +43,7 @@ static bool boxes_meet(World *world, const Statics *statics) {
     int count = 0;
     for (int place = 0; place < world->body_count; place++) {
         if (is_fast(world, world->bodies + place)) {
+            assert(count < FEW);
             fast[count++] = mover_of(world->bodies + place, way_of(world, world->bodies + place));
         }
     }
@@ -67,8 +68,8 @@ static void set_back(World *world, const Mover *mover) {
     cpBody *engine = mover->body->engine;
     Vec pivot;
     Pose end = pose_at(mover, 1.0, &pivot), free_end = moved(pose_of(engine), twist_of(engine), world->dt);
-    mover->body->left = mover->body->joined || !mover->body->dynamic ? 0.0 : (1.0 - mover->since) * world->dt;
-    mover->body->carried = (Twist){sub(end.p, mover->pose.p), end.yaw - mover->pose.yaw};
+    mover->body->scratch.left = mover->body->joined || !mover->body->dynamic ? 0.0 : (1.0 - mover->since) * world->dt;
+    mover->body->scratch.carried = (Twist){sub(end.p, mover->pose.p), end.yaw - mover->pose.yaw};
     Vec shift = sub(end.p, free_end.p);
     double turn = mover->turning > 0.0 ? end.yaw - free_end.yaw : 0.0;
     if (mover->body->engine->sleeping_root != NULL) {

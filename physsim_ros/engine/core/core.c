@@ -33,6 +33,7 @@ void core_free(World *world) {
 }
 
 void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *former) {
+    assert(count > 0 && bodies[count - 1].anchored); // the background
     rename_contacts(world, former, count);
     world->bodies = bodies;
     world->body_count = count;
@@ -68,13 +69,19 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
     for (int place = 0; place < world->body_count; place++) {
         world->bodies[place].jointed = world->bodies[place].joined = false;
     }
+    int next_part = 0, next_row = 0;
     for (int number = 0; number < joint_count; number++) {
+        // Parts and rows follow one another, in the order of their joints.
+        assert(joints[number].first_part == next_part && joints[number].first_row == next_row);
+        next_part += joints[number].part_count;
+        next_row += joints[number].row_count;
         Body *ends[2] = {world->bodies + joints[number].a, world->bodies + joints[number].b};
         for (int end = 0; end < 2; end++) {
             ends[end]->joined = true;
             ends[end]->jointed = ends[end]->jointed || joints[number].row_count > 0;
         }
     }
+    assert(next_part == part_count && next_row == row_count);
     list_jointed(world);
     prepare_springs(world);
 }

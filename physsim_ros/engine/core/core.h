@@ -30,14 +30,37 @@ typedef struct Motion {
     Twist twist;
 } Motion;
 
-// A body; the last one of the table is the background, which has the walls.
+// What outlives a step of a body, besides pose and velocity, which Chipmunk has.
+typedef struct BodyState {
+    uint8_t free;     // in free flight, so that its velocity leads by `lead`
+    uint8_t released; // something that it touched was removed or moved since the last step
+    uint8_t thrown;   // its velocity was set since the last step
+    Twist lead;       // half a step of gravity and all forces: the lead of its velocity in free flight
+    Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
+} BodyState;
+
+// What stages of a step tell each other of a body; nothing of it outlives the step.
+typedef struct BodyScratch {
+    uint8_t slides; // on a floor that does not carry it along
+    Pose begin;     // as the step begins
+    Twist twist;    // with which Chipmunk begins
+    Twist under;    // mean velocity of the floor under it
+    Twist without;  // velocity after the step without contacts, on a floor; scratch of block_solver.c
+    double left;    // of the step after continuous collision has stopped it [s]
+    Twist carried;  // way with what has stopped it, in that time [m, rad]
+    double since;   // time from its first impact to the end of its motion [s]
+    uint8_t parts;  // its impact throws it off, so gravity acts on the new velocity
+    double idle;    // for which it has been at rest as the step begins; < 0 while it sleeps [s]
+} BodyScratch;
+
+// A body as requests define it, with its state; the last one of the table is the background, which has the walls.
 typedef struct Body {
-    // These fields are set by Python.
     cpBody *engine;
     uint8_t dynamic;       // forces move it
     uint8_t anchored;      // it does not move at all
     uint8_t sensor;        // its contacts have no effect
-    uint8_t joined;        // a joint ends on it
+    uint8_t joined;        // a joint ends on it; the core sets it
+    uint8_t jointed;       // a joint with rows ends on it; the core sets it
     uint8_t sprung;        // in an island of joints that hangs by a spring from something fixed
     uint8_t on_spring;     // a spring pulls it, and forces move it
     uint8_t towed;         // it rolls on an axle without a motor
@@ -51,29 +74,13 @@ typedef struct Body {
     double corners;        // of its pieces, the cost of continuous collision
     double pieces;         // count of its pieces
     int64_t group;         // bodies of one group pass through each other; 0 is none
-    Twist lead;            // half a step of gravity and all forces: the lead of its velocity in free flight
-    Twist steady_lead;     // the same without applied forces, which depend on its pose
+    Twist steady_lead;     // half a step of gravity and of the wrench
     Twist wrench;          // force [N] and torque [N m] that act on it
     double floor_friction; // coefficient of friction with the floor; 0 where none acts
     double lever;          // mean distance of the points that bear it on the floor [m]
     cpVect surface;        // velocity of the surface of a conveyor, in the body's axes [m/s]
-    // These fields are state that outlives a step.
-    uint8_t free;     // in free flight, so that its velocity leads by `lead`
-    uint8_t released; // something that it touched was removed or moved since the last step
-    uint8_t thrown;   // its velocity was set since the last step
-    Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
-    // These fields are set and used within a step.
-    uint8_t jointed; // a joint with rows ends on it
-    uint8_t slides;  // on a floor that does not carry it along
-    Pose begin;      // as the step begins
-    Twist twist;     // with which Chipmunk begins
-    Twist under;     // mean velocity of the floor under it
-    Twist without;   // velocity after the step without contacts, on a floor; scratch of block_solver.c
-    double left;     // of the step after continuous collision has stopped it [s]
-    Twist carried;   // way with what has stopped it, in that time [m, rad]
-    double since;    // time from its first impact to the end of its motion [s]
-    uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
-    double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
+    BodyState state;
+    BodyScratch scratch;
 } Body;
 
 // A grip of a hand on a body; Box2D's mouse joint.
@@ -385,8 +392,8 @@ void core_clear_contacts(World *world);
 void core_copy_contacts(World *world, const World *old);
 
 // Find how far it is from `origin` along each of some directions, counter-clockwise within a turn, to the nearest piece
-// of any body but those of `own` (-1 is none), by the poses of all bodies. A distance is INFINITY where nothing is within
-// `reach`; beyond it, it may also be true. All are 0 where the origin lies in a piece. [m]
+// of any body but those of `own` (-1 is none), by the poses of all bodies. A distance is INFINITY where nothing is
+// within `reach`; beyond it, it may also be true. All are 0 where the origin lies in a piece. [m]
 void core_cast_rays(const Piece *pieces, int32_t piece_count, const Edge *edges, const Pose *poses, int32_t own,
                     cpVect origin, double reach, const cpVect *directions, int32_t count, double *distances);
 

@@ -29,6 +29,7 @@ static double chord_by_arc(double turn) {
 
 static double rim_speed(const Robot *robot, Twist velocity) {
     double most = 0.0;
+    assert(robot->wheel_count <= (int)(sizeof(robot->wheels) / sizeof(robot->wheels[0])));
     for (int wheel = 0; wheel < robot->wheel_count; wheel++) {
         Twist by = robot->wheels[wheel];
         most = greatest(most, fabs(dot(by.v, velocity.v) + by.w * velocity.w));
@@ -63,7 +64,7 @@ static Twist at_center(Twist velocity, Vec center, double yaw) {
 void roll_wheels(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
-        double yaw = world->bodies[robot->body].begin.yaw;
+        double yaw = world->bodies[robot->body].scratch.begin.yaw;
         Twist aim = world->step < robot->until ? robot->aim : (Twist){0}, after = robot->rolling;
         if (!is_same(robot->rolling, aim) || !is_same(aim, robot->aim)) {
             after = accelerated(robot, aim, world->dt);
@@ -110,7 +111,7 @@ void reckon_odometry(World *world) {
         Robot *robot = world->robots + number;
         const Body *body = world->bodies + robot->body;
         Vec way = scaled(robot->mean.v, world->dt), measured = way;
-        double turn = body->engine->a - body->begin.yaw, drift = 0.0, distance = length(way);
+        double turn = body->engine->a - body->scratch.begin.yaw, drift = 0.0, distance = length(way);
         if (robot->noise != NULL) {
             const cpVect noise = scaled(robot->noise[world->own->call_step], 1.0 / sqrt(SUB_STEPS));
             double share = distance > 0.0 ? 1.0 + noise.x * robot->slip[0] / sqrt(distance) : 1.0;

@@ -14,7 +14,7 @@
 #include "elimination_order.h"
 #include "vector.h"
 
-enum { NONE = -1 };
+enum { NO_NODE = -1 };
 
 typedef struct Quotient {
     const int *weights;
@@ -30,12 +30,12 @@ typedef struct Quotient {
 
 static void unlink_node(Quotient *graph, int node) {
     int before = graph->before[node], next = graph->next[node];
-    if (before == NONE) {
+    if (before == NO_NODE) {
         graph->heads[graph->degrees[node]] = next;
     } else {
         graph->next[before] = next;
     }
-    if (next != NONE) {
+    if (next != NO_NODE) {
         graph->before[next] = before;
     }
 }
@@ -44,14 +44,14 @@ static void link_node(Quotient *graph, int node, int degree) {
     int next = graph->heads[degree];
     graph->degrees[node] = degree;
     graph->next[node] = next;
-    graph->before[node] = NONE;
-    if (next != NONE) {
+    graph->before[node] = NO_NODE;
+    if (next != NO_NODE) {
         graph->before[next] = node;
     }
     graph->heads[degree] = node;
 }
 
-static void begin(Quotient *graph, Graph given, int total, Arena *arena) {
+static void begin_quotient(Quotient *graph, Graph given, int total, Arena *arena) {
     int count = given.count, edges = given.starts[count];
     graph->weights = given.weights;
     graph->lists = TAKE(arena, int, edges + 1);
@@ -68,7 +68,7 @@ static void begin(Quotient *graph, Graph given, int total, Arena *arena) {
     graph->outside_marks = TAKE(arena, int, count);
     graph->heads = TAKE(arena, int, total + 1);
     for (int degree = 0; degree <= total; degree++) {
-        graph->heads[degree] = NONE;
+        graph->heads[degree] = NO_NODE;
     }
     for (int edge = 0; edge < edges; edge++) {
         graph->lists[edge] = given.neighbours[edge];
@@ -99,7 +99,7 @@ static int make_element(Quotient *graph, int pivot, Arena *arena) {
         int node_count = k < 0 ? graph->node_counts[pivot] : graph->member_counts[elements[k]];
         for (int n = 0; n < node_count; n++) {
             int node = nodes[n];
-            if (graph->degrees[node] != NONE && graph->marks[node] != graph->mark) {
+            if (graph->degrees[node] != NO_NODE && graph->marks[node] != graph->mark) {
                 graph->marks[node] = graph->mark;
                 members[count++] = node;
                 weight += graph->weights[node];
@@ -109,6 +109,7 @@ static int make_element(Quotient *graph, int pivot, Arena *arena) {
     for (int k = 0; k < graph->element_counts[pivot]; k++) {
         graph->member_counts[elements[k]] = 0;
     }
+    assert(count <= most);
     graph->members[pivot] = members;
     graph->member_counts[pivot] = count;
     return weight;
@@ -142,7 +143,7 @@ static void update_node(Quotient *graph, int node, int pivot, int weight, int to
     int old_nodes = graph->node_counts[node], old_elements = graph->element_counts[node];
     int degree = weight - graph->weights[node];
     for (int k = 0; k < old_nodes; k++) {
-        if (graph->degrees[list[k]] != NONE && graph->marks[list[k]] != graph->mark) {
+        if (graph->degrees[list[k]] != NO_NODE && graph->marks[list[k]] != graph->mark) {
             degree += graph->weights[list[k]];
             list[nodes++] = list[k];
         }
@@ -155,6 +156,7 @@ static void update_node(Quotient *graph, int node, int pivot, int weight, int to
         }
     }
     // There is room: the pivot, or an element that it has absorbed, was in the list.
+    assert(nodes + elements < old_nodes + old_elements);
     list[nodes + elements++] = pivot;
     graph->node_counts[node] = nodes;
     graph->element_counts[node] = elements;
@@ -169,14 +171,15 @@ int *elimination_order(Graph given, Arena *arena) {
         total += given.weights[node];
     }
     Quotient graph = {0};
-    begin(&graph, given, total, arena);
+    begin_quotient(&graph, given, total, arena);
     for (int place = 0, least = 0; place < given.count; place++) {
-        while (graph.heads[least] == NONE) {
+        while (graph.heads[least] == NO_NODE) {
             least++;
+            assert(least <= total);
         }
         int pivot = graph.heads[least];
         unlink_node(&graph, pivot);
-        graph.degrees[pivot] = NONE;
+        graph.degrees[pivot] = NO_NODE;
         order[place] = pivot;
         int weight = make_element(&graph, pivot, arena);
         weigh_outsides(&graph, pivot);

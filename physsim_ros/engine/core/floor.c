@@ -31,7 +31,6 @@
 #include "outline.h"
 #include "stages.h"
 
-static const double standard_gravity = 9.81; // of weights on the floor [m/s²]
 // The share of the push of the last step that the next one expects where the floor stands still. With all of it, bodies
 // would stay pressed against each other by friction alone, for ever; so 2 % of the push decays in each step.
 static const double relaxed = 0.98;
@@ -101,7 +100,7 @@ static Conveyors conveyors_of(World *world) {
         const Body *body = world->bodies + place;
         if (is_conveyor(body)) {
             Vec reach = vec(body->reach, body->reach);
-            boxes[count] = (Box){sub(body->begin.p, reach), add(body->begin.p, reach)};
+            boxes[count] = (Box){sub(body->scratch.begin.p, reach), add(body->scratch.begin.p, reach)};
             conveyors.list[count++] = body;
         }
     }
@@ -119,8 +118,8 @@ typedef struct Under {
 static bool find_under(int number, void *data) {
     Under *under = data;
     const Body *conveyor = under->conveyors->list[number];
-    Rotation by = rotation(conveyor->begin.yaw);
-    Vec local = rotated_back(sub(under->body->begin.p, conveyor->begin.p), by);
+    Rotation by = rotation(conveyor->scratch.begin.yaw);
+    Vec local = rotated_back(sub(under->body->scratch.begin.p, conveyor->scratch.begin.p), by);
     const cpShape *shape = conveyor != under->body && number > under->last ? conveyor->engine->shapeList : NULL;
     for (; shape != NULL; shape = shape->next) {
         under->last = covers(shape, local) ? number : under->last;
@@ -131,14 +130,14 @@ static bool find_under(int number, void *data) {
 // The velocity at the centre of mass of a body of the conveyor under it.
 static Twist conveyed(const Conveyors *conveyors, const Body *body) {
     Under under = {conveyors, body, -1};
-    tree_query(&conveyors->tree, (Box){body->begin.p, body->begin.p}, find_under, &under);
+    tree_query(&conveyors->tree, (Box){body->scratch.begin.p, body->scratch.begin.p}, find_under, &under);
     if (under.last < 0) {
         return (Twist){0};
     }
     const Body *conveyor = conveyors->list[under.last];
-    Vec surface = rotated(conveyor->surface, rotation(conveyor->begin.yaw));
-    Vec around = sub(body->begin.p, conveyor->begin.p);
-    return (Twist){add(velocity_at(conveyor->twist, around), surface), conveyor->twist.w};
+    Vec surface = rotated(conveyor->surface, rotation(conveyor->scratch.begin.yaw));
+    Vec around = sub(body->scratch.begin.p, conveyor->scratch.begin.p);
+    return (Twist){add(velocity_at(conveyor->scratch.twist, around), surface), conveyor->scratch.twist.w};
 }
 
 // The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
@@ -154,38 +153,38 @@ static Twist rolling(const Body *body, Twist twist, double yaw) {
 
 // Bring a body to the velocity of the floor under it: its mean in the step, and that at its end. Below a towed body
 // these are the velocities at which its axle rolls.
-static void pull(World *world, Body *body, Twist mean, Twist end) {
+static void drag(World *world, Body *body, Twist mean, Twist end) {
     cpBody *engine = body->engine;
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
     Twist before = twist_of(engine);
-    before = body->free ? twist_sum(before, body->lead, -1.0) : before;
+    before = body->state.free ? twist_sum(before, body->state.lead, -1.0) : before;
     // What the step brings without the floor: damping, gravity, forces of commands and hands.
     Twist after = {add(scaled(before.v, kept), add(scaled(engine->f, linear), scaled(world->space->gravity, dt))),
                    before.w * kept + engine->t * angular};
     Surface surface = surface_of(world, body);
     bool moves = mean.v.x != 0.0 || mean.v.y != 0.0 || mean.w != 0.0;
     double share = moves ? 1.0 : relaxed;
-    Twist expected = {scaled(body->push.v, share), body->push.w * share};
+    Twist expected = {scaled(body->state.push.v, share), body->state.push.w * share};
     double size = greatest(sqrt(square(expected, surface)) / most_expected, 1.0);
     expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
     Twist next = twist_sum(after, expected, 1.0);
     if (body->towed) {
-        double yaw = body->begin.yaw, turn = next.w * dt;
+        double yaw = body->scratch.begin.yaw, turn = next.w * dt;
         end = rolling(body, next, yaw + turn);
         Twist sum = twist_sum(before, end, 1.0);
         mean = rolling(body, (Twist){scaled(sum.v, 0.5), sum.w / 2.0}, yaw + turn / 2.0);
     }
     Twist slip = twist_sum(next, end, -1.0);
-    body->slides = square(slip, surface) > 1.0;
-    Twist change = body->slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
+    body->scratch.slides = square(slip, surface) > 1.0;
+    Twist change = body->scratch.slides ? friction(slip, surface) : (Twist){negated(slip.v), -slip.w};
     Twist as_moved = mean;
-    if (body->slides) {
+    if (body->scratch.slides) {
         Twist sum = twist_sum(twist_sum(before, after, 1.0), twist_sum(expected, change, 1.0), 1.0);
         as_moved = (Twist){scaled(sum.v, 0.5), sum.w / 2.0};
     }
-    body->under = mean;
-    body->without = twist_sum(after, change, 1.0);
+    body->scratch.under = mean;
+    body->scratch.without = twist_sum(after, change, 1.0);
     if (!sleeps(body)) {
         set_twist(engine, as_moved);
         Vec added = add(scaled(sub(before.v, as_moved.v), kept), change.v);
@@ -230,9 +229,10 @@ void pull_by_floor(World *world) {
         if (body->floor_friction > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             Twist mean = twist_sum(driving.mean, belt, 1.0), end = twist_sum(driving.end, belt, 1.0);
-            pull(world, body, mean, end);
+            drag(world, body, mean, end);
         }
     }
+    assert(robot == world->robots + world->robot_count && actor == world->actors + world->actor_count);
 }
 
 void find_pushes(World *world) {
@@ -246,10 +246,10 @@ void find_pushes(World *world) {
         }
         // Half of what is expected is the newest push. With all of it, a robot at a wall and the wall would push in
         // turns.
-        Twist push = twist_sum(twist_sum(twist_of(body->engine), body->without, -1.0), body->push, 1.0);
+        Twist push = twist_sum(twist_sum(twist_of(body->engine), body->scratch.without, -1.0), body->state.push, 1.0);
         push = (Twist){scaled(push.v, 0.5), push.w / 2.0};
         double size = greatest(greatest(fabs(push.v.x), fabs(push.v.y)), fabs(push.w));
-        body->push = sleeps(body) || size < least_push ? (Twist){0} : push;
+        body->state.push = sleeps(body) || size < least_push ? (Twist){0} : push;
     }
     reckon_odometry(world);
 }

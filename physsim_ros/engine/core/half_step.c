@@ -26,7 +26,7 @@
 #include <string.h>
 
 // Difference of a sum in another order, as a share of the velocity.
-static const double rounding = 1e-12;
+static const double rounding_of_velocity = 1e-12;
 
 // Bodies that support each other.
 typedef struct Support {
@@ -37,7 +37,7 @@ typedef struct Support {
 
 // Whether a body may have lost what it rested on.
 static bool is_loose(const Body *body) {
-    return body->released && body->dynamic;
+    return body->state.released && body->dynamic;
 }
 
 static bool presses(const cpArbiter *arbiter) {
@@ -117,7 +117,7 @@ static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
     bool released = false;
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;
-        free[place] = body->free && !body->sprung;
+        free[place] = body->state.free && !body->sprung;
         released = released || is_loose(body);
     }
     if (!released || !has_stage(world, STAGE_SUPPORT)) {
@@ -131,8 +131,8 @@ static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
 
 // The velocity of a body that begins or ceases to fly.
 static Twist with_lead(const Body *body, bool flies) {
-    double sign = (double)flies - (double)body->free;
-    return twist_sum(twist_of(body->engine), body->lead, sign);
+    double sign = (double)flies - (double)body->state.free;
+    return twist_sum(twist_of(body->engine), body->state.lead, sign);
 }
 
 static void forget_impulses(const Body *body) {
@@ -149,10 +149,10 @@ void begin_half_step(World *world) {
     find_start(world, free, unsupported);
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        if (free[place] != body->free) {
+        if (free[place] != body->state.free) {
             world->chipmunk.body_activate(body->engine);
             set_twist(body->engine, with_lead(body, free[place]));
-            body->free = free[place];
+            body->state.free = free[place];
         }
         if (unsupported[place]) {
             forget_impulses(body);
@@ -167,7 +167,7 @@ void begin_half_step(World *world) {
 }
 
 static bool is_flying(const Body *body) {
-    return body->free && body->dynamic;
+    return body->state.free && body->dynamic;
 }
 
 double reported_share(const Body *a, const Body *b, Vec impulse) {
@@ -176,10 +176,11 @@ double reported_share(const Body *a, const Body *b, Vec impulse) {
     for (int end = 0; end < 2; end++) {
         const Body *body = bodies[end], *other = bodies[1 - end];
         if (is_flying(body) && size > 0.0) {
-            Vec against = is_flying(other) ? vec(0.0, 0.0) : other->twist.v;
+            Vec against = is_flying(other) ? vec(0.0, 0.0) : other->scratch.twist.v;
             // Without the impulse, the true velocity and that of the engine would be these.
-            Vec true_end = add(body->twist.v, body->lead.v), engine_end = add(true_end, body->lead.v);
-            double lead = body->parts ? 0.0 : fabs(dot(body->lead.v, impulse)) / size;
+            Vec true_end = add(body->scratch.twist.v, body->state.lead.v),
+                engine_end = add(true_end, body->state.lead.v);
+            double lead = body->scratch.parts ? 0.0 : fabs(dot(body->state.lead.v, impulse)) / size;
             load += fabs(dot(sub(lead > 0.0 ? true_end : engine_end, against), impulse));
             all += fabs(dot(sub(engine_end, against), impulse));
             taken_back += body->engine->m * lead;
@@ -191,17 +192,18 @@ double reported_share(const Body *a, const Body *b, Vec impulse) {
 void find_free(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        body->free = false;
+        body->state.free = false;
         if (!body->dynamic || body->sprung || body->floor_friction > 0.0 || sleeps(body) ||
             !has_stage(world, STAGE_HALF_STEP)) {
             continue;
         }
-        Twist after = twist_of(body->engine), flown = body->lead;
-        flown =
-            twist_sum((Twist){scaled(body->twist.v, world->own->kept), body->twist.w * world->own->kept}, flown, 2.0);
-        body->free = fabs(flown.v.x - after.v.x) <= rounding * (1.0 + fabs(after.v.x)) &&
-                     fabs(flown.v.y - after.v.y) <= rounding * (1.0 + fabs(after.v.y)) &&
-                     fabs(flown.w - after.w) <= rounding * (1.0 + fabs(after.w));
+        Twist after = twist_of(body->engine), flown = body->state.lead;
+        flown = twist_sum(
+            (Twist){scaled(body->scratch.twist.v, world->own->kept), body->scratch.twist.w * world->own->kept}, flown,
+            2.0);
+        body->state.free = fabs(flown.v.x - after.v.x) <= rounding_of_velocity * (1.0 + fabs(after.v.x)) &&
+                           fabs(flown.v.y - after.v.y) <= rounding_of_velocity * (1.0 + fabs(after.v.y)) &&
+                           fabs(flown.w - after.w) <= rounding_of_velocity * (1.0 + fabs(after.w));
     }
 }
 
@@ -233,12 +235,13 @@ void core_observe(World *world, Pose *poses, Twist *twists) {
         poses[place] = pose;
         Twist twist = sleeps(body) ? (Twist){0} : with_lead(body, flies[place]);
         // The same sum as in a space that is built from this state, to the bit.
-        twists[place] = flies[place] ? twist_sum(twist, body->lead, -1.0) : twist;
+        twists[place] = flies[place] ? twist_sum(twist, body->state.lead, -1.0) : twist;
     }
 }
 
 void core_write_state(World *world, const Motion *motions) {
     for (int place = 0; place < world->body_count - 1; place++) {
+        assert(!sleeps(world->bodies + place));
         set_pose(world->bodies[place].engine, motions[place].pose);
         set_twist(world->bodies[place].engine, motions[place].twist);
     }

@@ -13,7 +13,7 @@
 
 // Greatest count of successive impacts of a body in a step, as in a row of bodies before a wall. Beyond it Chipmunk's
 // own result holds.
-enum { ROUNDS = 10 };
+enum { IMPACT_ROUNDS = 10 };
 
 // Two movers that meet, and the share of the step at which they do.
 typedef struct Impact {
@@ -68,7 +68,7 @@ static Vec center_rate(const Mover *mover) {
 }
 
 // By how far two movers approach in the rest of the step, at most [m].
-static double greatest_approach(const Mover *one, const Mover *other) {
+static double approach_left(const Mover *one, const Mover *other) {
     double way = length(sub(center_rate(one), center_rate(other)));
     way += fabs(one->rate.w) * one->turning + fabs(other->rate.w) * other->turning;
     return way * (1.0 - greatest(one->since, other->since));
@@ -86,7 +86,7 @@ static bool find_impact(int number, void *data) {
         high = impacts->asking < number ? number : impacts->asking;
     const Mover *one = mover_at(sweep, low), *other = mover_at(sweep, high);
     double depth = least(one->depth, other->depth);
-    if (collide(one, other) && greatest_approach(one, other) > depth && come_near(one, other)) {
+    if (collide(one, other) && approach_left(one, other) > depth && come_near(one, other)) {
         sweep->world->swept++;
         double share = first_impact(sweep->world, one, other, depth);
         if (share < INFINITY) {
@@ -155,6 +155,7 @@ static int list_members(const Sweep *sweep, Impact impact, int *members) {
     for (int end = 0; end < (are_one ? 1 : 2); end++) {
         if (mover_at(sweep, ends[end])->movable) {
             for (int each = sweep->movers[ends[end]].island; each >= 0; each = sweep->movers[each].next) {
+                assert(count < sweep->count);
                 members[count++] = each;
             }
         }
@@ -240,6 +241,8 @@ static int resolve(Sweep *sweep, const Impacts *impacts, int *changed) {
             continue;
         }
         for (int member = 0; member < count; member++) {
+            // No island is joined twice in a round.
+            assert(passed.count < sweep->count);
             passed.boxes[passed.count++] = sweep->movers[members[member]].box;
             changed[changed_count++] = members[member];
         }
@@ -271,7 +274,7 @@ void join_impacts(Sweep *sweep, const int *fast, int count) {
     Impacts impacts = {.sweep = sweep};
     int *changed = TAKE(&sweep->world->own->arena, int, sweep->count + 1);
     memcpy(changed, fast, (size_t)count * sizeof(int));
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < IMPACT_ROUNDS; round++) {
         drop_changed(&impacts, changed, count);
         find_impacts(&impacts, changed, count);
         if (impacts.count == 0) {

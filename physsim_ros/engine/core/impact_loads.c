@@ -40,6 +40,7 @@ void bound_loads(World *world) {
         for (int point = 0; point < each->count; point++) {
             cpContact *contact = each->contacts + point;
             double most = growth * greatest(contact->jnAcc, 0.0) + slowest_impact * contact->nMass;
+            assert(world->own->load_count < points);
             world->own->loads[world->own->load_count++] = (Load){contact, begins ? 0.0 : most};
         }
     }

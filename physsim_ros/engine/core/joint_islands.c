@@ -16,7 +16,7 @@
 
 // Points of a body that is touched, at most, for all of them to be rows: what bears more, as a platform full of boxes,
 // is as heavy as many of them, so that Chipmunk's iterations converge on it.
-enum { MOST_POINTS = 32 };
+enum { MOST_BEARINGS = 32 };
 
 typedef struct Touches {
     Bearing *list;
@@ -44,7 +44,7 @@ static int compare_touches(const void *one, const void *other) {
     return 0;
 }
 
-static void add_contact(World *world, Touches *touches, const cpArbiter *arbiter) {
+static void add_bearings(World *world, Touches *touches, const cpArbiter *arbiter) {
     Vec tangent = perpendicular(arbiter->n);
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
@@ -88,7 +88,7 @@ static Members members_of(World *world) {
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             const cpBody *other = each->body_a == body ? each->body_b : each->body_a;
             int place = place_of(world, other);
-            if (!members.marks[place] && world->bodies[place].dynamic && point_count(other) <= MOST_POINTS) {
+            if (!members.marks[place] && world->bodies[place].dynamic && point_count(other) <= MOST_BEARINGS) {
                 members.marks[place] = true;
                 members.places[members.count++] = place;
             }
@@ -109,10 +109,11 @@ static Touches touches_of_jointed(World *world) {
         for (const cpArbiter *each = body->arbiterList; each != NULL; each = next_of(each, body)) {
             // Each is in the lists of both its bodies.
             if (each->body_a == body || !members.marks[place_of(world, each->body_a)]) {
-                add_contact(world, &touches, each);
+                add_bearings(world, &touches, each);
             }
         }
     }
+    assert(touches.count <= most);
     qsort(touches.list, (size_t)touches.count, sizeof(Bearing), compare_touches);
     return touches;
 }
@@ -125,7 +126,9 @@ static void unite_dynamic(const World *world, int *parents, int a, int b) {
 
 // The number of the island that a joint or contact belongs to.
 static int island_of(const World *world, int *parents, const int *numbers, int a, int b) {
-    return numbers[root_of(parents, world->bodies[a].dynamic ? a : b)] - 1;
+    int number = numbers[root_of(parents, world->bodies[a].dynamic ? a : b)];
+    assert(number > 0); // a joint has made it
+    return number - 1;
 }
 
 // Return the islands, with their joints and contacts, in the order of their first joints.
@@ -149,6 +152,7 @@ static Islands split(World *world, Touches touches) {
             if (numbers[root] == 0) {
                 numbers[root] = ++found.count;
             }
+            assert(found.count <= world->own->jointed_count);
             found.islands[numbers[root] - 1].joint_count++;
             found.islands[numbers[root] - 1].joint_row_count += joint->row_count;
         }
@@ -182,6 +186,7 @@ static Islands split(World *world, Touches touches) {
 // Return the number of a body in an island, to which it is added if it is not there yet. `numbers` are 0 for such.
 static int number_in(const World *world, Island *island, int *numbers, int *places, int body) {
     if (numbers[body] == 0) {
+        assert(island->body_count < 2 * (island->joint_count + island->touch_count));
         places[island->body_count] = body;
         numbers[body] = ++island->body_count;
         cpBody *engine = world->bodies[body].engine;
@@ -237,6 +242,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
             island->groups[row] = group;
         }
     }
+    assert(row == island->row_count);
     for (int number = 0; number < island->body_count; number++) {
         numbers[places[number]] = 0;
     }

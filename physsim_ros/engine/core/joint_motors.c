@@ -19,7 +19,7 @@
 #include "stages.h"
 
 // The value between two points of a command.
-static double between(CommandPoint a, CommandPoint b, double time) {
+static double interpolated(CommandPoint a, CommandPoint b, double time) {
     double span = b.time - a.time, share = (time - a.time) / span, way = b.value - a.value;
     if (isnan(a.rate) || isnan(b.rate)) {
         return a.value + share * way;
@@ -31,7 +31,7 @@ static double between(CommandPoint a, CommandPoint b, double time) {
 }
 
 // The value of a command after some time [s]: beyond its ends it stays.
-static double value_at(const Motor *motor, double time) {
+static double command_at(const Motor *motor, double time) {
     const CommandPoint *points = motor->points;
     int last = motor->point_count - 1, next = 0;
     while (next <= last && points[next].time <= time) {
@@ -40,7 +40,7 @@ static double value_at(const Motor *motor, double time) {
     if (next == 0 || next > last) {
         return points[next == 0 ? 0 : last].value;
     }
-    return between(points[next - 1], points[next], time);
+    return interpolated(points[next - 1], points[next], time);
 }
 
 // The position of a joint where Chipmunk will move its bodies to [m, rad], 0 where they were joined: of an angle, that
@@ -61,12 +61,13 @@ static void obey(const World *world, const Motor *motor, double *rate, double *m
     double dt = world->dt;
     // Chipmunk moves bodies before it solves: a rate acts from the end of this sub-step on.
     double time = ((double)(world->step - motor->begun) * SUB_STEPS + world->own->sub_step + 1) * dt;
-    double value = value_at(motor, time);
+    double value = command_at(motor, time);
     switch (motor->mode) {
     case COMMAND_POSITION:
         // The trajectory of a sub-step, and the share of the way to it by which exp(-gain t) falls.
         *rate =
-            (value_at(motor, time + dt) - value - expm1(-motor->gain * dt) * (value - position_of(world, motor))) / dt;
+            (command_at(motor, time + dt) - value - expm1(-motor->gain * dt) * (value - position_of(world, motor))) /
+            dt;
         break;
     case COMMAND_VELOCITY:
         *rate = value;

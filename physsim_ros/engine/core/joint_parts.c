@@ -35,11 +35,12 @@ double *impulse_at(const Part *part, int component) {
     case PART_MOTOR:
         return &((cpSimpleMotor *)part->constraint)->jAcc;
     default:
+        assert(part->kind == PART_SPRING);
         return &((cpDampedSpring *)part->constraint)->jAcc;
     }
 }
 
-static Vec impulse_of(const Part *part) {
+static Vec impulse_of_part(const Part *part) {
     return vec(*impulse_at(part, 0), part->kind == PART_PIVOT ? *impulse_at(part, 1) : 0.0);
 }
 
@@ -95,7 +96,7 @@ void prepare_parts(World *world) {
 
 void core_read_impulses(const World *world, cpVect *impulses) {
     for (int number = 0; number < world->part_count; number++) {
-        impulses[number] = impulse_of(world->parts + number);
+        impulses[number] = impulse_of_part(world->parts + number);
     }
 }
 
@@ -109,7 +110,7 @@ void core_write_impulses(World *world, const cpVect *impulses) {
     }
 }
 
-static double greatest_impulse(const World *world, const Joint *joint) {
+static double joint_impulse(const World *world, const Joint *joint) {
     double most = 0.0;
     for (int number = 0; number < joint->part_count; number++) {
         most = greatest(most, length(world->parts[joint->first_part + number].total));
@@ -167,7 +168,7 @@ static bool is_linear(const Part *part) {
 
 // The impulse of a part on the second body of its joint; of one that acts on the turn of the bodies, the first number.
 static Vec pull_of(const World *world, const Joint *joint, const Part *part) {
-    Vec impulse = add(impulse_of(part), part->closing);
+    Vec impulse = add(impulse_of_part(part), part->closing);
     impulse = is_axial(part) ? scaled(line_of(world, joint, part), impulse.x) : impulse;
     const Body *a = world->bodies + joint->a, *b = world->bodies + joint->b;
     return is_linear(part) ? scaled(impulse, reported_share(a, b, impulse)) : impulse;
@@ -192,7 +193,7 @@ void add_totals(World *world) {
 void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8_t *pressing) {
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
-        impulses[number] = greatest_impulse(world, joint);
+        impulses[number] = joint_impulse(world, joint);
         const Part *first = world->parts + joint->first_part;
         pulls[number] = vec(0.0, 0.0);
         for (const Part *part = first; part < first + joint->part_count; part++) {
@@ -236,7 +237,7 @@ void find_broken(World *world) {
         Joint *joint = world->joints + number;
         // The first step of a joint takes back the half-step lead of a body that was in free flight: that impulse is no
         // load.
-        joint->broken = !joint->unstepped && joint->most < INFINITY && greatest_impulse(world, joint) > joint->most;
+        joint->broken = !joint->unstepped && joint->most < INFINITY && joint_impulse(world, joint) > joint->most;
         joint->unstepped = joint->unstepped && is_drawn(world, joint);
         world->has_broken = world->has_broken || joint->broken;
     }

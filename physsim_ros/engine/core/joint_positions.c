@@ -23,7 +23,7 @@ static const double limit_slop = 1e-4;
 // joints that contradict each other move their bodies no further than that.
 static const double fastest_correction = 20.0;
 // E as a share of the diagonal of J M⁻¹ Jᵀ: of joints, and of contacts, which yield where joints contradict them.
-static const double joint_softness = 1e-7, contact_softness = 1e-3;
+static const double joint_position_softness = 1e-7, contact_position_softness = 1e-3;
 // The first Newton step is made where a gap is wider than `negligible`, and a further one where it is wider than
 // `closed` [m, rad]: ten planks in a straight row sag by 7 mm with a gap of 1e-6 m each.
 static const double negligible = 1e-7, closed = 1e-5;
@@ -94,7 +94,7 @@ static void take_pushes(Solve *solve) {
     }
 }
 
-static Displacement begin(Solve *solve) {
+static Displacement begin_displacement(Solve *solve) {
     const cpSpace *space = solve->space;
     const Island *island = solve->island;
     Arena *arena = solve->arena;
@@ -130,7 +130,7 @@ static Displacement begin(Solve *solve) {
 }
 
 // Measure gaps and overlaps at the poses of now.
-static void measure(const Solve *solve, Displacement *move) {
+static void measure_gaps(const Solve *solve, Displacement *move) {
     const Island *island = solve->island;
     move->sum = move->widest = move->squares = 0.0;
     for (int row = 0; row < island->joint_row_count; row++) {
@@ -169,7 +169,7 @@ static Solution newton_step(Solve *solve, const Displacement *move) {
     double *lower = TAKE(arena, double, island->row_count), *upper = TAKE(arena, double, island->row_count);
     Solution solution = solution_for(&solve->system, arena);
     for (int row = 0; row < island->row_count; row++) {
-        soft[row] = row < normal ? joint_softness : contact_softness;
+        soft[row] = row < normal ? joint_position_softness : contact_position_softness;
         if (row < normal) {
             wanted[row] = -move->gaps[row];
             lower[row] = lower_bound(island->rows[row], solve->holds[row], move->gaps[row]);
@@ -178,7 +178,7 @@ static Solution newton_step(Solve *solve, const Displacement *move) {
             wanted[row] = -move->distances[row - normal];
             upper[row] = INFINITY;
         }
-        solution.sides[row] = side_of(move->impulses[row], lower[row], upper[row]);
+        solution.sides[row] = side_by_guess(move->impulses[row], lower[row], upper[row]);
     }
     Problem problem = {move->jacobians, wanted, lower, upper, soft, NULL, NULL};
     solve_problem(&solve->system, &problem, &solution, arena);
@@ -250,11 +250,11 @@ static void turn_momenta(Solve *solve, const Displacement *move, const double *i
 void solve_positions(Solve *solve) {
     const Island *island = solve->island;
     size_t mark = arena_mark(solve->arena);
-    Displacement move = begin(solve);
+    Displacement move = begin_displacement(solve);
     Best best = {INFINITY, TAKE(solve->arena, Pose, island->body_count), TAKE(solve->arena, double, island->row_count)};
     bool moved = false;
     for (int number = 0; number <= MOST_STEPS; number++) {
-        measure(solve, &move);
+        measure_gaps(solve, &move);
         if (number > 0 && move.widest <= closed) {
             best.squares = INFINITY;
         }

@@ -51,6 +51,7 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
     case ROW_ACROSS:
         return place_on_line(perpendicular(rotated(axis, anchors->of_b)), anchors, jacobian);
     default:
+        assert(row->kind == ROW_ALONG);
         return place_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
     }
 }

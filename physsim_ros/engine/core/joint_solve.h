@@ -42,7 +42,7 @@ static inline double upper_bound(const Row *row, bool holds, double excess) {
 }
 
 // The side of a row by a guess of λ.
-static inline int8_t side_of(double guess, double lower, double upper) {
+static inline int8_t side_by_guess(double guess, double lower, double upper) {
     return (int8_t)(guess <= lower ? -1 : guess >= upper ? 1 : 0);
 }
 

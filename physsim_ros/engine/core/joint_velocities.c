@@ -36,7 +36,7 @@ enum { REFINEMENTS = 3 };
 // Solutions whose targets follow the slips, at most.
 enum { PASSES = 8 };
 // Share of the normal impulse below which an impulse along an edge is rounding.
-static const double rounding = 1e-9;
+static const double rounding_of_edges = 1e-9;
 // Slips that are solved as rest: contacts lift by less than μ times that [m/s]. Light links of a loaded rope tremble
 // by some 0.1 mm/s.
 static const double least_slip = 1e-3;
@@ -49,7 +49,7 @@ static const double slip_error = 1e-4, slip_share = 1e-3;
 
 // The rows of an island in velocities: those of joints, then the two edges of the friction cone of each contact. The
 // impulse along an edge, λ >= 0, is one along the normal and μ times as much across it, to one side or the other.
-typedef struct Impact {
+typedef struct VelocityRows {
     Problem problem;
     Jacobian *jacobians;            // (row_count)
     double *wanted, *lower, *upper; // of the problem
@@ -58,7 +58,7 @@ typedef struct Impact {
     double *bounce;                 // (touch_count): least velocity along the normal that Chipmunk seeks [m/s]
     double *free_slips;             // (touch_count): velocity across the normal without impulses [m/s]
     double *slips;                  // (touch_count): greatness of the same after the step
-} Impact;
+} VelocityRows;
 
 // Impulses, and what they change.
 typedef struct Change {
@@ -86,7 +86,7 @@ typedef struct Edges {
 static Edges edges_of(double friction, double normal, double tangent) {
     double across = friction > 0.0 ? tangent / friction : normal;
     // Rounding leaves no impulse on the edge that a contact does not slide along.
-    double least_edge = rounding * normal, left = (normal + across) / 2.0, right = (normal - across) / 2.0;
+    double least_edge = rounding_of_edges * normal, left = (normal + across) / 2.0, right = (normal - across) / 2.0;
     return (Edges){left > least_edge ? left : 0.0, right > least_edge ? right : 0.0};
 }
 
@@ -132,20 +132,20 @@ static double *last_impulses(const Solve *solve) {
     return last;
 }
 
-static void begin_joints(const Solve *solve, Impact *impact, double *soft) {
+static void begin_joints(const Solve *solve, VelocityRows *rows, double *soft) {
     const Island *island = solve->island;
-    memcpy(impact->jacobians, solve->jacobians, (size_t)island->joint_row_count * sizeof(Jacobian));
+    memcpy(rows->jacobians, solve->jacobians, (size_t)island->joint_row_count * sizeof(Jacobian));
     for (int row = 0; row < island->joint_row_count; row++) {
         const Row *of_joint = island->rows[row];
-        impact->lower[row] = greatest(lower_bound(of_joint, true, solve->excess[row]), -of_joint->most);
-        impact->upper[row] = least(upper_bound(of_joint, true, solve->excess[row]), of_joint->most);
+        rows->lower[row] = greatest(lower_bound(of_joint, true, solve->excess[row]), -of_joint->most);
+        rows->upper[row] = least(upper_bound(of_joint, true, solve->excess[row]), of_joint->most);
         soft[row] = softness_of(solve, row);
     }
 }
 
 // The rows of contacts. A slip begins as that of the step before, less what friction can stop: where rest is possible,
 // it is found.
-static void begin_contacts(const Solve *solve, Impact *impact, double *soft, double *prior, const Twist *without) {
+static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft, double *prior, const Twist *without) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     for (int number = 0; number < island->touch_count; number++) {
@@ -153,94 +153,94 @@ static void begin_contacts(const Solve *solve, Impact *impact, double *soft, dou
         int left = normal + number, right = tangent + number;
         Ends ends = island->ends[left];
         Jacobian along = solve->jacobians[left], across = solve->jacobians[right];
-        impact->jacobians[left] = edge_jacobian(along, across, touch->friction);
-        impact->jacobians[right] = edge_jacobian(along, across, -touch->friction);
-        impact->upper[left] = INFINITY;
-        impact->upper[right] = touch->friction > 0.0 ? INFINITY : 0.0;
+        rows->jacobians[left] = edge_jacobian(along, across, touch->friction);
+        rows->jacobians[right] = edge_jacobian(along, across, -touch->friction);
+        rows->upper[left] = INFINITY;
+        rows->upper[right] = touch->friction > 0.0 ? INFINITY : 0.0;
         soft[left] = soft[right] = contact_softness;
-        prior[left] = impact->last[left];
-        prior[right] = impact->last[right];
-        impact->bounce[number] = -touch->point->bounce;
-        impact->free_slips[number] = rate(across, ends, without) + touch->slide;
-        Twist begun[] = {body_of(island->engine[ends.a])->twist, body_of(island->engine[ends.b])->twist};
+        prior[left] = rows->last[left];
+        prior[right] = rows->last[right];
+        rows->bounce[number] = -touch->point->bounce;
+        rows->free_slips[number] = rate(across, ends, without) + touch->slide;
+        Twist begun[] = {body_of(island->engine[ends.a])->scratch.twist,
+                         body_of(island->engine[ends.b])->scratch.twist};
         double unit = softness_unit(across, island->inverses[ends.a], island->inverses[ends.b]);
         double stopped = unit * touch->friction * (prior[left] + prior[right]);
-        impact->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + touch->slide) - stopped, 0.0);
+        rows->slips[number] = greatest(fabs(rate(across, (Ends){0, 1}, begun) + touch->slide) - stopped, 0.0);
     }
 }
 
-static Impact begin(Solve *solve, const Twist *without) {
+static VelocityRows velocity_rows(Solve *solve, const Twist *without) {
     const Island *island = solve->island;
     Arena *arena = solve->arena;
-    Impact impact = {.jacobians = TAKE(arena, Jacobian, island->row_count),
-                     .wanted = TAKE(arena, double, island->row_count),
-                     .lower = TAKE(arena, double, island->row_count),
-                     .upper = TAKE(arena, double, island->row_count),
-                     .rates = TAKE(arena, double, island->row_count),
-                     .last = last_impulses(solve),
-                     .bounce = TAKE(arena, double, island->touch_count),
-                     .free_slips = TAKE(arena, double, island->touch_count),
-                     .slips = TAKE(arena, double, island->touch_count)};
+    VelocityRows rows = {.jacobians = TAKE(arena, Jacobian, island->row_count),
+                         .wanted = TAKE(arena, double, island->row_count),
+                         .lower = TAKE(arena, double, island->row_count),
+                         .upper = TAKE(arena, double, island->row_count),
+                         .rates = TAKE(arena, double, island->row_count),
+                         .last = last_impulses(solve),
+                         .bounce = TAKE(arena, double, island->touch_count),
+                         .free_slips = TAKE(arena, double, island->touch_count),
+                         .slips = TAKE(arena, double, island->touch_count)};
     double *soft = TAKE(arena, double, island->row_count), *prior = TAKE(arena, double, island->row_count);
-    begin_joints(solve, &impact, soft);
-    begin_contacts(solve, &impact, soft, prior, without);
+    begin_joints(solve, &rows, soft);
+    begin_contacts(solve, &rows, soft, prior, without);
     for (int row = 0; row < island->row_count; row++) {
-        impact.rates[row] = rate(impact.jacobians[row], island->ends[row], without);
+        rows.rates[row] = rate(rows.jacobians[row], island->ends[row], without);
     }
-    impact.problem =
-        (Problem){impact.jacobians, impact.wanted, impact.lower, impact.upper, soft, prior, solve->springs};
-    return impact;
+    rows.problem = (Problem){rows.jacobians, rows.wanted, rows.lower, rows.upper, soft, prior, solve->springs};
+    return rows;
 }
 
 // Aim at the targets of joints, and at those of contacts that slide by `slips`.
-static void set_targets(const Solve *solve, Impact *impact, const double *bounce) {
+static void set_targets(const Solve *solve, VelocityRows *rows, const double *bounce) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     for (int row = 0; row < normal; row++) {
         const Row *of_joint = island->rows[row];
         bool is_spring = of_joint->kind == ROW_SPRING;
         double pull = is_spring ? of_joint->stiffness * solve->excess[row] / of_joint->damping : 0.0;
-        impact->wanted[row] = of_joint->rate - pull - impact->rates[row];
+        rows->wanted[row] = of_joint->rate - pull - rows->rates[row];
     }
     for (int number = 0; number < island->touch_count; number++) {
         const Bearing *touch = island->touches + number;
-        double least_rate = bounce[number] - touch->friction * impact->slips[number];
+        double least_rate = bounce[number] - touch->friction * rows->slips[number];
         double slide = touch->friction * touch->slide;
-        impact->wanted[normal + number] = least_rate - slide - impact->rates[normal + number];
-        impact->wanted[tangent + number] = least_rate + slide - impact->rates[tangent + number];
+        rows->wanted[normal + number] = least_rate - slide - rows->rates[normal + number];
+        rows->wanted[tangent + number] = least_rate + slide - rows->rates[tangent + number];
     }
 }
 
 // Take slips from a solution; return whether targets change by it.
-static bool update_slips(const Solve *solve, Impact *impact, const Solution *solution) {
+static bool update_slips(const Solve *solve, VelocityRows *rows, const Solution *solution) {
     const Island *island = solve->island;
     int tangent = island->joint_row_count + island->touch_count;
     bool changed = false;
     for (int number = 0; number < island->touch_count; number++) {
         Ends ends = island->ends[tangent + number];
         double change = rate(solve->jacobians[tangent + number], ends, solution->changes);
-        double slip = fabs(impact->free_slips[number] + change);
+        double slip = fabs(rows->free_slips[number] + change);
         slip = slip < least_slip ? 0.0 : slip;
-        changed = changed || fabs(slip - impact->slips[number]) > slip_error + slip_share * slip;
-        impact->slips[number] = slip;
+        changed = changed || fabs(slip - rows->slips[number]) > slip_error + slip_share * slip;
+        rows->slips[number] = slip;
     }
     return changed;
 }
 
 // Return the solution with some least velocities along the normals of contacts [m/s].
-static Solution solve_impact(Solve *solve, Impact *impact, const double *bounce) {
+static Solution solve_with_bounce(Solve *solve, VelocityRows *rows, const double *bounce) {
     Solution solution = solution_for(&solve->system, solve->arena);
     for (int row = 0; row < solve->island->row_count; row++) {
-        solution.sides[row] = side_of(impact->last[row], impact->lower[row], impact->upper[row]);
+        solution.sides[row] = side_by_guess(rows->last[row], rows->lower[row], rows->upper[row]);
     }
-    set_targets(solve, impact, bounce);
-    solve_problem(&solve->system, &impact->problem, &solution, solve->arena);
-    for (int pass = 1; pass < PASSES && update_slips(solve, impact, &solution); pass++) {
-        set_targets(solve, impact, bounce);
-        solve_again(&solve->system, &impact->problem, &solution, solve->arena);
+    set_targets(solve, rows, bounce);
+    solve_problem(&solve->system, &rows->problem, &solution, solve->arena);
+    for (int pass = 1; pass < PASSES && update_slips(solve, rows, &solution); pass++) {
+        set_targets(solve, rows, bounce);
+        solve_again(&solve->system, &rows->problem, &solution, solve->arena);
     }
     for (int number = 0; number < (solve->island->touch_count > 0 ? REFINEMENTS : 1); number++) {
-        refine(&solve->system, &impact->problem, &solution, solve->arena);
+        refine(&solve->system, &rows->problem, &solution, solve->arena);
     }
     return solution;
 }
@@ -249,12 +249,12 @@ static Solution solve_impact(Solve *solve, Impact *impact, const double *bounce)
 //
 // Velocities are relative to the surfaces that touch: the work that a kinematic body or a conveyor does is not counted.
 // Chipmunk measures the approach before gravity and springs act on it, so that it may have been as fast as `bounce`.
-static double work_of(const Solve *solve, const Impact *impact, const Solution *solution) {
+static double work_of(const Solve *solve, const VelocityRows *rows, const Solution *solution) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     double work = 0.0;
     for (int row = 0; row < normal; row++) {
-        double before = impact->rates[row];
+        double before = rows->rates[row];
         double after = before + rate(solve->jacobians[row], island->ends[row], solution->changes);
         // A spring gives back what it has taken, and a motor may do work.
         work += is_force(island->rows[row]) ? 0.0 : solution->impulses[row] * (before + after) / 2.0;
@@ -264,11 +264,11 @@ static double work_of(const Solve *solve, const Impact *impact, const Solution *
         double friction = island->touches[number].friction;
         double along = solution->impulses[left] + solution->impulses[right];
         double across = friction * (solution->impulses[left] - solution->impulses[right]);
-        double before = (impact->rates[left] + impact->rates[right]) / 2.0;
+        double before = (rows->rates[left] + rows->rates[right]) / 2.0;
         double after = before + rate(solve->jacobians[left], island->ends[left], solution->changes);
-        double slip = impact->free_slips[number];
+        double slip = rows->free_slips[number];
         double slip_after = slip + rate(solve->jacobians[right], island->ends[right], solution->changes);
-        before = impact->bounce[number] > 0.0 ? least(before, -impact->bounce[number]) : before;
+        before = rows->bounce[number] > 0.0 ? least(before, -rows->bounce[number]) : before;
         work += along * (before + after) / 2.0 + across * (slip + slip_after) / 2.0;
     }
     return work;
@@ -298,18 +298,18 @@ static void mix(const Solve *solve, Solution *elastic, const Solution *plastic, 
 }
 
 // Return the solution with bounces, less the share of them that would create energy.
-static Solution solve_bounces(Solve *solve, Impact *impact) {
-    Solution solution = solve_impact(solve, impact, impact->bounce);
+static Solution solve_bounces(Solve *solve, VelocityRows *rows) {
+    Solution solution = solve_with_bounce(solve, rows, rows->bounce);
     bool bounces = false;
     double *none = TAKE(solve->arena, double, solve->island->touch_count);
     for (int number = 0; number < solve->island->touch_count; number++) {
-        bounces = bounces || impact->bounce[number] > 0.0;
-        none[number] = least(impact->bounce[number], 0.0);
+        bounces = bounces || rows->bounce[number] > 0.0;
+        none[number] = least(rows->bounce[number], 0.0);
     }
-    double gained = bounces ? work_of(solve, impact, &solution) : 0.0;
+    double gained = bounces ? work_of(solve, rows, &solution) : 0.0;
     if (gained > 0.0) {
-        Solution plastic = solve_impact(solve, impact, none);
-        mix(solve, &solution, &plastic, gained, work_of(solve, impact, &plastic));
+        Solution plastic = solve_with_bounce(solve, rows, none);
+        mix(solve, &solution, &plastic, gained, work_of(solve, rows, &plastic));
     }
     return solution;
 }
@@ -332,7 +332,7 @@ static void bend(Solve *solve, Solution *solution, Twist *velocities) {
     for (int body = 0; body < island->body_count; body++) {
         velocities[body] = twist_sum(velocities[body], solution->changes[body], 1.0);
         halfway[body] = moved(solve->poses[body], velocities[body], solve->dt / 2.0);
-        begun[body] = body_of(island->engine[body])->twist;
+        begun[body] = body_of(island->engine[body])->scratch.twist;
     }
     double *excess = TAKE(arena, double, island->joint_row_count);
     Jacobian *jacobians = TAKE(arena, Jacobian, island->joint_row_count);
@@ -389,8 +389,8 @@ void solve_velocities(Solve *solve) {
     size_t mark = arena_mark(solve->arena);
     Twist *velocities = TAKE(solve->arena, Twist, island->body_count);
     take_back(solve, velocities);
-    Impact impact = begin(solve, velocities);
-    Solution solution = solve_bounces(solve, &impact);
+    VelocityRows rows = velocity_rows(solve, velocities);
+    Solution solution = solve_bounces(solve, &rows);
     bend(solve, &solution, velocities);
     for (int body = 0; body < island->body_count; body++) {
         velocities[body].v = sub(velocities[body].v, solve->velocities[body].v);

@@ -9,19 +9,20 @@
 // strictly monotone linear complementarity problems", 1994): all rows that are on the wrong side change it at once.
 
 #include "lcp.h"
+#include <assert.h>
 #include <math.h>
 
 // Part of the diagonal of A that is added to it: where many λ solve the problem, it chooses the most even ones in units
 // of the effective masses (A. N. Tikhonov, regularisation).
 static const double regularisation = 1e-10;
 // Share of the greatest rate that is rounding, or comes from the regularisation.
-static const double rounding = 1e-8;
+static const double rounding_of_rates = 1e-8;
 // Greatest λ in units of the effective masses, as a multiple of the greatest rate. A single point has 1, a body on
 // another of an eighth of its mass 9. A problem that no λ solves exceeds it, as that of a body wedged between two that
 // do not move.
-static const double greatest_impulse = 1e6;
+static const double greatest_scaled = 1e6;
 // Greatest count of exchanges: nearly all impacts take one or two, and at most five were seen.
-enum { EXCHANGES = 10 };
+enum { LCP_EXCHANGES = 10 };
 
 // A problem in units of the effective masses, whose diagonal is 1.
 typedef struct Scaled {
@@ -31,7 +32,7 @@ typedef struct Scaled {
 } Scaled;
 
 // Factor the rows that are active, L Lᵀ (Cholesky); the others, and those that there are not, have a diagonal of 1.
-static void factor(const Scaled *problem, const bool *active, double lower[LCP_ROWS][LCP_ROWS]) {
+static void factor_rows(const Scaled *problem, const bool *active, double lower[LCP_ROWS][LCP_ROWS]) {
     for (int i = 0; i < LCP_ROWS; i++) {
         for (int j = 0; j < i; j++) {
             double sum = active[i] && active[j] ? problem->matrix[i][j] : 0.0;
@@ -49,9 +50,9 @@ static void factor(const Scaled *problem, const bool *active, double lower[LCP_R
 }
 
 // Solve the rows that are active; λ of the others is 0.
-static void solve_active(const Scaled *problem, const bool *active, double *found) {
+static void solve_rows_of_lcp(const Scaled *problem, const bool *active, double *found) {
     double lower[LCP_ROWS][LCP_ROWS] = {{0}};
-    factor(problem, active, lower);
+    factor_rows(problem, active, lower);
     for (int i = 0; i < LCP_ROWS; i++) {
         double sum = active[i] ? problem->wanted[i] : 0.0;
         for (int k = 0; k < i; k++) {
@@ -69,7 +70,7 @@ static void solve_active(const Scaled *problem, const bool *active, double *foun
 }
 
 // Exchange the rows that are on the wrong side; return whether there are any.
-static bool exchange(const Scaled *problem, const double *found, double slack, bool *active) {
+static bool exchange_wrong(const Scaled *problem, const double *found, double slack, bool *active) {
     bool any = false, wrong[LCP_ROWS] = {false};
     for (int i = 0; i < problem->count; i++) {
         double left = -problem->wanted[i];
@@ -89,9 +90,7 @@ bool solve_lcp(int count, double matrix[LCP_ROWS][LCP_ROWS], const double *rates
     Scaled problem = {.count = count};
     double scale[LCP_ROWS] = {0}, found[LCP_ROWS] = {0}, most_wanted = 0.0, most_found = 0.0;
     bool active[LCP_ROWS] = {false};
-    if (count > LCP_ROWS) {
-        return false;
-    }
+    assert(count <= LCP_ROWS);
     for (int i = 0; i < count; i++) {
         scale[i] = 1.0 / sqrt(matrix[i][i]);
         problem.wanted[i] = -rates[i] * scale[i];
@@ -103,16 +102,16 @@ bool solve_lcp(int count, double matrix[LCP_ROWS][LCP_ROWS], const double *rates
             problem.matrix[i][j] = matrix[i][j] * scale[i] * scale[j];
         }
     }
-    for (int number = 0; number < EXCHANGES; number++) {
-        solve_active(&problem, active, found);
-        if (exchange(&problem, found, rounding * most_wanted, active)) {
+    for (int number = 0; number < LCP_EXCHANGES; number++) {
+        solve_rows_of_lcp(&problem, active, found);
+        if (exchange_wrong(&problem, found, rounding_of_rates * most_wanted, active)) {
             continue;
         }
         for (int i = 0; i < count; i++) {
             most_found = fmax(most_found, found[i]);
             impulses[i] = fmax(found[i], 0.0) * scale[i];
         }
-        return most_found <= greatest_impulse * most_wanted;
+        return most_found <= greatest_scaled * most_wanted;
     }
     return false;
 }

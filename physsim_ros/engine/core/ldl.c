@@ -12,7 +12,7 @@
 
 #include "ldl.h"
 
-enum { ROOT = -1 };
+enum { NO_PARENT = -1 };
 
 static void sort_ascending(int *numbers, int count) {
     for (int i = 1; i < count; i++) {
@@ -48,16 +48,17 @@ void ldl_analyse(Ldl *system, Arena *arena) {
     // The parent of a column in the elimination tree is the first row below it in L.
     int *counts = TAKE(arena, int, size);
     for (int column = 0; column < size; column++) {
-        parents[column] = ROOT;
+        parents[column] = NO_PARENT;
         marks[column] = column + 1;
         int row_count = 0;
         for (int entry = system->starts[column]; entry < system->starts[column + 1]; entry++) {
             int node = system->rows[entry];
+            assert(node >= 0 && node < column);
             while (marks[node] != column + 1) {
                 marks[node] = column + 1;
                 counts[node]++;
                 row_count++;
-                if (parents[node] == ROOT) {
+                if (parents[node] == NO_PARENT) {
                     parents[node] = column;
                 }
                 node = parents[node];
@@ -91,6 +92,7 @@ void ldl_factor(Ldl *system) {
         }
         for (int k = system->pattern_starts[row]; k < system->pattern_starts[row + 1]; k++) {
             int column = system->pattern[k], end = system->filled[column];
+            assert(end < system->factor_starts[column + 1]);
             double value = work[column];
             work[column] = 0.0;
             for (int below = system->factor_starts[column]; below < end; below++) {

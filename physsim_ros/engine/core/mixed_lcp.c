@@ -11,12 +11,12 @@
 #include "mixed_lcp.h"
 
 // Rounding of J v: a row is on the wrong side of its target beyond that [m/s], or [m] of positions.
-static const double rounding = 1e-7;
+static const double rounding_of_rows = 1e-7;
 // Rounding of λ, as a share of the greatest one.
 static const double share_of_rounding = 1e-9;
 
 // Exchanges, at most: a belt that is spanned over its wheels takes some ten in a step in which a link meets a wheel.
-enum { ROUNDS = 40 };
+enum { MIXED_EXCHANGES = 40 };
 
 // What the softness of a row is a share of.
 static double unit_of(const System *system, const Problem *problem, int row) {
@@ -24,7 +24,7 @@ static double unit_of(const System *system, const Problem *problem, int row) {
     return softness_unit(problem->jacobians[row], system->inverses[ends.a], system->inverses[ends.b]);
 }
 
-static void factor(System *system, const Problem *problem, const int8_t *sides) {
+static void factor_sides(System *system, const Problem *problem, const int8_t *sides) {
     for (int row = 0; row < system->row_count; row++) {
         double unit = sides[row] == 0 ? unit_of(system, problem, row) : 0.0;
         Jacobian used = sides[row] == 0 ? problem->jacobians[row] : (Jacobian){0};
@@ -42,13 +42,14 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
     double slack = share_of_rounding * greatest_impulse;
     solution->wrong_count = 0;
     for (int row = 0; row < system->row_count; row++) {
+        assert(problem->lower[row] <= problem->upper[row]);
         double impulse = solution->impulses[row], lower = problem->lower[row], upper = problem->upper[row];
         double outside = greatest(lower - impulse, impulse - upper), beyond = 0.0;
         if (solution->sides[row] != 0 && lower < upper) {
             double reached = rate(problem->jacobians[row], system->ends[row], solution->changes);
             beyond = (reached - problem->wanted[row]) * solution->sides[row];
         }
-        solution->wrong[row] = outside > slack || beyond > rounding;
+        solution->wrong[row] = outside > slack || beyond > rounding_of_rows;
         if (solution->wrong[row]) {
             double distance = greatest(beyond, outside * unit_of(system, problem, row));
             sides[row] = (int8_t)(outside <= slack ? 0 : impulse < lower ? -1 : 1);
@@ -61,7 +62,7 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
 
 // Exchange rows that are on the wrong side, all or the furthest alone; return whether that changes which are at a
 // bound.
-static bool exchange(const System *system, Solution *solution, const int8_t *right, bool all, int furthest) {
+static bool exchange_sides(const System *system, Solution *solution, const int8_t *right, bool all, int furthest) {
     bool changed = false;
     for (int row = 0; row < system->row_count; row++) {
         if (all ? solution->wrong[row] : row == furthest) {
@@ -107,15 +108,15 @@ void solve_again(System *system, const Problem *problem, Solution *solution, Are
     int8_t *right = TAKE(arena, int8_t, system->row_count);
     Twist *momenta = TAKE(arena, Twist, system->body_count);
     int fewest = system->row_count + 1, furthest = 0;
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < MIXED_EXCHANGES; round++) {
         solve_sides(system, &aimed, solution, momenta);
         find_wrong(system, &aimed, solution, right, &furthest);
-        if (solution->wrong_count == 0 || round == ROUNDS - 1) {
+        if (solution->wrong_count == 0 || round == MIXED_EXCHANGES - 1) {
             break;
         }
         bool fewer = solution->wrong_count < fewest;
-        if (exchange(system, solution, right, fewer, furthest)) {
-            factor(system, problem, solution->sides);
+        if (exchange_sides(system, solution, right, fewer, furthest)) {
+            factor_sides(system, problem, solution->sides);
         }
         fewest = fewer ? solution->wrong_count : fewest;
     }
@@ -123,7 +124,7 @@ void solve_again(System *system, const Problem *problem, Solution *solution, Are
 }
 
 void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena) {
-    factor(system, problem, solution->sides);
+    factor_sides(system, problem, solution->sides);
     solve_again(system, problem, solution, arena);
 }
 

@@ -18,8 +18,6 @@
 static const double pi = 3.14159265358979323846;
 // Undamped frequency of the spring [Hz], and its damping ratio: 1 is critical.
 static const double frequency = 5.0, damping_ratio = 1.0;
-// Standard gravity [m/s²], of the forces of hands in worlds without gravity.
-static const double standard_gravity = 9.81;
 
 // The spring in one step (`b2MakeSoft`).
 typedef struct Softness {
@@ -39,7 +37,8 @@ static double greatest_force(const World *world, double mass) {
 }
 
 // Solve one grip on a body that has a velocity, which is changed. Return its impulse, which was `before` [N s].
-static Vec pull(const World *world, const Body *body, const Grip *grip, Vec arm, Pose pose, Twist *twist, Vec before) {
+static Vec solve_grip(const World *world, const Body *body, const Grip *grip, Vec arm, Pose pose, Twist *twist,
+                      Vec before) {
     double mass_inverse = body->engine->m_inv, moment_inverse = body->engine->i_inv;
     Softness soft = softness(world->dt);
     // dC/dt + bias_rate C
@@ -70,7 +69,7 @@ static void pull_body(World *world, Body *body, const Grip **grips, int count) {
     // Chipmunk moves bodies first, and accelerates them then.
     Twist twist = twist_of(body->engine);
     Pose pose = moved(pose_of(body->engine), twist, world->dt);
-    twist = twist_sum((Twist){scaled(twist.v, world->own->kept), twist.w * world->own->kept}, body->lead, 2.0);
+    twist = twist_sum((Twist){scaled(twist.v, world->own->kept), twist.w * world->own->kept}, body->state.lead, 2.0);
     Rotation by = rotation(pose.yaw);
     for (int number = 0; number < count; number++) {
         arms[number] = rotated(grips[number]->anchor, by);
@@ -78,7 +77,7 @@ static void pull_body(World *world, Body *body, const Grip **grips, int count) {
     int sweeps = count < world->space->iterations ? count : world->space->iterations;
     for (int sweep = 0; sweep < sweeps; sweep++) {
         for (int number = 0; number < count; number++) {
-            impulses[number] = pull(world, body, grips[number], arms[number], pose, &twist, impulses[number]);
+            impulses[number] = solve_grip(world, body, grips[number], arms[number], pose, &twist, impulses[number]);
         }
     }
     for (int number = 0; number < count; number++) {
@@ -93,6 +92,7 @@ void pull_grips(World *world) {
     for (int first = 0; first < world->grip_count; first++) {
         int place = world->grips[first].body, count = 0;
         bool done = false;
+        assert(place >= 0 && place < world->body_count);
         for (int number = 0; number < world->grip_count; number++) {
             if (world->grips[number].body == place) {
                 done = done || number < first;

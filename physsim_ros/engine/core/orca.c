@@ -64,7 +64,7 @@ static bool border(const Programme *given, int number, double *low, double *high
 
 // Find the velocity next to a desired one, or if `far` the farthest in its direction. Return the count of half-planes
 // that it keeps, from the first.
-static int solve(const Programme *given, Vec desired, bool far, Vec *velocity) {
+static int solve_programme(const Programme *given, Vec desired, bool far, Vec *velocity) {
     double size = length(desired);
     bool shortens = far || size > given->speed;
     *velocity = shortens ? scaled(desired, given->speed / greatest(size, 1e-300)) : desired;
@@ -105,7 +105,7 @@ static void relax(const Programme *given, int fixed, int failed, HalfPlane *memo
             }
         }
         Vec found;
-        if (solve(&relaxed, own.n, true, &found) == relaxed.count) {
+        if (solve_programme(&relaxed, own.n, true, &found) == relaxed.count) {
             *velocity = found;
         }
         worst = greatest(own.c - dot(own.n, *velocity), worst);
@@ -172,18 +172,19 @@ Vec walk_by_orca(const World *world, const Surroundings *around, const Actor *ac
         }
     }
     int fixed = programme.count;
+    assert(fixed <= around->disc_count + around->wall_count);
     for (int number = 0; number < around->disc_count; number++) {
         if (sees_disc(self, around->discs + number)) {
             planes[programme.count++] = avoiding(self, around->discs + number, model->horizon);
         }
     }
     Vec velocity;
-    int kept = solve(&programme, desired, false, &velocity);
+    int kept = solve_programme(&programme, desired, false, &velocity);
     if (velocity.x != desired.x || velocity.y != desired.y) {
         double wanted = dot(desired, desired);
         double progress = wanted > 0.0 ? clamped(dot(velocity, desired) / wanted, 0.0, 1.0) : 1.0;
         double turn = most_swerve + (swerve - most_swerve) * progress;
-        kept = solve(&programme, rotated(desired, rotation(-turn)), false, &velocity);
+        kept = solve_programme(&programme, rotated(desired, rotation(-turn)), false, &velocity);
     }
     if (kept < programme.count) {
         relax(&programme, fixed, kept, memory, &velocity);

@@ -140,6 +140,7 @@ void core_cast_rays(const Piece *pieces, int32_t piece_count, const Edge *edges,
     for (int ray = 0; ray < count; ray++) {
         fan.angles[ray] = angle_since_first(&fan, directions[ray]);
         distances[ray] = INFINITY;
+        assert(ray == 0 || fan.angles[ray - 1] <= fan.angles[ray]);
     }
     bool outside = true;
     for (int number = 0; number < piece_count && outside; number++) {

@@ -22,7 +22,7 @@
 #include "touch.h"
 
 static Vec acceleration(const World *world, const Body *body) {
-    return scaled(body->lead.v, 2.0 / world->dt);
+    return scaled(body->state.lead.v, 2.0 / world->dt);
 }
 
 // The velocity at which two bodies part in a point, as the step begins, and the acceleration of that.
@@ -59,22 +59,23 @@ void time_impacts(World *world) {
         }
         double since = clamped(deepest_of(touch) / approach, 0.0, world->dt);
         Body *a = body_of(touch->engines[0]), *b = body_of(touch->engines[1]);
-        bool parts = set_bounce(world, touch->arbiter, least(since + greatest(a->left, b->left), world->dt));
-        a->parts |= parts;
-        b->parts |= parts;
-        a->since = greatest(a->since, since);
-        b->since = greatest(b->since, since);
+        bool parts =
+            set_bounce(world, touch->arbiter, least(since + greatest(a->scratch.left, b->scratch.left), world->dt));
+        a->scratch.parts |= parts;
+        b->scratch.parts |= parts;
+        a->scratch.since = greatest(a->scratch.since, since);
+        b->scratch.since = greatest(b->scratch.since, since);
     }
 }
 
 // The way that a body has still to go: that of its new velocity since its impact, less that which it has gone.
 static Twist way_left(const Body *body, double dt) {
-    double left = body->since + body->left, ahead = body->parts ? left / dt + 1.0 : 0.0;
+    double left = body->scratch.since + body->scratch.left, ahead = body->scratch.parts ? left / dt + 1.0 : 0.0;
     if (left <= 0.0 || !body->dynamic || body->joined) {
         return (Twist){0};
     }
-    Twist mean = twist_sum(twist_of(body->engine), body->lead, -ahead), gone = body->carried;
-    gone = twist_sum(gone, body->twist, body->since);
+    Twist mean = twist_sum(twist_of(body->engine), body->state.lead, -ahead), gone = body->scratch.carried;
+    gone = twist_sum(gone, body->scratch.twist, body->scratch.since);
     return twist_sum(twist_sum((Twist){0}, mean, left), gone, -1.0);
 }
 
@@ -104,17 +105,17 @@ void finish_moves(World *world) {
         return;
     }
     Sweep sweep = sweep_of(world, far_way);
-    int *far = TAKE(&world->own->arena, int, count);
-    count = 0;
+    int *far = TAKE(&world->own->arena, int, count), far_count = 0;
     for (int number = 0; number < sweep.count; number++) {
         Mover *mover = sweep.movers + number;
         mover->movable = goes(mover->rate);
         if (mover->movable) {
-            far[count++] = number;
+            assert(far_count < count);
+            far[far_count++] = number;
         }
     }
-    join_impacts(&sweep, far, count);
-    for (int number = 0; number < count; number++) {
+    join_impacts(&sweep, far, far_count);
+    for (int number = 0; number < far_count; number++) {
         const Mover *mover = sweep.movers + far[number];
         Vec pivot;
         Pose pose = pose_at(mover, 1.0, &pivot);

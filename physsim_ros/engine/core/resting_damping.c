@@ -30,7 +30,7 @@ static double point_speed(const Body *body) {
 }
 
 static bool is_slow(const Body *body) {
-    return body->anchored || (body->dynamic && !body->thrown && point_speed(body) < fastest_error);
+    return body->anchored || (body->dynamic && !body->state.thrown && point_speed(body) < fastest_error);
 }
 
 // Whether friction locks two bodies: they touch by a face, whose friction is inside the cone. At a first touch the

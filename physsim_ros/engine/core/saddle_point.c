@@ -16,7 +16,7 @@
 #include "saddle_point.h"
 #include "elimination_order.h"
 
-enum { NONE = -1 };
+enum { NO_UNKNOWN = -1 };
 
 // The bodies that forces move, and the groups of rows, as the nodes of a graph.
 typedef struct Nodes {
@@ -25,7 +25,7 @@ typedef struct Nodes {
     int *first_rows; // of each node of a group, its first row; one more at the end
 } Nodes;
 
-static bool moves(Inverse inverse) {
+static bool has_mass(Inverse inverse) {
     return inverse.mass > 0.0;
 }
 
@@ -33,8 +33,8 @@ static Nodes nodes_of(const System *system, const int *groups, Arena *arena) {
     Nodes nodes = {.bodies = TAKE(arena, int, system->body_count),
                    .first_rows = TAKE(arena, int, system->row_count + 1)};
     for (int body = 0; body < system->body_count; body++) {
-        system->body_unknowns[body] = NONE;
-        if (moves(system->inverses[body])) {
+        system->body_unknowns[body] = NO_UNKNOWN;
+        if (has_mass(system->inverses[body])) {
             system->body_unknowns[body] = nodes.body_count;
             nodes.bodies[nodes.body_count++] = body;
         }
@@ -53,10 +53,10 @@ static Nodes nodes_of(const System *system, const int *groups, Arena *arena) {
 // The nodes of the bodies of a row that forces move, at most two.
 static int ends_that_move(const System *system, int row, int ends[2]) {
     int count = 0, a = system->body_unknowns[system->ends[row].a], b = system->body_unknowns[system->ends[row].b];
-    if (a != NONE) {
+    if (a != NO_UNKNOWN) {
         ends[count++] = a;
     }
-    if (b != NONE && b != a) {
+    if (b != NO_UNKNOWN && b != a) {
         ends[count++] = b;
     }
     return count;
@@ -105,16 +105,18 @@ static int number_unknowns(System *system, const Nodes *nodes, const int *order)
             system->row_unknowns[row] = count++;
         }
     }
+    assert(count == 3 * nodes->body_count + system->row_count);
     return count;
 }
 
 // The column and the row of an entry of J above the diagonal; whether there is one.
 static bool entry_at(const System *system, int row, int number, int *column, int *line) {
+    assert(number >= 0 && number < 6);
     int body = system->body_unknowns[number < 3 ? system->ends[row].a : system->ends[row].b];
     int unknown = body + number % 3, own = system->row_unknowns[row];
     *column = own > unknown ? own : unknown;
     *line = own > unknown ? unknown : own;
-    return body != NONE;
+    return body != NO_UNKNOWN;
 }
 
 static void lay_out_entries(System *system, Arena *arena) {
@@ -132,7 +134,7 @@ static void lay_out_entries(System *system, Arena *arena) {
     }
     for (int row = 0; row < system->row_count; row++) {
         for (int number = 0; number < 6; number++) {
-            system->places[row][number] = NONE;
+            system->places[row][number] = NO_UNKNOWN;
             if (entry_at(system, row, number, &column, &line)) {
                 system->places[row][number] = starts[column + 1];
                 rows[starts[column + 1]++] = line;
@@ -145,7 +147,7 @@ static void lay_out_entries(System *system, Arena *arena) {
     system->factors.diagonal = TAKE(arena, double, size);
     for (int body = 0; body < system->body_count; body++) {
         int unknown = system->body_unknowns[body];
-        if (unknown != NONE) {
+        if (unknown != NO_UNKNOWN) {
             Inverse inverse = system->inverses[body];
             system->factors.diagonal[unknown] = system->factors.diagonal[unknown + 1] = 1.0 / inverse.mass;
             system->factors.diagonal[unknown + 2] = 1.0 / inverse.moment;
@@ -178,7 +180,7 @@ double mass_product(const System *system, const Twist *u, const Twist *v) {
     double sum = 0.0;
     for (int body = 0; body < system->body_count; body++) {
         Inverse inverse = system->inverses[body];
-        if (moves(inverse)) {
+        if (has_mass(inverse)) {
             sum += dot(u[body].v, v[body].v) / inverse.mass + u[body].w * v[body].w / inverse.moment;
         }
     }
@@ -195,7 +197,7 @@ void set_row(System *system, int row, Jacobian jacobian, double stiffness) {
     double entries[6] = {jacobian.a.v.x, jacobian.a.v.y, jacobian.a.w, jacobian.b.v.x, jacobian.b.v.y, jacobian.b.w};
     system->factors.diagonal[system->row_unknowns[row]] = -stiffness;
     for (int number = 0; number < 6; number++) {
-        if (system->places[row][number] != NONE) {
+        if (system->places[row][number] != NO_UNKNOWN) {
             system->factors.values[system->places[row][number]] = entries[number];
         }
     }
@@ -220,7 +222,7 @@ void solve_with(System *system, const int8_t *sides, const double *wanted, const
     double *x = system->side;
     for (int body = 0; body < system->body_count; body++) {
         int unknown = system->body_unknowns[body];
-        if (unknown != NONE) {
+        if (unknown != NO_UNKNOWN) {
             Twist given = momenta == NULL ? (Twist){0} : momenta[body];
             x[unknown] = given.v.x, x[unknown + 1] = given.v.y, x[unknown + 2] = given.w;
         }
@@ -236,7 +238,7 @@ void solve_with(System *system, const int8_t *sides, const double *wanted, const
     }
     for (int body = 0; body < system->body_count; body++) {
         int unknown = system->body_unknowns[body];
-        changes[body] = unknown == NONE ? (Twist){0} : (Twist){{x[unknown], x[unknown + 1]}, x[unknown + 2]};
+        changes[body] = unknown == NO_UNKNOWN ? (Twist){0} : (Twist){{x[unknown], x[unknown + 1]}, x[unknown + 2]};
     }
 }
 

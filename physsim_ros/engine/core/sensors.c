@@ -27,16 +27,16 @@ typedef struct Search {
 } Search;
 
 // The way that a body has gone in the sub-step.
-static Twist way_of(const Body *body) {
+static Twist way_gone(const Body *body) {
     Pose end = pose_of(body->engine);
-    return (Twist){sub(end.p, body->begin.p), end.yaw - body->begin.yaw};
+    return (Twist){sub(end.p, body->scratch.begin.p), end.yaw - body->scratch.begin.yaw};
 }
 
 // A body as the sub-step began, with the way that it has gone since.
 static Mover gone(Body *body) {
-    Mover mover = mover_of(body, way_of(body));
-    mover.pose = body->begin;
-    mover.pivot = body->begin.p;
+    Mover mover = mover_of(body, way_gone(body));
+    mover.pose = body->scratch.begin;
+    mover.pivot = body->scratch.begin.p;
     fit_box(&mover);
     return mover;
 }
@@ -50,7 +50,7 @@ double crossing_time(World *world, Body *body, Body *sensor) {
     return clamped(meeting_of(world, &one, &other), 0.0, 1.0);
 }
 
-static bool is_fast(const Body *body, Twist way) {
+static bool has_gone_far(const Body *body, Twist way) {
     return !body->anchored && length(way.v) + fabs(way.w) * body->turning_radius > body->safe_depth;
 }
 
@@ -69,7 +69,7 @@ void find_crossings(World *world, Crossing *found) {
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;
         any = any || body->sensor;
-        any_fast = any_fast || (body->sensor && is_fast(body, way_of(body)));
+        any_fast = any_fast || (body->sensor && has_gone_far(body, way_gone(body)));
     }
     if (!any) {
         return;
@@ -80,7 +80,7 @@ void find_crossings(World *world, Crossing *found) {
     int count = 0;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        if (!body->sensor && !body->anchored && (any_fast || is_fast(body, way_of(body)))) {
+        if (!body->sensor && !body->anchored && (any_fast || has_gone_far(body, way_gone(body)))) {
             movers[count] = gone(body);
             boxes[count] = movers[count].box;
             count++;

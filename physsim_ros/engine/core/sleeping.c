@@ -28,22 +28,22 @@ static double most_of(Twist twist) {
 
 static bool moves_on(const World *world, const Body *body) {
     Twist now = twist_of(body->engine);
-    if (most_of(body->under) > 0.0) {
+    if (most_of(body->scratch.under) > 0.0) {
         return true;
     }
     if (most_of(now) >= world->space->idleSpeedThreshold) {
         return false;
     }
-    double change = most_of(twist_sum(now, body->twist, -1.0));
+    double change = most_of(twist_sum(now, body->scratch.twist, -1.0));
     bool drifts = change > rest_acceleration * world->dt || most_of(now) > rest_speed;
-    return (body->free && most_of(now) > 0.0) || (body->on_spring && drifts);
+    return (body->state.free && most_of(now) > 0.0) || (body->on_spring && drifts);
 }
 
 void forgive_trembling(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;
-        if (body->dynamic && body->idle > 0.0 && !sleeps(body) && body->engine->idle_time == 0.0) {
-            body->engine->idle_time = greatest(body->idle - taken_back * world->dt, 0.0);
+        if (body->dynamic && body->scratch.idle > 0.0 && !sleeps(body) && body->engine->idle_time == 0.0) {
+            body->engine->idle_time = greatest(body->scratch.idle - taken_back * world->dt, 0.0);
         }
     }
 }

@@ -19,7 +19,7 @@
 static const double least_axis = 0.01;
 // What is straight ahead pushes by this to the right of straight away [rad], where the paper has fluctuations: who
 // meets another one or an obstacle head on stops before it without. What is beside the way pushes straight away.
-static const double swerve = 0.1;
+static const double sidestep = 0.1;
 
 // The acceleration by another pedestrian at `apart` from it, which walks with a velocity.
 static Vec repulsion(const SocialForce *model, Vec apart, Vec velocity) {
@@ -42,7 +42,7 @@ static Vec wall_repulsion(const SocialForce *model, double distance, Vec outward
 static Vec swerved(Vec force, Vec desired) {
     double size = length(force) * length(desired);
     double ahead = size > 0.0 ? greatest(-dot(force, desired) / size, 0.0) : 0.0;
-    return rotated(force, rotation(swerve * ahead));
+    return rotated(force, rotation(sidestep * ahead));
 }
 
 static Vec of_disc(const SocialForce *model, const Disc *self, const Disc *other, Vec desired) {

@@ -11,20 +11,21 @@ static const double lost = 1e12;
 static void begin_bodies(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        body->begin = pose_of(body->engine);
-        body->twist = twist_of(body->engine);
-        body->carried = (Twist){0};
-        body->left = body->since = 0.0;
-        body->parts = false;
-        body->idle = sleeps(body) ? -1.0 : body->engine->idle_time;
+        assert(body_of(body->engine) == body);
+        body->scratch.begin = pose_of(body->engine);
+        body->scratch.twist = twist_of(body->engine);
+        body->scratch.carried = (Twist){0};
+        body->scratch.left = body->scratch.since = 0.0;
+        body->scratch.parts = false;
+        body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
     }
 }
 
 static void keep_twists(World *world) {
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        body->twist = twist_of(body->engine);
-        body->thrown = body->released = false;
+        body->scratch.twist = twist_of(body->engine);
+        body->state.thrown = body->state.released = false;
     }
 }
 

@@ -81,5 +81,6 @@ Surroundings look_around(World *world) {
             around.walls[around.wall_count++] = shape;
         }
     }
+    assert(actor == last && around.wall_count <= wall_count);
     return around;
 }

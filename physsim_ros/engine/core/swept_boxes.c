@@ -74,6 +74,7 @@ const Statics *statics_of(World *world) {
             own->statics->movers[own->statics->count++] = mover;
         }
     }
+    assert(own->statics->count == count);
     own->statics->tree = tree_of(boxes, count, arena);
     world->statics_moved = false;
     return own->statics;

@@ -24,6 +24,7 @@ typedef struct Sweep {
 } Sweep;
 
 static inline Mover *mover_at(const Sweep *sweep, int number) {
+    assert(number >= 0 && number < sweep->count + sweep->statics->count);
     return number < sweep->count ? sweep->movers + number : sweep->statics->movers + (number - sweep->count);
 }
 

@@ -6,6 +6,7 @@
 #include "touch.h"
 
 Touch touch_of(cpArbiter *arbiter) {
+    assert(arbiter->count > 0);
     Touch touch = {.arbiter = arbiter,
                    .shapes = {arbiter->a, arbiter->b},
                    .engines = {arbiter->body_a, arbiter->body_b},

@@ -10,7 +10,7 @@
 // rhombus, for faces that enclose 30 degrees or more.
 static const double near_slops = 4.0;
 // Approach by speed up to which a body slides over a face [1]: the sine of 10 degrees.
-static const double grazing = 0.17;
+static const double gliding = 0.17;
 
 // A face over which two shapes slide.
 typedef struct Slide {
@@ -20,7 +20,7 @@ typedef struct Slide {
     Vec outwards;
 } Slide;
 
-static bool is_near(Vec point, Vec corner, double reach) {
+static bool is_within(Vec point, Vec corner, double reach) {
     return length(sub(corner, point)) <= reach;
 }
 
@@ -31,7 +31,7 @@ static double reach_of(const Touch *touch, int side) {
 static bool is_at_corner(const Touch *touch, int side) {
     double reach = reach_of(touch, side);
     for (int number = 0; number < corner_count(touch->shapes[side]); number++) {
-        if (is_near(touch->places[0][side], corner_in_world(touch->shapes[side], number).place, reach)) {
+        if (is_within(touch->places[0][side], corner_in_world(touch->shapes[side], number).place, reach)) {
             return true;
         }
     }
@@ -59,7 +59,7 @@ static void find_slide(const Touch *touch, int side, Vec velocity, Slide *best) 
         Corner corner = corner_in_world(shape, face);
         Vec before = corner_in_world(shape, (face + count - 1) % count).place, point = touch->places[0][side];
         double approach = -dot(corner.normal, velocity) * sign;
-        if (approach < best->approach && (is_near(point, corner.place, reach) || is_near(point, before, reach))) {
+        if (approach < best->approach && (is_within(point, corner.place, reach) || is_within(point, before, reach))) {
             double depth = face_depth(touch, side, face);
             if (depth >= 0.0 && depth <= slop_of(touch->arbiter)) {
                 *best = (Slide){side, approach, depth, corner.normal};
@@ -77,7 +77,7 @@ void slide_over_edge(Touch *touch) {
     if (approach <= 0.0) {
         return;
     }
-    Slide slide = {.side = -1, .approach = least(approach, grazing * length(velocity))};
+    Slide slide = {.side = -1, .approach = least(approach, gliding * length(velocity))};
     find_slide(touch, 0, velocity, &slide);
     find_slide(touch, 1, velocity, &slide);
     if (slide.side < 0) {

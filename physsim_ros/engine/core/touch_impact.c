@@ -11,10 +11,10 @@
 #include "touch_stages.h"
 
 // Where a disc first meets a shape on a straight way.
-typedef struct Hit {
+typedef struct DiscHit {
     double share; // of the way; infinite for never
     Vec normal;   // of the shape
-} Hit;
+} DiscHit;
 
 // Where a shape was as the step began, where it would end freely, and where it is.
 typedef struct Moments {
@@ -27,7 +27,8 @@ static Moments moments_of(const World *world, const Touch *touch, int side) {
     const Body *body = body_of(touch->engines[side]);
     bool is_disc = kind_of(shape) == SHAPE_CIRCLE;
     Vec offset = is_disc ? ((const cpCircleShape *)shape)->c : vec(0.0, 0.0);
-    Pose poses[3] = {body->begin, moved(body->begin, body->twist, world->dt), pose_of(touch->engines[side])};
+    Pose poses[3] = {body->scratch.begin, moved(body->scratch.begin, body->scratch.twist, world->dt),
+                     pose_of(touch->engines[side])};
     Vec places[3];
     for (int number = 0; number < 3; number++) {
         places[number] = add(poses[number].p, rotated(offset, rotation(poses[number].yaw)));
@@ -38,15 +39,15 @@ static Moments moments_of(const World *world, const Touch *touch, int side) {
         places[0], places[1], places[2], poses[0].yaw * counts, poses[1].yaw * counts, poses[2].yaw * counts};
 }
 
-static void keep_first(Hit *hit, double share, Vec normal) {
+static void keep_first(DiscHit *hit, double share, Vec normal) {
     if (share >= 0.0 && share <= 1.0 && share < hit->share) {
-        *hit = (Hit){share, normal};
+        *hit = (DiscHit){share, normal};
     }
 }
 
 // Where a circle first meets a shape, on a way from `start` that both see from the shape.
-static Hit first_hit(Vec start, Vec way, const cpShape *shape, double radius) {
-    Hit hit = {INFINITY, {0.0, 0.0}};
+static DiscHit first_hit(Vec start, Vec way, const cpShape *shape, double radius) {
+    DiscHit hit = {INFINITY, {0.0, 0.0}};
     int count = corner_count(shape);
     // Faces, moved outwards by the radius: t of n . (ahead + way t) = r, between their corners.
     for (int number = 0; number < count && count > 1; number++) {
@@ -70,7 +71,7 @@ static Hit first_hit(Vec start, Vec way, const cpShape *shape, double radius) {
 }
 
 // By how far two bodies can have approached in the step, at most [m].
-static double greatest_approach(const World *world, const Touch *touch) {
+static double approach_in_step(const World *world, const Touch *touch) {
     double way = 0.0;
     for (int side = 0; side < 2; side++) {
         Vec arm = sub(touch->places[0][side], touch->engines[side]->p);
@@ -82,7 +83,7 @@ static double greatest_approach(const World *world, const Touch *touch) {
 void move_to_impact(const World *world, Touch *touch) {
     // Chipmunk has the disc first. Pairs that are deeper than they can have approached overlapped before.
     if (kind_of(touch->shapes[0]) != SHAPE_CIRCLE || kind_of(touch->shapes[1]) == SHAPE_SEGMENT ||
-        -distance_of(touch, 0) > greatest_approach(world, touch)) {
+        -distance_of(touch, 0) > approach_in_step(world, touch)) {
         return;
     }
     Moments disc = moments_of(world, touch, 0), other = moments_of(world, touch, 1);
@@ -92,7 +93,7 @@ void move_to_impact(const World *world, Touch *touch) {
     Vec stop = rotated(sub(disc.end, other.end), rotation(other.now_yaw - other.end_yaw));
     Vec way = sub(stop, start);
     start = add(other.now, start);
-    Hit hit = first_hit(start, way, touch->shapes[1], radius + radius_of(touch->shapes[1]));
+    DiscHit hit = first_hit(start, way, touch->shapes[1], radius + radius_of(touch->shapes[1]));
     if (!(hit.share > 0.0 && hit.share <= 1.0)) {
         return;
     }

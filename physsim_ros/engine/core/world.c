@@ -21,6 +21,7 @@ void set_pose(cpBody *body, Pose pose) {
 
 int root_of(int *parents, int place) {
     while (parents[place] != place) {
+        assert(parents[place] < place);
         place = parents[place] = parents[parents[place]];
     }
     return place;

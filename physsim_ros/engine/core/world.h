@@ -14,6 +14,9 @@
 // Overlaps are not smaller than this by rounding, within a kilometre of the origin [m].
 #define ROUNDING_OF_POSITIONS 1e-12
 
+// Standard gravity [m/s²]: of weights on the floor, and of the forces of hands in worlds without gravity.
+static const double standard_gravity = 9.81;
+
 typedef struct Private {
     Arena arena;
     cpConstraint *hook;
@@ -45,7 +48,9 @@ static inline Body *body_of(const cpBody *engine) {
 }
 
 static inline int place_of(const World *world, const cpBody *engine) {
-    return (int)(body_of(engine) - world->bodies);
+    int place = (int)(body_of(engine) - world->bodies);
+    assert(place >= 0 && place < world->body_count);
+    return place;
 }
 
 // How far the bodies of a contact may overlap at rest [m].
@@ -72,8 +77,8 @@ static inline Twist twist_of(const cpBody *body) {
 
 // The velocity of a body without its half-step lead, before the engine has solved.
 static inline Twist true_twist(const cpBody *body) {
-    Twist lead = body_of(body)->lead, twist = twist_of(body);
-    bool flies = body_of(body)->free;
+    Twist lead = body_of(body)->state.lead, twist = twist_of(body);
+    bool flies = body_of(body)->state.free;
     return flies ? (Twist){{twist.v.x - lead.v.x, twist.v.y - lead.v.y}, twist.w - lead.w} : twist;
 }
 

@@ -1,0 +1,348 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Parts of the core against brute force: random cases by seed, and all possible answers."""
+
+from __future__ import annotations
+
+from itertools import permutations, product
+
+import numpy as np
+import pytest
+
+SEEDS = range(40)
+
+
+class Parts:
+    """The calls of `calls.h` with arrays of NumPy."""
+
+    def __init__(self, parts):
+        self.ffi, self.lib = parts
+        self.held = []
+
+    def array(self, values, kind='double'):
+        array = np.array(values, np.int32 if kind == 'int' else np.float64)
+        self.held.append(self.ffi.from_buffer(array))
+        return array, self.ffi.cast(f'{kind} *', self.held[-1])
+
+
+@pytest.fixture
+def call(parts):
+    return Parts(parts)
+
+
+# Factors of a sparse matrix
+
+
+def columns_of(matrix):
+    """Return the entries above the diagonal that are not 0, as `ldl.h` has them."""
+    size = len(matrix)
+    rows = [[r for r in range(c) if matrix[r, c]] for c in range(size)]
+    starts = np.cumsum([0, *map(len, rows)])
+    values = [matrix[r, c] for c in range(size) for r in rows[c]]
+    return starts, [r for each in rows for r in each], values
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_factors_solve_what_a_dense_solver_does(call, seed):
+    random = np.random.default_rng(seed)
+    size = int(random.integers(1, 14))
+    matrix = random.normal(size=(size, size)) * (random.random((size, size)) < 0.4)
+    matrix = np.triu(matrix, 1)
+    # Quasi-definite: masses, then rows, of which only those couple that are of different kinds.
+    signs = random.choice([-1.0, 1.0], size)
+    matrix *= signs[:, None] != signs[None, :]
+    diagonal = signs * random.uniform(0.1, 3.0, size)
+    whole = matrix + matrix.T + np.diag(diagonal)
+    side = random.normal(size=size)
+    starts, rows, values = columns_of(matrix)
+    x, pointer = call.array(side)
+
+    call.lib.call_ldl(
+        size,
+        call.array(starts, 'int')[1],
+        call.array(rows or [0], 'int')[1],
+        call.array(values or [0.0])[1],
+        call.array(diagonal)[1],
+        pointer,
+    )
+
+    assert x == pytest.approx(np.linalg.solve(whole, side), rel=1e-9, abs=1e-9)
+
+
+# Contacts that press or part
+
+
+def lcp_solutions(matrix, rates):
+    """Yield every λ >= 0 with A λ + b >= 0 of which one is 0 in each row."""
+    for active in product([False, True], repeat=len(rates)):
+        at = np.flatnonzero(active)
+        found = np.zeros(len(rates))
+        if len(at):
+            found[at] = np.linalg.solve(matrix[np.ix_(at, at)], -rates[at])
+        if found.min() >= -1e-12 and (matrix @ found + rates).min() >= -1e-12:
+            yield found
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_impulses_of_contacts_are_the_only_ones_of_all_sets_of_contacts(call, seed):
+    random = np.random.default_rng(seed)
+    count = int(random.integers(1, 7))
+    root = random.normal(size=(count, count + 1))
+    matrix = root @ root.T * np.outer(*[10 ** random.uniform(-1, 1, count)] * 2)
+    matrix = (matrix + matrix.T) / 2
+    rates = random.normal(size=count)
+    padded = np.zeros((8, 8))
+    padded[:count, :count] = matrix
+    impulses, pointer = call.array(np.zeros(8))
+
+    solved = call.lib.call_lcp(
+        count,
+        call.ffi.cast('double (*)[8]', call.array(padded)[1]),
+        call.array(np.pad(rates, (0, 8 - count)))[1],
+        pointer,
+    )
+
+    (wanted,) = lcp_solutions(matrix, rates)
+    assert solved
+    scale = np.sqrt(np.diag(matrix))
+    assert impulses[:count] * scale == pytest.approx(wanted * scale, rel=1e-6, abs=1e-6)
+
+
+# Rows with bounds
+
+
+def mixed_solutions(matrix, wanted, lower, upper):
+    """Yield every λ within bounds whose rows reach their targets, or pass them at a bound."""
+    for sides in map(np.array, product([-1, 0, 1], repeat=len(wanted))):
+        at = np.flatnonzero(sides == 0)
+        found = np.select([sides < 0, sides > 0], [lower, upper], 0.0)
+        if not np.isfinite(found).all():
+            continue
+        if len(at):
+            known = wanted - matrix @ found
+            found[at] = np.linalg.solve(matrix[np.ix_(at, at)], known[at])
+        beyond = (matrix @ found - wanted) * sides
+        if (
+            (found >= lower - 1e-9).all()
+            and (found <= upper + 1e-9).all()
+            and beyond.max() <= 1e-9
+        ):
+            yield found
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_impulses_of_rows_are_the_only_ones_of_all_sets_of_bounds(call, seed):
+    random = np.random.default_rng(seed)
+    bodies, rows = int(random.integers(2, 5)), int(random.integers(1, 6))
+    inverses = random.uniform(0.1, 3.0, (bodies, 2))
+    inverses[0] = 0.0  # the background
+    ends = np.array([random.choice(bodies, 2, replace=False) for _ in range(rows)])
+    jacobians = random.normal(size=(rows, 6))
+    wanted = random.normal(size=rows)
+    lower = random.choice([-np.inf, 0.0, -0.3], rows)
+    upper = random.choice([np.inf, 0.2], rows)
+    softness = random.uniform(0.01, 0.1, rows)
+    impulses, at_impulses = call.array(np.zeros(rows))
+    changes, at_changes = call.array(np.zeros((bodies, 3)))
+    dense = np.zeros((rows, 3 * bodies))
+    for row, (a, b) in enumerate(ends):
+        dense.reshape(rows, bodies, 3)[row, [a, b]] = jacobians[row].reshape(2, 3)
+    inverse_mass = np.repeat(inverses, (2, 1), axis=1).ravel()
+    # E, as a share of J M⁻¹ Jᵀ as if the row acted at the centres of mass.
+    linear = np.einsum(
+        'rbi,rbi,rb->r', *[jacobians.reshape(rows, 2, 3)[..., :2]] * 2, inverses[ends, 0]
+    )
+    matrix = dense * inverse_mass @ dense.T + np.diag(softness * linear)
+
+    wrong = call.lib.call_mixed_lcp(
+        bodies,
+        call.array(inverses)[1],
+        rows,
+        call.array(ends, 'int')[1],
+        call.array(np.arange(rows), 'int')[1],
+        *(call.array(each)[1] for each in (jacobians, wanted, lower, upper, softness)),
+        at_impulses,
+        at_changes,
+    )
+
+    first, *others = mixed_solutions(matrix, wanted, lower, upper)
+    assert wrong == 0
+    assert impulses == pytest.approx(first, rel=1e-6, abs=1e-6)
+    assert all(first == pytest.approx(other, rel=1e-6, abs=1e-6) for other in others)
+    assert changes.ravel() == pytest.approx(inverse_mass * (dense.T @ impulses), abs=1e-9)
+
+
+# Orders of elimination
+
+
+def fill_of(edges, weights, order):
+    """Return the weight of the edges that eliminating nodes in an order adds."""
+    near = [{b for a, b in edges if a == node} for node in range(len(weights))]
+    fill = 0
+    for node in order:
+        for one in near[node]:
+            near[one].discard(node)
+            for other in near[node] - near[one] - {one}:
+                fill += weights[one] * weights[other]
+            near[one] |= near[node] - {one}
+    return fill / 2
+
+
+def order_of(call, edges, weights):
+    edges = sorted(edges)
+    starts = np.searchsorted([a for a, _ in edges], range(len(weights) + 1))
+    order, pointer = call.array(np.zeros(len(weights)), 'int')
+    call.lib.call_elimination_order(
+        len(weights),
+        *(call.array(each, 'int')[1] for each in (weights, starts, [b for _, b in edges] or [0])),
+        pointer,
+    )
+    return order.tolist()
+
+
+def both_ways(pairs):
+    return {edge for a, b in pairs for edge in ((a, b), (b, a))}
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_the_elimination_of_a_tree_fills_nothing(call, seed):
+    random = np.random.default_rng(seed)
+    count = int(random.integers(1, 40))
+    names = random.permutation(count)
+    edges = both_ways((names[k], names[random.integers(k)]) for k in range(1, count))
+
+    order = order_of(call, edges, np.ones(count, int))
+
+    assert sorted(order) == [*range(count)]
+    assert fill_of(edges, np.ones(count), order) == 0
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_an_elimination_fills_little_more_than_the_best_of_all_orders(call, seed):
+    random = np.random.default_rng(seed)
+    count = 6
+    weights = random.integers(1, 4, count)
+    pairs = [(a, b) for a in range(count) for b in range(a) if random.random() < 0.45]
+    edges = both_ways(pairs)
+
+    order = order_of(call, edges, weights)
+
+    fills = [fill_of(edges, weights, each) for each in permutations(range(count))]
+    assert sorted(order) == [*range(count)]
+    # A greedy order: of these cases the worst makes an eighth of what lies between best and worst.
+    assert fill_of(edges, weights, order) <= min(fills) + 0.15 * (max(fills) - min(fills))
+
+
+# Boxes
+
+
+@pytest.mark.parametrize('seed', SEEDS)
+def test_a_tree_finds_the_boxes_that_overlap_and_no_others(call, seed):
+    random = np.random.default_rng(seed)
+    count = int(random.integers(1, 70))
+    low = random.normal(size=(count + 2, 2)) * random.choice([1.0, 100.0], (count + 2, 1))
+    # Numbers of one decimal, so that edges meet.
+    boxes = np.round(np.hstack([low, low + random.exponential(1.0, low.shape)]), 1)
+    boxes, replacement, asked = boxes[:count], boxes[count], boxes[count + 1]
+    changed = int(random.integers(count))
+    found, pointer = call.array(np.zeros(count), 'int')
+
+    number = call.lib.call_boxes(
+        count,
+        call.array(boxes)[1],
+        changed,
+        *(call.array(each)[1] for each in (replacement, asked)),
+        pointer,
+    )
+
+    boxes[changed] = replacement
+    wanted = np.all(boxes[:, :2] <= asked[2:], axis=1) & np.all(asked[:2] <= boxes[:, 2:], axis=1)
+    assert sorted(found[:number]) == np.flatnonzero(wanted).tolist()
+
+
+# Times of impact
+
+SLOP = 1e-3
+DEPTH = 0.02
+MOMENTS = np.linspace(0.0, 1.0, 4001)
+
+
+def convex(random):
+    """Return the corners of a point, a segment or a polygon, counter-clockwise, and its radius."""
+    count = int(random.integers(1, 7))
+    angles = np.sort(random.uniform(0.0, 2 * np.pi, count))
+    if count > 2:
+        angles = (np.arange(count) + random.uniform(-0.3, 0.3, count)) * 2 * np.pi / count
+    corners = np.column_stack([np.cos(angles), np.sin(angles)]) * random.uniform(0.2, 1.0)
+    return corners, random.uniform(0.1, 0.5) if count < 3 else 0.0
+
+
+def normals_of(corners):
+    """Return the normals of the faces that end at each corner."""
+    edges = corners - np.roll(corners, 1, axis=0)
+    sizes = np.hypot(*edges.T)
+    normals = np.column_stack([edges[:, 1], -edges[:, 0]])
+    return np.where(sizes[:, None] > 0, normals / np.where(sizes > 0, sizes, 1.0)[:, None], 0.0)
+
+
+def ways_of(corners, pose, change):
+    """Return the corners in the world at each of `MOMENTS`."""
+    x, y, yaw = (np.asarray(pose)[:, None] + np.outer(change, MOMENTS))[:, :, None]
+    return np.stack(
+        [
+            x + corners[:, 0] * np.cos(yaw) - corners[:, 1] * np.sin(yaw),
+            y + corners[:, 0] * np.sin(yaw) + corners[:, 1] * np.cos(yaw),
+        ],
+        axis=-1,
+    )
+
+
+def gaps_of(one, other):
+    """Return the distance of two convex outlines at each moment; < 0 is the least overlap."""
+    apart, near = np.full(len(MOMENTS), -np.inf), np.full(len(MOMENTS), np.inf)
+    for a, b in ((one, other), (other, one)):
+        for k in range(a.shape[1]):
+            start, end = a[:, k - 1], a[:, k]
+            edge = end - start
+            size = np.maximum(np.hypot(*edge.T), 1e-100)  # of a point
+            normal = np.column_stack([edge[:, 1], -edge[:, 0]]) / size[:, None]
+            to = b - start[:, None]
+            share = np.clip(np.einsum('tki,ti->tk', to, edge) / size[:, None] ** 2, 0.0, 1.0)
+            rest = to - share[..., None] * edge[:, None]
+            near = np.minimum(near, np.hypot(*np.moveaxis(rest, -1, 0)).min(axis=1))
+            if a.shape[1] > 1:
+                heights = np.einsum('tki,ti->tk', b - end[:, None], normal)
+                apart = np.maximum(apart, heights.min(axis=1))
+    return np.where((apart < 0.0) & (apart > -np.inf), apart, near)
+
+
+@pytest.mark.parametrize('turns', [0.0, 2.0])
+@pytest.mark.parametrize('seed', SEEDS)
+def test_shapes_meet_when_they_first_overlap_by_the_slop(call, seed, turns):
+    random = np.random.default_rng(seed)
+    cases, radii, ways = [], 0.0, []
+    for side in (-1.0, 1.0):
+        corners, radius = convex(random)
+        pose = np.array([side * 1.5, 0.0, 0.0]) + random.uniform(-0.4, 0.4, 3)
+        change = np.array([-side * 1.5, *random.uniform(-0.5, 0.5, 2)]) * [1.0, 1.0, turns]
+        case = call.ffi.new('Case *')
+        case.corners = call.array(corners)[1]
+        case.normals = call.array(normals_of(corners))[1]
+        case.count, case.radius = len(corners), radius
+        case.pose, case.change = list(pose), list(change)
+        cases.append(case)
+        ways.append(ways_of(corners, pose, change))
+        radii += radius
+    gaps = gaps_of(*ways) - radii
+    skin = SLOP if radii == 0.0 else min(SLOP, radii / 2.0)
+
+    share = call.lib.call_time_of_impact(*cases, SLOP, DEPTH)
+
+    if share == np.inf:
+        # The rest of the approach is less than the safe depth; of what turns it is not told.
+        assert turns or gaps.min() >= -skin - DEPTH
+    else:
+        assert gaps[share >= MOMENTS].min() >= -skin - 1e-9
+        # One that turns may end before, where it takes too many advances.
+        assert np.interp(share, MOMENTS, gaps) <= (-0.9 * skin + 1e-6 if not turns else 0.0)
