@@ -138,13 +138,13 @@ def tf_message_type() -> Any:
     return TFMessage
 
 
-def urdf_of(body: Body, parts: Sequence[tuple[Link, Body]], frames: RobotFrames) -> str:
+def urdf_of(body: Body, frames: RobotFrames, parts: Sequence[tuple[Link, Body]] = ()) -> str:
     """
     Return the URDF of a robot.
 
     :param body: of the robot
-    :param parts: links of the robot, and their bodies
     :param frames: of the robot
+    :param parts: links of the robot, and their bodies
     """
     assert body.robot is not None  # noqa: S101 - by the contract above
     urdf = ET.Element('robot', name=body.name)

@@ -185,7 +185,7 @@ class RobotTopics:
         whole = len(parts) == len(self.robot.links)
         if self._description is not None and whole and looks != self._described:
             self._described = looks
-            self._description.publish(String(data=urdf_of(body, parts, self._frames)))
+            self._description.publish(String(data=urdf_of(body, self._frames, parts)))
 
     @property
     def has_subscribers(self) -> bool:
