@@ -43,7 +43,7 @@ STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core 
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run class test test-all lint tables sanitize bench ablate evaluate gallery docs release soak clean
+.PHONY: help run class test test-all lint tables sanitize mutate bench ablate evaluate gallery docs release soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
@@ -107,6 +107,10 @@ tables: $(BUILT)  ## write anew what docs/ and config/ repeat from the code
 # With AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES=200 unless it is given; ARGS chooses other tests.
 sanitize: $(TOOLS)  ## run laws and random histories with memory checks in the core
 	$(BIN)/python -m tools.sanitize $(ARGS)
+
+# With SEED=0 and COUNT=12 unless they are given; ARGS='engine/core/floor' tries files whose path begins so.
+mutate: $(TOOLS)  ## change constants and conditions at random; tell which of them no fast test notices
+	$(BIN)/python -m tools.mutate $(ARGS)
 
 bench: $(TOOLS)  ## measure what steps, frames, robots and pages cost
 	$(BIN)/python -m tools.bench $(ARGS)

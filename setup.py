@@ -198,7 +198,6 @@ setup(
         (f'{SHARE}/config/worlds', sorted(glob('config/worlds/*.yaml'))),
         (f'{SHARE}/examples', sorted(glob('examples/*.py'))),
         (f'{SHARE}/launch', sorted(glob('launch/*.launch.py'))),
-        (f'{SHARE}/docs/worlds', sorted(glob('docs/worlds/*.png'))),
     ],
     zip_safe=False,
     python_requires='>=3.11',

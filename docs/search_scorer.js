@@ -9,7 +9,7 @@ var RANKS = [
   [/^(robots|drawing|time|testing|python|actors|viewers|questions|howto|installation|learning|classroom)$/, 40],
   [/^tutorials\//, 35],
   [/^interface/, 30],
-  [/^(architecture|page_protocol|security)/, -15],
+  [/^(architecture|laws|page_protocol|security)/, -15],
   [/^(decisions\/|changelog|figures|glossary|contributing)/, -30],
   [/^api\//, -100],
 ];

@@ -20,7 +20,6 @@ from physsim_ros.drawing.body_requests import requests_with_waiting_joints
 from physsim_ros.drawing.click import ClickResult, Tool
 from physsim_ros.drawing.scene_query import DRAWN, SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.figure import (
     Figure,
     likeliest_group,
@@ -31,10 +30,10 @@ from physsim_ros.drawing.strokes.figure import (
 from physsim_ros.drawing.strokes.meanings import Outcome
 from physsim_ros.drawing.strokes.reading import (
     Guess,
+    in_scene,
     not_recognised,
     Reading,
     reading_of,
-    recognise_form,
 )
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.drawing.tools import Gesture
@@ -131,15 +130,11 @@ class DrawingSession:
         self.preview = NO_PREVIEW
         placed = _in_world(samples, frame, scene)
         drawn = resample_stroke(placed)
-        features = Features.of(drawn)
         figure = Figure.read(
-            features,
-            recognise_form(features),
+            in_scene(drawn, scene, self.settings),
             strokes=(drawn.points,),
             began=began,
             ended=began + (float(np.ptp(samples[:, 2])) if len(samples) else 0.0),
-            scene=scene,
-            settings=self.settings,
         )
         if marked_solid(self._figures, figure, self.settings):
             # The solid stays the last figure: another reading of it may follow.

@@ -45,6 +45,8 @@ GRAZE = 1e-12
 # Polygons are rounded by this [m] (Box2D: polygon skin). Otherwise rounding tells whether what
 # lies on their faces touches them. A hundred times the same rounding.
 SKIN = 1e-11
+# The filter of shapes that touch nothing.
+NOTHING = pymunk.ShapeFilter(categories=0, mask=0)
 # Properties on which the engine's objects of a body do not depend.
 _OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'
 # Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
@@ -67,6 +69,8 @@ class RigidBody:
         state of a body that is in no table
     :param released: something that it touched was removed or moved since the last step
     :param thrown: its velocity was set since the last step
+    :param fresh: its lead by fields is to be found as the next step begins
+    :param field_lead: the lead of its velocity by fields [m/s, rad/s]
     :param push: changes of velocity [m/s] and spin [rad/s] by contacts and joints, on a floor
     :param driven: of a robot, the state of drive and odometry
     :param acting: of an actor, its state
@@ -84,6 +88,8 @@ class RigidBody:
     free: bool = True
     released: bool = False
     thrown: bool = False
+    fresh: bool = True
+    field_lead: Twist = REST
     push: Twist = REST
     driven: RobotState = SPAWNED
     acting: ActorState = WAITING
@@ -105,18 +111,18 @@ class RigidBody:
         offset_x, offset_y = rotated(self.offset, yaw)
         return x - offset_x, y - offset_y, yaw
 
+    @pose.setter
+    def pose(self, pose: Pose) -> None:
+        self.pm_body.angle = pose[2]
+        self.pm_body.position = local_to_world(self.offset, pose)
+        index_at_rest(self.pm_body)
+
     def pose_after(self, seconds: float) -> Pose:
         """Return the body's origin after a time at its present velocity [m, rad]."""
         (x, y), (vx, vy) = self.pm_body.position, self.pm_body.velocity
         yaw = self.pm_body.angle + self.pm_body.angular_velocity * seconds
         offset_x, offset_y = rotated(self.offset, yaw)
         return x + vx * seconds - offset_x, y + vy * seconds - offset_y, yaw
-
-    @pose.setter
-    def pose(self, pose: Pose) -> None:
-        self.pm_body.angle = pose[2]
-        self.pm_body.position = local_to_world(self.offset, pose)
-        index_at_rest(self.pm_body)
 
     def covers(self, point: Point) -> bool:
         """Return whether a point of the world lies in the body where it is now, edge included."""
@@ -127,10 +133,11 @@ class RigidBody:
 
     def lead(self, gravity: Point, dt: float) -> Twist:
         """Return how far the engine's velocity is ahead of the true one in free flight."""
-        return lead_of(self.body, self.wrench, self.pm_body.angle, gravity, dt)
+        x, y, turn = lead_of(self.body, self.wrench, self.pm_body.angle, gravity, dt)
+        return x + self.field_lead[0], y + self.field_lead[1], turn + self.field_lead[2]
 
     def steady_lead(self, gravity: Point, dt: float) -> Twist:
-        """Return the part of `lead` that does not depend on the pose: without applied forces."""
+        """Return the part of `lead` that is constant: without applied forces and fields."""
         return lead_of(replace(self.body, forces=()), self.wrench, 0.0, gravity, dt)
 
     def twist(self, gravity: Point, dt: float, *, free: bool) -> Twist:
@@ -230,6 +237,9 @@ def build(body: Body, serial: int) -> RigidBody:
         shape.sensor = body.sensor
         # Groups of the engine are unsigned.
         shape.filter = pymunk.ShapeFilter(group=body.group % 2**32)
+        if body.medium is not None:
+            # What lies in a region does not touch it.
+            shape.filter = NOTHING
     return rigid
 
 

@@ -12,6 +12,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.scene_columns import columns_of
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.checkpoint import NO_FIELDS
 from physsim_ros.model.noise import normals
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.states import (
@@ -24,7 +25,7 @@ from physsim_ros.model.states import (
     RobotState,
     states_in,
 )
-from physsim_ros.model.transform import NO_WRENCH
+from physsim_ros.model.transform import NO_WRENCH, REST
 import pymunk
 
 # A body beyond this position or speed is removed [m, m/s, rad, rad/s]; `step.c` has it too.
@@ -32,6 +33,8 @@ LOST = 1e12
 # Fields of `Robot` and `Actor` that are state, in the order of `ROBOT_STATE` and `ACTOR_STATE`.
 _OF_ROBOT = ['aim', 'until', 'rolling', 'travel', 'odometry', 'covariance']
 _OF_ACTOR = ['begun', 'reached']
+# Fields of the state of a `Body` that are true or false.
+_FLAGS = 'free', 'released', 'thrown', 'fresh'
 # Steps whose noise is made at once: a call of `normals` takes as long as 300 of its numbers.
 _BLOCK = 64
 
@@ -64,9 +67,11 @@ class BodyTable:
         self._blocks: dict[tuple[int, int], Floats] = {}
         own = self.records['state'][:-1]
         self.records['engine'] = [*(rigid.address for rigid in bodies), address_of(background)]
-        for name in ('free', 'released', 'thrown'):
+        for name in _FLAGS:
             own[name] = [getattr(rigid, name) for rigid in bodies]
         for row, rigid in enumerate(bodies):
+            if rigid.field_lead != REST:
+                own['field'][row] = rigid.field_lead
             if rigid.wrench != NO_WRENCH:
                 self.set_wrench(row, scene.settings.gravity, dt)
             if rigid.push != NO_WRENCH:
@@ -89,20 +94,42 @@ class BodyTable:
     def store(self) -> None:
         """Write to each body what outlives the table, before that is dropped."""
         own = self.records['state'][:-1]
-        names = 'free', 'released', 'thrown'
-        columns = (own[name].astype(np.bool_).tolist() for name in names)
+        columns = (own[name].astype(np.bool_).tolist() for name in _FLAGS)
         for rigid, *flags in zip(self.bodies, *columns, strict=True):
-            rigid.free, rigid.released, rigid.thrown = flags
+            rigid.free, rigid.released, rigid.thrown, rigid.fresh = flags
         pushes = own['push']
         for row in np.flatnonzero(pushes.any(axis=1)).tolist():
             x, y, turn = pushes[row].tolist()
             self.bodies[row].push = x, y, turn
+        if self.has_fields:
+            for rigid, (x, y, turn) in zip(self.bodies, own['field'].tolist(), strict=True):
+                rigid.field_lead = x, y, turn
         driven = states_in(self.robot_states, RobotState)
         for row, state in zip(self.robots['body'].tolist(), driven, strict=True):
             self.bodies[row].driven = state
         acting = states_in(self.actor_states, ActorState)
         for row, each in zip(self.actors['body'].tolist(), acting, strict=True):
             self.bodies[row].acting = each
+
+    # Fields
+
+    @property
+    def has_fields(self) -> bool:
+        """Return whether fields act on the bodies, or velocities lead by them."""
+        sources = len(self.columns.regions) + len(self.columns.attractors)
+        return sources > 0 or bool(self.records['state']['field'].any())
+
+    @property
+    def field_leads(self) -> Floats:
+        """
+        Return the leads of velocities by fields.
+
+        :return: (n, 3) float64, NaN where a lead is to be found; none where there are no fields
+        """
+        if not self.has_fields:
+            return NO_FIELDS
+        own = self.records['state'][:-1]
+        return np.where(own['fresh'][:, None], np.nan, own['field'])
 
     def lost(self) -> list[str]:
         """Return the names of the bodies whose state is not finite, or too large."""

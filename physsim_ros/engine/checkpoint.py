@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+import math
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
@@ -40,7 +41,7 @@ from physsim_ros.model.states import (
     states_in,
     WAITING,
 )
-from physsim_ros.model.transform import NO_WRENCH
+from physsim_ros.model.transform import NO_WRENCH, Twist
 
 
 def take_checkpoint(space: Space, step: int) -> Checkpoint:
@@ -74,6 +75,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
             totals=space.joints.totals(),
             pushes=table.pushes,
         ),
+        field_leads=table.field_leads,
         grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
         commands=tuple(space.joints.commands.values()),
@@ -96,6 +98,7 @@ def saved_state(space: Space, step: int) -> WorldState:
     driven = dict(zip(robots, states_in(checkpoint.robots, RobotState), strict=True))
     acting = dict(zip(actors, states_in(checkpoint.actors, ActorState), strict=True))
     motions = zip(checkpoint.state.tolist(), checkpoint.free.tolist(), strict=True)
+    leads = _leads_of(checkpoint)
     _, twists = space.core.observe()
     rigids = enumerate(space.bodies.by_name.values())
     for (row, rigid), (state, free) in zip(rigids, motions, strict=True):
@@ -108,6 +111,7 @@ def saved_state(space: Space, step: int) -> WorldState:
                 pose=rigid.pose,
                 twist=tuple(twists[row].tolist()),
                 motion=Motion._make((*state, free)),
+                field_lead=leads[row],
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
                 driven=driven[row].shifted(-step) if row in driven else None,
@@ -146,6 +150,9 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
         ),
         state=np.array([motion[:6] for motion in motions], np.float64).reshape(-1, 6),
         free=np.array([motion.free for motion in motions], np.bool_),
+        field_leads=np.array(
+            [saved.field_lead or (math.nan,) * 3 for saved in state.bodies], np.float64
+        ).reshape(-1, 3),
         wrenches=tuple(
             (row, saved.wrench, None if steps is None else step + steps)
             for row, saved in enumerate(state.bodies)
@@ -177,6 +184,14 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
 def _shifted(commands: Commands, steps: int) -> Commands:
     """Return commands in a world that counts its steps from so many earlier."""
     return tuple((command, begun + steps) for command, begun in commands)
+
+
+def _leads_of(checkpoint: Checkpoint) -> list[Twist | None]:
+    """Return the leads of velocities by fields; None where one is to be found."""
+    if not len(checkpoint.field_leads):
+        return [None] * len(checkpoint.scene.bodies)
+    rows = checkpoint.field_leads.tolist()
+    return [None if math.isnan(x) else (x, y, turn) for x, y, turn in rows]
 
 
 def _no_impulses(state: WorldState) -> ImpulseCache:
@@ -219,6 +234,9 @@ def restore_checkpoint(
     acting = states_in(checkpoint.actors, ActorState)
     for row, each in zip(scene.actor_rows.tolist(), acting, strict=True):
         rigids[row].acting = each
+    for rigid, lead in zip(rigids, _leads_of(checkpoint), strict=True):
+        if lead is not None:
+            rigid.field_lead, rigid.fresh = lead, False
     space.bodies.add_without_shapes(rigids)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from physsim_ros.engine.core import dtype_of, ffi, lib, pointer
 from physsim_ros.engine.layout import address_of, check_layout
 from physsim_ros.model.arrays import Flags, Floats
+from physsim_ros.model.settings import WorldSettings
 import pymunk
 from pymunk._chipmunk_cffi import ffi as pymunk_ffi
 from pymunk._chipmunk_cffi import lib as pymunk_lib
@@ -32,6 +33,8 @@ _STRUCTS = {
     'grips': 'Grip',
     'forces': 'AppliedForce',
     'motors': 'Motor',
+    'regions': 'Region',
+    'attractors': 'Attractor',
     'robots': 'Robot',
     'actors': 'Actor',
 }
@@ -73,7 +76,7 @@ class CoreWorld:
 
     def use_bodies(self, bodies: Table, former: Sequence[int]) -> None:
         """
-        Have the core step these bodies; `forces`, `robots` and `actors` of theirs are next.
+        Have the core step these bodies; `forces`, `regions`, `robots`, `actors` are next.
 
         :param bodies: (n + 1,) `Body`; the last one is the background
         :param former: place of each in the table before; -1 for those that are new
@@ -105,7 +108,7 @@ class CoreWorld:
         Have the core use tables, each in place of the one of its name.
 
         :param tables: `grips`, `motors` in the order of their joints, and in that of their bodies
-            `forces`, `robots` and `actors`; of the structs of `_STRUCTS`
+            `forces`, `regions`, `attractors`, `robots` and `actors`; of the structs of `_STRUCTS`
         """
         for name, table in tables.items():
             setattr(self._world, name, pointer(table, _STRUCTS[name]))
@@ -115,6 +118,17 @@ class CoreWorld:
     def note_moved_static(self) -> None:
         """Note that an anchored body or a wall has been moved."""
         self._world.statics_moved = True
+
+    def use_fields(self, settings: WorldSettings, *, act: bool) -> None:
+        """
+        Have the core apply fields, or not.
+
+        :param act: whether fields act on the bodies, or velocities lead by them
+        :param settings: of the world, which have the constants of attraction
+        """
+        self._world.has_fields = act
+        for name in ('gravitation', 'coulomb', 'attraction_power', 'softening'):
+            setattr(self._world, name, getattr(settings, name))
 
     # Steps
 

@@ -16,11 +16,13 @@ from physsim_ros.engine.core_world import Table
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
 from physsim_ros.model.actors import ACTORS, Pedestrian, REPEATS
 from physsim_ros.model.arrays import Floats
+from physsim_ros.model.attraction import attracts
 from physsim_ros.model.joints import JointKind
+from physsim_ros.model.media import gust_waves
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.shapes import Chain, Convex, Form, lever_of
+from physsim_ros.model.shapes import Chain, Convex, Form, hull_of, lever_of
 
 # A pair that approaches by less than this share of the lesser inner radius in a step needs no time
 # of impact: each keeps its centre well on the side it came from. `time_of_impact.h` has it too.
@@ -29,12 +31,15 @@ SAFE_SHARE = 0.25
 # does not depend on the corners.
 ROUND_COST = 4
 _BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
-_FORCE = dtype_of('AppliedForce')
+_FORCE, _REGION = dtype_of('AppliedForce'), dtype_of('Region')
+_ATTRACTOR = dtype_of('Attractor')
 
 
 class SceneColumns(NamedTuple):
     """
-    The columns of a scene, for n bodies, f applied forces, r robots and a actors.
+    The columns of a scene.
+
+    Of n bodies, f applied forces, m media, k attractors, r robots and a actors.
 
     :ivar rows: name -> row
     :ivar moving: whether there is a body that is not anchored; else a step changes nothing
@@ -42,9 +47,12 @@ class SceneColumns(NamedTuple):
     :ivar bodies: (n + 1,) `Body`: the fields that follow from the scene; the last one is the
         background
     :ivar forces: (f,) `AppliedForce`, in the order of their bodies
+    :ivar regions: (m,) `Region`, in the order of their bodies; the air comes last
+    :ivar attractors: (k,) `Attractor`, in the order of their bodies
     :ivar robots: (r,) `Robot`: the same
     :ivar actors: (a,) `Actor`: the same
     :ivar tracks: their points, which the records refer to
+    :ivar hulls: the hulls of bodies, the same
     """
 
     rows: dict[str, int]
@@ -52,9 +60,12 @@ class SceneColumns(NamedTuple):
     expiries: dict[int, list[str]]
     bodies: Table
     forces: Table
+    regions: Table
+    attractors: Table
     robots: Table
     actors: Table
     tracks: tuple[Floats, ...]
+    hulls: tuple[Floats, ...]
 
 
 def check_columns(body: Body, settings: WorldSettings, dt: float) -> None:
@@ -67,7 +78,8 @@ def check_columns(body: Body, settings: WorldSettings, dt: float) -> None:
     :param dt: of a sub-step [s]
     """
     roles = body.robot, body.actor
-    if roles != (None, None) or body.forces or settings.floor_friction:
+    has_medium = body.medium is not None or settings.air.acts
+    if roles != (None, None) or body.forces or has_medium or settings.floor_friction:
         _make_columns(Scene(bodies=(body,), settings=settings), dt)
 
 
@@ -91,15 +103,19 @@ def _make_columns(scene: Scene, dt: float) -> SceneColumns:
     tracks = tuple(
         np.array(body.actor.track, np.float64) for body in scene.bodies if body.actor is not None
     )
+    bodies, regions = _body_records(scene, rows, dt), _region_records(scene)
     return SceneColumns(
         rows=rows,
         moving=not all(body.anchored for body in scene.bodies),
         expiries=expiries,
-        bodies=_body_records(scene, rows, dt),
+        bodies=bodies,
         forces=_force_records(scene),
+        regions=regions,
+        attractors=_attractor_records(scene),
         robots=_robot_records(scene),
         actors=_actor_records(scene, rows, tracks, dt),
         tracks=tracks,
+        hulls=_put_hulls(bodies, scene) if len(regions) else (),
     )
 
 
@@ -121,6 +137,7 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     names = 'reach', 'half_width', 'turning_radius', 'corners', 'pieces'
     for name, values in zip(names, numbers.T, strict=True):
         own[name] = values
+    own['area'] = [form.area for form in forms]
     own['safe_depth'] = [_safe_depth(body) for body in bodies]
     own['slop'] = [_slop(body) for body in bodies]
     gravity = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
@@ -207,6 +224,47 @@ def _force_records(scene: Scene) -> Table:
         if body.dynamic and any(each.force)
     ]
     return np.array(found, _FORCE)
+
+
+def _region_records(scene: Scene) -> Table:
+    air, seed = scene.settings.air, scene.settings.seed
+    media = [
+        (row, body.name, body.medium)
+        for row, body in enumerate(scene.bodies)
+        if body.medium is not None
+    ]
+    if air.acts:
+        media.append((-1, '', air))
+    records = np.zeros(len(media), _REGION)
+    for record, (row, name, medium) in zip(records, media, strict=True):
+        record['body'], record['gusty'] = row, medium.gusts > 0.0
+        for field in ('density', 'viscosity', 'drag', 'flow'):
+            record[field] = getattr(medium, field)
+        if medium.gusts:
+            record['waves'] = gust_waves(medium, seed, name)
+    return records
+
+
+def _attractor_records(scene: Scene) -> Table:
+    settings = scene.settings
+    found = [
+        (row, offset, body.total_mass * (not body.sensor), body.charge)
+        for row, body in enumerate(scene.bodies)
+        if attracts(body, settings)
+        for offset in (body.shape.form.centroid if body.anchored else (0.0, 0.0),)
+    ]
+    return np.array(found, _ATTRACTOR)
+
+
+def _put_hulls(records: Table, scene: Scene) -> tuple[Floats, ...]:
+    """Set the hulls of the bodies of several pieces that forces move, and return them."""
+    hulls = []
+    for record, body in zip(records[:-1], scene.bodies, strict=True):
+        if body.dynamic and len(body.shape.form.pieces) > 1:
+            hull = hull_of(body.shape.form)
+            record['hull'], record['hull_count'] = hull.ctypes.data, len(hull)
+            hulls.append(hull)
+    return tuple(hulls)
 
 
 def _robot_records(scene: Scene) -> Table:

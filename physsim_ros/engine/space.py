@@ -24,7 +24,7 @@ from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.scene_columns import check_columns
+from physsim_ros.engine.scene_columns import check_columns, columns_of
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
@@ -77,6 +77,8 @@ class Space:
         self._table: BodyTable | None = None
         # Row of the background in the last table; -1 if there was none.
         self._background = -1
+        # Fields of the last table; None if there was none.
+        self._fields: tuple[object, ...] | None = None
         # Bodies on which a wrench acts, by name.
         self._wrenched: dict[str, RigidBody] = {}
         self.grips = GripSet()
@@ -117,14 +119,37 @@ class Space:
     def lay_out(self, scene: Scene) -> BodyTable:
         """Return a new table of the bodies, which the core steps from now on."""
         rigids, background = tuple(self.bodies.by_name.values()), self.pm_space.static_body
+        self._note_fields(scene)
         self._table = table = BodyTable(scene, rigids, background, self.dt)
         self._core.use_bodies(table.records, [*(rigid.row for rigid in rigids), self._background])
-        self._core.use(forces=table.columns.forces, robots=table.robots, actors=table.actors)
+        self._core.use(
+            forces=table.columns.forces,
+            regions=table.columns.regions,
+            attractors=table.columns.attractors,
+            robots=table.robots,
+            actors=table.actors,
+        )
+        self._core.use_fields(self._settings, act=table.has_fields)
         self._background = len(rigids)
         for row, rigid in enumerate(rigids):
             rigid.row = row
         self.lay_out_joints()
         return table
+
+    def _note_fields(self, scene: Scene) -> None:
+        """Have bodies wake, and begin with the fields of now, where these are others."""
+        columns, settings = columns_of(scene, self.dt), scene.settings
+        fields = (
+            columns.regions.tobytes(),
+            columns.attractors.tobytes(),
+            (settings.gravitation, settings.coulomb),
+            (settings.attraction_power, settings.softening),
+        )
+        if self._fields not in (None, fields):
+            wake_bodies(rigid.pm_body for rigid in self.bodies.by_name.values())
+            for rigid in self.bodies.by_name.values():
+                rigid.fresh = True
+        self._fields = fields
 
     def lay_out_joints(self) -> None:
         """Have the core step the joints that there are."""
@@ -208,7 +233,13 @@ class Space:
         rigid.pose = self.joints.with_turns(rigid, pose)
         self.bodies.note_moved()
         self.bodies.wake_around(rigid, touching)
+        if rigid.body.medium is not None:
+            wake_bodies(each.pm_body for each in self.bodies.by_name.values())
         self._core.note_moved_static()
+        # It attracts others from another place.
+        attracting = len(self._table.columns.attractors) if self._table is not None else 0
+        for each in self.bodies.by_name.values() if attracting else (rigid,):
+            self._set_flag(each, 'fresh', value=True)
         self._release(touching)
         self.changes += 1
 
@@ -219,6 +250,7 @@ class Space:
         if not rigid.body.anchored:
             self._set_flag(rigid, 'free', free)
             self._set_flag(rigid, 'thrown', True)
+        self._set_flag(rigid, 'fresh', value=True)
         self.changes += 1
 
     def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
@@ -408,10 +440,13 @@ class Space:
         self._release(touching)
 
     def _is_free(self, rigid: RigidBody) -> bool:
-        """Return whether a body is in free flight."""
+        """Return whether a body is in free flight, and read by how much its velocity leads."""
         if self._table is None:
             return rigid.free
-        return bool(self._table.records['state']['free'][rigid.row])
+        state = self._table.records['state'][rigid.row]
+        x, y, turn = state['field'].tolist()
+        rigid.field_lead = x, y, turn
+        return bool(state['free'])
 
     def _set_flag(self, rigid: RigidBody, flag: str, value: bool) -> None:  # noqa: FBT001
         """Set a flag of a body that outlives the table."""

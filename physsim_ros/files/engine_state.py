@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The exact state of a body in a world file: `motion`, `wrench`, `driven`, `acting`.
+The exact state of a body in a world file: `motion`, `field_lead`, `wrench`, `driven`, `acting`.
 
 Laws: numbers are loaded as they were saved, to the bit. The motion, the engine's own numbers,
 counts while pose and velocity in the file are as they were saved. An entry that the node cannot
@@ -115,6 +115,8 @@ def state_entry(state: BodyState, physics_rate: float) -> dict[str, object]:
         entry['acting'] = {'seconds': seconds, 'reached': reached}
     if state.motion is not None:
         entry['motion'] = [*state.motion[:6], state.motion.free]
+    if state.field_lead is not None:
+        entry['field_lead'] = list(state.field_lead)
     return entry
 
 
@@ -180,8 +182,10 @@ def with_saved_motion(
     # In free flight the engine's velocity is half a sub-step ahead of the reported one.
     sub_step = sub_step_of(physics_rate)
     lead = lead_of(state.body, state.wrench, pose[2], gravity, sub_step)
+    field_lead = _POSE(entry['field_lead'], 'field_lead') if 'field_lead' in entry else None
+    lead = tuple(map(operator.add, lead, field_lead or REST))
     engine_twist = map(operator.add, twist, lead if motion.free else REST)
-    state = replace(state, pose=pose, twist=twist, motion=motion)
+    state = replace(state, pose=pose, twist=twist, motion=motion, field_lead=field_lead)
     if not _is_motion(motion, (*_engine_pose(state), *engine_twist)):
         return None
     if max(map(abs, motion[:6])) > LOST:

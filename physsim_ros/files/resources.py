@@ -50,11 +50,6 @@ def shipped(folder: str) -> Path:
     return _shipped(Path('config') / folder)
 
 
-def shipped_pictures() -> Path:
-    """Return the directory of the pictures of shipped worlds, `<name>.png`."""
-    return _shipped(Path('docs') / 'worlds')
-
-
 def _shipped(folder: Path) -> Path:
     source = Path(__file__).resolve().parents[2] / folder
     if source.is_dir():

@@ -30,7 +30,7 @@ PROPERTIES = [*Properties.FIELDS]
 WORLD_KEYS = ['format', 'lesson', 'map', 'bodies', 'joints', 'memory', *SETTINGS]
 BODY_KEYS = [
     *('name', *SHAPES, 'at', 'color', 'lifetime', *PROPERTIES),
-    *('motion', 'wrench', 'driven', 'acting'),
+    *('motion', 'field_lead', 'wrench', 'driven', 'acting'),
 ]
 # Keys of a joint that the text of a marker does not have.
 OWN_JOINT_KEYS = ['name', 'points', 'seat', 'command']

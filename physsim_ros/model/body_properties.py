@@ -23,10 +23,13 @@ from physsim_ros.model.checks import (
 )
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.media import Medium
 from physsim_ros.model.robots import Robot, Towed
 from physsim_ros.model.texts import is_printable
 from physsim_ros.model.transform import Point
 
+# Greatest charge [C], of either sign: impulses between any two are finite.
+MOST_CHARGE = 1e6
 # Greatest length of a label [characters]: some lines beside a body.
 LONGEST_LABEL = 200
 
@@ -111,6 +114,16 @@ class Properties(Checked):
         tuple[AppliedForce, ...] | None,
         forces_from,
         'constant forces on the body, a list of mappings; `[]` is none',
+    ] = None
+    charge: Annotated[
+        float | None,
+        Within(-MOST_CHARGE, MOST_CHARGE, 'C'),
+        'electric; repels charges of its sign and attracts others, by parameter `coulomb`',
+    ] = None
+    medium: Annotated[
+        Medium | None,
+        Medium.from_value,
+        'fills an anchored or kinematic sensor with water, air or another fluid: a mapping',
     ] = None
     label: Annotated[
         str | None,

@@ -50,6 +50,7 @@ class BodyState:
     :param pose: of its origin in the world [m, rad]
     :param twist: velocity of the centre of mass [m/s] and spin [rad/s]
     :param motion: the engine's numbers for these two; None in a file written by hand
+    :param field_lead: lead of that velocity by fields [m/s, rad/s]; None is to be found
     :param wrench: force [N] and torque [N m] that act on it
     :param wrench_steps: number of further steps in which the wrench acts; None is for ever
     :param driven: of a robot, the state of its drive and odometry, whose `until` counts from now
@@ -60,6 +61,7 @@ class BodyState:
     pose: Pose
     twist: Twist = REST
     motion: Motion | None = None
+    field_lead: Twist | None = None
     wrench: Wrench = NO_WRENCH
     wrench_steps: int | None = None
     driven: RobotState | None = None
@@ -91,8 +93,9 @@ class WorldState:
     memory: ImpulseCache | None = field(default=None, compare=False)
 
 
-# The pushes of a world without a floor, in memory once.
+# The pushes of a world without a floor, and the leads of one without fields, in memory once.
 NO_PUSHES: Floats = np.empty((0, 3))
+NO_FIELDS: Floats = np.empty((0, 3))
 NO_TOTALS: Floats = np.empty((0, 2))
 
 
@@ -140,6 +143,8 @@ class Checkpoint:
     :param scene: the bodies and the settings
     :param state: (n, 6) float64: pose and velocity of each engine body [m, rad, s]
     :param free: (n,) bool: in free flight, so that the engine's velocity leads
+    :param field_leads: (n, 3) float64: leads of velocities [m/s] and spins [rad/s] by fields, NaN
+        where one is to be found; none where there are no fields
     :param wrenches: row of the body, wrench [N, N m], and the step at which it ends or None
     :param memory: impulse cache
     :param grips: of hands on bodies
@@ -155,6 +160,7 @@ class Checkpoint:
     free: NDArray[np.bool_]
     wrenches: tuple[tuple[int, Wrench, int | None], ...]
     memory: ImpulseCache
+    field_leads: Floats = field(default_factory=lambda: NO_FIELDS)
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
     commands: Commands = ()
@@ -165,4 +171,4 @@ class Checkpoint:
     def nbytes(self) -> int:
         """Memory of its arrays [bytes]."""
         states = self.state.nbytes + self.free.nbytes + self.robots.nbytes + self.actors.nbytes
-        return states + self.memory.nbytes
+        return states + self.field_leads.nbytes + self.memory.nbytes

@@ -23,6 +23,7 @@ from physsim_ros.model.colors import Color
 from physsim_ros.model.declarations import entry_of
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
 from physsim_ros.model.lesson import Lesson
+from physsim_ros.model.media import Medium
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.robots import Drive, part_name, Robot, Towed
 from physsim_ros.model.settings import WorldSettings
@@ -69,6 +70,8 @@ class Body:
     label: str = field(default='', repr=False)
     actor: Actor | None = field(default=None, repr=False)
     forces: tuple[AppliedForce, ...] = field(default=(), repr=False)
+    charge: float = field(default=0.0, repr=False)
+    medium: Medium | None = field(default=None, repr=False)
 
     @property
     def total_mass(self) -> float:
@@ -100,6 +103,12 @@ class Body:
 BODY_DEFAULTS = {each.name: each.default for each in fields(Body)}
 # The fields that few bodies have, which are not part of its text.
 _RARE = [(each.name, each.default) for each in fields(Body) if not each.repr]
+# The same of settings that move bodies; the key has the others beside them.
+_RARE_SETTINGS = [
+    (each.name, each.default)
+    for each in fields(WorldSettings)
+    if not each.repr and each.name not in {'floor_friction', 'seed', 'datum'}
+]
 # Its properties, in the order of their declarations.
 _HELD = [name for name in Properties.FIELDS if name in BODY_DEFAULTS]
 
@@ -235,6 +244,11 @@ class Scene:
             for name, default in _RARE
             for body in self.bodies
             if (value := getattr(body, name)) != default
+        ]
+        rare += [
+            ('', name, value)
+            for name, default in _RARE_SETTINGS
+            if (value := getattr(settings, name)) != default
         ]
         if rare or settings.floor_friction or settings.seed:
             parts += repr((settings.floor_friction, settings.seed, rare))

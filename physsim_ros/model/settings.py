@@ -6,9 +6,10 @@
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from physsim_ros.model.checks import HEAVIEST, LIGHTEST, Row, Vector, Whole, Within
+from physsim_ros.model.checks import HEAVIEST, LIGHTEST, Row, Vector, VELOCITY, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.media import DRAG, FLUID_DENSITY, GUST_TIME, GUSTS, Medium, VISCOSITY
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import Point
 
@@ -82,9 +83,50 @@ class WorldSettings(Checked):
         'coefficient of friction between bodies and the floor of a world seen from above; 0 for a '
         'world seen from the side',
     ] = field(default=0.0, repr=False)
-    seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of all noise of robots'] = field(
+    seed: Annotated[int, Whole(0, 2**31 - 1), 'seed of the noise of robots, and of gusts'] = field(
         default=0, repr=False
     )
+    air_density: Annotated[
+        float,
+        FLUID_DENSITY,
+        'of the air, which fills the world where no body has a `medium`; it buoys bodies up, and '
+        'resists them by v²',
+    ] = field(default=0.0, repr=False)
+    air_viscosity: Annotated[
+        float, VISCOSITY, 'of the air, which resists bodies by v as well (Stokes)'
+    ] = field(default=0.0, repr=False)
+    air_drag: Annotated[float, DRAG, 'coefficient of the drag by v²'] = field(
+        default=1.0, repr=False
+    )
+    wind: Annotated[Point, VELOCITY, 'velocity of the air'] = field(default=(0.0, 0.0), repr=False)
+    gusts: Annotated[
+        float, GUSTS, 'root mean square of the gusts of the wind, in x and in y; by `seed`'
+    ] = field(default=0.0, repr=False)
+    gust_time: Annotated[float, GUST_TIME, 'typical time from one gust to the next'] = field(
+        default=2.0, repr=False
+    )
+    gravitation: Annotated[
+        float,
+        Within(0.0, HEAVIEST, 'N m²/kg²'),
+        'G of the attraction G m m / r² between all bodies but sensors; the unit follows '
+        '`attraction_power`',
+    ] = field(default=0.0, repr=False)
+    coulomb: Annotated[
+        float,
+        Within(0.0, HEAVIEST, 'N m²/C²'),
+        'k of the force k q q / r² between bodies with a `charge`; the unit follows '
+        '`attraction_power`',
+    ] = field(default=0.0, repr=False)
+    attraction_power: Annotated[
+        float,
+        Within(-1.0, 4.0),
+        'power p of the distance, in 1 / r^p, of both: 2 as on earth, 1 in a flat world',
+    ] = field(default=2.0, repr=False)
+    softening: Annotated[
+        float,
+        Within(0.0, 1000.0, 'm'),
+        'length ε that bounds both where two bodies pass each other: r² is r² + ε²',
+    ] = field(default=0.001, repr=False)
     datum: Annotated[
         Point | None,
         Row((Within(-90.0, 90.0, 'deg'), Within(-180.0, 180.0, 'deg'))),
@@ -121,6 +163,18 @@ class WorldSettings(Checked):
         f'most joints, of which {MOST_JOINTS_ON_BODY} on one body; a joint beyond it is refused',
         LIMIT,
     ] = 20000
+
+    @property
+    def air(self) -> Medium:
+        """Return the air, as a medium that fills the world."""
+        return Medium(
+            density=self.air_density,
+            viscosity=self.air_viscosity,
+            drag=self.air_drag,
+            flow=self.wind,
+            gusts=self.gusts,
+            gust_time=self.gust_time,
+        )
 
 
 def check_setting(name: str) -> None:

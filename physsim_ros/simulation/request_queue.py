@@ -8,8 +8,8 @@ Laws: entries are applied in the order of their arrival, and each is answered on
 hands and drives only if refused. A move of a hand replaces the waiting move of that hand, unless a
 request of another kind came between them; so does a seek the waiting seek. Requests that read or
 change the world wait for the end of a seek; all entries wait for the end of an amendment. Requests
-beyond a limit, in count and in memory, are refused; answers beyond twice that count are only
-counted.
+beyond a limit, in count and in memory, are refused; beyond twice that count, answers are dropped
+and only counted.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ class RequestQueue:
         # waiting seek that no request has followed.
         self._moves: dict[str, Entry] = {}
         self._seek: Entry | None = None
-        # Number of answers that the last entry stands for.
+        # Count of dropped answers that the last entry reports.
         self._untold = 0
 
     # Submitting

@@ -5,13 +5,14 @@
 Autosave: the world that pages draw in is written to a file, which the next start offers.
 
 Law: it takes at most a hundredth of the world's time and one file; a world that is too large, or a
-full disk, stops nothing.
+full disk, stops nothing. The file begins with a comment that names the people who drew in it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
+import json
 from pathlib import Path
 import time
 
@@ -27,6 +28,9 @@ from physsim_ros.model.snapshot import Frame
 PERIOD, STILL_PERIOD, SHARE = 10.0, 1.0, 100.0
 # Greatest length of the text of a world [characters].
 LONGEST = 2**20
+# Beginning of the comment with the names of people, as JSON; greatest number of names, and size of
+# the comment [bytes].
+_BY, MOST_NAMES, _MOST_BY = '# drawn by: ', 12, 2**12
 # Topics of requests after which the world is as it was loaded.
 _FROM_FILE = frozenset({'~/load_world', '~/reset'})
 _NOW, _BEFORE = '.autosave.yaml', '.unsaved.yaml'
@@ -38,11 +42,17 @@ class Autosave:
 
     :param directory: of the user's worlds
     :param text: returns the world as text; raises WorldFull beyond a length [characters]
+    :param people: returns the names that people who draw have chosen
     """
 
-    def __init__(self, directory: Path, text: Callable[[int], str]) -> None:
+    def __init__(
+        self,
+        directory: Path,
+        text: Callable[[int], str],
+        people: Callable[[], Sequence[str]] = list,
+    ) -> None:
         self._file, self._unsaved = directory / _NOW, directory / _BEFORE
-        self._text = text
+        self._text, self._people = text, people
         self._scene: Scene | None = None
         self._changed = False
         self._due = self._due_still = 0.0
@@ -60,6 +70,17 @@ class Autosave:
         except OSError:
             return 0.0
 
+    @property
+    def unsaved_by(self) -> list[str]:
+        """Return the names of those who drew the unsaved world of the last start."""
+        # There is no such world, or a person has spoilt its file.
+        with suppress(OSError, ValueError), self._unsaved.open(encoding='utf-8') as file:
+            line = file.readline(_MOST_BY)
+            names = json.loads(line.removeprefix(_BY)) if line.startswith(_BY) else []
+            if isinstance(names, list):
+                return [str(each) for each in names[:MOST_NAMES]]
+        return []
+
     def unsaved_content(self) -> bytes:
         """
         Return the unsaved world of the last start, as the text of a world file.
@@ -67,7 +88,7 @@ class Autosave:
         :raises OSError: there is no such world
         """
         # A character has up to four bytes.
-        return read_bytes(self._unsaved, 4 * LONGEST)
+        return read_bytes(self._unsaved, _MOST_BY + 4 * LONGEST)
 
     def forget_unsaved(self) -> str:
         """Delete the unsaved world of the last start, and return a message about it."""
@@ -109,7 +130,9 @@ class Autosave:
         began = time.thread_time()
         self._changed = False
         with suppress(OSError, WorldFull):
-            text = self._text(LONGEST)
+            text, names = self._text(LONGEST), self._people()[:MOST_NAMES]
+            if names:
+                text = f'{_BY}{json.dumps(names)}\n{text}'
             make_directory(self._file.parent)
             write_file(self._file, text.encode())
         now, took = time.monotonic(), time.thread_time() - began

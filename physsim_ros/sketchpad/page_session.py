@@ -27,7 +27,7 @@ from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.inbox import Opened
 from physsim_ros.sketchpad.message import answer_content, Content, Message, Origin
-from physsim_ros.sketchpad.past import BodyPasts, PastTouches
+from physsim_ros.sketchpad.past import BodyPasts, PastContacts
 from physsim_ros.sketchpad.results import Result, Results
 from physsim_ros.sketchpad.rights import (
     check_locked,
@@ -56,7 +56,7 @@ class Shared(NamedTuple):
     :ivar world: that they draw in
     :ivar send: sends a message to the page of a number, or to all
     :ivar pasts: of bodies that pages plot
-    :ivar past_touches: of bodies that pages begin to follow
+    :ivar past_contacts: contacts of the past that pages ask for
     :ivar own_worlds: of the user
     :ivar autosave: of the world
     :ivar results: of lessons in the world
@@ -66,7 +66,7 @@ class Shared(NamedTuple):
     world: WorldControl
     send: Callable[[Content, int | None], None]
     pasts: BodyPasts
-    past_touches: PastTouches
+    past_contacts: PastContacts
     own_worlds: OwnWorlds
     autosave: Autosave
     results: Results
@@ -150,7 +150,7 @@ class PageSession:
     def close(self) -> None:
         """Let go with the hand of the page, and forget the pasts that it has asked for."""
         self.shared.pasts.forget(self.number)
-        self.shared.past_touches.ask(self.number, frozenset())
+        self.shared.past_contacts.forget(self.number)
         if self._hand_used is not None:
             self._submit_unasked(LetGo(hand=self.hand))
 

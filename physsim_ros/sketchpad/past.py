@@ -6,7 +6,8 @@ The past for pages: timeline, ghost of a course that was left, pasts of bodies, 
 
 Laws: the timeline is sent at once where more than its time changes, else each 0.1 s. The world's
 thread only looks up the snapshots of a body's past; the server's thread makes its columns. Touches
-of the past are those of a replay, so that a gate that is chosen after a run tells the same times.
+and forces of the past are those of a replay, so that a gate, or a body, that is chosen after a run
+tells the same.
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ from functools import partial
 from itertools import groupby
 from operator import attrgetter
 import time
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
+from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
@@ -32,6 +34,8 @@ from physsim_ros.sketchpad.message import Content
 TIMELINE_PERIOD = 0.1
 # Time of a replay in a period of publishing [s]: a quarter of one of 60 Hz.
 REPLAY_TIME = 0.004
+# Greatest number of looks at the contacts of the past that a page may ask for at once.
+MOST_SEARCHES = 32
 # Greatest number of frames of a past: a minute at 60 Hz.
 MOST_FRAMES = 3600
 # Time from one past to the next, for all pages together [s]: a past takes some 35 ms of the
@@ -105,9 +109,25 @@ def timeline_content(status: TimelineStatus) -> dict[str, Any]:
     }
 
 
-class PastTouches:
+class _Search(NamedTuple):
     """
-    The touches before pages began to follow bodies, as a replay of the line in force finds them.
+    A look at the contacts of the past.
+
+    :ivar tell: gets the frames, part by part, in the order of time
+    :ivar step: last one that was looked at
+    :ivar end: last one to look at
+    :ivar runs: whether the look goes on while time runs
+    """
+
+    tell: Callable[[Sequence[CachedFrame]], None]
+    step: int
+    end: int
+    runs: bool
+
+
+class PastContacts:
+    """
+    The contacts before pages asked for them, as a replay of the line in force finds them.
 
     Frames without contacts are replayed, a part at each call, while the world does not go back.
 
@@ -118,45 +138,107 @@ class PastTouches:
     def __init__(self, simulation: Simulation, send: Callable[[Content, int], None]) -> None:
         self._simulation = simulation
         self._send = send
-        # Bodies, the last step that was looked at, and the last to look at, by page.
-        self._asked: dict[int, tuple[frozenset[str], int, int]] = {}
+        # By page and body, whose forces are looked for; '' is for the touches of followed bodies.
+        self._searches: dict[tuple[int, str], _Search] = {}
 
-    def ask(self, page: int, names: frozenset[str]) -> None:
+    def ask_touches(self, page: int, names: frozenset[str]) -> None:
         """Send a page the touches of bodies from the oldest step on; no names end that."""
-        tree = self._simulation.past.tree
-        self._asked.pop(page, None)
+        rate = self._simulation.physics_rate
+
+        def tell(frames: Sequence[CachedFrame]) -> None:
+            for snapshot, contacts in frames:
+                content = touches_content(snapshot, contacts, names, rate)
+                if content is not None:
+                    self._send(content, page)
+
+        self._searches.pop((page, ''), None)
         if names:
-            self._asked[page] = names, tree.oldest, self._simulation.step
+            self._begin((page, ''), tell, self._simulation.step, runs=True)
+
+    def ask_forces(self, page: int, name: str) -> None:
+        """Send a page the forces on a body in the line in force, while time stands."""
+        rate = self._simulation.physics_rate
+
+        def tell(frames: Sequence[CachedFrame]) -> None:
+            columns = past_forces(frames, name, rate)
+            self._send({'type': 'past_forces', 'name': name, **columns}, page)
+
+        if sum(number == page for number, _ in self._searches) < MOST_SEARCHES:
+            self._begin((page, name), tell, self._simulation.past.tree.head, runs=False)
+
+    def forget(self, page: int) -> None:
+        """Forget what a page has asked for."""
+        self._searches = {key: each for key, each in self._searches.items() if key[0] != page}
+
+    def _begin(
+        self,
+        key: tuple[int, str],
+        tell: Callable[[Sequence[CachedFrame]], None],
+        end: int,
+        *,
+        runs: bool,
+    ) -> None:
+        self._searches[key] = _Search(tell, self._simulation.past.tree.oldest, end, runs)
 
     def send_due(self) -> None:
         """Look at the next frames of the past, for a few milliseconds."""
         simulation = self._simulation
         past = simulation.past
         # Until contacts are reported, cached frames are taken as they are, without contacts.
-        if not self._asked or simulation.speed < 0.0 or not past.reports_contacts:
+        if simulation.speed < 0.0 or not past.reports_contacts or past.cursor.is_working:
             return
-        if past.cursor.is_working:
-            return
-        begin = time.monotonic()
-        while self._asked and time.monotonic() - begin < REPLAY_TIME:
-            page = next(iter(self._asked))
-            names, step, end = self._asked.pop(page)
+        begin, is_still = time.monotonic(), simulation.speed == 0.0
+        due = [key for key, search in self._searches.items() if search.runs or is_still]
+        while due and time.monotonic() - begin < REPLAY_TIME:
+            key = due.pop(0)
+            tell, step, end, runs = self._searches.pop(key)
             end, step = min(end, past.tree.head), max(step, past.tree.oldest)
-            if step >= end:
-                continue
-            wanted = min(end, step - step % past.frame_steps + past.frame_steps)
-            if past.frames.frame_at(wanted) is not None:
-                self._send_touches(page, names, past.frames.frames_after(step, wanted))
-                step = wanted
-            self._asked = {page: (names, step, end), **self._asked}
+            frames: list[CachedFrame] = []
+            while step < end and time.monotonic() - begin < REPLAY_TIME:
+                wanted = min(end, step - step % past.frame_steps + past.frame_steps)
+                if past.frames.frame_at(wanted) is not None:
+                    frames += past.frames.frames_after(step, wanted)
+                    step = wanted
+            if frames:
+                tell(frames)
+            if step < end:
+                # It is the first one at the next call.
+                self._searches = {key: _Search(tell, step, end, runs), **self._searches}
 
-    def _send_touches(
-        self, page: int, names: frozenset[str], frames: Sequence[CachedFrame]
-    ) -> None:
-        for snapshot, contacts in frames:
-            content = touches_content(snapshot, contacts, names, self._simulation.physics_rate)
-            if content is not None:
-                self._send(content, page)
+
+def past_forces(frames: Sequence[CachedFrame], name: str, rate: float) -> dict[str, Any]:
+    """
+    Return the columns of the forces on a body: time [s], sums by kind, x and y each [N].
+
+    :param frames: in the order of time
+    :param name: of the body; of one that was not there the columns are empty
+    :param rate: steps a second of simulation
+    """
+    times: list[float] = []
+    rows: list[Floats] = []
+    row = -1
+    for snapshot, contacts in frames:
+        row = _row_of(name, snapshot.scene, row)
+        if row < 0 or contacts is None or not contacts.steps:
+            continue
+        # 1 for what acts on b, -1 on a, 0 on other bodies.
+        sides = _sides(contacts.pairs, row)
+        acting = contacts.impulses * sides[:, None] * (rate / contacts.steps)
+        along = (acting * contacts.normals).sum(axis=1, keepdims=True) * contacts.normals
+        pulls = np.zeros((1, 2))
+        if len(snapshot.pulls) == len(snapshot.scene.joints):
+            pulls = snapshot.pulls * _sides(snapshot.scene.joint_rows, row)[:, None]
+        times.append(snapshot.stamp * 1e-9)
+        rows.append(np.concatenate([each.sum(axis=0) for each in (along, acting - along, pulls)]))
+    columns = np.array(rows).reshape(-1, 6)
+    kinds = {'normal': columns[:, :2], 'friction': columns[:, 2:4], 'joint': columns[:, 4:]}
+    return {'time': times, **{kind: forces.tolist() for kind, forces in kinds.items()}}
+
+
+def _sides(pairs: Ints, row: int) -> Floats:
+    """Return (n,) float64: 1 where a body is the second of a pair, -1 where the first, else 0."""
+    sides: Floats = np.subtract(pairs[:, 1] == row, pairs[:, 0] == row, dtype=float)
+    return sides
 
 
 class BodyPasts:

@@ -66,7 +66,7 @@ class Results:
         Note an answer, and return what is known of it.
 
         :param lesson: title of the lesson
-        :raises OSError: the file cannot be written
+        :raises OSError: the file cannot be written; nothing is noted
         """
         before = self._results.get((person, lesson), {})
         tries = int(before.get('tries', 0)) + 1
@@ -79,11 +79,12 @@ class Results:
             'tries': tries,
         }
         if not before.get('right'):
-            self._results.pop((person, lesson), None)
-            self._results[person, lesson] = result
-            if len(self._results) > MOST_RESULTS:
-                del self._results[next(iter(self._results))]
-            self._save()
+            results = dict(self._results)
+            results.pop((person, lesson), None)
+            results[person, lesson] = result
+            if len(results) > MOST_RESULTS:
+                del results[next(iter(results))]
+            self._replace(results)
         return result
 
     def last_of(self, person: str) -> Result:
@@ -95,11 +96,13 @@ class Results:
         """
         Forget all results.
 
-        :raises OSError: the file cannot be written
+        :raises OSError: the file cannot be written; nothing is forgotten
         """
-        self._results.clear()
-        self._save()
+        self._replace({})
 
-    def _save(self) -> None:
+    def _replace(self, results: dict[tuple[str, str], Result]) -> None:
+        """Have other results, once they are in the file."""
+        content = json.dumps(list(results.values()), ensure_ascii=False)
         make_directory(self._path.parent)
-        write_file(self._path, json.dumps(list(self), ensure_ascii=False).encode(), mode=0o600)
+        write_file(self._path, content.encode(), mode=0o600)
+        self._results = results

@@ -25,7 +25,7 @@ from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.message import Message, Origin
 from physsim_ros.sketchpad.page_session import answer_of, PageSession, Shared
-from physsim_ros.sketchpad.past import BodyPasts, PastTouches, timeline_content, TimelineReport
+from physsim_ros.sketchpad.past import BodyPasts, PastContacts, timeline_content, TimelineReport
 from physsim_ros.sketchpad.results import Results, results_file
 from physsim_ros.sketchpad.rights import check_moment, check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
@@ -67,7 +67,7 @@ class Sketchpad:
         self._timeline = TimelineReport(world.simulation)
         self._contacts = LastContacts(world.simulation.forces_now)
         own_worlds = OwnWorlds(world.world_dir, world.lesson_dir)
-        self._autosave = Autosave(world.world_dir, self._world_text)
+        self._autosave = Autosave(world.world_dir, self._world_text, self._named_people)
         results = Results(results_file(world.world_dir))
         self._server = Server(
             address=address,
@@ -82,7 +82,7 @@ class Sketchpad:
             world,
             self._server.send,
             BodyPasts(world.simulation, self._server.send),
-            PastTouches(world.simulation, self._server.send),
+            PastContacts(world.simulation, self._server.send),
             own_worlds,
             self._autosave,
             results,
@@ -169,7 +169,7 @@ class Sketchpad:
         for session in self._sessions.values():
             session.keep_hand(now)
         self._shared.pasts.send_due(now)
-        self._shared.past_touches.send_due()
+        self._shared.past_contacts.send_due()
         if self._autosave.is_due(now):
             # Where too many requests wait, the world is saved later.
             with suppress(Busy):
@@ -216,6 +216,12 @@ class Sketchpad:
         with self._boundary.output('autosave'):
             self._autosave.save()
         return ()
+
+    def _named_people(self) -> list[str]:
+        """Return the names that people who draw have chosen."""
+        present = self._sessions.values()
+        drawing = [each for each in present if each.role.draws and not each.watches]
+        return sorted({each.person for each in drawing if each.person != each.unnamed})
 
     def _world_text(self, longest: int) -> str:
         """
@@ -269,6 +275,7 @@ class Sketchpad:
                 'view_only': not role.draws,
                 'teacher': role is Role.TEACH,
                 'unsaved': self._autosave.unsaved_at if role.draws else 0.0,
+                'unsaved_by': self._autosave.unsaved_by if role.draws else [],
                 'settings': {
                     'density': settings.density,
                     'friction': settings.friction,

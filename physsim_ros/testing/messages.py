@@ -45,6 +45,8 @@ class BodyProperties(TypedDict, total=False):
     group: int
     sensor: bool
     surface_velocity: Numbers
+    charge: float
+    medium: Mapping[str, Any] | None
     robot: str | Mapping[str, Any]
     actor: Mapping[str, Any]
     forces: Sequence[Mapping[str, Any]]

@@ -76,6 +76,16 @@ class Parameters(TypedDict, total=False):
     elasticity: float
     floor_friction: float
     seed: int
+    air_density: float
+    air_viscosity: float
+    air_drag: float
+    wind: Sequence[float]
+    gusts: float
+    gust_time: float
+    gravitation: float
+    coulomb: float
+    attraction_power: float
+    softening: float
     datum: Sequence[float]
     command_timeout: float
     drag_force: float

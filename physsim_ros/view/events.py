@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Events: the log of answers, and the track of time, which tells how time went by.
+Events: the log of answers; the track of time, which tells how time went by, and its label.
 
 Law: a word of the track stays until the next one, so that it can be read. Sentences are in the
 log, after code and subject.
@@ -12,10 +12,15 @@ from __future__ import annotations
 
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.view.frame_batch import Change, FrameBatch, RECORDED
+from physsim_ros.view.scenery import IMAGE_LABELS
 import rerun as rr
 import rerun.blueprint as rrb
 
 LOG, TIME = 'events', 'time/run'
+# In the view of the world, which may fill the window: the time and the word of the track.
+_LABEL = 'world/camera/legend/time'
+# Place of the label [pixels of the image of the camera], and period of its rows [frames].
+_LABEL_AT, _LABEL_PERIOD = (1150.0, 14.0), 6
 # Green while playing, orange while rewinding; the faster, the darker.
 _COLORS = {
     'slow': (160, 205, 150),
@@ -91,6 +96,28 @@ class TimeTrack:
                 self._state = state
                 column = rr.StateChange.columns(state=[state])
                 self._recording.send_columns(TIME, batch.times_at([index])[:1], column)
+
+
+class TimeLabel:
+    """
+    Sends simulation time and how it goes by, as a label in the image of the world.
+
+    :param recording: stream to log to
+    """
+
+    def __init__(self, recording: rr.RecordingStream) -> None:
+        self._recording = recording
+        recording.log(_LABEL, IMAGE_LABELS, static=True)
+
+    def send(self, batch: FrameBatch, _: Change) -> None:
+        """Send the label of some frames of a batch."""
+        chosen = batch.sampled(_LABEL_PERIOD)
+        frames = [batch.frames[index] for index in chosen]
+        labels = [f'{each.snapshot.stamp / 1e9:.2f} s  {time_word(each)}' for each in frames]
+        points = rr.Points2D.columns(positions=[_LABEL_AT] * len(chosen), labels=labels)
+        self._recording.send_columns(
+            _LABEL, batch.times_at(chosen), points.partition([1] * len(chosen))
+        )
 
 
 def time_word(frame: Frame) -> str:

@@ -17,8 +17,8 @@ import rerun.blueprint as rrb
 
 # Period of the plots [frames].
 SAMPLE = 6
-# Time span of the plots [s].
-_SPAN = 15.0
+# Time before the moment that is shown, and room for the legend after it, in plots [s].
+_SPAN, _ROOM = 10.0, 4.0
 _BLUE, _ORANGE, _GREEN, _PURPLE, _GREY = (
     (76, 120, 168),
     (245, 133, 24),
@@ -153,11 +153,17 @@ def _view(
         origin=path,
         name=name,
         axis_y=None if low is None else rrb.ScalarAxis(range=(low, 1.2), zoom_lock=False),
+        axis_x=rrb.TimeAxis(
+            view_range=rr.TimeRange(
+                start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_SPAN),
+                end=rrb.TimeRangeBoundary.cursor_relative(seconds=_ROOM),
+            )
+        ),
         time_ranges=rrb.VisibleTimeRange(
             RECORDED,
             start=rrb.TimeRangeBoundary.cursor_relative(seconds=-_SPAN),
             end=rrb.TimeRangeBoundary.cursor_relative(),
         ),
         # Of a single series the title tells enough.
-        plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.LeftTop, visible=legend),
+        plot_legend=rrb.PlotLegend(corner=rrb.Corner2D.RightTop, visible=legend),
     )

@@ -69,6 +69,7 @@ class FrameRecorder:
             PreviewLines(recording),
             events.EventLog(recording),
             events.TimeTrack(recording),
+            events.TimeLabel(recording),
             self._plots,
         ]
 

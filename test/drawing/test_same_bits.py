@@ -22,13 +22,11 @@ import numpy as np
 from numpy._core._multiarray_umath import __cpu_dispatch__, __cpu_features__
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import Features
-from physsim_ros.drawing.strokes.meanings import Context
 from physsim_ros.drawing.strokes.reading import (
-    guess_meanings,
+    guesses_of,
+    in_scene,
     MOST_GUESSES,
     reading_of,
-    recognise_form,
 )
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
@@ -79,9 +77,8 @@ def digest_of_readings(strokes: Iterable[tuple[Floats, SceneQuery]]) -> str:
     total = hashlib.sha256()
     for samples, scene in strokes:
         try:
-            drawn = Features.of(resample_stroke(samples))
-            context = Context(features=drawn, scene=scene, settings=DrawingSettings())
-            guesses = guess_meanings(recognise_form(drawn), context)
+            drawn = resample_stroke(samples)
+            guesses = guesses_of(in_scene(drawn, scene, DrawingSettings()))
         except Refusal as refusal:
             total.update(repr(refusal).encode())
             continue

@@ -4,6 +4,7 @@
 """Joints that are removed, changed, or wait, with their bodies and by name."""
 
 import math
+import random
 
 import numpy as np
 from physsim_ros.model.requests import (
@@ -22,7 +23,7 @@ from physsim_ros.simulation.world import World
 import pytest
 
 from .jointed import joints, KINDS, pair, points_of, PROPERTIES
-from ..building import BOX, DISC, join, joining, pose, spawn, twist
+from ..building import BOX, command, DISC, join, joining, pose, spawn, twist
 
 
 @pytest.mark.parametrize('kind', KINDS)
@@ -167,3 +168,39 @@ def test_a_joint_that_is_made_under_the_name_of_another_has_no_force_yet(replace
     join(world, 'rod', [(0.8, 0.0), (0.8, 2.0)], a='a/1', b='world')
 
     assert world.snapshot().forces.tolist() == [0.0]
+
+
+def test_a_body_that_is_put_elsewhere_comes_back_at_20_metres_a_second(world):
+    spawn(world, 'a/0', DISC, anchored=True)
+    spawn(world, 'b/0', DISC, (1.0, 0.0, 0.0))
+    join(world, 'rod', [(0.0, 0.0), (1.0, 0.0)])
+    command(world, 'b/0', pose=(51.0, 0.0, 0.0))
+    world.step(24)
+
+    assert pose(world, 'b/0')[0] == pytest.approx(49.0, abs=1e-6)
+
+
+@pytest.mark.parametrize('seed', range(20))
+def test_links_that_are_put_apart_come_together_without_spinning(seed, world):
+    chance, place, last = random.Random(seed), 0.0, 'world'
+    count = chance.randint(2, 5)
+    for number in range(count):
+        half, name = chance.choice((0.02, 0.1, 0.5)), f'b/{number}'
+        spawn(world, name, Box(width=2 * half, height=0.4 * half), (place + half, 0.0, 0.0))
+        join(world, 'axle', [(place, 0.0)], f'axle/{number}', a=name, b=last)
+        place, last = place + 2 * half, name
+    for number in range(count):
+        x, y, _ = pose(world, f'b/{number}')
+        apart = (
+            x + chance.uniform(-0.5, 0.5),
+            y + chance.uniform(-0.5, 0.5),
+            chance.uniform(-3, 3),
+        )
+        command(world, f'b/{number}', pose=apart)
+    yaws = []
+    for _ in range(60):
+        yaws.append(world.snapshot().poses[:, 2])
+        world.step(1)
+
+    # Two turns; tens of them where a step of Newton's method turns bodies by more than a quarter.
+    assert np.abs(np.diff(yaws, axis=0)).sum(axis=0).max() < 4.0 * math.pi

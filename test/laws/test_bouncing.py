@@ -6,7 +6,9 @@
 import math
 
 import numpy as np
+from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc, Polygon
+from physsim_ros.simulation.simulation import Simulation
 import pytest
 
 from .scenes import DT, energy, floor, G, NOWHERE, run, simulation, spawn, steps, turned, walls
@@ -40,6 +42,18 @@ def test_a_body_bounces_to_the_square_of_its_elasticity(report, elasticity, shap
     report.check(8, f'bounce from 1 m, e = {elasticity:g}', first, elasticity**2, 0.02, '–',
                  relative=True)  # fmt: skip
     assert len(heights) >= 4
+
+
+@pytest.mark.parametrize('rate', [120.0, 240.0])
+def test_an_elastic_ball_comes_up_again_as_far(report, rate):
+    sim = Simulation(settings=WorldSettings(elasticity=1.0), physics_rate=rate)
+    floor(sim)
+    row = spawn(sim, 'ball/0', Disc(radius=0.1), (0.0, 1.1, 0.0))
+    heights = [snapshot.poses[row, 1] for snapshot in steps(sim, round(10.0 * rate))]
+
+    # Of the last bounce of eleven: the impact takes place between two steps, and gravity acts on.
+    highest = max(heights[-round(0.9 * rate) :])
+    report.check(21, 'an elastic ball after ten bounces', highest, 1.1, 1e-3, 'm')
 
 
 # Outlines that stand on y = 0.

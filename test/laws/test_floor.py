@@ -332,6 +332,24 @@ def test_a_pushed_box_stops_when_the_robot_does(report):
     assert not last.twists.any()
 
 
+def test_what_was_pressed_against_a_wall_is_not_pressed_for_ever(report):
+    sim = _floor(bounds=(-2.0, -2.0, 0.5, 2.0))
+    sim.reports_contacts = True
+    _robot(sim, shape=BOX)
+    spawn(sim, 'box/0', BOX, (0.35, 0.0, 0.0), elasticity=0.0)
+    _drive(sim, 0.3, 0.0, 0.0)
+    for _ in range(120):
+        pushed = sim.advance_frame().contacts.impulses
+    assert np.abs(pushed).max() > 0.1
+
+    sim.perform(Delete(name='robot/0'))
+    for _ in range(120):
+        left = sim.advance_frame().contacts.impulses
+
+    # Friction could hold what the wall presses; a push decays instead.
+    report.check(39, 'push of a wall that nothing pushes', np.abs(left).max(), 0.0, 1e-8, 'N s')
+
+
 def _belt(sim, length, speed, yaw=0.0):
     """Add a conveyor about the origin."""
     said = {'anchored': True, 'sensor': True, 'surface_velocity': (speed, 0.0)}
@@ -349,6 +367,17 @@ def test_a_conveyor_carries_at_its_speed(report):
     way = last.poses[row, :2] - start[:2]
     exact = turned((0.4 * 2.0, 0.0), 0.3)
     report.check(40, 'way on a conveyor', abs(way - exact).max(), 0.0, 1e-9, 'm')
+
+
+def test_a_conveyor_that_turns_turns_what_lies_on_it(report):
+    sim = _floor()
+    said = {'kinematic': True, 'sensor': True, 'surface_velocity': (0.01, 0.0), 'spin': 0.5}
+    spawn(sim, 'belt/0', Box(width=6.0, height=6.0), **said)
+    row = spawn(sim, 'box/0', BOX)
+
+    last = _after(sim, 1.0)
+
+    report.check(40, 'turn of a conveyor', last.twists[row, 2], 0.5, 1e-9, 'rad/s')
 
 
 def test_what_leaves_a_conveyor_slides_to_a_stop(report):

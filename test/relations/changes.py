@@ -80,6 +80,22 @@ def scaled(joint, **factors):
     )
 
 
+def with_media(state, change):
+    """Return a state with another medium for each of its regions, and for its air."""
+
+    def body(held):
+        medium = held.body.medium
+        return replace(
+            held, body=replace(held.body, medium=None if medium is None else change(medium))
+        )
+
+    air = change(state.settings.air)
+    settings = replace(
+        state.settings, air_density=air.density, air_viscosity=air.viscosity, wind=air.flow
+    )
+    return replace(with_bodies(state, body), settings=settings)
+
+
 # Where and which way
 
 
@@ -150,6 +166,7 @@ def turned(state, angle, vector):
     settings = replace(
         state.settings,
         gravity=vector(state.settings.gravity),
+        wind=vector(state.settings.wind),
         bounds=_bounds(state.settings.bounds, vector),
     )
     return replace(with_joints(with_bodies(state, body), joint), settings=settings)
@@ -229,7 +246,8 @@ def mirrored(state):
         gravity=_flip(state.settings.gravity),
         bounds=_bounds(state.settings.bounds, _flip),
     )
-    return replace(with_joints(with_bodies(state, body), joint), settings=settings)
+    changed = replace(with_joints(with_bodies(state, body), joint), settings=settings)
+    return with_media(changed, lambda medium: replace(medium, flow=_flip(medium.flow)))
 
 
 def mirrored_shape(shape):
@@ -265,7 +283,9 @@ def carried(state, velocity):
     def joint(each):
         return replace(each, b='carriage/0') if each.b == WORLD else each
 
-    changed = with_joints(with_bodies(state, body), joint)
+    wind = state.settings.wind
+    settings = replace(state.settings, wind=(wind[0] + vx, wind[1] + vy))
+    changed = replace(with_joints(with_bodies(state, body), joint), settings=settings)
     carriage = Body(
         name='carriage/0',
         shape=Disc(radius=0.01),
@@ -294,9 +314,18 @@ def heavier(state, factor):
         mass = held.body.total_mass * factor
         return replace(held, body=replace(held.body, mass=mass, forces=forces))
 
+    def medium(each):
+        return replace(each, density=each.density * factor, viscosity=each.viscosity * factor)
+
+    settings = replace(
+        state.settings,
+        gravitation=state.settings.gravitation / factor,
+        coulomb=state.settings.coulomb * factor,
+    )
+    state = replace(state, settings=settings)
     names = ('max_torque', 'stiffness', 'damping', 'max_force', 'break_force')
     return with_joints(
-        with_bodies(state, body),
+        with_media(with_bodies(state, body), medium),
         lambda joint: scaled(explicit(joint), **dict.fromkeys(names, factor)),
     )
 
@@ -349,14 +378,28 @@ def larger(state, size, time):
             upper=along,
         )
 
+    of_attraction = size ** (1 + state.settings.attraction_power) / time**2
     settings = replace(
         state.settings,
+        gravitation=state.settings.gravitation * of_attraction,
+        coulomb=state.settings.coulomb * of_attraction,
+        softening=state.settings.softening * size,
         gravity=tuple(part * speed / time for part in state.settings.gravity),
         bounds=None
         if state.settings.bounds is None
         else tuple(size * side for side in state.settings.bounds),
     )
-    return replace(with_joints(with_bodies(state, body), joint), settings=settings)
+
+    def medium(each):
+        return replace(
+            each,
+            density=each.density / size**2,
+            viscosity=each.viscosity / (size * time),
+            flow=tuple(speed * part for part in each.flow),
+        )
+
+    changed = replace(with_joints(with_bodies(state, body), joint), settings=settings)
+    return with_media(changed, medium)
 
 
 def larger_shape(shape, size):

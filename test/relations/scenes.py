@@ -709,6 +709,54 @@ def windy_stack():
     return sim
 
 
+# Laws 70 and 71: media
+
+
+def floats():
+    """Return bodies that fall into water; one sinks, one is in a current."""
+    sim = simulation(elasticity=0.0)
+    said = {'anchored': True, 'sensor': True}
+    water = {'density': 10.0, 'drag': 0.0, 'viscosity': 0.1}
+    spawn(sim, 'pool/0', Box(width=20.0, height=6.0), (0.0, -3.0, 0.0), medium=water, **said)
+    river = {'density': 3.0, 'flow': (1.0, 0.0), 'viscosity': 0.5}
+    spawn(sim, 'river/0', Disc(radius=2.0), (8.0, -2.0, 0.4), medium=river, **said)
+    spawn(sim, 'box/0', Box(width=1.0, height=0.5), (0.0, 0.2, 0.3), density=5.0)
+    spawn(sim, 'disc/0', Disc(radius=0.3), (2.0, 0.5, 0.0), density=4.0)
+    spawn(sim, 'ell/0', ELL, (-4.0, 0.1, 0.2), density=6.0)
+    log = Chain(points=((-0.6, 0.0), (0.6, 0.0)), thickness=0.3)
+    spawn(sim, 'log/0', log, (4.0, 0.3, 0.4), density=5.0)
+    spawn(sim, 'pair/0', PAIR, (7.0, -1.0, 0.1), density=3.0)
+    spawn(sim, 'stone/0', Disc(radius=0.2), (-7.0, -1.0, 0.0), density=30.0)
+    return sim
+
+
+def leaves():
+    """Return bodies that fall in a wind."""
+    sim = simulation(air_density=0.05, air_viscosity=0.01, wind=(-3.0, 0.5))
+    spawn(sim, 'ell/0', ELL, (0.0, 0.0, 0.2), mass=1.0, spin=1.0)
+    spawn(sim, 'disc/0', Disc(radius=0.3), (4.0, 0.0, 0.0), mass=0.1, velocity=(2.0, 5.0))
+    spawn(sim, 'pair/0', PAIR, (8.0, 0.0, 0.1), mass=0.2, velocity=(6.0, 0.0))
+    triangle = Polygon(outline=((0.0, 0.0), (1.0, 0.0), (0.0, 0.3)))
+    spawn(sim, 'leaf/0', triangle, (-4.0, 0.0, 0.0), mass=0.05)
+    return sim
+
+
+# Law 72: attraction
+
+
+def planets():
+    """Return a sun with two planets and a comet, and two charges on one of the planets' ways."""
+    sim = simulation(gravity=NOWHERE, gravitation=1.0, coulomb=2.0)
+    spawn(sim, 'sun/0', Disc(radius=0.1), mass=4.0, anchored=True)
+    for number, (radius, mass) in enumerate(((1.0, 0.01), (1.6, 0.02))):
+        said = {'mass': mass, 'velocity': (0.0, math.sqrt(4.0 / radius))}
+        spawn(sim, f'planet/{number}', Disc(radius=0.03), (radius, 0.0, 0.0), **said)
+    spawn(sim, 'comet/0', ELL, (-5.0, 3.0, 0.2), mass=1e-3, velocity=(1.0, 0.2), charge=0.01)
+    spawn(sim, 'ion/0', Disc(radius=0.05), (0.0, 3.0, 0.0), mass=0.1, charge=0.2)
+    spawn(sim, 'ion/1', Disc(radius=0.05), (1.0, 3.0, 0.0), mass=0.1, charge=-0.1)
+    return sim
+
+
 @cache
 def far_away():
     """Return a world of much that could change what happens far from it."""
@@ -814,6 +862,9 @@ def _laws():
         'thruster': Scene(build=thruster),
         'block that is pulled': Scene(build=pulled_block),
         'stack in the wind': Scene(build=windy_stack),
+        'floats': Scene(build=floats),
+        'leaves in the wind': Scene(build=leaves),
+        'planets and ions': Scene(build=planets),
     }.items()
     for kind in ('axle', 'rod', 'rope'):
         yield f'pendulum by a(n) {kind} on a box', Scene(build=partial(pendulum_on_box, kind))

@@ -78,6 +78,17 @@ SPAWNS: list[tuple[Marker, str, str]] = [
     (disc('new/0', actor={**PATH, 'kind': 'walk'}), 'bad_property', 'kind'),
     (disc('new/0', actor={**PATH, 'sped': 1}), 'unknown_property', 'sped'),
     (disc('new/0', actor={**PATH, 'points': [[0, 0], [1]]}), 'malformed', 'points'),
+    (box('new/0', text='{medium: {density: 1}}'), 'bad_property', 'medium'),
+    (box('new/0', text='{medium: {density: 1}, anchored: true}'), 'bad_property', 'medium'),
+    (box('new/0', text='{medium: water, anchored: true}'), 'bad_property', 'medium'),
+    (box('new/0', medium={'flow': [1, 0]}), 'bad_property', 'density'),
+    (box('new/0', medium={'density': -1}), 'bad_property', 'density'),
+    (box('new/0', text='{medium: {density: .nan}}'), 'malformed', 'density'),
+    (box('new/0', medium={'density': 1, 'drag': 101}), 'bad_property', 'drag'),
+    (box('new/0', text='{medium: {density: 1, viscosity: .inf}}'), 'malformed', 'viscosity'),
+    (box('new/0', medium={'density': 1, 'flow': [1, 2, 3]}), 'malformed', 'flow'),
+    (box('new/0', medium={'density': 1, 'gust_time': 0}), 'bad_property', 'gust_time'),
+    (box('new/0', medium={'density': 1, 'depth': 0}), 'unknown_property', 'depth'),
 ]
 JOINTS: list[tuple[Marker, str, str]] = [
     (joint('{kind: glue}'), 'bad_property', 'kind'),

@@ -9,6 +9,7 @@ import numpy as np
 from physsim_ros.model.robots.sensors import Laser, RangeFinder
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
 from physsim_ros.sensing import read_laser, read_range, Surroundings
+from physsim_ros.sensing.distance import within_range
 import pytest
 
 from .worlds import add_robot, engine_rays, plane, PRECISION, random_world, seen
@@ -299,3 +300,11 @@ def test_noise_of_a_range_finder_is_that_of_the_seed():
     assert nearest(world, row, finder, 1) == nearest(world, row, finder, 1)
     assert nearest(world, row, finder, 1) != nearest(world, row, finder, 2)
     assert nearest(world, row, finder, 1) == pytest.approx(0.5, abs=0.06)
+
+
+def test_noise_does_not_bring_back_what_is_out_of_range():
+    distances, noise = np.array([9.95, 10.05, 0.15, 0.05]), np.array([2.0, -2.0, -2.0, 2.0])
+
+    read = within_range(distances, 0.1, 10.0, 0.05, noise)
+
+    assert read.tolist() == [math.inf, math.inf, -math.inf, -math.inf]

@@ -8,15 +8,17 @@ import math
 
 import numpy as np
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.errors import NothingThere
+from physsim_ros.model.errors import NothingThere, UnknownJoint
 from physsim_ros.model.requests import (
     Anchor,
     ChangeBody,
     Command,
     Configure,
+    Cut,
     Delete,
     MoveBodies,
     Release,
+    Unjoin,
 )
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Box, Disc
@@ -33,6 +35,7 @@ from ..building import (
     ELL,
     G,
     INSIDE,
+    join,
     names,
     NOWHERE,
     pose,
@@ -350,3 +353,18 @@ def test_an_anchored_body_still_answers_to_changes(born):
     world.apply(Release(point=(-4.0, 1.0)))
     world.step(24)
     assert pose(world, 'a/0')[1] < 1.0
+
+
+def test_a_cut_severs_the_joints_that_are_still_there(world):
+    for number in range(3):
+        spawn(world, f'a/{number}', DISC, (4.0 * number, 0.0, 0.0))
+        join(world, 'rope', [(4.0 * number, 0.0), (4.0 * number, 9.0)], name=f'rope/{number}')
+    severed = tuple(Unjoin(name=f'rope/{number}') for number in range(2))
+    world.apply(severed[0])
+
+    answer = world.apply(Cut(pieces=(), severed=severed))
+
+    assert [each.name for each in world.scene.joints] == ['rope/2']
+    assert answer.message == 'cut rope/1'
+    with pytest.raises(UnknownJoint):
+        world.apply(Cut(pieces=(), severed=severed))

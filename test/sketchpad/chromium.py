@@ -92,7 +92,16 @@ SPACE = """() => {
         document.activeElement.dispatchEvent(event);
     }
 }"""
-UNFOLDED = "localStorage['physsim-panel'] ??= '1';"
+UNFOLDED = "if (location.protocol !== 'about:') localStorage['physsim-panel'] ??= '1';"
+# Notes what is written on canvases.
+NOTE_TEXTS = """() => {
+    window.texts = [];
+    const write = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
+        window.texts.push(text);
+        write.call(this, text, ...at);
+    };
+}"""
 # Press Pause at the first frame after a time [s].
 PAUSE_AFTER = """seconds => {
     const look = () => {

@@ -8,6 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 import time
 
+from physsim_ros.files import load_mapping
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.requests import Restore
 from physsim_ros.simulation.simulation import Simulation
@@ -83,6 +84,21 @@ def test_it_takes_a_hundredth_of_the_time(tmp_path: Path, monkeypatch: pytest.Mo
     now = time.monotonic()
     assert not autosave.is_due(now + 0.9 * SHARE * 2.0)
     assert autosave.is_due(now + 1.1 * SHARE * 2.0)
+
+
+def test_the_unsaved_world_has_the_names_of_those_who_drew_it(tmp_path: Path) -> None:
+    names = ['Mia', 'Jürgen "J" Groß']
+    autosave = Autosave(tmp_path, lambda _: 'format: 1', lambda: names)
+    drawn(Simulation(), autosave, 'a/0')
+    autosave.save()
+    again = Autosave(tmp_path, lambda _: '')
+    assert again.unsaved_by == names
+    assert load_mapping(again.unsaved_content().decode(), field='file') == {'format': 1}
+    for line in ('# drawn by: [', '# drawn by: {}', '# a comment'):
+        (tmp_path / '.unsaved.yaml').write_text(f'{line}\nformat: 1')
+        assert again.unsaved_by == []
+    again.forget_unsaved()
+    assert again.unsaved_by == []
 
 
 def test_a_world_that_is_too_large_and_a_full_disk_stop_nothing(tmp_path: Path) -> None:

@@ -419,6 +419,20 @@ def test_results_stay_and_an_answer_that_was_right_is_not_lost(
     assert results() == []
 
 
+def test_an_answer_that_cannot_be_written_is_refused_and_not_counted(tmp_path: Path) -> None:
+    results = Results(results_file(tmp_path))
+    results.note('Anna', 'Lever', '1', right=False)
+    results_file(tmp_path).unlink()
+    results_file(tmp_path).mkdir()
+    with pytest.raises(OSError, match='directory'):
+        results.note('Anna', 'Lever', '2', right=True)
+    with pytest.raises(OSError, match='directory'):
+        results.forget()
+    assert [(each['answer'], each['tries']) for each in results] == [('1', 1)]
+    results_file(tmp_path).rmdir()
+    assert results.note('Anna', 'Lever', '2', right=True)['tries'] == 2
+
+
 def test_a_file_of_results_that_somebody_has_spoilt_is_no_result(tmp_path: Path) -> None:
     for text in ('', '{', '[1]', '{}', '[{}]', '\udcff'):
         results_file(tmp_path).write_text(text, errors='surrogateescape')

@@ -85,6 +85,7 @@ def test_a_socket_that_is_silent_is_told_and_what_was_drawn_meanwhile_is_there_o
     assert drawn
     assert len(sockets) == 2
     assert 'does not answer' in sheet.page.evaluate('alerts')
+    assert 'refused' not in sheet.page.evaluate('alerts')
     assert sheet.page.get_by_role('alert').is_hidden()
     # After its answer no other one would come.
     sheet.press('Play')

@@ -13,6 +13,7 @@ import shutil
 import stat
 import sys
 from urllib.parse import quote
+from xml.etree import ElementTree as ET
 
 from physsim_ros.files import MOST_BYTES
 import pytest
@@ -100,6 +101,26 @@ def test_a_picture_or_an_unsaved_world_that_somebody_has_swapped_is_not_read(
             file.truncate(2**34)
     assert browser.fetch('/picture/mine').code == 404
     assert browser.fetch('/unsaved').code == 404
+
+
+def test_worlds_and_lessons_have_pictures_of_their_bodies(browser: Browser) -> None:
+    page, worlds = browser.open_page(), worlds_of(browser)
+    (worlds / 'lessons').mkdir()
+    (worlds / 'lessons' / 'mine.yaml').write_text(
+        'format: 1\nbodies: [{name: a/0, circle: {radius: 1.5}}]'
+    )
+    listed = page.last('worlds')
+    names = [each['name'] for each in listed['worlds'] + listed['lessons']]
+    for name in (*names, 'mine'):
+        response = browser.fetch(f'/gallery/{name}.svg')
+        assert response.headers['Content-Type'] == 'image/svg+xml', name
+        picture = ET.fromstring(response.body)  # noqa: S314 - of this server
+        assert picture.attrib['viewBox'].count(' ') == 3
+        assert len(picture[0]) > 0, name
+    (disc,) = picture[0][0]
+    assert float(disc.attrib['r']) == 1.5
+    (worlds / 'bad.yaml').write_text('format: 1\nbodies: [{name: "<script>"}]')
+    assert browser.fetch('/gallery/bad.svg').code == 404
 
 
 def test_files_and_directories_are_for_this_user_alone(browser: Browser) -> None:

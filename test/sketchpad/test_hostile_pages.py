@@ -37,7 +37,7 @@ def test_a_wrong_token_opens_nothing(browser: Browser) -> None:
     refused = browser.fetch('/login?token=guess', cookie='')
     assert (refused.code, b'token is wrong' in refused.body) == (403, True)
     for cookie in ('', browser.cookie.partition('=')[0] + '=guess'):
-        for path in ('/', '/session', '/page/app.js', '/gallery/car.png', '/world/car.yaml'):
+        for path in ('/', '/session', '/page/app.js', '/gallery/car.svg', '/world/car.yaml'):
             assert browser.fetch(path, cookie=cookie).code == 403
         assert status_of_socket(browser, cookie=cookie) == 403
 
@@ -65,6 +65,8 @@ def test_every_answer_forbids_foreign_and_inline_scripts(browser: Browser) -> No
         '/page/../server.py',
         '/page/%2e%2e/server.py',
         '/gallery//etc/passwd',
+        '/gallery/..%2f..%2fcar.svg',
+        '/gallery/nowhere.svg',
         '/page/tools',
         '/page/app.js%00.png',
         '/world/..%2f..%2fcar.yaml',
@@ -75,7 +77,7 @@ def test_no_path_leads_out_of_the_page(browser: Browser, path: str) -> None:
 
 
 def test_an_error_says_nothing_of_the_request(browser: Browser) -> None:
-    response = browser.fetch('/gallery/evil%ff.png')
+    response = browser.fetch('/gallery/evil%ff.svg')
     assert response.code == 400
     assert response.body == b'Bad Request\n'
 

@@ -63,6 +63,12 @@ def check(sheet: Sheet, figure: str, says: str) -> None:
     sheet.page.locator('#lesson p[aria-live]').get_by_text(says).wait_for()
 
 
+def test_an_answer_that_could_not_be_kept_is_told_beside_it(sheet: Sheet, tmp_path: Path) -> None:
+    open_lesson(sheet, '1. Free fall')
+    (tmp_path / '.results.json').mkdir()
+    check(sheet, '1.02', 'Right! Your answer was not saved')
+
+
 def test_a_pupil_opens_a_lesson_measures_and_is_told_the_law(sheet: Sheet) -> None:
     sheet.press('Play')
     sheet.wait('physsim.time > 0.7')

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import Sheet, started_world
+from .chromium import NOTE_TEXTS, Sheet, started_world
 from ..outside import Outside
 
 G = 9.81
@@ -143,6 +143,51 @@ def test_the_course_that_was_left_stays_as_a_second_line(sheet: Sheet) -> None:
     assert after[1] == before[1]
 
 
+def test_a_plot_has_the_difference_of_this_run_and_the_last_one(sheet: Sheet) -> None:
+    chosen(sheet, -7.5, 8.0)
+    sheet.play_until(1.0)
+    sheet.seek(0.5)
+    sheet.page.get_by_text('Enter numbers').click()
+    field = sheet.page.get_by_label('vx [m/s]')
+    field.fill('5')
+    field.press('Enter')
+    sheet.wait('physsim.records["ball/0"][1] > 0')
+    sheet.play_until(0.9)
+    sheet.press('Large plot')
+    sheet.page.get_by_label('Upwards').select_option(label='x [m]')
+    sheet.press('Bodies, sum, table')
+    sheet.press('Difference')
+    time, difference = pointed(sheet, 0.7)
+    assert 0.6 < time < 0.9
+    # 3 m/s faster since 0.5 s; to three digits of the time and of the difference.
+    assert difference == pytest.approx(3.0 * (time - 0.5), abs=0.02)
+
+
+def test_a_curve_that_was_drawn_first_is_compared_with_the_one_that_comes(sheet: Sheet) -> None:
+    chosen(sheet, -7.5, 8.0)
+    sheet.press('Large plot')
+    sheet.press('Bodies, sum, table')
+    sheet.press('Predict the curve')
+    box = sheet.page.get_by_label('Large plot').bounding_box()
+    sheet.until(lambda: sheet.page.get_by_label('Large plot').bounding_box() == box, 'a plot')
+    mouse, middle = sheet.page.mouse, box['y'] + box['height'] / 2
+    # A flat line in the middle of the plot, whose axis has the height of the world: 5 m.
+    mouse.move(box['x'] + 30.0, middle)
+    mouse.down()
+    mouse.move(box['x'] + box['width'] - 20.0, middle, steps=8)
+    mouse.up()
+    mouse.move(2.0, 2.0)
+    end = sheet.play_until(0.9)
+    times = [end * each / 200 for each in range(201)]
+    off = sum(abs(8.0 - G * each**2 / 2 - 5.0) for each in times) / len(times)
+    reading = sheet.page.locator('#plot output')
+    sheet.until(lambda: reading.inner_text().startswith('off by'), 'a comparison')
+    told = re.fullmatch(r'off by ([\d.]+) m', reading.inner_text())
+    # Pixels of the plot, and frames that a slow page has not got.
+    assert told
+    assert float(told[1]) == pytest.approx(off, abs=0.2)
+
+
 def test_a_stroboscope_shows_where_a_body_was_with_v_and_a(sheet: Sheet) -> None:
     chosen(sheet, -7.5, 8.0)
     sheet.page.get_by_label('Stroboscope, with v and a').check()
@@ -161,14 +206,7 @@ def test_a_stroboscope_shows_where_a_body_was_with_v_and_a(sheet: Sheet) -> None
 
 
 def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
-    sheet.page.evaluate("""() => {
-        window.texts = [];
-        const write = CanvasRenderingContext2D.prototype.fillText;
-        CanvasRenderingContext2D.prototype.fillText = function (text, ...at) {
-            window.texts.push(text);
-            write.call(this, text, ...at);
-        };
-    }""")
+    sheet.page.evaluate(NOTE_TEXTS)
     sheet.press('Ruler')
     sheet.page.keyboard.down('Shift')
     sheet.drag((-4.03, 4.02), (0.05, 7.18))
@@ -187,6 +225,25 @@ def test_a_ruler_and_a_protractor_measure(sheet: Sheet) -> None:
     sheet.press('Frame the world')
     sheet.wait('window.texts.includes("45°")')
     assert not sheet.page.evaluate('window.texts.includes("5.12 m, 38.7°")')
+
+
+def test_a_meter_stays_beside_its_body_until_the_world_is_another(sheet: Sheet) -> None:
+    sheet.page.evaluate(NOTE_TEXTS)
+    chosen(sheet, -3.0, 2.4)
+    sheet.page.get_by_label('Meter in the world').select_option('Speed [m/s]')
+    sheet.page.keyboard.press('Escape')
+    sheet.play_until(0.3)
+    sheet.wait('window.texts.includes("Speed 1.5 m/s")')
+    sheet.press('Worlds')
+    sheet.page.get_by_role('button', name='Dominoes').click()
+    sheet.wait('!("cart/0" in physsim.bodies)')
+    sheet.page.evaluate('window.texts = []')
+    sheet.press('Frame the world')
+    sheet.wait('window.texts.some((text) => text.endsWith(" m"))')
+    assert not sheet.page.evaluate('window.texts.some((text) => text.startsWith("Speed"))')
+    # The next test has the same world.
+    sheet.press('Undo')
+    sheet.wait('"cart/0" in physsim.bodies')
 
 
 def test_gates_start_and_stop_the_clock_to_the_step(sheet: Sheet) -> None:

@@ -234,7 +234,7 @@ def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) ->
     assert shipped['newtons_cradle']['shipped']
     picture = browser.fetch(shipped['newtons_cradle']['picture'])
     assert picture.code == 200
-    assert picture.headers['Content-Type'] == 'image/png'
+    assert picture.headers['Content-Type'] == 'image/svg+xml'
     assert page.spawn('a/0')['ok']
     before = physsim.names, physsim.pose('a/0')
     assert page.ask('save', name='mine')['ok']
@@ -284,6 +284,39 @@ def test_the_past_of_a_body_is_told(browser: Browser) -> None:
     assert len(times) == 31
     assert np.array(body['y']) == pytest.approx(5.0 - 9.81 / 2 * times**2, abs=1e-6)
     assert np.array(body['vy']) == pytest.approx(-9.81 * times, abs=1e-6)
+
+
+def test_forces_of_a_past_are_told_of_a_body_that_is_watched_after_it(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    floor = {'box': {'width': 20.0, 'height': 1.0}, 'anchored': True, 'elasticity': 0.0}
+    assert page.spawn('floor/0', 0.0, -0.5, **floor)['ok']
+    assert page.spawn('a/0', 0.0, 0.6, velocity=[2.0, 0.0], elasticity=0.0)['ok']
+    physsim.run(1.0)
+    page.send('watch', name='a/0')
+    page.send('show', contacts=True)
+    physsim.run(0.1)
+    assert not page.of_type('past_forces')
+    page.ask('service', name='pause')
+    told: list[Any] = []
+
+    def count() -> int:
+        page.ask('drop')
+        told[:] = page.of_type('past_forces')
+        return sum(len(each['time']) for each in told)
+
+    page.until(lambda: count() == 60)
+    times = np.concatenate([each['time'] for each in told])
+    assert (np.diff(times) > 0.0).all()
+    assert times[-1] == pytest.approx(1.0, abs=1e-6)
+    normal, friction, joint = (
+        np.concatenate([each[kind] for each in told]) for kind in ('normal', 'friction', 'joint')
+    )
+    mass = page.last('scene')['bodies'][-1]['mass']
+    # In the air nothing touches it; then the floor bears it, and turns it.
+    assert not normal[0].any()
+    assert np.median(normal[20:, 1]) == pytest.approx(9.81 * mass, rel=1e-3)
+    assert friction[:, 0].min() < -0.1 * mass
+    assert not joint.any()
 
 
 def test_pasts_are_told_one_after_the_other_of_each_page_the_last_that_it_asked_for(

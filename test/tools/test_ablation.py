@@ -37,6 +37,7 @@ def test_every_stage_can_be_switched_off(stage):
         ('flat fall (8)', 'block solver'),
         ('elastic rows, 2 of 5 (36)', 'impact propagation'),
         ('checkpoint (26)', 'warm start'),
+        ('raft (70)', 'fields'),
     ],
 )
 def test_a_scene_fails_without_a_stage(name, without):

@@ -191,3 +191,12 @@ def test_odometry_without_slip_is_the_way_and_with_slip_it_parts_from_it(recordi
     assert off[0] == pytest.approx(0.0, abs=1e-6)
     assert off[:, 0] == pytest.approx(0.0, abs=1e-5)
     assert off[-1, 1] > 1e-4
+
+
+def test_the_image_of_the_world_tells_time_and_that_it_goes_back(recording):
+    forth, back = frame(EMPTY, []), at_speed(-1.0)
+    recording.draw(replace(forth, snapshot=replace(forth.snapshot, stamp=1_250_000_000)))
+    recording.draw(back)
+
+    labels = recording.rows('world/camera/legend/time', 'Points2D:labels')
+    assert [str(row.value[0]) for row in labels] == ['1.25 s  play', '0.00 s  back']

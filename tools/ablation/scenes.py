@@ -348,6 +348,17 @@ def _timed(act: Callable[[], Any]) -> float:
     return time.perf_counter() - began
 
 
+def _raft() -> float:
+    """Return how far a raft in syrup floats from the depth of Archimedes."""
+    sim = simulation()
+    said: dict[str, Any] = {'anchored': True, 'sensor': True}
+    syrup = {'density': 10.0, 'viscosity': 10.0}
+    spawn(sim, 'pool/0', Box(width=9.0, height=9.0), (0.0, -4.5, 0.0), medium=syrup, **said)
+    spawn(sim, 'raft/0', Box(width=1.0, height=0.2), (0.0, 0.0, 0.1), density=4.0)
+    sim.world.step(2400)
+    return abs(sim.world.snapshot().poses[1, 1] - 0.02)
+
+
 SCENES = (
     Scene('free flight (1)', 'm', 1e-9, _free_flight),
     Scene('thin wall (25)', 'm', 0.01, _thin_wall),
@@ -369,6 +380,7 @@ SCENES = (
     Scene('slide on a floor (37)', 'm', 0.5 * G * DT**2, _slide),
     Scene('robot on an arc (38)', 'm', 1e-6, _robot),
     Scene('bridge', 'm', 2e-3, _bridge),
+    Scene('raft (70)', 'm', 1e-4, _raft),
     Scene('checkpoint (26)', 'm/s', 5e-3, _checkpoint),
     Scene('at rest', 'bare steps', 1.0, _at_rest),
 )

@@ -79,6 +79,7 @@ STAGES = (
     Stage('joint solver', lib.STAGE_JOINTS),
     Stage('impact loads', lib.STAGE_LOADS),
     Stage('order of contact points', lib.STAGE_ORDER),
+    Stage('fields', lib.STAGE_FIELDS),
     Stage('sleeping', 0, (((settings, 'IDLE_TIME'), math.inf),)),
     Stage(
         'warm start',

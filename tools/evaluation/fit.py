@@ -21,7 +21,7 @@ import sys
 import numpy as np
 from physsim_ros.drawing.strokes import evidence
 from physsim_ros.drawing.strokes.evidence import Candidate, CONSTANT, TABLE
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -97,7 +97,7 @@ def examples(count: int, half: str) -> Iterator[Example]:
 
 
 def _example(samples: Floats, kind: str, tail: Floats) -> Example:
-    features = Features.of(resample_stroke(samples))
+    features = features_of(resample_stroke(samples))
     candidates = [(sign.name, each) for sign in SIGNS for each in sign.candidates(features)]
     right = [number for number, (name, _) in enumerate(candidates) if name == kind]
     if 'arrow' in kind:

@@ -23,15 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import judge
-from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.judge import log_odds, Node, TABLE, Tree
-from physsim_ros.drawing.strokes.meanings import Context
-from physsim_ros.drawing.strokes.reading import (
-    is_likely,
-    measures_of,
-    recognise_form,
-    weigh_meanings,
-)
+from physsim_ros.drawing.strokes.reading import guesses_by_rules, in_scene, is_likely, measures_of
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Flags
 from physsim_ros.model.errors import Refusal
@@ -57,14 +50,13 @@ def examples(count: int, half: str) -> Iterator[Example]:
     settings = DrawingSettings()
     for scene in itertools.chain(scenes(count, half), faulty_scenes(count, half)):
         try:
-            features = Features.of(resample_stroke(scene.samples))
+            stroke = resample_stroke(scene.samples)
         except Refusal:
             continue
-        context = Context(features=features, scene=scene.view, settings=settings)
-        forms = recognise_form(features)
-        guesses = weigh_meanings(forms, context)
+        context = in_scene(stroke, scene.view, settings)
+        guesses = guesses_by_rules(context)
         if is_likely(guesses, settings):
-            measures = measures_of(guesses, forms, context)
+            measures = measures_of(guesses, context)
             yield guesses[0].confidence, measures, guesses[0].meaning == scene.meaning
 
 

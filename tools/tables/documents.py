@@ -22,6 +22,7 @@ from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
+from physsim_ros.model.media import Medium
 from physsim_ros.model.requests import Request
 from physsim_ros.model.robots import DRIVES, Link, LinkJoint, Odometry, Robot, Towed
 from physsim_ros.model.robots.sensors import SENSORS
@@ -60,6 +61,7 @@ def files() -> dict[Path, str]:
         'interface/properties': {
             'properties of a body': _table(Properties.FIELDS.values()),
             'keys of a force': _rows(_COLUMNS, *_fields_of(AppliedForce)),
+            'keys of a medium': _rows(_COLUMNS, *_fields_of(Medium)),
             'kinds of joints': _joint_kinds(),
             'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
             'keys of a robot': _robot_keys(),

@@ -8,7 +8,7 @@ The evidence for a sign is a sum over its measures; each term is a piecewise lin
 knots and values are rows of `evidence.csv` (a generalised additive model; Hastie and Tibshirani,
 1986). The probability of a sign is the share of its exponential among those of all signs and of
 no sign at all, whose evidence is 0 (the conditional logit; McFadden, 1974). The rest is shared
-among lines and outlines by soft conditions (logistic functions), each 0.5 at its limit. A weight
+among lines and outlines by soft limits (logistic functions). A weight
 becomes a confidence, the share of guesses of that weight that are right, by Platt scaling (Platt,
 1999): a logistic function of the log odds of the weight against the others. By it strokes are
 refused; how sure a reading is, `judge` tells.
@@ -58,6 +58,21 @@ class Candidate:
     points: Floats
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Form:
+    """
+    A form that a stroke may have.
+
+    :param name: name of the form: `disc`, `line`, `arrow` and so on; its module defines it
+    :param weight: how well the stroke fits the form, 0 .. 1
+    :param points: (n, 2) float64: the points that describe the form, in the world [m]
+    """
+
+    name: str
+    weight: float
+    points: Floats
+
+
 @dataclass(frozen=True, slots=True)
 class Term:
     """
@@ -83,6 +98,32 @@ class Term:
         start, end = knots[after - 1], knots[after]
         share = (value - start) / (end - start)
         return values[after - 1] + share * (values[after] - values[after - 1])
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """
+    A soft limit of a measure, by which lines and outlines share their weight.
+
+    :param at: value of the measure at which either side has half the weight
+    :param width: distance from there at which the better side has 73 % of it
+    """
+
+    at: float
+    width: float
+
+    def above(self, value: float) -> float:
+        """Return the weight of being above: 0 far below the limit, 1 far above."""
+        return logistic((value - self.at) / self.width)
+
+    def below(self, value: float) -> float:
+        """Return the weight of being below: 1 far below the limit, 0 far above."""
+        return logistic((self.at - value) / self.width)
+
+
+def logistic(odds: float) -> float:
+    """Return the share that has such log odds."""
+    return 1.0 / (1.0 + math.exp(min(max(-odds, -50.0), 50.0)))
 
 
 def terms_of(sign: str) -> Sequence[Term]:
@@ -139,13 +180,3 @@ def share_confidence(share: float) -> float:
 def _platt(share: float, bias: float, slope: float) -> float:
     odds = max(share, _LEAST) / max(1.0 - share, _LEAST)
     return 1.0 / (1.0 + math.exp(-bias - slope * math.log(odds)))
-
-
-def rises(value: float, limit: float, width: float) -> float:
-    """Return the logistic function: 0 far below a limit, 0.5 there, 1 far above."""
-    return 1.0 / (1.0 + math.exp(min(max((limit - value) / width, -50.0), 50.0)))
-
-
-def falls(value: float, limit: float, width: float) -> float:
-    """Return the logistic function: 1 far below a limit, 0.5 there, 0 far above."""
-    return rises(-value, -limit, width)

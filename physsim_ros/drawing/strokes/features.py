@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes.corner_detection import ARM
-from physsim_ros.drawing.strokes.evidence import falls
+from physsim_ros.drawing.strokes.evidence import Limit
 from physsim_ros.drawing.strokes.geometry import (
     COUNT,
     intersections,
@@ -38,6 +38,8 @@ FRINGE = 4
 FEWEST = 3
 # The advance of all swings, and of one, between those of scribbles and zigzags, in mean heights.
 FAR_APART, WIDE_TOOTH = 1.75, 0.23
+# The number of swings from which on a stroke is no plain line or outline.
+_SWINGING = Limit(5.5, 0.25)
 # Stride of the points between which crossings are searched.
 _STRIDE = 3
 # Pairs of segments between those points that may cross, the earlier first: not a segment and its
@@ -50,7 +52,7 @@ _MERGED = 12
 # The greatest gap of a closed outline, in shares of its length, and how much it rises with the
 # relatability of its ends: 99 of 100 people leave less than 11.5 %; a question mark has 17 %, and
 # ends that do not go on across it.
-_GAP, _RELATED = 0.134, 0.045
+_OPEN, _RELATED = Limit(0.134, 0.01), 0.045
 
 # A self-crossing: position [m], and its two places along the stroke [points], the earlier first.
 Crossing = tuple[Floats, float, float]
@@ -86,7 +88,7 @@ class Swings:
     @property
     def absence(self) -> float:
         """Return the weight of the stroke having no oscillation, 0 .. 1."""
-        return falls(self.count, 5.5, 0.25)
+        return _SWINGING.below(self.count)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -108,28 +110,28 @@ class Features:
     @property
     def closure(self) -> float:
         """Return the weight of the stroke being closed, 0 .. 1; the rest is that of a line."""
-        limit = _GAP + _RELATED * max(self.stroke.relatability, 0.0)
-        return falls(self.stroke.gap, limit, 0.01)
+        related = _RELATED * max(self.stroke.relatability, 0.0)
+        return _OPEN.below(self.stroke.gap - related)
 
-    @classmethod
-    def of(cls, stroke: Stroke) -> Features:
-        """Return the features of a stroke."""
-        points = stroke.points
-        swings, crossings = swings_of(points), crossings_of(points)
-        turn = np.abs(turns(smoothed(points, 1.0, closed=False), ARM, closed=False))
-        measures = {
-            'gap': stroke.gap,
-            'chord': float(norms(points[-1] - points[0])) / stroke.size,
-            'length': stroke.length / stroke.size,
-            'swings': float(swings.count),
-            'spread': swings.spread,
-            'height': swings.height / stroke.size,
-            'steady': swings.steady,
-            'crossings': float(len(crossings)),
-            'sharpest': float(turn.max()),
-            'turning': float(turn.mean()),
-        }
-        return cls(stroke=stroke, swings=swings, crossings=crossings, measures=measures)
+
+def features_of(stroke: Stroke) -> Features:
+    """Return the features of a stroke."""
+    points = stroke.points
+    swings, crossings = swings_of(points), crossings_of(points)
+    turn = np.abs(turns(smoothed(points, 1.0, closed=False), ARM, closed=False))
+    measures = {
+        'gap': stroke.gap,
+        'chord': float(norms(points[-1] - points[0])) / stroke.size,
+        'length': stroke.length / stroke.size,
+        'swings': float(swings.count),
+        'spread': swings.spread,
+        'height': swings.height / stroke.size,
+        'steady': swings.steady,
+        'crossings': float(len(crossings)),
+        'sharpest': float(turn.max()),
+        'turning': float(turn.mean()),
+    }
+    return Features(stroke=stroke, swings=swings, crossings=crossings, measures=measures)
 
 
 def swings_of(points: Floats) -> Swings:

@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.geometry import COUNT, few_points, size_of
 from physsim_ros.drawing.strokes.joining import (
     connected,
@@ -33,21 +33,18 @@ from physsim_ros.drawing.strokes.meanings import (
     CLOSED,
     Context,
     DELETION,
-    DISC,
-    Form,
     GRAVITY,
     OPEN,
-    POLYGON,
-    RECTANGLE,
 )
+from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
 from physsim_ros.drawing.strokes.reading import (
     Guess,
-    guess_meanings,
+    guesses_of,
+    in_scene,
     is_likely,
-    recognise_form,
 )
 from physsim_ros.drawing.strokes.signs import x
-from physsim_ros.drawing.strokes.stroke import resample_stroke
+from physsim_ros.drawing.strokes.stroke import resample_stroke, Stroke
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.names import WORLD
@@ -95,30 +92,20 @@ class Figure:
 
     @classmethod
     def read(
-        cls,
-        drawn: Features,
-        forms: Sequence[Form],
-        *,
-        strokes: tuple[Floats, ...],
-        began: float,
-        ended: float,
-        scene: SceneQuery,
-        settings: DrawingSettings,
+        cls, context: Context, *, strokes: tuple[Floats, ...], began: float, ended: float
     ) -> Figure:
         """
         Return a figure with the guesses at its meaning; the first one is taken if it is likely.
 
-        :param drawn: features of its strokes as one
-        :param forms: that these may have
+        :param context: its strokes as one, in the scene that they were drawn over
         """
-        context = Context(features=drawn, scene=scene, settings=settings)
-        guesses = guess_meanings(forms, context)
-        likely = is_likely(guesses, settings)
+        guesses = guesses_of(context)
+        likely = is_likely(guesses, context.settings)
         return cls(
             strokes=strokes,
             began=began,
             ended=ended,
-            scene=scene,
+            scene=context.scene,
             guesses=guesses,
             chosen=0 if likely else None,
             requests=_requests_of(guesses[0]) if likely else (),
@@ -200,15 +187,12 @@ def _as_one(group: Sequence[Figure], settings: DrawingSettings) -> Figure | None
     if all(joints):
         # Rods from body to body to body are a truss, no polygon.
         return None
-    for path, forms, meanings in _paths_together(group, settings):
+    for context, meanings in _contexts_together(group, settings):
         whole = Figure.read(
-            path,
-            forms,
+            context,
             strokes=tuple(stroke for figure in group for stroke in figure.strokes),
             began=group[0].began,
             ended=group[-1].ended,
-            scene=group[0].scene,
-            settings=settings,
         )
         # Two walls that cross are no x in the open: it has no requests.
         better = whole.meaning in meanings and bool(whole.requests)
@@ -217,32 +201,32 @@ def _as_one(group: Sequence[Figure], settings: DrawingSettings) -> Figure | None
     return None
 
 
-def _paths_together(
+def _contexts_together(
     group: Sequence[Figure], settings: DrawingSettings
-) -> Iterator[tuple[Features, Sequence[Form], AbstractSet[str]]]:
-    """Yield the paths that figures may be together, their forms, and the meanings to look for."""
+) -> Iterator[tuple[Context, AbstractSet[str]]]:
+    """Yield what figures may be together, each in its scene with the meanings to look for."""
+    scene = group[0].scene
     strokes = tuple(stroke for figure in group for stroke in figure.strokes)
     cross = x.of_lines(strokes)
     if cross is not None:
-        yield _joined(joined_strokes(strokes)), (cross,), _JOINED
+        features = features_of(_joined(joined_strokes(strokes)))
+        yield Context(features=features, forms=(cross,), scene=scene, settings=settings), _JOINED
         return
     arrow = joined_arrow(strokes)
     if arrow is not None:
-        path = _joined(arrow)
-        yield path, recognise_form(path), _ARROWS
+        yield in_scene(_joined(arrow), scene, settings), _ARROWS
     # A solid, or a scribble, is part of an arrow alone; several lines may be an arrow so far.
     *before, last = group
     if last.is_line and all(
         each.is_line or _is_side(last, each, settings) or (each.is_arrow and len(each.strokes) > 1)
         for each in before
     ):
-        path = _joined(joined_strokes(strokes))
-        yield path, recognise_form(path), _JOINED
+        yield in_scene(_joined(joined_strokes(strokes)), scene, settings), _JOINED
 
 
-def _joined(path: Floats) -> Features:
+def _joined(path: Floats) -> Stroke:
     """Return strokes that are joined as one: one more may close a gap, its ends do not tell."""
-    return Features.of(replace(resample_stroke(path), relatability=0.0))
+    return replace(resample_stroke(path), relatability=0.0)
 
 
 def marked_solid(figures: Sequence[Figure], last: Figure, settings: DrawingSettings) -> bool:

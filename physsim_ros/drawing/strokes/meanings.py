@@ -10,13 +10,14 @@ world cannot have is refused when it is built, before any request is submitted.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.evidence import Candidate
+from physsim_ros.drawing.strokes.evidence import Candidate, Form
 from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.plain_forms import DISC, POLYGON, RECTANGLE
 from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.requests import Request
@@ -26,8 +27,6 @@ from physsim_ros.model.requests import Request
 MISPLACED = 0.5
 # Share of the weight of a line between two bodies that is a joint's; the rest is a wall's.
 BETWEEN = 0.98
-# Meanings of closed outlines.
-DISC, RECTANGLE, POLYGON = 'disc', 'rectangle', 'polygon'
 # Groups of meanings: a stroke is more clearly closed or open than a certain one of these meanings.
 # Every other meaning is a group of its own.
 CLOSED = frozenset({DISC, RECTANGLE, POLYGON, 'axle', 'pin'})
@@ -37,31 +36,18 @@ DELETION, GRAVITY = 'deletion', 'gravity'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Form:
-    """
-    A form that a stroke may have.
-
-    :param name: name of the form: `disc`, `line`, `arrow` and so on; its module defines it
-    :param weight: how well the stroke fits the form, 0 .. 1
-    :param points: (n, 2) float64: the points that describe the form, in the world [m]
-    """
-
-    name: str
-    weight: float
-    points: Floats
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Context:
     """
     A stroke in the scene that it was drawn over.
 
     :param features: of the stroke
+    :param forms: that it may have, by falling weight
     :param scene: the world that it was drawn over
     :param settings: of drawing
     """
 
     features: Features
+    forms: Sequence[Form]
     scene: SceneQuery
     settings: DrawingSettings
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Open strokes that do not cross themselves: a wall, a joint between two bodies, or hatching.
+Meanings of open lines: a wall, a joint between two bodies, or hatching.
 
 Laws: a line is a joint only between two different bodies, one of which moves. Lines inside a body
 make it heavier.
@@ -16,11 +16,10 @@ import math
 
 import numpy as np
 from physsim_ros.drawing.strokes import bodies_under, outcomes
-from physsim_ros.drawing.strokes.corner_detection import bends_of
-from physsim_ros.drawing.strokes.evidence import falls, LEAST, rises
-from physsim_ros.drawing.strokes.features import Features, loop_roundness
+from physsim_ros.drawing.strokes.evidence import Form, LEAST
+from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.geometry import COUNT, path_length, point_of
-from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Form, Meaning, Outcome
+from physsim_ros.drawing.strokes.meanings import BETWEEN, Context, Meaning, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.joints import JointKind
@@ -28,12 +27,6 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody
 from physsim_ros.model.transform import cross, norms
 
-LINE = 'line'
-# The greatest length of a loop that is a mistake of the hand, in shares of the length.
-_LOOP = 0.15
-# The greatest area of a loop that is the tip of a brace, by its length squared; the loop of an x
-# has 0.037 and more, that of a pigtail 0.07.
-_NARROW = 0.035
 # The least straightness of a rod: the distance of its ends by its length.
 _STRAIGHT = 0.95
 # The greatest straightness of a rope; an arc as high as a seventh of its chord has 0.95.
@@ -45,30 +38,6 @@ _FEWEST_TEETH, _HIGH, _STEADY = 3, 0.06, 0.9
 HEAVIER = 1.25
 # The least share of the stroke on the body: ends may cross its edge.
 _INSIDE = 0.95
-
-
-def forms(features: Features, plain: float) -> Iterator[Form]:
-    """
-    Yield a line, straight, bent or curved; the points are its ends and bends.
-
-    :param plain: weight of the stroke being no sign
-    """
-    stroke, swings = features.stroke, features.swings
-    points = stroke.points
-    straight = float(norms(points[-1] - points[0])) / stroke.length
-    calm = max(
-        swings.absence,
-        rises(straight, 0.9, 0.02),
-        falls(swings.height / stroke.size, 0.06, 0.006),
-    )
-    # Small loops come from bends, and from setting the pen down; narrow ones from retraced tips.
-    loops = sum(
-        each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
-        for each in features.crossings
-    )
-    weight = plain * calm * (1.0 - features.closure) * falls(loops, 0.5, 0.1)
-    if weight >= LEAST:
-        yield Form(name=LINE, weight=weight, points=bends_of(points))
 
 
 def meanings(form: Form, context: Context) -> Iterator[Meaning]:

@@ -150,9 +150,9 @@ def joins_at(
         yield Join(name=name, kind=kind, points=(point,), a=a, b=b)
 
 
-def circle_outline(center: Point, radius: float) -> Floats:
+def circle_outline(center: Point, radius: float, sides: int = _SIDES) -> Floats:
     """Return a circle as a closed outline, (n, 2) float64 [m]."""
-    angles = np.linspace(0.0, 2 * math.pi, _SIDES + 1)
+    angles = np.linspace(0.0, 2 * math.pi, sides + 1)
     circle: Floats = np.array(center) + radius * np.column_stack((np.cos(angles), np.sin(angles)))
     return circle
 

@@ -6,11 +6,24 @@ Reading: the likeliest meanings of a stroke in the scene that it was drawn over.
 
 Law: reading changes nothing; a reading holds ordinary requests, to be submitted.
 
-Each form that the stroke may have has a weight, and the scene divides that weight among the
-meanings of the form. Meanings are chosen by group: closed outlines are one group, since circles,
-ovals and rounded polygons look alike; open lines are another; every sign is a group of its own.
-The likeliest group is chosen first, and then the likeliest meaning in it. A stroke is refused when
-the confidence in the group is too small.
+A stroke is read in stages, each a function of what the one before it returns:
+
+==========================  ======================  ============================================
+stage                       returns                 which is
+==========================  ======================  ============================================
+`stroke.resample_stroke`    `Stroke`                samples cleaned and evenly spaced
+`features.features_of`      `Features`              its turns, swings and crossings
+`forms.forms_of`            `Form` of each kind     its looks, each with a weight
+`reading.meanings_of`       `Meaning` of each form  what that would be in this scene
+`reading.guesses_by_rules`  `Guess`, at most three  the meanings by falling confidence
+`reading.guesses_of`        the same                how sure the first one is, by the judge
+`reading.reading_of`        `Reading`               requests, and the words about them
+==========================  ======================  ============================================
+
+The scene divides the weight of a form among the meanings of the form. Meanings are chosen by
+group: closed outlines are one group, since circles, ovals and rounded polygons look alike; open
+lines are another; every sign is a group of its own. The likeliest group is chosen first, and then
+the likeliest meaning in it. A stroke is refused when the confidence in the group is too small.
 """
 
 from __future__ import annotations
@@ -19,31 +32,30 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
+from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import closed_shapes, open_lines
 from physsim_ros.drawing.strokes.evidence import (
-    evidence,
+    Form,
     group_confidence,
     LEAST,
-    probabilities,
     share_confidence,
 )
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.forms import forms_of
 from physsim_ros.drawing.strokes.judge import judged
 from physsim_ros.drawing.strokes.meanings import (
     CLOSED,
     Context,
     DELETION,
-    DISC,
-    Form,
     GRAVITY,
     Meaning,
     OPEN,
     Outcome,
-    POLYGON,
-    RECTANGLE,
 )
+from physsim_ros.drawing.strokes.plain_forms import DISC, LINE, OVAL, POLYGON, RECTANGLE
 from physsim_ros.drawing.strokes.signs import SIGNS
+from physsim_ros.drawing.strokes.stroke import Stroke
 from physsim_ros.model.errors import NotRecognised
 
 # The greatest number of guesses that a reading has.
@@ -54,9 +66,9 @@ SURE = 0.9
 # The function from each form to its meanings, by the form's name.
 _MEANINGS: dict[str, Callable[[Form, Context], Iterator[Meaning]]] = {
     **{sign.name: sign.meanings for sign in SIGNS},
-    open_lines.LINE: open_lines.meanings,
+    LINE: open_lines.meanings,
     DISC: closed_shapes.disc_meanings,
-    closed_shapes.OVAL: closed_shapes.oval_meanings,
+    OVAL: closed_shapes.oval_meanings,
     RECTANGLE: closed_shapes.rectangle_meanings,
     POLYGON: closed_shapes.polygon_meanings,
 }
@@ -118,51 +130,36 @@ class Reading(Outcome):
         return _values(self.guesses)
 
 
-def recognise_form(features: Features) -> tuple[Form, ...]:
-    """Return the forms that a stroke may have, by falling weight."""
-    signs, plain = _signs(features)
-    shapes = [
-        *open_lines.forms(features, plain),
-        *closed_shapes.forms(features, plain),
-    ]
-    likely = (each for each in (*signs, *shapes) if each.weight >= LEAST)
-    return tuple(sorted(likely, key=lambda each: -each.weight))
+def in_scene(stroke: Stroke, scene: SceneQuery, settings: DrawingSettings) -> Context:
+    """Return a stroke with its features and forms in the scene that it was drawn over."""
+    features = features_of(stroke)
+    return Context(features=features, forms=forms_of(features), scene=scene, settings=settings)
 
 
-def _signs(features: Features) -> tuple[list[Form], float]:
-    """Return the form of each sign, and the weight of the stroke being no sign."""
-    candidates = [(sign.name, each) for sign in SIGNS for each in sign.candidates(features)]
-    weights = probabilities([evidence(name, each.measures) for name, each in candidates])
-    best: dict[str, Form] = {}
-    for (name, each), weight in zip(candidates, weights, strict=True):
-        if name not in best or weight > best[name].weight:
-            best[name] = Form(name=name, weight=weight, points=each.points)
-    return list(best.values()), 1.0 - sum(weights)
+def meanings_of(context: Context) -> Iterator[Meaning]:
+    """Yield the meanings of all forms of a stroke; several forms may have the same one."""
+    for form in context.forms:
+        yield from (each for each in _MEANINGS[form.name](form, context) if each.weight >= LEAST)
 
 
-def guess_meanings(forms: Sequence[Form], context: Context) -> tuple[Guess, ...]:
+def guesses_of(context: Context) -> tuple[Guess, ...]:
     """
     Return the most likely meanings of a stroke by the rules, and how sure the first one is.
 
     The confidence in the first one is that of the judge; the others have no more, nor more than it
     leaves.
-
-    :param forms: that the stroke may have, as `recognise_form` returns them
-    :param context: the stroke in its scene
     """
-    guesses = weigh_meanings(forms, context)
+    guesses = guesses_by_rules(context)
     if not guesses:
         return ()
     first, *others = guesses
-    sure = judged(first.confidence, measures_of(guesses, forms, context))
+    sure = judged(first.confidence, measures_of(guesses, context))
     most = min(sure, 1.0 - sure)
     rest = (replace(each, confidence=min(each.confidence, most)) for each in others)
     return replace(first, confidence=sure), *rest
 
 
-def measures_of(
-    guesses: Sequence[Guess], forms: Sequence[Form], context: Context
-) -> dict[str, float]:
+def measures_of(guesses: Sequence[Guess], context: Context) -> dict[str, float]:
     """Return the measures of a reading by which the judge doubts it, by their names."""
     return {
         'confidence': guesses[0].confidence,
@@ -170,29 +167,21 @@ def measures_of(
         'second': guesses[1].confidence if len(guesses) > 1 else 0.0,
         'bodies': float(bool(context.scene.names)),
         f'read as {guesses[0].meaning}': 1.0,
-        **{f'form {form.name}': form.weight for form in forms},
+        **{f'form {form.name}': form.weight for form in context.forms},
     }
 
 
-def weigh_meanings(forms: Sequence[Form], context: Context) -> tuple[Guess, ...]:
-    """
-    Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first.
-
-    :param forms: that the stroke may have, as `recognise_form` returns them
-    :param context: the stroke in its scene
-    """
+def guesses_by_rules(context: Context) -> tuple[Guess, ...]:
+    """Return the most likely meanings of a stroke, at most `MOST_GUESSES`, the likeliest first."""
     weights: dict[str, float] = {}
-    # Of each meaning, the likeliest one: several forms may have it.
+    # Of each meaning, the likeliest one.
     best: dict[str, Meaning] = {}
-    for form in forms:
-        for each in _MEANINGS[form.name](form, context):
-            if each.weight < LEAST:
-                continue
-            weights[each.name] = weights.get(each.name, 0.0) + each.weight
-            if each.name not in best or each.weight > best[each.name].weight:
-                best[each.name] = each
+    for each in meanings_of(context):
+        weights[each.name] = weights.get(each.name, 0.0) + each.weight
+        if each.name not in best or each.weight > best[each.name].weight:
+            best[each.name] = each
     total = sum(weights.values())
-    unexplained = max(1.0 - sum(form.weight for form in forms), 0.0)
+    unexplained = max(1.0 - sum(form.weight for form in context.forms), 0.0)
     guesses: list[Guess] = []
     for meaning, weight in weights.items():
         others = _group_of(meaning)

@@ -9,7 +9,8 @@
 // forces are those of the pose after the move; and the lead of a body in free flight, half a step of its acceleration,
 // is that of the pose that it has now.
 //
-// Cost: 15 ns a force and sub-step. Without it thrusters and ropes cannot be put on bodies.
+// Cost: 15 ns a force and sub-step.
+// Without it thrusters and ropes cannot be put on bodies.
 
 #include "stages.h"
 
@@ -22,13 +23,17 @@ static Twist wrench_of(const AppliedForce *applied, double yaw) {
 
 void find_leads(World *world) {
     const Body *last = NULL;
+    for (int place = 0; world->has_fields && place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        body->state.lead = twist_sum(body->steady_lead, body->state.field, 1.0);
+    }
     for (int number = 0; number < world->force_count; number++) {
         const AppliedForce *applied = world->forces + number;
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
         // Forces are listed in the order of their bodies.
         assert(last == NULL || last <= body);
-        body->state.lead = body == last ? body->state.lead : body->steady_lead;
+        body->state.lead = body == last ? body->state.lead : twist_sum(body->steady_lead, body->state.field, 1.0);
         last = body;
         Twist wrench = wrench_of(applied, engine->a);
         double half = world->dt / 2.0;

@@ -3,24 +3,27 @@
 
 // Block solver: the points in which two bodies hit each other at once are solved together.
 //
-// Problem: the solver goes from point to point (sequential impulses), normal and friction in turn. Of a box that falls
-// flat the first corner takes more than its half of the impact, the second one less, and ten iterations do not level
-// that (a hundred would): a box of 0.5 x 1 m that is dropped from 1 m at a restitution of 0.5 tips over. Method: the
-// normal impulses λ of the points solve a linear complementarity problem: λ >= 0, and the velocity v + K λ after the
-// impact is at least -e times that before it, where K is the inverse effective mass (D. Baraff, "Analytical methods for
-// dynamic simulation of non-penetrating rigid bodies", 1989; of two points E. Catto,
+// Problem: the solver goes from point to point (sequential impulses), normal and friction in turn. Of a box that
+// falls flat the first corner takes more than its half of the impact, the second one less, and ten iterations do not
+// level that (a hundred would): a box of 0.5 x 1 m that is dropped from 1 m at a restitution of 0.5 tips over.
+// Method: the normal impulses λ of the points solve a linear complementarity problem: λ >= 0, and the velocity v + K
+// λ after the impact is at least -e times that before it, where K is the inverse effective mass (D. Baraff,
+// "Analytical methods for dynamic simulation of non-penetrating rigid bodies", 1989; of two points E. Catto,
 // `b2ContactSolver::SolveVelocityConstraints` in Box2D 2.4, "block solver"). Chipmunk's own solver begins with these
 // impulses. Friction and what it changes of the normal impulses are found by rounds of sequential impulses over the
-// same points, as Chipmunk makes them. Scope: two bodies that hit each other in two points or more, or one that so hits
-// what forces do not move: the outermost contacts of each normal, between which the others have nothing to add. With
-// them all contacts of these bodies and of those that they touch in turn, up to `CLUSTER_POINTS`: the ground that
-// carries a body which is hit, a short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a
-// part of a pile throw its light bodies out. Energy: Newton's law of restitution can create energy, with several points
-// at once as where a light body is pinched between a heavy one and the ground, with one where friction turns the slip
-// round (T. R. Kane and D. A. Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest
-// share of its restitution with which it gains none. Cost: 1 µs for each pair of bodies that hit each other so. Without
-// it laws 8 (bodies that fall flat) and 21 (elastic polygons keep their energy) fail; without its bound of energy laws
-// 6 (oblique impacts) and 34 (random crowds).
+// same points, as Chipmunk makes them.
+// Scope: two bodies that hit each other in two points or more, or one that so hits what forces do not move: the
+// outermost contacts of each normal, between which the others have nothing to add. With them all contacts of these
+// bodies and of those that they touch in turn, up to `CLUSTER_POINTS`: the ground that carries a body which is hit,
+// a short stack below it. Impacts in greater piles are left to Chipmunk: impulses from a part of a pile throw its
+// light bodies out.
+// Energy: Newton's law of restitution can create energy, with several points at once as where a light body is
+// pinched between a heavy one and the ground, with one where friction turns the slip round (T. R. Kane and D. A.
+// Levinson, "Dynamics: Theory and Applications", 1985). Such an impact has the greatest share of its restitution
+// with which it gains none.
+// Cost: 1 µs for each pair of bodies that hit each other so.
+// Without it laws 8 (bodies that fall flat) and 21 (elastic polygons keep their energy) fail; without its bound of
+// energy laws 6 (oblique impacts) and 34 (random crowds).
 
 #include "impact_propagation.h"
 #include "lcp.h"

@@ -5,9 +5,11 @@
 //
 // Problem: Chipmunk solves the two points of a pair one after the other, in the order in which it clips their edges.
 // Few iterations leave a difference by that order, so that the mirror image of a box that slides or leans moves
-// otherwise than the box. Method: the point that lies ahead in the direction in which the lighter body slips on the
-// other, by the friction of the step before, comes first; what does not slip keeps Chipmunk's order. Cost: 5 ns a
-// contact. Without it law 27 fails for boxes on an incline.
+// otherwise than the box.
+// Method: the point that lies ahead in the direction in which the lighter body slips on the other, by the friction
+// of the step before, comes first; what does not slip keeps Chipmunk's order.
+// Cost: 5 ns a contact.
+// Without it law 27 fails for boxes on an incline.
 
 #include "stages.h"
 #include "touch.h"

@@ -3,11 +3,13 @@
 
 // Contact report: which pairs of bodies touched in a frame, where, and with which impulse.
 //
-// Problem: a frame has several steps; a pair that touches in one of them has to be told, with the sum of its impulses.
+// Problem: a frame has several steps; a pair that touches in one of them has to be told, with the sum of its
+// impulses.
 // Method: a hash table of pairs by the places of their bodies, which each step updates. A pair has the mean of its
 // points and normals of the last step in which it touched. Chipmunk does not list the contacts of sleeping bodies:
-// while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch is that
-// at which a sensor is met, else that of the impact, within the step. Cost: 15 ns a contact and step.
+// while a pair sleeps, the impulse of its last step awake is repeated. The time at which a pair begins to touch is
+// that at which a sensor is met, else that of the impact, within the step.
+// Cost: 15 ns a contact and step.
 
 #include "stages.h"
 #include <stdlib.h>

@@ -28,6 +28,7 @@ void core_free(World *world) {
     arena_free(&world->own->static_arena);
     free_report(world);
     free(world->own->jointed);
+    free(world->own->pulls);
     free(world->own);
     free(world);
 }
@@ -39,6 +40,8 @@ void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *f
     world->body_count = count;
     world->statics_moved = true;
     world->own->least_depth = INFINITY;
+    free(world->own->pulls);
+    world->own->pulls = NULL;
     for (int place = 0; place < count; place++) {
         bodies[place].engine->userData = bodies + place;
         world->own->least_depth = least(world->own->least_depth, bodies[place].safe_depth);

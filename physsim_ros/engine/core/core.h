@@ -35,22 +35,27 @@ typedef struct BodyState {
     uint8_t free;     // in free flight, so that its velocity leads by `lead`
     uint8_t released; // something that it touched was removed or moved since the last step
     uint8_t thrown;   // its velocity was set since the last step
+    uint8_t fresh;    // its lead by fields is to be found as the next step begins
     Twist lead;       // half a step of gravity and all forces: the lead of its velocity in free flight
+    Twist field;      // the part of fields (`fields.c`) in that lead
     Twist push;       // change of velocity by contacts and joints, a mean of the last steps, on a floor
 } BodyState;
 
 // What stages of a step tell each other of a body; nothing of it outlives the step.
 typedef struct BodyScratch {
-    uint8_t slides; // on a floor that does not carry it along
-    Pose begin;     // as the step begins
-    Twist twist;    // with which Chipmunk begins
-    Twist under;    // mean velocity of the floor under it
-    Twist without;  // velocity after the step without contacts, on a floor; scratch of block_solver.c
-    double left;    // of the step after continuous collision has stopped it [s]
-    Twist carried;  // way with what has stopped it, in that time [m, rad]
-    double since;   // time from its first impact to the end of its motion [s]
-    uint8_t parts;  // its impact throws it off, so gravity acts on the new velocity
-    double idle;    // for which it has been at rest as the step begins; < 0 while it sleeps [s]
+    uint8_t slides;  // on a floor that does not carry it along
+    Pose begin;      // as the step begins
+    Twist twist;     // with which Chipmunk begins
+    Twist under;     // mean velocity of the floor under it
+    Twist without;   // velocity after the step without contacts, on a floor; scratch of block_solver.c
+    double left;     // of the step after continuous collision has stopped it [s]
+    Twist carried;   // way with what has stopped it, in that time [m, rad]
+    double since;    // time from its first impact to the end of its motion [s]
+    uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
+    double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
+    Twist field;     // half of what fields change its velocity by in this step
+    uint8_t afloat;  // the surface of a medium crosses it
+    uint8_t stirred; // fields act on it that change while it rests
 } BodyScratch;
 
 // A body as requests define it, with its state; the last one of the table is the background, which has the walls.
@@ -73,6 +78,9 @@ typedef struct Body {
     double turning_radius; // how far out its turning counts for continuous collision [m]
     double corners;        // of its pieces, the cost of continuous collision
     double pieces;         // count of its pieces
+    double area;           // [m²]
+    const cpVect *hull;    // corners of the convex hull of several pieces, about the centre of mass [m]
+    int32_t hull_count;    // 0 of a body of one piece, and where there is no medium
     int64_t group;         // bodies of one group pass through each other; 0 is none
     Twist steady_lead;     // half a step of gravity and of the wrench
     Twist wrench;          // force [N] and torque [N m] that act on it
@@ -98,6 +106,33 @@ typedef struct AppliedForce {
     cpVect arm;    // from the centre of mass to where it acts, in the axes of the body [m]
 } AppliedForce;
 
+enum { WAVES = 8 };
+
+// A wave of gusts: its rate [rad/s], and the factors of cos and sin [m/s].
+typedef struct Wave {
+    double rate;
+    cpVect cosine, sine;
+} Wave;
+
+// A region that a medium fills: that of a body, or of all the world.
+typedef struct Region {
+    int32_t body;     // -1 is all of the world that no other region fills: its air
+    uint8_t gusty;    // it has gusts
+    double density;   // [kg/m²]
+    double viscosity; // [N s/m²]
+    double drag;      // coefficient of quadratic drag
+    cpVect flow;      // in the axes of the body [m/s]
+    Wave waves[WAVES];
+} Region;
+
+// A body that attracts others, and is attracted where forces move it.
+typedef struct Attractor {
+    int32_t body;
+    cpVect center; // of mass, from the engine's origin [m]
+    double mass;   // [kg]
+    double charge; // [C]
+} Attractor;
+
 // A robot: its drive, and what its wheels and its odometry have done.
 typedef struct Robot {
     // These fields are set by Python.
@@ -107,7 +142,7 @@ typedef struct Robot {
     double acceleration; // greatest of the rim of a wheel [m/s²]
     double curvature;    // greatest of its way [1/m]
     cpVect center;       // of mass in the frame of the body [m]
-    double slip[2];      // deviation of the odometry after 1 m of way: of the way [√m], of the heading [rad/√m]
+    double slip[2];      // deviation of the odometry after 1 m of way: in distance [√m], in heading [rad/√m]
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
     // These fields are state; velocities are as seen from the robot.
     int64_t until;        // step at which the command ends
@@ -282,7 +317,8 @@ enum {
     STAGE_JOINTS = 4096,
     STAGE_LOADS = 8192,
     STAGE_ORDER = 16384,
-    STAGE_ALL = 32767
+    STAGE_FIELDS = 32768,
+    STAGE_ALL = 65535
 };
 
 enum { SUB_STEPS = 4 };
@@ -326,9 +362,12 @@ typedef struct World {
     uint32_t stages;
     uint8_t reports_contacts;
     uint8_t statics_moved; // an anchored body or a wall has been moved since the last step
+    uint8_t has_fields;    // fields act, or velocities lead by them
     double drag_force;     // greatest force of a hand, in weights of the body
-    int64_t step;          // count of steps that the world has made
-    int64_t age;           // count of steps since the space was built
+    // Of attraction (`attraction.c`): G [N m^p/kg²], k [N m^p/C²], p and ε [m].
+    double gravitation, coulomb, attraction_power, softening;
+    int64_t step; // count of steps that the world has made
+    int64_t age;  // count of steps since the space was built
     // The bodies with the background, the others as they are in the world.
     Body *bodies;
     Joint *joints;
@@ -336,11 +375,13 @@ typedef struct World {
     Row *rows;
     Motor *motors; // in the order of their joints
     Grip *grips;
-    AppliedForce *forces; // in the order of their bodies
+    AppliedForce *forces;  // in the order of their bodies
+    Region *regions;       // in the order of their bodies; the air comes last
+    Attractor *attractors; // in the order of their bodies
     Robot *robots;
     Actor *actors;
-    int32_t body_count, joint_count, part_count, row_count, motor_count, grip_count, force_count, robot_count;
-    int32_t actor_count;
+    int32_t body_count, joint_count, part_count, row_count, motor_count, grip_count, force_count, region_count,
+        attractor_count, robot_count, actor_count;
     // These fields are results of the last steps.
     uint8_t has_broken; // a joint
     uint8_t has_lost;   // a body has left the range of numbers

@@ -3,14 +3,15 @@
 
 // Drives: from the last command of each robot to the velocity of the floor under its wheels; and its odometry.
 //
-// Problem: a robot does not have its commanded velocity at once, and not for ever: motors accelerate wheels by so much,
-// and a command counts until its timeout.
+// Problem: a robot does not have its commanded velocity at once, and not for ever: motors accelerate wheels by so
+// much, and a command counts until its timeout.
 // Method: the velocity of the wheels goes to the commanded one on a straight line, as fast as the rim of no wheel
 // accelerates more than it can; a robot that starts on an arc stays on it. The wheels turn so whatever the body
-// does: where the floor cannot move it, they slip. Law: the way of the wheels is the integral of their velocity by the
-// trapezoidal rule, and exact.
+// does: where the floor cannot move it, they slip.
+// Law: the way of the wheels is the integral of their velocity by the trapezoidal rule, and exact.
 //
-// Odometry. Method: the way of the wheels in a step is an arc whose turn the gyroscope measures (exact integration of a
+// Odometry.
+// Method: the way of the wheels in a step is an arc whose turn the gyroscope measures (exact integration of a
 // constant twist; Siegwart, Nourbakhsh, "Autonomous Mobile Robots"). Errors are random walks: those of the way grow
 // with its root, those of the heading with the root of way and turn (Thrun, Burgard, Fox, "Probabilistic Robotics",
 // section 5.4, in the limit of short moves). Noise is a function of seed, name and step; without slip there is none.

@@ -11,18 +11,21 @@
 // the floor; one that slips has the mean of its velocities before and after as it is moved (velocity Verlet), the rest
 // of friction as a force.
 //
-// Towed. Problem: the axle of a trailer rolls where it is drawn, and does not slide sideways. Method: of the velocities
-// at which the middle of the axle does not move along it (a nonholonomic constraint; de Luca and Oriolo, "Modelling and
-// control of nonholonomic mechanical systems", 1995) the floor has that which a push along the axle alone leads to, as
-// Gauss' principle of least constraint has it; the limit surface bounds the push.
+// Towed.
+// Problem: the axle of a trailer rolls where it is drawn, and does not slide sideways.
+// Method: of the velocities at which the middle of the axle does not move along it (a nonholonomic constraint; de
+// Luca and Oriolo, "Modelling and control of nonholonomic mechanical systems", 1995) the floor has that which a push
+// along the axle alone leads to, as Gauss' principle of least constraint has it; the limit surface bounds the push.
 //
-// Limit surface. Problem: a body that slides and turns at once has less friction either way than one that only slides
-// or only turns; two separate limits would give it too much. Method: the limit surface of Goyal, Ruina and Papadopoulos
-// ("Planar sliding with dry friction", 1991), approximated by the ellipsoid of Howe and Cutkosky ("Practical
-// force-motion models for sliding manipulation", 1996): (f / F)² + (τ / T)² = 1 with F = μ m g and T = lever F. The
-// body slips along its normal (maximum dissipation). One step is implicit (backward Euler), so that friction stops a
-// body and never turns it round: the slip that is left is the root of a scalar equation, found by Newton's method as
-// Moré and Sorensen do ("Computing a trust region step", 1983).
+// Limit surface.
+// Problem: a body that slides and turns at once has less friction either way than one that only slides or only
+// turns; two separate limits would give it too much.
+// Method: the limit surface of Goyal, Ruina and Papadopoulos ("Planar sliding with dry friction", 1991),
+// approximated by the ellipsoid of Howe and Cutkosky ("Practical force-motion models for sliding manipulation",
+// 1996): (f / F)² + (τ / T)² = 1 with F = μ m g and T = lever F. The body slips along its normal (maximum
+// dissipation). One step is implicit (backward Euler), so that friction stops a body and never turns it round: the
+// slip that is left is the root of a scalar equation, found by Newton's method as Moré and Sorensen do ("Computing a
+// trust region step", 1983).
 //
 // Cost: 60 ns a body, 0.3 µs for one that slips; where there are conveyors, a query of their boxes for each body.
 // Without it nothing stops, nothing drives (`test/laws/test_floor.py`).

@@ -9,16 +9,18 @@
 // acceleration; what is reported is the true one. A body is in free flight if its velocity changed in the last step by
 // its acceleration and by nothing else. True velocities do not jump when a body begins or ceases to fly.
 //
-// Support graph. Problem: where a floor, an anchor or a joint is removed, Chipmunk still warm starts with the impulses
-// that carried the pile on it, which would accelerate its bodies upward; and a body that falls from that moment on has
-// no lead yet, so that its reported velocity would begin with half a step of gravity upward. Method: bodies that
-// contacts or joints tie to nothing that stands are in free fall as one, without the impulses of the step before; a
-// search for that moment only.
+// Support graph.
+// Problem: where a floor, an anchor or a joint is removed, Chipmunk still warm starts with the impulses that carried
+// the pile on it, which would accelerate its bodies upward; and a body that falls from that moment on has no lead
+// yet, so that its reported velocity would begin with half a step of gravity upward.
+// Method: bodies that contacts or joints tie to nothing that stands are in free fall as one, without the impulses of
+// the step before; a search for that moment only.
 //
-// Reports. Problem: an impulse that ends a flight takes back the lead, too, so that what carries a body at rest from
-// now on would report half a sub-step of weight too much, once. Method: of such an impulse that share is reported with
-// which the true velocity goes into the velocity of the engine, along the impulse; at most the momenta of both leads
-// are taken off.
+// Reports.
+// Problem: an impulse that ends a flight takes back the lead, too, so that what carries a body at rest from now on
+// would report half a sub-step of weight too much, once.
+// Method: of such an impulse that share is reported with which the true velocity goes into the velocity of the
+// engine, along the impulse; at most the momenta of both leads are taken off.
 //
 // Cost: a comparison of velocities before and after each step.
 

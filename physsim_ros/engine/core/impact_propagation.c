@@ -5,17 +5,19 @@
 //
 // Problem: Chipmunk takes the restitution of a contact from the approach velocity before the step and solves all
 // contacts together. The second of two touching balls has no approach velocity against the third when the first hits
-// it, so that contact is solved as inelastic, and the row takes the impact as one body. Where a body is in two impacts
-// at once, the ten iterations of the solver do not converge, and energy is lost or gained. Method: sequential impacts:
-// pairwise Newton restitution, the fastest approach first, each round being one step of Chipmunk (Smith, Kaufman,
-// Vouga, Tamstorf and Grinspun, "Reflections on Simultaneous Impact", SIGGRAPH 2012, section 3, Gauss-Seidel impacts).
-// A contact is deferred by a step while one of its bodies is in a faster impact. The next step finds the velocity that
-// the impact has given, and passes it on. Scope: contacts of a restitution from `elastic` on. Contacts under load, as
-// in a stack, and deep ones are not deferred, nor contacts that are equally fast: what is symmetric stays so. Each
-// decision depends on the contacts of the two bodies in this step alone. Cost: 20 ns an elastic contact. Without it
-// laws 17 (Newton's cradle), 21 (elastic discs keep their energy) and 36 (elastic rows) fail. Limits: a contact that is
-// deferred sinks by a step of the impact: in a pile of 1,000 bodies of restitution 0.8 some contacts are 15 mm deep
-// while it comes to rest, and 11 mm afterwards, where the solver alone leaves 5 mm.
+// it, so that contact is solved as inelastic, and the row takes the impact as one body. Where a body is in two
+// impacts at once, the ten iterations of the solver do not converge, and energy is lost or gained.
+// Method: sequential impacts: pairwise Newton restitution, the fastest approach first, each round being one step of
+// Chipmunk (Smith, Kaufman, Vouga, Tamstorf and Grinspun, "Reflections on Simultaneous Impact", SIGGRAPH 2012,
+// section 3, Gauss-Seidel impacts). A contact is deferred by a step while one of its bodies is in a faster impact.
+// The next step finds the velocity that the impact has given, and passes it on.
+// Scope: contacts of a restitution from `elastic` on. Contacts under load, as in a stack, and deep ones are not
+// deferred, nor contacts that are equally fast: what is symmetric stays so. Each decision depends on the contacts of
+// the two bodies in this step alone.
+// Cost: 20 ns an elastic contact.
+// Without it laws 17 (Newton's cradle), 21 (elastic discs keep their energy) and 36 (elastic rows) fail.
+// Limits: a contact that is deferred sinks by a step of the impact: in a pile of 1,000 bodies of restitution 0.8
+// some contacts are 15 mm deep while it comes to rest, and 11 mm afterwards, where the solver alone leaves 5 mm.
 
 #include "impact_propagation.h"
 #include "stages.h"

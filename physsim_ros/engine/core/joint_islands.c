@@ -3,12 +3,13 @@
 
 // Islands: dynamic bodies that joints with rows and contacts tie together, each solved by itself.
 //
-// The contacts of jointed bodies are rows of their island, and so are those of what they touch: Chipmunk's iterations
-// diverge where much rests on light joined bodies, and the impulses by which that then presses on its other neighbours
-// are as wrong (80 boxes of 5 kg on planks of 0.2 kg gained a fifth of the energy of their fall). Contacts are sorted
-// by bodies, shapes and points, so that what Chipmunk finds elsewhere, and the order in which it finds it, changes
-// nothing. Islands are found by union-find with path halving (Tarjan and van Leeuwen, "Worst-Case Analysis of Set Union
-// Algorithms", JACM 1984).
+// Problem: Chipmunk's iterations diverge where much rests on light joined bodies, and the impulses by which that then
+// presses on its other neighbours are as wrong (80 boxes of 5 kg on planks of 0.2 kg gained a fifth of the energy of
+// their fall).
+// Method: the contacts of jointed bodies are rows of their island, and so are those of what they touch. Islands are
+// found by union-find (`root_of` of `world.h`).
+// Law: contacts are sorted by bodies, shapes and points, so that an island does not depend on what Chipmunk finds
+// elsewhere, nor on the order in which it finds it.
 
 #include "joint_islands.h"
 #include "joint_parts.h"

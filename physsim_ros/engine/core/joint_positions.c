@@ -3,15 +3,17 @@
 
 // Positions of jointed bodies.
 //
-// C(q) = 0 by Newton's method with the least mass-weighted displacement (fast projection: Goldenthal, Harmon, Fattal,
-// Bercovier and Grinspun, SIGGRAPH 2007). Contacts are rows too, so that what joints pull in and what contacts push out
-// is one system. An island makes so much of a Newton step as its rows are linear (trust region).
-//
+// Problem: velocities that keep to the rows leave gaps of second order. A straight chain stops what falls on it by
+// these alone, since its rows have no velocity.
+// Method: C(q) = 0 by Newton's method with the least mass-weighted displacement (fast projection: Goldenthal, Harmon,
+// Fattal, Bercovier and Grinspun, SIGGRAPH 2007). Contacts are rows too, so that what joints pull in and what contacts
+// push out is one system. An island makes only the share of a Newton step in which its rows are linear (trust region).
 // The displacement then changes velocities as far as their energy falls by it (the velocity update of position based
-// dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007). This is how a straight chain stops what falls on it: its
-// rows have no velocity, only a gap of second order. A gap thus never becomes energy. The impulses of that change are
-// reported, but the next step does not start from them: where rows contradict each other they are of any size, cancel
-// in these poses alone, and a step that started from them after a turn of its bodies would gain the difference.
+// dynamics: Müller, Heidelberger, Hennix and Ratcliff, 2007).
+// Law: a gap never becomes energy.
+// Reports: the impulses of that change are reported, but the next step does not start from them. Where rows contradict
+// each other they are of any size and cancel in these poses alone; a step that started from them after a turn of its
+// bodies would gain the difference.
 
 #include "joint_positions.h"
 #include "mixed_lcp.h"
@@ -39,20 +41,20 @@ enum { MOST_STEPS = 16 };
 
 // A displacement of an island, as Newton's method finds it.
 typedef struct Displacement {
-    Pose *start, *pushed;        // (body_count): before it, and after the pushes of other contacts
-    double *excess;              // (joint_row_count): C at the poses of now
-    Jacobian *jacobians;         // (row_count): of joints there
-    double *gaps;                // (joint_row_count): C, less what is not closed in this step
-    double *left;                // (joint_row_count): parts of gaps that are too wide to be closed in one step
-    double *apart;               // (touch_count): distance by which contacts may approach at the start [m]
-    double *distances;           // (touch_count): the same now, < 0 where they overlap
-    double *impulses;            // (row_count): λ [kg m, kg m²]
-    double sum, squares, widest; // of gaps and overlaps: sum, sum of squares, and the greatest [m, rad]
+    Pose *start, *pushed; // (body_count): before it, and after the pushes of other contacts
+    double *excess;       // (joint_row_count): C at the poses of now
+    Jacobian *jacobians;  // (row_count): of joints there
+    double *gaps;         // (joint_row_count): C, less what is not closed in this step
+    double *left;         // (joint_row_count): parts of gaps that are too wide to be closed in one step
+    double *apart;        // (touch_count): distance by which contacts may approach at the start [m]
+    double *distances;    // (touch_count): the same now, < 0 where they overlap
+    double *impulses;     // (row_count): λ [kg m, kg m²]
+    double sum, widest;   // of gaps and overlaps: sum, and the greatest [m, rad]
 } Displacement;
 
-// The iterate with the least sum of squared gaps so far.
+// The iterate with the least sum of gaps so far.
 typedef struct Best {
-    double squares;
+    double sum;
     Pose *poses;
     double *impulses;
 } Best;
@@ -132,11 +134,10 @@ static Displacement begin_displacement(Solve *solve) {
 // Measure gaps and overlaps at the poses of now.
 static void measure_gaps(const Solve *solve, Displacement *move) {
     const Island *island = solve->island;
-    move->sum = move->widest = move->squares = 0.0;
+    move->sum = move->widest = 0.0;
     for (int row = 0; row < island->joint_row_count; row++) {
         move->gaps[row] = gap_of(island->rows[row], solve->holds[row], move->excess[row]) - move->left[row];
         move->sum += fabs(move->gaps[row]);
-        move->squares += move->gaps[row] * move->gaps[row];
         move->widest = greatest(move->widest, fabs(move->gaps[row]));
     }
     for (int number = 0; number < island->touch_count; number++) {
@@ -147,14 +148,13 @@ static void measure_gaps(const Solve *solve, Displacement *move) {
         move->distances[number] = move->apart[number] + rate(solve->jacobians[row], (Ends){0, 1}, ways);
         double overlap = greatest(-move->distances[number], 0.0);
         move->sum += overlap;
-        move->squares += overlap * overlap;
         move->widest = greatest(move->widest, overlap);
     }
 }
 
 static void keep_better(const Solve *solve, const Displacement *move, Best *best) {
-    if (move->sum < best->squares) {
-        best->squares = move->sum;
+    if (move->sum < best->sum) {
+        best->sum = move->sum;
         memcpy(best->poses, solve->poses, (size_t)solve->island->body_count * sizeof(Pose));
         memcpy(best->impulses, move->impulses, (size_t)solve->island->row_count * sizeof(double));
     }
@@ -256,7 +256,7 @@ void solve_positions(Solve *solve) {
     for (int number = 0; number <= MOST_STEPS; number++) {
         measure_gaps(solve, &move);
         if (number > 0 && move.widest <= closed) {
-            best.squares = INFINITY;
+            best.sum = INFINITY;
         }
         keep_better(solve, &move, &best);
         if (number == MOST_STEPS || move.widest <= (number > 0 ? closed : negligible)) {

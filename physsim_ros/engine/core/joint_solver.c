@@ -5,11 +5,12 @@
 //
 // Problem: ten iterations of Chipmunk's solver do not carry a load over a chain of light bodies. A straight chain
 // carries by tension alone, which no row of velocities asks for. A gap that is closed by a velocity becomes energy
-// where joints and contacts contradict each other. Method: all rows of an island are solved together (`mixed_lcp`),
-// in velocities (`joint_velocities`) and then in positions (`joint_positions`). Cost: 5 µs a step for a pendulum, 150
-// µs for a chain of fifty axles. Without it laws 14 to 16, 20, 22, 23, 33, 34 and 61 fail. Chipmunk's impulses are the
-// first guess. Impulses of springs and of joints of the kind `motor`, and contacts between bodies without joints, stay
-// Chipmunk's.
+// where joints and contacts contradict each other.
+// Method: all rows of an island are solved together (`mixed_lcp`), in velocities (`joint_velocities`) and then in
+// positions (`joint_positions`).
+// Cost: 5 µs a step for a pendulum, 150 µs for a chain of fifty axles.
+// Without it laws 14 to 16, 20, 22, 23, 33, 34, 61 and 62 fail. Chipmunk's impulses are the first guess. Impulses of
+// springs and of joints of the kind `motor`, and contacts between bodies without joints, stay Chipmunk's.
 
 #include "joint_positions.h"
 #include "joint_velocities.h"

@@ -3,15 +3,16 @@
 
 // Velocities of jointed bodies.
 //
-// Problem: Chipmunk bounds friction by the normal impulse of its iteration, which is wrong where joints load a contact,
-// and a solution of normals and friction in turn lets the floor pull. Method: the impulses that Chipmunk gave to the
-// rows of an island are taken back, and joints, normals and friction are one problem. In two dimensions the friction
-// cone of a contact has two edges, so that Coulomb friction is two rows with λ >= 0 (Anitescu, "Optimization-based
-// simulation of nonsmooth rigid multibody dynamics", Mathematical Programming 105, 2006). A contact that slides by v
-// would lift by μ |v|; its target is lowered by that, until v is what the solution has (De Saxcé and Feng, "The
-// bipotential method", Mathematical and Computer Modelling 28, 1998). Load that statics does not determine stays where
-// it was: each contact is drawn to its impulse of the step before (proximal point method: Rockafellar, SIAM Journal on
-// Control and Optimization 14, 1976). `docs/decisions/joint_friction.md` has what else was tried.
+// Problem: Chipmunk bounds friction by the normal impulse of its iteration, which is wrong where joints load a
+// contact, and a solution of normals and friction in turn lets the floor pull.
+// Method: the impulses that Chipmunk gave to the rows of an island are taken back, and joints, normals and friction
+// are one problem. In two dimensions the friction cone of a contact has two edges, so that Coulomb friction is two
+// rows with λ >= 0 (Anitescu, "Optimization-based simulation of nonsmooth rigid multibody dynamics", Mathematical
+// Programming 105, 2006). A contact that slides by v would lift by μ |v|; its target is lowered by that, until v is
+// what the solution has (De Saxcé and Feng, "The bipotential method", Mathematical and Computer Modelling 28, 1998).
+// Load that statics does not determine stays where it was: each contact is drawn to its impulse of the step before
+// (proximal point method: Rockafellar, SIAM Journal on Control and Optimization 14, 1976).
+// `docs/decisions/joint_friction.md` has what else was tried.
 //
 // Energy: without bounces it can only fall; contacts that bounce can make it rise. An island then has the greatest
 // share of its bounces with which their impulses do no work.

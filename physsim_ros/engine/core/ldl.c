@@ -5,10 +5,10 @@
 //
 // Problem: the rows of a machine are solved again and again, with other values in the same places.
 // Method: the pattern of L by the elimination tree, then row by row (up-looking; T. Davis, "Algorithm 849: A concise
-// sparse Cholesky factorization package", ACM TOMS 2005). A quasi-definite matrix has such factors in every order (R.
-// J. Vanderbei, "Symmetric Quasidefinite Matrices", SIAM Journal on Optimization 1995), so that nothing is pivoted, and
-// the order of each sum is that of the pattern: the same on every processor. Cost: 12 µs for a chain of fifty axles,
-// 250 unknowns.
+// sparse Cholesky factorization package", ACM TOMS 2005). A quasi-definite matrix has such factors in every order
+// (R. J. Vanderbei, "Symmetric Quasidefinite Matrices", SIAM Journal on Optimization 1995), so that nothing is
+// pivoted, and the order of each sum is that of the pattern: the same on every processor.
+// Cost: 12 µs for a chain of fifty axles, 250 unknowns.
 
 #include "ldl.h"
 

@@ -3,15 +3,16 @@
 
 // Mouse joints: the forces by which hands draw bodies to themselves.
 //
-// Problem: a body that is dragged has to follow the hand without oscillation, at any mass, and must not crush or throw
-// what is in its way.
+// Problem: a body that is dragged has to follow the hand without oscillation, at any mass, and must not crush or
+// throw what is in its way.
 // Method: Box2D's mouse joint, a soft constraint at the point of the grip with a greatest force (E. Catto, "Soft
 // Constraints", GDC 2011; `b2MakeSoft` and `mouse_joint.c` in Box2D v3): a spring of 5 Hz, the default of
-// `b2MouseJointDef`, damped critically, which acts on the effective mass at the grip, so that its response is the same
-// for any mass and anchor. It is solved implicitly for the pose and velocity that Chipmunk's step will have, and
-// applied as a force of that step, before contacts and joints. Several hands on one body are solved by projected
-// Gauss-Seidel, as many sweeps as hands, and at most as many as the iterations of Chipmunk's solver. Cost: 0.1 µs a
-// step for each grip. Without it nothing can be dragged.
+// `b2MouseJointDef`, damped critically, which acts on the effective mass at the grip, so that its response is the
+// same for any mass and anchor. It is solved implicitly for the pose and velocity that Chipmunk's step will have,
+// and applied as a force of that step, before contacts and joints. Several hands on one body are solved by projected
+// Gauss-Seidel, as many sweeps as hands, and at most as many as the iterations of Chipmunk's solver.
+// Cost: 0.1 µs a step for each grip.
+// Without it nothing can be dragged.
 
 #include "stages.h"
 

@@ -4,12 +4,13 @@
 // Damping of resting contacts: the solver's own errors taken out of what friction locks in place.
 //
 // Problem: sequential impulses stop after a few iterations and warm start the next step. For the slow bending of a
-// stack that is a spring without a damper: a stack of ten boxes sways for half a minute after it is put down (law 18),
-// and never becomes slow enough to sleep. Method: our own. A body that lies with a face on something that does not
-// move, its friction inside the cone, does not move either (Coulomb). Where such contacts lead from a body down to what
-// is fixed, the velocity that it still has is error; a share of it is removed, several times a second. Bodies that
-// slide, roll, fly, stand on a corner or on something that moves are never touched, nor those that are faster than such
-// an error can be. Cost: one look at the contacts, 32 times a second of simulation.
+// stack that is a spring without a damper: a stack of ten boxes sways for half a minute after it is put down (law
+// 18), and never becomes slow enough to sleep.
+// Method: our own. A body that lies with a face on something that does not move, its friction inside the cone, does
+// not move either (Coulomb). Where such contacts lead from a body down to what is fixed, the velocity that it still
+// has is error; a share of it is removed, several times a second. Bodies that slide, roll, fly, stand on a corner or
+// on something that moves are never touched, nor those that are faster than such an error can be.
+// Cost: one look at the contacts, 32 times a second of simulation.
 
 #include "stages.h"
 

@@ -4,16 +4,18 @@
 // Sleeping by island, as Chipmunk has it: an island at rest costs nothing until something wakes it.
 //
 // Problem: a settled pile costs as much as a falling one.
-// Method: Chipmunk's sleeping (contact graph and joints make islands; an island whose bodies all had little energy for
-// a while is taken out of the solver; Box2D does the same). Bodies that are slow for another reason than rest stay
-// awake: in free flight nothing would stop them (Newton's first law), at the turn of a swing they have only stopped for
-// a moment, and a floor that moves carries them on. A checkpoint wakes all, so that a restored space and the one that
-// went on are in the same state. Cost: none. Without it 1,000 bodies at rest cost as much as 1,000 that move.
+// Method: Chipmunk's sleeping (contact graph and joints make islands; an island whose bodies all had little energy
+// for a while is taken out of the solver; Box2D does the same). Bodies that are slow for another reason than rest
+// stay awake: in free flight nothing would stop them (Newton's first law), at the turn of a swing they have only
+// stopped for a moment, a floor that moves carries them on, and a field that changes will move them. A checkpoint
+// wakes all, so that a restored space and the one that went on are in the same state.
+// Cost: none.
+// Without it 1,000 bodies at rest cost as much as 1,000 that move.
 
 #include "stages.h"
 
-// A body on a spring that accelerates by no more than this is at rest [m/s², rad/s²]: one that swings in 40 s is then
-// within 1 mm of where it rests.
+// A body on a spring, or afloat, that accelerates by no more than this is at rest [m/s², rad/s²]: one that swings in 40
+// s is then within 1 mm of where it rests.
 static const double rest_acceleration = 2.5e-5;
 // One that sinks on a damper by no more than this is at rest [m/s, rad/s]: 1 mm in 100 s.
 static const double rest_speed = 1e-5;
@@ -28,15 +30,12 @@ static double most_of(Twist twist) {
 
 static bool moves_on(const World *world, const Body *body) {
     Twist now = twist_of(body->engine);
-    if (most_of(body->scratch.under) > 0.0) {
+    if (most_of(body->scratch.under) > 0.0 || body->scratch.stirred) {
         return true;
-    }
-    if (most_of(now) >= world->space->idleSpeedThreshold) {
-        return false;
     }
     double change = most_of(twist_sum(now, body->scratch.twist, -1.0));
     bool drifts = change > rest_acceleration * world->dt || most_of(now) > rest_speed;
-    return (body->state.free && most_of(now) > 0.0) || (body->on_spring && drifts);
+    return (body->state.free && most_of(now) > 0.0) || ((body->on_spring || body->scratch.afloat) && drifts);
 }
 
 void forgive_trembling(World *world) {

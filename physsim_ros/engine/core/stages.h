@@ -15,6 +15,12 @@ void begin_half_step(World *world);
 void apply_forces(World *world);
 void find_leads(World *world);
 
+// Forces that depend on where all bodies are and how they move: media (`media.c`), attraction (`attraction.c`);
+// their half-step treatment (`fields.c`).
+void begin_fields(World *world);
+void apply_fields(World *world);
+void keep_fields(World *world);
+
 // Forces of hands (`mouse_joints.c`).
 void pull_grips(World *world);
 

@@ -59,10 +59,12 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
 
 static void step(World *world) {
     arena_reset(&world->own->arena);
+    begin_fields(world);
     begin_half_step(world);
     begin_bodies(world);
     apply_forces(world);
     pull_grips(world);
+    apply_fields(world);
     pull_by_floor(world);
     clamp_moves(world);
     tighten_boxes(world);
@@ -72,6 +74,7 @@ static void step(World *world) {
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
+    keep_fields(world);
     find_leads(world);
     forgive_trembling(world);
     solve_joints(world);

@@ -4,12 +4,12 @@
 // Swept boxes: which bodies could meet in the coming step, at a bounded cost.
 //
 // Problem: boxes of fast bodies span the world, so that n bodies make n² pairs in a step that no signal ends.
-// Method: an island has a budget of pairs, shared by its fast bodies. A body whose swept box meets more than its share
-// is followed not to the end of the step, but to a *horizon* at which the box meets so many; Chipmunk's own result
-// holds from there on. Known engines bound the same by a greatest speed of bodies (`b2_maxTranslation` in Box2D, 2 m a
-// step; Jolt's `mMaxLinearVelocity`), but here every finite velocity is a velocity. Laws: a horizon follows from what a
-// body itself could meet, and a body that meets little is followed to the end, however fast it is and however many
-// others there are elsewhere.
+// Method: an island has a budget of pairs, shared by its fast bodies. A body whose swept box meets more than its
+// share is followed not to the end of the step, but to a *horizon* at which the box meets so many; Chipmunk's own
+// result holds from there on. Known engines bound the same by a greatest speed of bodies (`b2_maxTranslation` in
+// Box2D, 2 m a step; Jolt's `mMaxLinearVelocity`), but here every finite velocity is a velocity.
+// Laws: a horizon follows from what a body itself could meet, and a body that meets little is followed to the end,
+// however fast it is and however many others there are elsewhere.
 
 #include "swept_boxes.h"
 

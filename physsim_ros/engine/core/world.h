@@ -36,6 +36,7 @@ typedef struct Private {
     int call_step;                 // number of the step in this call
     int sub_step;                  // number of the sub-step in this step
     struct Report *report;
+    struct Pull *pulls; // of media on bodies, in this step
 } Private;
 
 // Memory that outlives a step, all bits 0.

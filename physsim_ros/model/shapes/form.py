@@ -25,6 +25,7 @@ from typing import Any, cast, TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.transform import cross, next_vertices, Point, Pose, rotated
 from physsim_ros.model.weak_cache import cached_weakly
 
@@ -245,9 +246,15 @@ def _sum_of_distances(piece: Piece, center: Point) -> tuple[float, float]:
             return _of_polygon(list(vertices), center)
 
 
-def _round(middle: Point, radius: float, begin: float, count: int) -> list[Point]:
-    """Return corners of a full or half circle of the same area, counter-clockwise."""
-    step = math.tau / _CORNERS
+def _round(
+    middle: Point, radius: float, begin: float, count: int, corners: int = _CORNERS
+) -> list[Point]:
+    """
+    Return corners of a full or half circle of the same area, counter-clockwise.
+
+    :param corners: of a full circle
+    """
+    step = math.tau / corners
     # The area of a polygon is that of the circle times sin(step) / step.
     outer = radius * math.sqrt(step / math.sin(step))
     angles = (begin + step * (number + 0.5) for number in range(count))
@@ -281,3 +288,45 @@ def _of_polygon(corners: list[Point], center: Point) -> tuple[float, float]:
 def _secant_cubed(tangent: float) -> float:
     """Return twice the integral of sec³ from 0 to the angle of a tangent."""
     return tangent * math.hypot(1.0, tangent) + math.asinh(tangent)
+
+
+# Corners of the polygon that counts for a round piece in a hull; its width is that of the disc
+# within 0.3 %.
+_HULL_CORNERS = 32
+
+
+@cached_weakly
+def hull_of(form: Form) -> Floats:
+    """
+    Return the convex hull of a form, round pieces as polygons of the same area.
+
+    Andrew's monotone chain.
+
+    :return: (h, 2) float64: corners counter-clockwise, about the centroid [m]
+    """
+    points: set[Point] = set()
+    for piece in form.pieces:
+        match piece:
+            case Circle(middle, radius):
+                points.update(_round(middle, radius, 0.0, _HULL_CORNERS, _HULL_CORNERS))
+            case Capsule(start, end, radius):
+                for middle in (start, end):
+                    points.update(_round(middle, radius, 0.0, _HULL_CORNERS, _HULL_CORNERS))
+            case Convex(vertices):
+                points.update(vertices)
+    ordered = sorted(points)
+    hull = [*_right_chain(ordered), *_right_chain(ordered[::-1])]
+    return np.array(hull) - form.centroid
+
+
+def _right_chain(points: list[Point]) -> list[Point]:
+    """Return the corners of the hull to the right of the way along sorted points, but the last."""
+    chain: list[Point] = []
+    for x, y in points:
+        while len(chain) > 1 and (
+            (chain[-1][0] - chain[-2][0]) * (y - chain[-2][1])
+            <= (chain[-1][1] - chain[-2][1]) * (x - chain[-2][0])
+        ):
+            chain.pop()
+        chain.append((x, y))
+    return chain[:-1]

@@ -36,7 +36,7 @@ def _initialise() -> None:
         prog='physsim',
         usage='physsim [-h] [--ros-args -p name:=value ...]',
         description='Run a physics world as a ROS 2 node.',
-        epilog='For example: physsim --ros-args -p world_file:=demo -p speed:=0.5',
+        epilog="For example: physsim --ros-args -p world_file:=demo -p gravity:='[0.0, -1.62]'",
     )
     # rcl reads a parameter among them as a remapping of names.
     for word in takewhile(lambda each: each != '--ros-args', sys.argv[1:]):

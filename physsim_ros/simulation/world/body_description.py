@@ -55,7 +55,8 @@ def changed_body(
 
     :param changes: other fields of the body, by name
     :param settings: of the world, the defaults of properties
-    :raises BadProperty: it would be too light or too heavy, or a robot or conveyor that cannot be
+    :raises BadProperty: it would be too light or too heavy, or a robot, conveyor or region that
+        cannot be
     """
     values = {name: _default(name, settings) for name in request.unset}
     if old.mass is not None and ('mass' in values or 'density' in values):
@@ -84,7 +85,7 @@ def changed_body(
 
 def _check_role(body: Body) -> None:
     """
-    Refuse a robot, an actor or a conveyor that cannot be.
+    Refuse a robot, an actor, a conveyor or a region of a medium that cannot be.
 
     :raises BadProperty: the body has another role, or the robot no namespace that ROS allows
     """
@@ -92,6 +93,12 @@ def _check_role(body: Body) -> None:
         raise BadProperty(
             f'{body.name} is not a sensor; only a sensor can be a conveyor',
             field='surface_velocity',
+        )
+    if body.medium is not None and (body.dynamic or not body.sensor):
+        raise BadProperty(
+            f'{body.name} is not an anchored or kinematic sensor; only such a body can be filled '
+            'with a medium',
+            field='medium',
         )
     if body.actor is not None and body.anchored:
         raise BadProperty(f'{body.name} is an actor; it cannot be anchored', field='anchored')

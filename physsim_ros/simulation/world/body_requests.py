@@ -96,6 +96,7 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
     check_robot(space, body)
     check_start(body, space.bodies.by_name)
     live.capacity.check_robot(body)
+    live.capacity.check_attraction(body)
     live.capacity.check_bodies([(each, at, None) for each, _, at in made])
     for each, twist, at in made:
         space.add(each, at, twist)
@@ -324,6 +325,7 @@ def _change(
     if body.actor != old.body.actor:
         check_start(body, live.space.bodies.by_name)
     live.capacity.check_robot(body)
+    live.capacity.check_attraction(body)
     twist = REST if old.body.anchored else live.space.twist_of(old)
     twist = changed_twist(body, twist, request)
     if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):

@@ -5,8 +5,8 @@
 Capacity: limits on the size of a world, checked before the engine changes.
 
 Law: a request is refused as `world_full` if the world would have more bodies, convex pieces,
-overlapping pairs of pieces or joints than its settings allow; so are a grip beyond `MOST_HANDS`
-and a robot beyond `MOST_ROBOT_TOPICS`.
+overlapping pairs of pieces or joints than its settings allow; so are a grip beyond `MOST_HANDS`,
+a robot beyond `MOST_ROBOT_TOPICS` and a body beyond `MOST_ATTRACTING`.
 
 Overlaps are bounded from above: each body that is spawned or moved adds the pieces whose boxes its
 own boxes meet in the engine's tree. Only when this bound exceeds the limit, the overlaps of the
@@ -17,11 +17,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from itertools import chain
 
 import numpy as np
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.overlaps import core_boxes, count_inside, count_overlaps, laid_out
 from physsim_ros.engine.space import Space
+from physsim_ros.model.attraction import check_attraction
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.names import WORLD
@@ -130,6 +132,27 @@ class Capacity:
             others = (rigid.body for name, rigid in bodies if name != body.name)
             _check_topics((body, *others))
 
+    def check_attraction(self, body: Body) -> None:
+        """
+        Refuse a body beyond `MOST_ATTRACTING`; a body of its name does not count.
+
+        :raises WorldFull: too many bodies would attract each other
+        """
+        if self.checking:
+            bodies = self._space.bodies.by_name.items()
+            others = (rigid.body for name, rigid in bodies if name != body.name)
+            check_attraction(chain((body,), others), self._space.settings)
+
+    def check_settings(self, settings: WorldSettings) -> None:
+        """
+        Refuse settings by which too many bodies would attract each other.
+
+        :raises WorldFull: they would
+        """
+        if self.checking:
+            bodies = (rigid.body for rigid in self._space.bodies.by_name.values())
+            check_attraction(bodies, settings)
+
     def check_joint(self, joint: Joint) -> None:
         """
         Refuse a joint that exceeds a limit, unless it replaces the one of its name.
@@ -167,6 +190,7 @@ class Capacity:
         check_limit('max_shapes', pieces, state.settings)
         check_limit('max_joints', len(state.joints), state.settings)
         _check_topics(each.body for each in state.bodies)
+        check_attraction((each.body for each in state.bodies), state.settings)
         ends = Counter(end for joint in state.joints for end in (joint.a, joint.b))
         for body, count in ends.items():
             _check_on_body(count, body)

@@ -41,10 +41,12 @@ def configure(live: LiveSpace, request: Configure) -> Answer:
     """
     Change settings.
 
-    :raises Refusal: a value is out of range; nothing is changed
+    :raises Refusal: a value is out of range, or too many bodies would attract each other; nothing
+        is changed
     """
     space, old = live.space, live.settings
     new = replace(old, **request.changes)
+    live.capacity.check_settings(new)
     space.configure(new)
     until = live.step_after(new.command_timeout)
     if until is not None and new.command_timeout != old.command_timeout:

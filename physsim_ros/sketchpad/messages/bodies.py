@@ -124,14 +124,16 @@ def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
 
 @message('watch', 'page', Right.LOOK, name=fields.text)
 def watch(page: PageSession, origin: Origin, name: str) -> None:
-    """Send the page the motion of a body in this course, also beyond now; '' is no body."""
+    """Send the page motion and forces of a body in this course, also beyond now; '' is none."""
     page.shared.pasts.ask(page.number, name, origin.request)
+    if name:
+        page.shared.past_contacts.ask_forces(page.number, name)
 
 
 @message('follow', 'page', Right.LOOK, names=_followed)
 def follow(page: PageSession, origin: Origin, names: frozenset[str]) -> None:
     """Tell the page when other bodies began to touch these, and begin to; none is no body."""
-    page.shared.past_touches.ask(page.number, names)
+    page.shared.past_contacts.ask_touches(page.number, names)
     page.followed = names
     page.answer_page(origin, f'following {counted(len(names), "body")}')
 

@@ -22,9 +22,9 @@ import {Links} from './ui/links.js';
 import {Narrator, Sound} from './ui/narrator.js';
 import {Notes, Refusals} from './ui/notes.js';
 import {Menu} from './input/menu.js';
+import {Meters} from './measures/meters.js';
 import {Numbers} from './measures/numbers.js';
 import {Panel} from './panels/panel.js';
-import {PlotWindow} from './measures/plot_window.js';
 import {Plots} from './measures/plots.js';
 import {Pointers} from './input/pointer.js';
 import {Records, Trail} from './measures/records.js';
@@ -40,6 +40,7 @@ import {makeToolbar, Toolbar, TopBar} from './ui/toolbar.js';
 import {Words} from './words.js';
 import {WorldState} from './world_state.js';
 
+/** @import {PlotWindow} from './measures/plot_window.js' */
 /** @import {Tool} from './types.js' */
 
 export class App {
@@ -69,7 +70,9 @@ export class App {
     this.sound = new Sound(this);
     this.records = new Records(this);
     this.trail = new Trail(this);
-    this.plotWindow = new PlotWindow(this);
+    this.meters = new Meters(this);
+    /** @type {?PlotWindow} null until a plot is asked for */
+    this.plotWindow = null;
     this.numbers = new Numbers(this);
     this.plots = new Plots(this);
     this.panel = new Panel(this);
@@ -132,16 +135,40 @@ export class App {
       if (lost) this.notes.showMessage(t('Connected again. Of what you did meanwhile, {count} may be lost.', {count: lost}), {ok: false});
       else if (sent) this.notes.showMessage(t('Connected again. What you did meanwhile is sent now.'));
     });
-    connection.on('closed', (status) => {
+    connection.on('closed', ({status, opened}) => {
       // The server forgets the gestures that it knows of; a stroke is drawn to its end.
       if (!away && this.tool.atServer) this.tool.cancel?.();
       away = true;
       gone.hidden = false;
       gone.textContent = status === 401 || status === 403 ?
         t('Wrong token: open the address that the node printed.') :
-        status ? t('The server refused this page; trying again …') :
-          t('The server is gone. This page comes back with it.');
+        !status ? t('The server is gone. This page comes back with it.') :
+          opened ? t('Connecting again …') : t('The server refused this page; trying again …');
     });
+  }
+
+  /**
+   * Work with a script that is loaded when somebody asks for it.
+   * @template T
+   * @param {Promise<T>} loading
+   * @param {(script: T) => void} work
+   */
+  async with(loading, work) {
+    const script = await loading.catch(() => null);
+    if (script) work(script);
+    else this.notes.showMessage(t('Not done: the server is not reachable'), {ok: false});
+  }
+
+  showHelp() {
+    this.with(import('./ui/help.js'), ({showHelp}) => showHelp(this));
+  }
+
+  /**
+   * Show the large plot, or a table of it.
+   * @param {(plot: PlotWindow) => void} work
+   */
+  plot(work) {
+    this.with(import('./measures/plot_window.js'), ({PlotWindow: Plot}) => work(this.plotWindow ??= new Plot(this)));
   }
 
   /** Ask for the parts of frames that are shown. */

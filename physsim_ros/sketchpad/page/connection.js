@@ -38,6 +38,7 @@ export class Connection {
     this.unanswered = new Map();
     this.pause = SHORTEST_PAUSE;
     this.silence = 0; // ticks since the last message
+    this.opened = false; // whether the last socket was open at all
     setInterval(() => this.#watch(), TICK);
     /** @type {?WebSocket} */
     this.socket = null;
@@ -60,9 +61,13 @@ export class Connection {
     const query = new URLSearchParams(location.search);
     query.set('person', sessionStorage.getItem(PERSON) ?? '');
     this.silence = 0;
+    this.opened = false;
     this.socket = new WebSocket(`${location.protocol.replace('http', 'ws')}//${location.host}${this.path}?${query}`);
     this.socket.binaryType = 'arraybuffer';
-    this.socket.onopen = () => this.#emit('open', null);
+    this.socket.onopen = () => {
+      this.opened = true;
+      this.#emit('open', null);
+    };
     this.socket.onmessage = ({data}) => this.#receive(data);
     this.socket.onclose = ({code}) => {
       if (code === REPLACED) sessionStorage.removeItem(PERSON);
@@ -198,7 +203,7 @@ export class Connection {
       this.connect();
       return;
     }
-    this.#emit('closed', status);
+    this.#emit('closed', {status, opened: this.opened});
     setTimeout(() => status ? this.connect() : this.#retry(true), this.pause);
     this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
   }

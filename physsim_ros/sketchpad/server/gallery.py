@@ -20,7 +20,6 @@ from physsim_ros.files import (
     load_world,
     OwnWorlds,
     shipped_lessons,
-    shipped_pictures,
     shipped_worlds,
     title_of,
     worlds_in,
@@ -62,18 +61,18 @@ def gallery_content(own_worlds: OwnWorlds, boundary: ErrorBoundary) -> dict[str,
 
 
 def _shipped(path: Path) -> dict[str, Any]:
-    picture = (shipped_pictures() / f'{path.stem}.png').is_file()
     return {
         'name': path.stem,
         'title': title_of(path),
-        'picture': f'/gallery/{path.stem}.png' if picture else '',
+        'picture': f'/gallery/{path.stem}.svg',
         'shipped': True,
     }
 
 
 def _own(path: Path, own_worlds: OwnWorlds) -> dict[str, Any]:
     # The title is the name: a comment of the user's file is private.
-    name, picture = path.stem, ''
+    name = path.stem
+    picture = f'/gallery/{quote(name)}.svg'
     # A script may have chosen a name that a page refuses.
     with suppress(Refusal, OSError):
         changed = own_worlds.picture(name).stat().st_mtime_ns

@@ -132,8 +132,8 @@ class Missing(Guarded):
     post = head = delete = patch = put = options = get
 
 
-class Files(Guarded, StaticFileHandler):
-    """The files of a directory."""
+class PageFiles(Guarded, StaticFileHandler):
+    """The files of the page; scripts without comments and indentation, in the same lines."""
 
     def validate_absolute_path(self, root: str, absolute_path: str) -> str | None:
         """Return the path of a file; a path that names no file is missing."""
@@ -146,10 +146,6 @@ class Files(Guarded, StaticFileHandler):
         """Return the type of a file of the page; other files are bytes."""
         path = Path(self.absolute_path or '')
         return TYPES.get(path.suffix, 'application/octet-stream')
-
-
-class PageFiles(Files):
-    """The files of the page; scripts without comments and indentation, in the same lines."""
 
     @classmethod
     def get_content(

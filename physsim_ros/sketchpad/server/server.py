@@ -16,7 +16,7 @@ from pathlib import Path
 import threading
 from typing import Any
 
-from physsim_ros.files import OwnWorlds, shipped_pictures
+from physsim_ros.files import OwnWorlds
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.sketchpad.autosave import Autosave
@@ -26,11 +26,17 @@ from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.frame_feed import FrameFeed
 from physsim_ros.sketchpad.server.gallery import gallery_content
 from physsim_ros.sketchpad.server.guarded import LEFT
-from physsim_ros.sketchpad.server.page_handlers import Files, ResultList
+from physsim_ros.sketchpad.server.page_handlers import ResultList
 from physsim_ros.sketchpad.server.page_socket import PageSocket
 from physsim_ros.sketchpad.server.scene_codec import compact
 from physsim_ros.sketchpad.server.website import BoundedServer, Site
-from physsim_ros.sketchpad.server.world_handlers import Download, Picture, Unsaved, UploadWorld
+from physsim_ros.sketchpad.server.world_handlers import (
+    Download,
+    Picture,
+    Unsaved,
+    UploadWorld,
+    WorldPicture,
+)
 
 # Size of a message of a page, and of an uploaded world [bytes].
 MOST_BYTES = 2**20
@@ -74,7 +80,7 @@ class Server:
             'index.html',
             [
                 ('/ws', PageSocket, {'feed': self._feed, 'inbox': inbox}),
-                ('/gallery/(.*)', Files, {'path': str(shipped_pictures())}),
+                (r'/gallery/([^/]+)\.svg', WorldPicture, {'own_worlds': own_worlds}),
                 ('/world', UploadWorld, {'inbox': inbox}),
                 (r'/world/([^/]+)\.yaml', Download, {'own_worlds': own_worlds}),
                 ('/results', ResultList, {'files': [results]}),

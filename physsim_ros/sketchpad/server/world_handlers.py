@@ -25,12 +25,13 @@ from physsim_ros.files import (
     read_parts,
     write_file,
 )
-from physsim_ros.model.errors import Malformed, Refusal
+from physsim_ros.model.errors import Malformed, PhysSimError, Refusal
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.inbox import Inbox, Upload, UPLOADERS
 from physsim_ros.sketchpad.rights import Role
 from physsim_ros.sketchpad.server.guarded import Guarded, TYPES
+from physsim_ros.sketchpad.server.world_picture import picture_of
 
 # Uploads at once.
 MOST_UPLOADS = 4
@@ -73,6 +74,22 @@ class Download(_OfWorlds):
                 await self.flush()
         except (Refusal, OSError):
             self.refuse(404, 'there is no such world')
+
+
+class WorldPicture(_OfWorlds):
+    """The picture of the file of a world or lesson."""
+
+    async def get(self, name: str) -> None:
+        """Answer with the picture."""
+        try:
+            path = self.world_path(name)
+            changed = path.stat().st_mtime_ns
+            # YAML of a megabyte takes a second to be read.
+            picture = await asyncio.to_thread(picture_of, path, changed)
+        except (PhysSimError, OSError):
+            self.refuse(404, 'there is no such world')
+        self.set_header('Content-Type', TYPES['.svg'])
+        self.finish(picture)
 
 
 class Picture(_OfWorlds):

@@ -16,7 +16,7 @@ from physsim_ros.drawing.strokes.evidence import (
     Term,
     terms_of,
 )
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.meanings import Sign
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -80,4 +80,4 @@ def _candidates(sign: Sign) -> Iterator[Candidate]:
         'round arrow': arrows.round_arrow,
     }[sign.name]
     for _ in range(20):
-        yield from sign.candidates(Features.of(resample_stroke(stroke(draw(rng), rng))))
+        yield from sign.candidates(features_of(resample_stroke(stroke(draw(rng), rng))))

@@ -6,9 +6,9 @@
 import math
 
 import numpy as np
-from physsim_ros.drawing.strokes.features import Features, swings_of
-from physsim_ros.drawing.strokes.meanings import Form
-from physsim_ros.drawing.strokes.reading import recognise_form
+from physsim_ros.drawing.strokes.evidence import Form
+from physsim_ros.drawing.strokes.features import features_of, swings_of
+from physsim_ros.drawing.strokes.forms import forms_of
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 import pytest
@@ -71,14 +71,14 @@ RULED: dict[str, tuple[str, Floats]] = {
 }
 
 
-def forms_of(way: Floats) -> tuple[Form, ...]:
+def forms_drawn(way: Floats) -> tuple[Form, ...]:
     """Return the readings of a stroke, the likeliest first."""
-    return recognise_form(Features.of(resample_stroke(way)))
+    return forms_of(features_of(resample_stroke(way)))
 
 
 @pytest.mark.parametrize(('primitive', 'way'), RULED.values(), ids=RULED)
 def test_what_is_drawn_by_ruler_is_recognised(primitive: str, way: Floats) -> None:
-    best, *others = forms_of(way)
+    best, *others = forms_drawn(way)
 
     assert best.name == primitive
     assert best.weight > 0.6
@@ -93,7 +93,7 @@ def test_turned_mirrored_backwards_and_in_any_size_it_is_the_same(name: str, tur
     turned = way @ np.array([(cos, sin), (sin, -cos)])
 
     for other in (turned, turned[::-1], 100.0 * turned, 0.01 * turned):
-        assert forms_of(other)[0].name == primitive
+        assert forms_drawn(other)[0].name == primitive
 
 
 @pytest.mark.parametrize(
@@ -115,39 +115,39 @@ def test_of_forty_hands_nearly_all_are_read(draw, least: int) -> None:
     right = 0
     for _ in range(40):
         figure: Figure = draw(random)
-        found = forms_of(drawn_by_anybody(figure, random))
+        found = forms_drawn(drawn_by_anybody(figure, random))
         right += bool(found) and found[0].name == figure.kind
 
     assert right >= least
 
 
 def test_geometry_comes_with_it() -> None:
-    center, rim = forms_of(3.0 * CIRCLE + (5.0, 7.0))[0].points
+    center, rim = forms_drawn(3.0 * CIRCLE + (5.0, 7.0))[0].points
     assert center == pytest.approx((5.0, 7.0), abs=0.01)
     assert math.dist(center, rim) == pytest.approx(3.0, abs=0.02)
 
-    (crossing,) = forms_of(RULED['x'][1])[0].points
+    (crossing,) = forms_drawn(RULED['x'][1])[0].points
     assert crossing == pytest.approx((0.5, 0.5), abs=0.02)
 
-    tail, tip = forms_of(RULED['arrow, head first'][1])[0].points
+    tail, tip = forms_drawn(RULED['arrow, head first'][1])[0].points
     assert tail == pytest.approx((0.0, 0.0), abs=0.03)
     assert tip == pytest.approx((3.0, 0.0), abs=0.06)
 
-    corners = forms_of(RULED['plank'][1])[0].points
+    corners = forms_drawn(RULED['plank'][1])[0].points
     for corner in RULED['plank'][1]:
         # m, of a plank of 9 m
         assert np.hypot(*(corners - corner).T).min() < 0.1
 
 
 def test_a_pentagram_is_a_solid_of_ten_corners_and_an_oval_is_fine_enough_to_roll() -> None:
-    star = forms_of(STAR)[0].points
+    star = forms_drawn(STAR)[0].points
     radii = np.hypot(*star.T)
 
     assert len(star) == 10
     # m: the inner corners of a pentagram lie on a circle of 0.382 of its radius
     assert np.sort(radii) == pytest.approx([0.382] * 5 + [1.0] * 5, abs=0.04)
 
-    oval = forms_of(CIRCLE * (1.0, 0.5))[0].points
+    oval = forms_drawn(CIRCLE * (1.0, 0.5))[0].points
     assert len(oval) >= 32
     # m: half axes
     assert np.abs(oval).max(axis=0) == pytest.approx((1.0, 0.5), abs=0.01)
@@ -158,7 +158,7 @@ def test_a_flat_circle_is_a_disc_and_the_other_form_is_offered(aspect: float, fo
     angle = np.linspace(0.0, 2.0 * math.pi, 60)
     flat = np.column_stack((np.cos(angle), aspect * np.sin(angle)))
 
-    first, second, *_ = recognise_form(Features.of(resample_stroke(flat)))
+    first, second, *_ = forms_of(features_of(resample_stroke(flat)))
 
     assert first.name == form
     assert {first.name, second.name} == {'disc', 'oval'}
@@ -180,8 +180,8 @@ def test_a_brace_whose_tip_is_retraced_is_a_line_and_a_pigtail_no_x() -> None:
     loop = 0.3 * np.column_stack((np.sin(ANGLE), 1.0 - np.cos(ANGLE)))
     pigtail = np.vstack(([(-0.7, 0.0)], loop, [(0.7, 0.0)]))
 
-    assert forms_of(brace)[0].name == 'line'
-    found = forms_of(pigtail)
+    assert forms_drawn(brace)[0].name == 'line'
+    found = forms_drawn(pigtail)
     assert not any(each.name == 'x' and each.weight > 0.1 for each in found)
 
 
@@ -191,7 +191,7 @@ def test_a_brace_whose_tip_is_retraced_is_a_line_and_a_pigtail_no_x() -> None:
 def test_an_x_of_unequal_arms_is_no_arrow(arms: tuple[float, ...]) -> None:
     ends = np.array([(-1, 1), (1, -1), (1, 1), (-1, -1)]) * np.array(arms)[:, None]
 
-    best, *others = forms_of(ends)
+    best, *others = forms_drawn(ends)
 
     assert best.name == 'x'
     assert not any(each.name == 'arrow' and each.weight > 0.2 for each in others)
@@ -201,7 +201,7 @@ def test_an_x_of_unequal_arms_is_no_arrow(arms: tuple[float, ...]) -> None:
 def test_a_thin_wedge_is_no_plank(height: float) -> None:
     wedge = np.array([(0, 0), (4, 0), (4, height), (0, 0)])
 
-    best = forms_of(wedge)[0]
+    best = forms_drawn(wedge)[0]
 
     assert best.name == 'polygon'
     assert best.weight > 0.85
@@ -215,4 +215,4 @@ def test_a_circle_with_a_gap_or_an_overlap_is_a_disc(closing: float, slip: float
     radius = 1.0 - slip * np.clip(np.linspace(-2.0, 1.0, 50), 0.0, 1.0)
     way = radius[:, None] * np.column_stack((np.cos(angle), 0.85 * np.sin(angle)))
 
-    assert forms_of(way)[0].name == 'disc'
+    assert forms_drawn(way)[0].name == 'disc'

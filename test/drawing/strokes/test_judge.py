@@ -9,14 +9,13 @@ from importlib.resources import files
 import numpy as np
 from physsim_ros.drawing.settings import DrawingSettings
 from physsim_ros.drawing.strokes import judge
-from physsim_ros.drawing.strokes.features import Features
 from physsim_ros.drawing.strokes.judge import judged, TABLE
 from physsim_ros.drawing.strokes.meanings import Context
 from physsim_ros.drawing.strokes.reading import (
-    guess_meanings,
+    guesses_by_rules,
+    guesses_of,
+    in_scene,
     measures_of,
-    recognise_form,
-    weigh_meanings,
 )
 from physsim_ros.drawing.strokes.signs import SIGNS
 from physsim_ros.drawing.strokes.stroke import resample_stroke
@@ -26,8 +25,7 @@ from tools.evaluation.scenes import Scene, scenes
 
 
 def context_of(scene: Scene) -> Context:
-    features = Features.of(resample_stroke(scene.samples))
-    return Context(features=features, scene=scene.view, settings=DrawingSettings())
+    return in_scene(resample_stroke(scene.samples), scene.view, DrawingSettings())
 
 
 @pytest.fixture(scope='module')
@@ -48,15 +46,13 @@ def test_every_tree_ends_in_leaves_and_asks_for_measures_that_readings_have(
         assert children <= nodes.keys() if measure else not children & nodes.keys()
     had = {f'form {sign.name}' for sign in SIGNS}
     for context in contexts:
-        forms = recognise_form(context.features)
-        had |= measures_of(weigh_meanings(forms, context), forms, context).keys()
+        had |= measures_of(guesses_by_rules(context), context).keys()
     assert {each for each in nodes.values() if not each.startswith('read as')} - {''} <= had
 
 
 def test_the_judge_changes_no_reading(contexts: list[Context]) -> None:
     for context in contexts:
-        forms = recognise_form(context.features)
-        by_rules, guesses = weigh_meanings(forms, context), guess_meanings(forms, context)
+        by_rules, guesses = guesses_by_rules(context), guesses_of(context)
 
         assert [each.meaning for each in guesses] == [each.meaning for each in by_rules]
         confidences = [each.confidence for each in guesses]

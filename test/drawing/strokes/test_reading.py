@@ -10,9 +10,10 @@ import math
 import numpy as np
 from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.settings import DrawingSettings
-from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.features import features_of
+from physsim_ros.drawing.strokes.forms import forms_of
 from physsim_ros.drawing.strokes.joining import joined_arrow, joined_strokes
-from physsim_ros.drawing.strokes.reading import Reading, recognise_form
+from physsim_ros.drawing.strokes.reading import Reading
 from physsim_ros.drawing.strokes.stroke import resample_stroke
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NotRecognised, Refusal
@@ -291,7 +292,7 @@ def test_below_the_confidence_asked_for_nothing_is_built_and_what_it_might_be_is
     ids=['an eight', 'a spiral', 'a pigtail'],
 )
 def test_what_is_no_figure_is_not_recognised(world: World, way: Floats) -> None:
-    forms = recognise_form(Features.of(resample_stroke(way)))
+    forms = forms_of(features_of(resample_stroke(way)))
 
     assert max((each.weight for each in forms), default=0.0) < 0.3
     with pytest.raises(NotRecognised):

@@ -109,6 +109,21 @@ def test_impulses_of_contacts_are_the_only_ones_of_all_sets_of_contacts(call, se
     assert impulses[:count] * scale == pytest.approx(wanted * scale, rel=1e-6, abs=1e-6)
 
 
+@pytest.mark.parametrize('count', range(1, 9))
+def test_contacts_that_say_the_same_share_an_impulse(call, count):
+    impulses, pointer = call.array(np.zeros(8))
+
+    solved = call.lib.call_lcp(
+        count,
+        call.ffi.cast('double (*)[8]', call.array(np.full((8, 8), 0.7))[1]),
+        call.array(np.full(8, -2.1))[1],
+        pointer,
+    )
+
+    assert solved
+    assert impulses[:count] == pytest.approx(np.full(count, 3.0 / count), rel=1e-5)
+
+
 # Rows with bounds
 
 

@@ -70,6 +70,19 @@ def test_a_box_is_stopped_by_a_step(step, speed):
     assert stopped.poses[row, 0] + 0.15 < 1.8
 
 
+def test_a_ball_that_falls_on_a_corner_bounces_from_the_corner():
+    sim = simulation(gravity=(0.0, 0.0), elasticity=1.0, friction=0.0)
+    spawn(sim, 'tile/0', Box(width=0.5, height=0.5), (0.25, -0.25, 0.0), anchored=True)
+    # Its centre is a little outside, so that it is behind the top by less than the slop.
+    normal, velocity = np.array((-math.sin(0.08), math.cos(0.08))), np.array((3.0, -3.0))
+    start = DISC.radius * normal - 0.1 * velocity
+    row = spawn(sim, 'disc/0', DISC, (*start, 0.0), velocity=tuple(velocity))
+    (*_, last) = steps(sim, 60)
+
+    wanted = velocity - 2.0 * (velocity @ normal) * normal
+    assert last.twists[row, :2] == pytest.approx(wanted, abs=1e-6)
+
+
 def test_a_ball_rolls_in_a_bowl_of_pieces_as_in_one_of_segments():
     angles = np.linspace(-math.pi / 2, math.pi / 2, 100)
     around = np.column_stack((np.sin(angles), -np.cos(angles)))

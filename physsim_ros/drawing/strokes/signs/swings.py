@@ -14,12 +14,11 @@ from functools import partial
 
 from physsim_ros.drawing.strokes import bodies_under, open_lines, outcomes
 from physsim_ros.drawing.strokes.corner_detection import bends_of
-from physsim_ros.drawing.strokes.evidence import Candidate, falls
+from physsim_ros.drawing.strokes.evidence import Candidate, Form, Limit
 from physsim_ros.drawing.strokes.features import Features, FEWEST
 from physsim_ros.drawing.strokes.meanings import (
     Context,
     DELETION,
-    Form,
     Meaning,
     MISPLACED,
     Outcome,
@@ -35,14 +34,14 @@ _TREMOR = 0.05
 # The least spread of swings: those of scribbles lie closer.
 _CLOSEST = 0.9
 # The share of the stroke that lies on the bodies at its ends from which on it is no spring.
-_ON_ENDS = 0.6
+_ON_ENDS = Limit(0.6, 0.03)
 # The least number of swings: people make six and more.
 _FEWEST = 6
 # The greatest spread of swings: those of zigzags lie farther apart.
 _FARTHEST = 1.15
 # The greatest share of the middle half of a spring that lies on the bodies at its ends: a scribble
 # over two bodies side by side has 0.3 and more.
-_MIDDLE_ON_ENDS = 0.15
+_MIDDLE_ON_ENDS = Limit(0.15, 0.03)
 
 
 def _zigzag_candidates(features: Features) -> Iterator[Candidate]:
@@ -62,7 +61,7 @@ def _zigzag_meanings(form: Form, context: Context) -> Iterator[Meaning]:
         # A spring leaves the bodies that it joins.
         crossed = bodies_under.crossed_bodies(drawn.points, context.scene)
         share = bodies_under.share_on(crossed, ends)
-        spring = falls(share, _ON_ENDS, 0.03) if ends[1].body != WORLD else 1.0 - share
+        spring = _ON_ENDS.below(share) if ends[1].body != WORLD else 1.0 - share
     body = open_lines.hatched_body(context)
     if body is not None and (ends is None or ends[1].body == WORLD):
         lines = len(bends_of(drawn.points)) - 1
@@ -96,7 +95,7 @@ def _scribble_meanings(form: Form, context: Context) -> Iterator[Meaning]:
     if ends is not None and ends[1].body != WORLD:
         others = set(covered) - {end.body for end in ends}
         middle = 1.0 if others else bodies_under.middle_share_on(crossed, ends)
-        spring = falls(middle, _MIDDLE_ON_ENDS, 0.03)
+        spring = _MIDDLE_ON_ENDS.below(middle)
     yield Meaning(
         name='spring',
         weight=form.weight * spring,

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from functools import partial
 import math
 
-from physsim_ros.drawing.strokes.evidence import Candidate
+from physsim_ros.drawing.strokes.evidence import Candidate, Form
 from physsim_ros.drawing.strokes.features import Features, loop_roundness
 from physsim_ros.drawing.strokes.fitting import line
 from physsim_ros.drawing.strokes.geometry import (
@@ -19,7 +19,7 @@ from physsim_ros.drawing.strokes.geometry import (
     path_length,
     point_of,
 )
-from physsim_ros.drawing.strokes.meanings import Context, Form, Meaning, MISPLACED, Outcome, Sign
+from physsim_ros.drawing.strokes.meanings import Context, Meaning, MISPLACED, Outcome, Sign
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
 from physsim_ros.model.requests import Anchor

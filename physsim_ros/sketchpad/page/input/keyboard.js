@@ -2,7 +2,6 @@
 /** The keys of the page, which `?` shows, and the cursor on the canvas that they move. */
 
 import {TOOLS} from '../tools/tools.js';
-import {showHelp} from '../ui/help.js';
 import {ARROWS} from '../ui/toolbar.js';
 
 /** @import {App, Point, SceneView, Touch, Worked} from '../types.js' */
@@ -31,7 +30,7 @@ export class Keyboard {
     const callService = (/** @type {string} */ name) => () => app.time.callService(name);
     /** @type {Record<string, () => void>} */
     this.keys = {
-      '?': () => showHelp(app), f: () => app.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
+      '?': () => app.showHelp(), f: () => app.room.frameAll(), '+': () => this.#zoom(ZOOM), '-': () => this.#zoom(1 / ZOOM),
       r: () => app.tool.turn?.(TURN), R: () => app.tool.turn?.(-TURN),
       n: () => this.#next(1), N: () => this.#next(-1),
       Delete: () => app.selection.deleteSelected(), Backspace: () => app.selection.deleteSelected(), Escape: () => this.#drop(),
@@ -119,7 +118,7 @@ export class Keyboard {
 
   #drop() {
     const {app} = this, {plotWindow} = app;
-    if (!plotWindow.element.hidden) return plotWindow.close();
+    if (plotWindow?.isOpen) return plotWindow.close();
     app.tool.cancel?.();
     app.readings.dismiss();
     app.cursor.hide();

@@ -48,7 +48,7 @@ export class Menu {
     const names = [...selection.names];
     element.replaceChildren(...name ? [
       item(t('Copy (Ctrl+C)'), () => selection.keep(false)), item(t('Cut (Ctrl+X)'), () => selection.keep(true)),
-      item(t('Duplicate (Ctrl+D)'), () => selection.duplicate()), item(t('Plot'), () => app.plotWindow.open(names)),
+      item(t('Duplicate (Ctrl+D)'), () => selection.duplicate()), item(t('Plot'), () => app.plot((plot) => plot.open(names))),
       item(t('Delete (Del)'), () => selection.deleteSelected())] : [],
     ...selection.kept.names.length ? [item(t('Paste (Ctrl+V)'), () => selection.paste(at))] : [],
     ...name ? [] : [item(t('Select all (Ctrl+A)'), () => selection.selectAll()), item(t('Frame the world (F)'), () => app.room.frameAll())]);

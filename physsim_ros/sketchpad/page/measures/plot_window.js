@@ -3,7 +3,7 @@
 
 import {choice, createElement, download, elementOf, foldButton, iconButton, inRow, soon, textButton, toggling} from '../dom.js';
 import {drawChart, EVERY} from './chart.js';
-import {QUANTITIES, tableOf} from './quantities.js';
+import {QUANTITIES, tableOf, toldOf} from './quantities.js';
 import {threeDigits} from '../rounding.js';
 import {isRoomy} from '../view/room.js';
 import {t} from '../strings.js';
@@ -14,6 +14,7 @@ import {distance} from '../vectors.js';
 
 const SIZE = 18, NARROW_SIZE = 14; // px: of the font, and on a telephone
 const NARROW = 560; // px
+const LONG = 3, PREDICTED = 10; // s and units that a prediction has room for
 /** Colours of the bodies, one after the other. @type {(keyof Palette)[]} */
 const COLORS = ['accent', 'force', 'friction', 'weight', 'joint', 'air'];
 
@@ -27,6 +28,9 @@ export class PlotWindow {
     this.axes = {x: 'time', y: 'y'};
     this.sums = false; // the sum over the bodies is shown, too
     this.differs = false; // in place of this run and the last one, their difference is shown
+    this.predicts = false; // the pointer draws the curve that is expected of the first body
+    /** @type {number[][]} that was drawn, from left to right */
+    this.predicted = [];
     this.canvas = createElement('canvas', {role: 'img', 'aria-label': t('Large plot')});
     this.reading = createElement('output', {}, '');
     this.legend = createElement('div', {className: 'row legend'});
@@ -34,9 +38,13 @@ export class PlotWindow {
     this.scales = null;
     /** @type {?[number, number]} pointer on the canvas [px] */
     this.pointed = null;
-    this.canvas.onpointermove = ({offsetX, offsetY}) => {
+    this.canvas.onpointermove = ({offsetX, offsetY, buttons, pointerId}) => {
       this.pointed = [offsetX, offsetY];
+      if (this.predicts && buttons) this.#predict(offsetX, offsetY, pointerId);
       this.#draw();
+    };
+    this.canvas.onpointerdown = ({offsetX, offsetY, pointerId}) => {
+      if (this.predicts) this.#predict(offsetX, offsetY, pointerId);
     };
     this.canvas.onpointerleave = () => {
       this.pointed = null;
@@ -45,7 +53,7 @@ export class PlotWindow {
     const drawSoon = soon(() => this.#draw(), EVERY);
     app.connection.on('frame', drawSoon);
     app.connection.on('body', drawSoon);
-    app.connection.on('world', () => this.element.hidden || this.close());
+    app.connection.on('world', () => this.isOpen && this.close());
     new ResizeObserver(() => this.#draw()).observe(this.element);
   }
 
@@ -54,9 +62,10 @@ export class PlotWindow {
     const quantities = Object.entries(QUANTITIES).map(([key, {label}]) => /** @type {[string, string]} */ ([key, label]));
     const select = (/** @type {'x' | 'y'} */ axis, /** @type {string} */ label) => choice(label, quantities, this.axes[axis], (key) => {
       this.axes[axis] = key;
+      this.predicted = [];
       this.#draw();
     });
-    const rest = inRow(this.#adder(), this.#summer(), this.#subtracter(), textButton(t('Copy table'), () => this.#copyTable()));
+    const rest = inRow(this.#adder(), this.#summer(), this.#subtracter(), this.#predicter(), textButton(t('Copy table'), () => this.#copyTable()));
     rest.classList.add('rest');
     const more = foldButton(t('Bodies, sum, table'), () => {
       more.setAttribute('aria-expanded', String(!this.element.classList.toggle('folded')));
@@ -73,6 +82,10 @@ export class PlotWindow {
     // On a small page there is no room for plot and panel.
     if (!isRoomy()) selection.select([]);
     room.fit();
+  }
+
+  get isOpen() {
+    return !this.element.hidden;
   }
 
   close() {
@@ -102,6 +115,30 @@ export class PlotWindow {
     return button;
   }
 
+  /** @returns {HTMLElement} the switch of the pen for the curve that is expected */
+  #predicter() {
+    const button = toggling(textButton(t('Predict the curve'), () => {}), () => this.predicts, () => {
+      this.predicts = !this.predicts;
+      this.predicted = [];
+      this.#draw();
+    });
+    button.title = t('Draw the curve that you expect, then play');
+    return button;
+  }
+
+  /**
+   * Continue the curve that is expected; where the pointer goes back, it is drawn anew from there.
+   * @param {number} x [px]
+   * @param {number} y [px]
+   * @param {number} pointer that draws
+   */
+  #predict(x, y, pointer) {
+    if (!this.scales) return;
+    this.canvas.setPointerCapture(pointer);
+    const at = [valueAt(this.scales.x, x), valueAt(this.scales.y, y)];
+    this.predicted = [...this.predicted.filter((point) => point[0] < at[0]), at];
+  }
+
   #adder() {
     const input = choice(t('Add a body'), this.app.words.choices(t('Add a body …')), '', (added) => {
       this.#show([...this.names.filter((name) => name !== added), added]);
@@ -124,7 +161,7 @@ export class PlotWindow {
   }
 
   #draw() {
-    if (this.element.hidden) return;
+    if (!this.isOpen) return;
     const {world, view: {palette}, records} = this.app, {gravity} = world.scene, {x, y} = this.axes;
     /** @type {Curve[]} */
     const curves = [];
@@ -139,12 +176,19 @@ export class PlotWindow {
         {points: points(record.left), color, width: 2, dash: [6, 6], alpha: 0.7});
     });
     if (this.sums && QUANTITIES[y].sums && x === 'time') curves.push({points: sumOf(curves.filter(({dash}) => !dash)), color: palette.ink, width: 4});
+    const real = curves[0]?.points ?? [];
+    if (this.predicts) {
+      curves.push({points: this.predicted, color: palette.momentum, width: 3, dash: [8, 6]});
+      // The axes have room for a curve before there is one.
+      curves.push({points: roomFor(y, [...real, ...this.predicted], world.extent()), color: palette.paper, width: 0, alpha: 0});
+    }
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
     if (!width || !height) return;
     this.scales = drawChart(this.canvas, {width, height, size: width < NARROW ? NARROW_SIZE : SIZE, palette, curves,
       xLabel: QUANTITIES[x].label, yLabel: QUANTITIES[y].label, range: rangeOf(curves),
       mark: x === 'time' ? world.frame.time : undefined});
     this.#read(curves);
+    if (!this.pointed && this.predicted.length && real.length > 1) this.reading.textContent = t('off by {amount}', {amount: `${threeDigits(apart(this.predicted, real))} ${QUANTITIES[y].label.replace(/.*\[|\]/g, '')}`});
   }
 
   /**
@@ -163,9 +207,7 @@ export class PlotWindow {
       if (far < least) [least, nearest, color] = [far, point, curve.color];
     }
     if (!color) return;
-    const told = (/** @type {'x' | 'y'} */ axis, /** @type {number} */ value) =>
-      QUANTITIES[this.axes[axis]].label.replace('[', `${threeDigits(value)} `).replace(']', '');
-    this.reading.textContent = `${told('x', nearest[0])} · ${told('y', nearest[1])}`;
+    this.reading.textContent = `${toldOf(this.axes.x, nearest[0])} · ${toldOf(this.axes.y, nearest[1])}`;
     const ctx = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext('2d'));
     ctx.fillStyle = color;
     ctx.beginPath();
@@ -212,6 +254,41 @@ function differenceOf(points, others) {
     const other = before.get(time.toFixed(4));
     return other === undefined ? [] : [[time, value - other]];
   });
+}
+
+/**
+ * @param {(value: number) => number} scale
+ * @param {number} pixel
+ * @returns {number} value that is there
+ */
+function valueAt(scale, pixel) {
+  return (pixel - scale(0)) / (scale(1) - scale(0));
+}
+
+/**
+ * @param {string} key of the quantity upwards
+ * @param {number[][]} points that are known
+ * @param {number[]} extent of the world
+ * @returns {number[][]} corners of the part of the plot in which a curve can be drawn
+ */
+function roomFor(key, points, [left, low, right, high]) {
+  const [least, most] = key === 'x' ? [left, right] : key === 'y' ? [low, high] : [Math.min(0, ...points.map(([, y]) => y)), Math.max(PREDICTED, ...points.map(([, y]) => y))];
+  return [[0, least], [Math.max(LONG, ...points.map(([x]) => x)), most]];
+}
+
+/**
+ * @param {number[][]} predicted from left to right
+ * @param {number[][]} real
+ * @returns {number} mean distance of the curves upwards, where both are; NaN where that is nowhere
+ */
+function apart(predicted, real) {
+  const distances = real.flatMap(([x, y]) => {
+    const after = predicted.findIndex((point) => point[0] >= x);
+    if (after < 1) return [];
+    const [[px, py], [qx, qy]] = predicted.slice(after - 1);
+    return [Math.abs(y - py - (qy - py) * (x - px) / (qx - px))];
+  });
+  return distances.reduce((sum, each) => sum + each, 0) / distances.length;
 }
 
 /**

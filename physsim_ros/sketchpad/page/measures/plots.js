@@ -22,8 +22,8 @@ export class Plots {
     this.canvases = SHOWN.map((key) => createElement('canvas', {role: 'img', 'aria-label': QUANTITIES[key].label}));
     this.element = createElement('section', {className: 'plots', 'aria-label': t('Plots')}, ...this.canvases,
       createElement('p', {}, t('Broad: free flight by its formula. Dashed: the earlier course.')),
-      inRow(textButton(t('Large plot'), () => app.plotWindow.open([this.name])),
-        textButton(t('Table (CSV)'), () => app.plotWindow.saveTable([this.name]))));
+      inRow(textButton(t('Large plot'), () => app.plot((plot) => plot.open([this.name]))),
+        textButton(t('Table (CSV)'), () => app.plot((plot) => plot.saveTable([this.name])))));
     const drawSoon = soon(() => this.#draw(), EVERY);
     app.connection.on('frame', drawSoon);
     app.connection.on('body', drawSoon);

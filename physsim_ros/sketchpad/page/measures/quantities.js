@@ -128,6 +128,15 @@ export const QUANTITIES = {
 };
 
 /**
+ * @param {string} key of a quantity
+ * @param {number} value
+ * @returns {string} its name, its value and its unit
+ */
+export function toldOf(key, value) {
+  return QUANTITIES[key].label.replace('[', `${Number.isNaN(value) ? '–' : threeDigits(value)} `).replace(']', '');
+}
+
+/**
  * @param {{name: string, body: Body, samples: Sample[]}[]} records
  * @param {number[]} gravity
  * @returns {string} a table of all quantities (CSV), the bodies one below the other

@@ -5,7 +5,7 @@
  */
 
 import {checkField} from '../dom.js';
-import {forcesOf, sumsOf} from '../view/forces.js';
+import {forcesOf, pastForcesOf, sumsOf} from '../view/forces.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
 
@@ -29,6 +29,7 @@ export class Records {
     app.connection.on('frame', () => this.#record());
     app.connection.on('timeline', ({course, now}) => this.#follow(course, now));
     app.connection.on('body', (body) => this.#addPast(body));
+    app.connection.on('past_forces', (forces) => this.#addForces(forces));
     // The answers to what was asked are lost.
     app.connection.on('open', () => this.#ask());
     // In another world, a body of the same name is another body.
@@ -88,6 +89,17 @@ export class Records {
     record.samples.forEach((sample, i, all) => accelerate(sample, all[i - 1]));
   }
 
+  /** @param {{name: string, time: number[], normal: Point[], friction: Point[], joint: Point[]}} columns of its past */
+  #addForces({name, time, normal, friction, joint}) {
+    const {world} = this.app, body = world.body(name), samples = this.bodies.get(name)?.samples;
+    if (!body || !samples || body.anchored || body.kinematic) return;
+    const byTime = new Map(samples.map((sample) => [sample.time, sample]));
+    time.forEach((at, i) => {
+      const sample = byTime.get(at);
+      if (sample) sample.forces ??= sizesOf(pastForcesOf(world, body, sample, {normal: normal[i], friction: friction[i], joint: joint[i]}));
+    });
+  }
+
   #record() {
     const {world} = this.app, {frame: {time, yaw, velocities}} = world;
     if (this.opened) this.began = time;
@@ -135,7 +147,7 @@ function accelerate(sample, before) {
 }
 
 /**
- * @param {Force[]} forces on a body
+ * @param {{kind: Force['kind'], x: number, y: number}[]} forces on a body
  * @returns {Record<string, number>} the size of the sum of each kind [N]
  */
 function sizesOf(forces) {
@@ -200,15 +212,15 @@ export class Trail {
     view.line(samples.map(({x, y}) => [x, y]), palette.faint, [2, 5]);
     if (!flashes) return;
     let last = /** @type {Point} */ ([-Infinity, -Infinity]);
-    flashesOf(samples).forEach((number, i) => {
-      const {x, y, vx, vy} = samples[number], at = view.camera.toPage(x, y);
+    flashesOf(samples).forEach((sample, i) => {
+      const {x, y, vx, vy} = sample, at = view.camera.toPage(x, y);
       // Images are at equal times, however near; numbers and arrows, where there is room for them.
       const isApart = distance(at, last) >= APART;
-      this.#flash(view, row, samples[number], isApart);
+      this.#flash(view, row, sample, isApart);
       if (!isApart) return;
       last = at;
       const speed = Math.hypot(vx, vy) || 1, aside = /** @type {Point} */ ([vy / speed, vx / speed]);
-      view.number({text: String(i + 1), color: palette.ink, tip: [at[0] - ASIDE * aside[0], at[1] - ASIDE * aside[1]], along: [-aside[0], -aside[1]]});
+      view.number({text: String(i), color: palette.ink, tip: [at[0] - ASIDE * aside[0], at[1] - ASIDE * aside[1]], along: [-aside[0], -aside[1]]});
     });
   }
 
@@ -243,12 +255,27 @@ function drawArrow(view, [px, py], x, y, color) {
 
 /**
  * @param {Sample[]} samples
- * @returns {number[]} numbers of those next after whole multiples of the time of a flash, the last ones
+ * @returns {Sample[]} the motion at whole multiples of the time of a flash from the first one on, the last ones; samples may lack
  */
 function flashesOf(samples) {
-  const numbers = [];
-  for (let i = 1; i < samples.length; i++) {
-    if (Math.floor(samples[i].time / FLASH + 1e-6) > Math.floor(samples[i - 1].time / FLASH + 1e-6)) numbers.push(i);
+  const flashes = [];
+  for (let i = 1, flash = Math.ceil(samples[0].time / FLASH - 1e-6); i < samples.length; i++) {
+    for (; flash * FLASH <= samples[i].time + 1e-6; flash++) flashes.push(motionBetween(samples[i - 1], samples[i], flash * FLASH));
   }
-  return numbers.slice(-MOST_FLASHES);
+  return flashes.slice(-MOST_FLASHES);
+}
+
+/**
+ * @param {Sample} p
+ * @param {Sample} q the next one
+ * @param {number} time between them [s]
+ * @returns {Sample} by cubic Hermite interpolation, which is exact for constant acceleration
+ */
+function motionBetween(p, q, time) {
+  const h = q.time - p.time, s = (time - p.time) / h, r = 1 - s;
+  const place = (/** @type {number[]} */ [from, rate, to, last]) =>
+    r * r * (1 + 2 * s) * from + s * r * r * h * rate + s * s * (1 + 2 * r) * to - s * s * r * h * last;
+  const linear = (/** @type {'vx' | 'vy' | 'spin'} */ key) => r * p[key] + s * q[key];
+  return {...q, time, x: place([p.x, p.vx, q.x, q.vx]), y: place([p.y, p.vy, q.y, q.vy]), yaw: place([p.yaw, p.spin, q.yaw, q.spin]),
+    vx: linear('vx'), vy: linear('vy'), spin: linear('spin')};
 }

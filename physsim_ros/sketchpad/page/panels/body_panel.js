@@ -49,7 +49,7 @@ export function bodyContent(app, [name]) {
         textButton(t('Copy'), () => copy(app, name)),
         textButton(t('Delete body'), () => app.selection.deleteSelected(), 'danger')),
       createElement('p', {hidden: body.anchored, textContent: t('Point at the body: its ring is dragged to set the velocity, the round handle to turn, the square one to scale.')}),
-      ...app.trail.switches(name),
+      ...app.trail.switches(name), app.meters.field(name),
       app.plots.element,
     ],
     live: (view) => {

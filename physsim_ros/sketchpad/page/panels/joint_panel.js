@@ -29,7 +29,7 @@ const RING = 9; // px: at its ends
  * @param {string[]} names of the joint alone
  * @returns {?Content} null where it is gone
  */
-export function jointContent({world, connection, selection}, [name]) {
+export function jointContent({world, connection, selection, meters}, [name]) {
   const numberOf = () => world.scene.joints.findIndex((each) => each.name === name), joint = world.scene.joints[numberOf()];
   if (!joint) return null;
   const change = (/** @type {Record<string, ?number>} */ properties) => connection.send('change_joint', {name, properties});
@@ -44,11 +44,12 @@ export function jointContent({world, connection, selection}, [name]) {
     }),
     ...limits.map(([key, label]) =>
       createElement('label', {}, label, numberField(joint[key] ?? null, (value) => change({[key]: value}), {placeholder: t('none')}))),
+    meters.jointField(name),
     inRow(textButton(t('Delete joint'), () => selection.deleteSelected(), 'danger')),
   ], live: (view) => {
     const number = numberOf(), now = world.scene.joints[number];
     if (!now) return;
-    showText(force, [t('Force now: {force} N', {force: threeDigits(world.frame.forces?.[number] ?? 0)}), ...lengthNow(world, now)].join(' · '));
+    showText(force, t('Force now: {force}', {force: jointTexts(world, now).join(' · ')}));
     view.ring(world.place(now.a, now.points[0]), RING, view.palette.accent);
     if (now.points[1] && now.kind !== 'slider') view.ring(world.place(now.b, now.points[1]), RING, view.palette.accent);
   }};
@@ -57,10 +58,12 @@ export function jointContent({world, connection, selection}, [name]) {
 /**
  * @param {WorldState} world
  * @param {Joint} joint
- * @returns {string[]} how long it is, and the energy of a spring
+ * @returns {string[]} its force, how long it is, and the energy of a spring
  */
-function lengthNow(world, {kind, a, b, points: [p, q], rest_length: rest, stiffness = 100}) {
-  if (!MEASURED.includes(kind)) return [];
-  const length = distance(world.place(a, p), world.place(b, q)), text = t('length {length} m', {length: threeDigits(length)});
-  return kind === 'spring' ? [text, t('energy {energy} J', {energy: threeDigits(stiffness * (length - rest) ** 2 / 2)})] : [text];
+export function jointTexts(world, joint) {
+  const {kind, a, b, points: [p, q], rest_length: rest, stiffness = 100} = joint;
+  const force = `${threeDigits(world.frame.forces?.[world.scene.joints.indexOf(joint)] ?? 0)} N`;
+  if (!MEASURED.includes(kind)) return [force];
+  const length = distance(world.place(a, p), world.place(b, q)), texts = [force, t('length {length} m', {length: threeDigits(length)})];
+  return kind === 'spring' ? [...texts, t('energy {energy} J', {energy: threeDigits(stiffness * (length - rest) ** 2 / 2)})] : texts;
 }

@@ -26,7 +26,7 @@ export function severalContent(app, names) {
     inRow(textButton(t('Copy beside'), () => {
       const [left, , right] = app.world.boundsOfAll(names);
       app.connection.send('copy_machine', {names, by: [right - left + BESIDE, 0]});
-    }), textButton(t('Plot them'), () => app.plotWindow.open(names)), textButton(t('Delete bodies'), () => app.selection.deleteSelected(), 'danger')),
+    }), textButton(t('Plot them'), () => app.plot((plot) => plot.open(names))), textButton(t('Delete bodies'), () => app.selection.deleteSelected(), 'danger')),
     ...arrangeButtons(app, names)]};
 }
 

@@ -2,7 +2,6 @@
 /** The people in this world: names, colours, cursors; and what a teacher may do: freeze, lock, clear, show the address. */
 
 import {createElement, elementOf, fieldForm, iconButton, inRow, soon, textButton} from '../dom.js';
-import {showResults} from './results.js';
 import {t} from '../strings.js';
 
 /** @import {App, Classmate, Point, SceneView} from '../types.js' */
@@ -29,18 +28,18 @@ export class Classroom {
     this.thaw = () => {}; // takes the note away that says that the world is frozen
     this.frozen = false; // whether it is there
     const {connection, view} = app;
+    // The page of a class has asked for it.
+    const [, kind, given] = /^#(name|class)=(.*)/.exec(location.hash) ?? [];
+    if (kind) {
+      if (kind === 'name') localStorage.setItem(NAME, decodeURIComponent(given));
+      else sessionStorage.setItem(LOOKS_IN, decodeURIComponent(given));
+      history.replaceState(null, '', location.pathname + location.search);
+    }
     connection.on('welcome', ({client, teacher}) => {
       this.page = Number(client);
       this.teacher = Boolean(teacher);
-      // The page of a class has asked for it.
-      const [, kind, given] = /^#(name|class)=(.*)/.exec(location.hash) ?? [];
-      if (kind) {
-        if (kind === 'name') localStorage.setItem(NAME, decodeURIComponent(given));
-        else sessionStorage.setItem(LOOKS_IN, decodeURIComponent(given));
-        history.replaceState(null, '', location.pathname + location.search);
-      }
       this.#showWhose();
-      const name = localStorage.getItem(NAME);
+      const name = ownName();
       if (name && !app.viewOnly) connection.send('person', {name});
       if (this.raised) this.#raise(true);
     });
@@ -126,7 +125,7 @@ export class Classroom {
   #showPeople() {
     const {app, state, teacher} = this, {connection} = app;
     const own = state.people.find(({page}) => page === this.page)?.name ?? '';
-    const input = createElement('input', {value: localStorage.getItem(NAME) ?? '', placeholder: personWord(own), required: true,
+    const input = createElement('input', {value: ownName(), placeholder: personWord(own), required: true,
       maxLength: LONGEST, autocomplete: 'nickname', 'aria-label': t('Your name')});
     const form = fieldForm(input, t('Use this name'), (name) => {
       localStorage.setItem(NAME, name);
@@ -156,7 +155,8 @@ export class Classroom {
     return [createElement('h3', {}, t('Teacher')), sayForm((text) => connection.send('say', {text})), inRow(freeze, lock,
       ...locked.length ? [textButton(t('Unlock all'), lockThem([]))] : []),
     ...locked.length ? [createElement('p', {}, t('Locked: {names}', {names: locked.join(', ')}))] : [],
-    inRow(textButton(t('Results'), () => showResults(this.app.dialog, this.app.lessons.list, () => connection.send('forget_results')))),
+    inRow(textButton(t('Results'), () => this.app.with(import('./results.js'), ({showResults}) =>
+      showResults(this.app.dialog, this.app.lessons.list, () => connection.send('forget_results'))))),
     // Pupils of a class come by its own page.
     ...sessionStorage.getItem(LOOKS_IN) !== null ? [] : [createElement('h3', {}, t('Pupils come here')),
       createElement('img', {src: '/qr.svg', alt: t('QR code of the address of pupils'), className: 'code'})]];
@@ -183,6 +183,11 @@ export class Classroom {
       ctx.fillText(shown, x + 16, y + 26);
     }
   }
+}
+
+/** @returns {string} that the person at this page has chosen; '' where it is none */
+export function ownName() {
+  return localStorage.getItem(NAME) ?? '';
 }
 
 /**

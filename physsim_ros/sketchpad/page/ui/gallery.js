@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Worlds: a gallery to open from, saving by name, files, a picture. */
 
-import {createElement, download, fieldForm, icon, inRow, textButton} from '../dom.js';
+import {ownName} from './classroom.js';
+import {createElement, download, fieldForm, inRow, textButton} from '../dom.js';
 import {language, t} from '../strings.js';
 import {capital} from '../words.js';
 
@@ -25,10 +26,10 @@ export class Gallery {
       app.dialog.renew(WORLDS, () => this.showWorlds());
     });
     this.offered = 0; // [s since 1970] the unsaved world that was offered
-    this.unsaved = ''; // date of the unsaved world, until it is opened or discarded
+    this.unsaved = ''; // date of the unsaved world, and who drew it, until it is opened or discarded
     this.dismiss = () => {};
     this.name = ''; // of the own world that is open
-    app.connection.on('welcome', ({unsaved}) => this.#offerUnsaved(unsaved));
+    app.connection.on('welcome', ({unsaved, unsaved_by: by, teacher}) => this.#offerUnsaved(unsaved, by, teacher));
   }
 
   /** Show the list, and again as the files are now: a lesson may have been written since. */
@@ -55,7 +56,7 @@ export class Gallery {
     const heading = shipped ? t(capital(name.replaceAll('_', ' '))) : name;
     const open = () => this.follow(this.app.connection.openWorld(name), heading, shipped ? '' : name);
     const card = createElement('button', {type: 'button', className: 'card', onclick: open},
-      picture ? createElement('img', {src: picture, alt: '', loading: 'lazy'}) : createElement('span', {className: 'blank'}, icon('pen')),
+      createElement('img', {src: picture, alt: '', loading: 'lazy'}),
       createElement('strong', {}, heading),
       // A title that only repeats the name tells nothing.
       ...shipped && t(title) !== heading ? [createElement('small', {}, t(title))] : []);
@@ -145,13 +146,20 @@ export class Gallery {
     small.toBlob((body) => body && fetch(`/picture/${encodeURIComponent(name)}`, {method: 'POST', body}));
   }
 
-  /** @param {number} saved when a world was kept that nobody has saved [s since 1970]; 0 is none */
-  #offerUnsaved(saved) {
+  /**
+   * @param {number} saved when a world was kept that nobody has saved [s since 1970]; 0 is none
+   * @param {string[]} by names of those who drew it
+   * @param {boolean} teacher whether this page is a teacher's
+   */
+  #offerUnsaved(saved, by, teacher) {
     if (!saved || this.app.viewOnly || this.offered === saved) return;
     this.offered = saved;
-    this.unsaved = new Date(saved * 1000).toLocaleString(language, {dateStyle: 'medium', timeStyle: 'short'});
+    const date = new Date(saved * 1000).toLocaleString(language, {dateStyle: 'medium', timeStyle: 'short'});
+    this.unsaved = by.length ? `${date} (${by.join(', ')})` : date;
+    // A world is discarded by those who drew it.
+    const discards = teacher || !by.length || by.includes(ownName());
     this.dismiss = this.app.notes.dock([t('The world of {date} was not saved.', {date: this.unsaved}),
-      textButton(t('Open it'), () => this.#openUnsaved()), textButton(t('Discard it'), () => this.#forgetUnsaved())],
+      textButton(t('Open it'), () => this.#openUnsaved()), ...discards ? [textButton(t('Discard it'), () => this.#forgetUnsaved())] : []],
     UNSAVED);
   }
 

@@ -50,6 +50,7 @@ export class Lessons {
     return [createElement('h3', {}, t('Lessons')),
       createElement('ol', {className: 'cards lessons'}, ...this.list.map(({name, number, title, question}) =>
         createElement('li', {}, createElement('button', {type: 'button', className: 'card', onclick: () => this.open({name, title})},
+          createElement('img', {src: `/gallery/${encodeURIComponent(name)}.svg`, alt: '', loading: 'lazy'}),
           createElement('strong', {}, number ? `${number}. ${t(title)} ` : title, ...this.solved.has(title) ? [solvedMark()] : []),
           createElement('small', {}, t(question))))))];
   }
@@ -95,6 +96,17 @@ export class Lessons {
   }
 
   /**
+   * Report an answer to the world, which keeps it for the teacher; where it cannot, that is told.
+   * @param {{lesson: string, answer: string, right: boolean}} answer
+   * @param {HTMLElement} result beside which that is told
+   */
+  async #report(answer, result) {
+    const {ok, code, message} = await this.app.connection.ask('answered', answer);
+    const reason = this.app.words.tell({ok, code, message});
+    if (!ok) result.append(createElement('span', {className: 'danger'}, ` ${t('Your answer was not saved: {reason}', {reason})}`));
+  }
+
+  /**
    * @param {Lesson} lesson
    * @returns {Node[]} what is measured, a hint, and buttons
    */
@@ -107,7 +119,7 @@ export class Lessons {
       const value = numberOf(typed), right = Math.abs(value - figure) <= within;
       result.className = right ? 'right' : '';
       result.textContent = right ? t('Right!') : Number.isNaN(value) ? t('That is not a number.') : t('Not yet. Measure again, or look at the hint.');
-      if (typed) this.app.connection.send('answered', {lesson: title, answer: typed, right});
+      if (typed) this.#report({lesson: title, answer: typed, right}, result);
       // Who has tried may look.
       solution.hidden = false;
       solution.open = right;

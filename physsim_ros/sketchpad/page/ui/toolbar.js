@@ -5,7 +5,6 @@
  */
 
 import {createElement, elementOf, iconButton, showText, toggling} from '../dom.js';
-import {showHelp} from './help.js';
 import {switchTheme} from '../view/theme.js';
 import {t} from '../strings.js';
 import {TOOLS} from '../tools/tools.js';
@@ -101,7 +100,7 @@ export class TopBar {
       }, t('Material of new bodies; gravity')),
       iconButton(t('Frame the world'), 'fit', () => app.room.frameAll(), t('Frame the world (F)')), zoom,
       iconButton(t('Light or dark'), 'theme', switchTheme),
-      iconButton(t('Help'), 'help', () => showHelp(app), t('Help: keys and gestures (?)')));
+      iconButton(t('Help'), 'help', () => app.showHelp(), t('Help: keys and gestures (?)')));
     elementOf('looks').after(this.recording);
     app.connection.on('recording', ({rerun}) => this.#link(rerun));
     app.connection.on('welcome', ({rerun}) => this.#link(rerun));

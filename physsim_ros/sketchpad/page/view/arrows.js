@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * Arrows of velocities, momenta and forces, with their numbers, and their legend: the scales, which fit the
- * view, and a switch for each kind of force.
+ * Arrows of velocities, momenta and forces, round ones of angular momenta and torques, with their numbers, and
+ * their legend: the scales, which fit the view, and a switch for each kind of force.
  *
  * Of selected bodies all forces are shown, and of those that touch them or that a joint connects with them. Where
  * none is selected, those of all bodies, as long as they are few, and of a force between two that move the one
@@ -27,9 +27,11 @@ const LEAST_SPEED = 5; // m/s: that there is always room for
 const FEW = 12; // bodies that move, of which all forces are shown where none is selected
 const CORNERS = ['top-right', 'top-left', 'bottom-right', 'bottom-left']; // of the room, for the legend
 const WIDE = 4, USUAL = 2.5, NARROW = 1.5; // px: arrows of sums, of others, of bodies beside the selected ones
-/** Kinds of forces, and what they are called. @type {Record<Force['kind'], string>} */
+const ROUND = 30, INNER = 22, ARC = 130; // px: radius of the arrow of a torque, of an angular momentum, and the longest one
+const NO_TURN = 1e-3; // N m, N m s: below that, rounding of what does not turn
+/** Kinds of forces, and what they are called. @type {Record<Force['kind'] | 'torque', string>} */
 const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'),
-  applied: t('applied force'), air: t('air'), sum: t('sum')};
+  applied: t('applied force'), air: t('air'), sum: t('sum'), torque: t('torque')};
 
 /**
  * @typedef {{from: Point, x: number, y: number, scale: ArrowScale, color: string, text: string, width?: number, unit?: string,
@@ -79,6 +81,8 @@ export class Arrows {
     this.newtons = new ArrowScale();
     this.speeds = new ArrowScale();
     this.impulses = new ArrowScale(); // of momenta
+    this.torques = new ArrowScale();
+    this.turns = new ArrowScale(); // of angular momenta
     this.frozen = false; // the scale of velocities, while one is dragged
     /** @type {{name: string, kind: string, force: Point, size: string, from: Point, to: Point}[]} */
     this.drawn = []; // forces, as they are drawn
@@ -119,8 +123,8 @@ export class Arrows {
       ...this.velocities ? [bar('m/s', 'velocity'), part(t('Momentum'), 'momentum', () => this.momenta, () => {
         this.momenta = !this.momenta;
         this.showLegend();
-      }), ...this.momenta ? [bar('N s', 'momentum')] : []] : [],
-      ...this.forces ? [bar('N', ''), ...Object.entries(NAMES).filter(([kind]) => this.kinds.has(kind)).map(([kind, name]) =>
+      }), ...this.momenta ? [bar('N s', 'momentum'), bar('N m s', 'momentum')] : []] : [],
+      ...this.forces ? [bar('N', ''), ...this.kinds.has('torque') ? [bar('N m', '')] : [], ...Object.entries(NAMES).filter(([kind]) => this.kinds.has(kind)).map(([kind, name]) =>
         part(name, kind, () => !off.has(kind), () => off.delete(kind) || off.add(kind)))] : [],
       part(t('x and y'), 'parts', () => this.components, () => { this.components = !this.components; }), this.hint, this.more);
   }
@@ -152,7 +156,8 @@ export class Arrows {
     this.hint.textContent = '';
     if (!this.forces) drawApplied(this.app, view);
     else if (world.count) this.#drawForces(view, room);
-    for (const [unit, scale] of /** @type {[string, ArrowScale][]} */ ([['m/s', this.speeds], ['N s', this.impulses], ['N', this.newtons]])) {
+    for (const [unit, scale] of /** @type {[string, ArrowScale][]} */ ([['m/s', this.speeds], ['N s', this.impulses],
+      ['N m s', this.turns], ['N', this.newtons], ['N m', this.torques]])) {
       if (this.bars[unit]) showText(this.bars[unit], `${digits(scale.unit, 2)} ${unit}`);
     }
   }
@@ -161,16 +166,18 @@ export class Arrows {
   #fitSpeeds(room) {
     const {world, selection} = this.app, {velocities} = world.frame;
     if (!velocities || this.frozen) return;
-    let most = LEAST_SPEED, mostImpulse = 0;
-    world.scene.bodies.forEach(({name, anchored, mass}, row) => {
+    let most = LEAST_SPEED, mostImpulse = 0, mostTurn = 0;
+    world.scene.bodies.forEach(({name, anchored, mass, moment}, row) => {
       if (row < world.count && !anchored && (this.velocities || selection.names.has(name))) {
         const speed = Math.hypot(velocities.x[row], velocities.y[row]) || 0;
         most = Math.max(most, speed);
         mostImpulse = Math.max(mostImpulse, mass * speed);
+        mostTurn = Math.max(mostTurn, Math.abs(moment * velocities.spin[row]) || 0);
       }
     });
     this.speeds.fit(most, room, world.paused);
     this.impulses.fit(mostImpulse, room, world.paused);
+    this.turns.fit(mostTurn, ARC, world.paused);
   }
 
   /**
@@ -180,12 +187,13 @@ export class Arrows {
   #drawVelocities(view, room) {
     const {world, camera, panel} = this.app, {velocities} = world.frame, {accent, momentum} = view.palette;
     for (let row = 0; velocities && row < world.count; row++) {
-      const {anchored, name, centroid, mass} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
+      const {anchored, name, centroid, mass, moment} = world.scene.bodies[row], x = velocities.x[row], y = velocities.y[row];
       if (anchored) continue;
       const from = camera.toPage(...world.place(row, centroid)), speed = Math.hypot(x, y);
       if (this.momenta) {
         this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.impulses, color: momentum,
           text: `${threeDigits(mass * speed)} N s`, width: WIDE});
+        this.#roundArrow(view, from, moment * velocities.spin[row], {scale: this.turns, radius: INNER, color: momentum, unit: 'N m s'});
       }
       const velocity = {from, x, y, scale: this.speeds, color: accent, text: `${threeDigits(speed)} m/s`, unit: 'm/s'};
       // The arrow of the selected body can be dragged (input/handles.js).
@@ -203,6 +211,7 @@ export class Arrows {
     const selected = new Set([...selection.names].map((name) => world.row(name)));
     const isSelected = (/** @type {Force} */ {row}) => selected.has(row), sums = sumsOf(world, all), known = this.kinds.size;
     for (const {kind} of [...all, ...sums]) this.kinds.add(kind);
+    this.#drawTorque(view);
     if (this.kinds.size > known) this.showLegend();
     const some = all.some(isSelected), beside = some ? neighboursOf([...world.touches, ...world.scene.joints], selected) : selected;
     const few = viewOnly || bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).length <= FEW;
@@ -222,6 +231,35 @@ export class Arrows {
       if (!to && named) view.number({text, color, tip: kind === 'sum' ? [from[0], from[1] - BAR / 2] : from, along: [0, -1], named});
       this.drawn.push({name: bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
     }
+  }
+
+  /**
+   * The torque of all forces on the selected body about its centre of mass, in the last frame.
+   * @param {SceneView} view
+   */
+  #drawTorque(view) {
+    const {world, camera, panel: {name}, records} = this.app, row = world.row(name), {time} = world.frame;
+    const sample = records.samples(name).findLast((each) => each.time <= time + 1e-9);
+    if (row < 0 || sample?.spinning === undefined || time - sample.time > 2 / world.rate) return;
+    const {centroid, moment, anchored} = world.scene.bodies[row], torque = moment * sample.spinning;
+    if (anchored || this.off.has('torque') || !(Math.abs(torque) > NO_TURN)) return;
+    this.kinds.add('torque');
+    this.torques.fit(Math.abs(torque), ARC, world.paused);
+    this.#roundArrow(view, camera.toPage(...world.place(row, centroid)), torque,
+      {scale: this.torques, radius: ROUND, color: view.palette.ink, unit: 'N m', name: NAMES.torque});
+  }
+
+  /**
+   * @param {SceneView} view
+   * @param {Point} center [px]
+   * @param {number} value counter-clockwise where it is positive [unit]
+   * @param {{scale: ArrowScale, radius: number, color: string, unit: string, name?: string}} how
+   */
+  #roundArrow(view, center, value, {scale, radius, color, unit, name = ''}) {
+    const length = Math.min(scale.length(Math.abs(value)), ARC);
+    if (!(Math.abs(value) > NO_TURN && length >= LEAST)) return;
+    const end = view.roundArrow(center, radius, Math.sign(value) * length / radius, color);
+    view.number({text: `${name} ${threeDigits(Math.abs(value))} ${unit}`.trim(), color, ...end, named: name !== ''});
   }
 
   /**

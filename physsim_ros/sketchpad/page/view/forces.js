@@ -9,7 +9,7 @@
 
 import {rotated} from '../vectors.js';
 
-/** @import {Force, Point, WorldState} from '../types.js' */
+/** @import {Body, Force, Point, Sample, WorldState} from '../types.js' */
 
 const LEAST = 1e-3; // N: below that, rounding of what does not act
 
@@ -69,6 +69,23 @@ export function appliedTo(world, row) {
   const {forces = [], centroid} = world.scene.bodies[row];
   return forces.map(({force, at = centroid, axes}) => ({at: world.place(row, at),
     force: axes === 'body' ? rotated(force, world.frame.yaw[row]) : force}));
+}
+
+/**
+ * @param {WorldState} world
+ * @param {Body} body
+ * @param {Sample} motion of that body in the past
+ * @param {Record<string, Point>} others sums of the forces of contacts and joints then, by their kind [N]
+ * @returns {{kind: Force['kind'], x: number, y: number}[]} all that acted on it [N], and their sum
+ */
+export function pastForcesOf({scene: {gravity: [gx, gy], damping}}, {mass, forces = []}, {yaw, vx, vy}, others) {
+  const rate = damping > 0 && damping < 1 ? mass * Math.log(1 - damping) : 0;
+  const all = /** @type {[Force['kind'], number, number][]} */ ([['weight', mass * gx, mass * gy], ['air', rate * vx, rate * vy],
+    ...forces.map(({force, axes}) => ['applied', ...axes === 'body' ? rotated(force, yaw) : force]),
+    ...Object.entries(others).map(([kind, force]) => [kind, ...force])])
+    .filter(([, x, y]) => Math.hypot(x, y) > LEAST).map(([kind, x, y]) => ({kind, x, y}));
+  const total = (/** @type {'x' | 'y'} */ axis) => all.reduce((sum, force) => sum + force[axis], 0);
+  return all.length > 1 ? [...all, {kind: 'sum', x: total('x'), y: total('y')}] : all;
 }
 
 /**

@@ -79,7 +79,7 @@ function overlap(a, b) {
 }
 
 const FONT = '13px system-ui, sans-serif';
-const HALF = 9, BETWEEN = 6, TIP = 7; // px: half of the height of a number, from a tip to it, half of what a tip takes
+const HALF = 9, BETWEEN = 6, TIP = 7, CLEAR = 4; // px: half of the height of a number, from a tip to it, half of what a tip takes, beside a line
 const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; // rad and px of the places that are tried
 
 /**
@@ -123,7 +123,7 @@ function clamp(value, least, most) {
 function crosses([left, top, right, bottom], [px, py], [qx, qy]) {
   for (let share = 0; share <= 1; share += 0.05) {
     const x = px + share * (qx - px), y = py + share * (qy - py);
-    if (x > left && x < right && y > top && y < bottom) return true;
+    if (x > left - CLEAR && x < right + CLEAR && y > top && y < bottom) return true;
   }
   return false;
 }

@@ -37,6 +37,7 @@ export class SceneView {
     this.drawn = -1; // version of the world
     new ResizeObserver(() => this.#resize()).observe(canvas);
     watchTheme(() => this.#repaint());
+    addEventListener('beforeprint', () => this.#draw());
     this.#resize();
     const loop = () => {
       if (this.dirty || this.drawn !== world.version) this.#draw();
@@ -198,6 +199,29 @@ export class SceneView {
       ctx.lineTo(...at(along * length + 3, 6));
       ctx.stroke();
     }
+  }
+
+  /**
+   * A round arrow that begins above its centre.
+   * @param {Point} center [px]
+   * @param {number} radius [px]
+   * @param {number} sweep angle, counter-clockwise where it is positive [rad]
+   * @param {string} color
+   * @returns {{tip: Point, along: Point}} its tip, and the direction from the centre there
+   */
+  roundArrow([x, y], radius, sweep, color) {
+    const {ctx} = this, begin = -Math.PI / 2, end = begin - sweep, sign = Math.sign(sweep), head = HEAD / radius;
+    const at = (/** @type {number} */ angle, /** @type {number} */ far) => /** @type {Point} */ ([x + far * Math.cos(angle), y + far * Math.sin(angle)]);
+    this.onRim(color, 2.5, (rim) => {
+      ctx.beginPath();
+      ctx.arc(x, y, radius, begin, end + sign * head / 2, sweep > 0);
+      ctx.stroke();
+      ctx.beginPath();
+      for (const side of [1, -1]) ctx.lineTo(...at(end + sign * head, radius + side * (HEAD * 0.5 + rim)));
+      ctx.lineTo(...at(end, radius));
+      ctx.fill();
+    });
+    return {tip: at(end, radius), along: [Math.cos(end), Math.sin(end)]};
   }
 
   /**

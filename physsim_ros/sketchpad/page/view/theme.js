@@ -16,14 +16,15 @@ export function readPalette() {
 /** @param {() => void} listener */
 export function watchTheme(listener = () => {}) {
   const dark = matchMedia('(prefers-color-scheme: dark)');
-  const set = () => {
-    const chosen = localStorage.getItem(KEY);
+  const set = (/** @type {Event} */ {type} = new Event('theme')) => {
+    // Paper is light.
+    const chosen = type === 'beforeprint' ? 'light' : localStorage.getItem(KEY);
     document.documentElement.dataset.theme = chosen ?? (dark.matches ? 'dark' : 'light');
     listener();
   };
   dark.addEventListener('change', set);
   addEventListener('storage', set);
-  addEventListener('theme', set);
+  for (const type of ['theme', 'beforeprint', 'afterprint']) addEventListener(type, set);
   set();
 }
 

@@ -1,0 +1,35 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Forms: the looks of a stroke, without its scene, each with a weight.
+
+The evidence for signs divides the weight between them and no sign; lines and outlines share what
+is left.
+"""
+
+from __future__ import annotations
+
+from physsim_ros.drawing.strokes.evidence import evidence, Form, LEAST, probabilities
+from physsim_ros.drawing.strokes.features import Features
+from physsim_ros.drawing.strokes.plain_forms import line_forms, outline_forms
+from physsim_ros.drawing.strokes.signs import SIGNS
+
+
+def forms_of(features: Features) -> tuple[Form, ...]:
+    """Return the forms that a stroke may have, by falling weight."""
+    signs, plain = _signs(features)
+    forms = *signs, *line_forms(features, plain), *outline_forms(features, plain)
+    likely = (each for each in forms if each.weight >= LEAST)
+    return tuple(sorted(likely, key=lambda each: -each.weight))
+
+
+def _signs(features: Features) -> tuple[list[Form], float]:
+    """Return the form of each sign, and the weight of the stroke being no sign."""
+    candidates = [(sign.name, each) for sign in SIGNS for each in sign.candidates(features)]
+    weights = probabilities([evidence(name, each.measures) for name, each in candidates])
+    best: dict[str, Form] = {}
+    for (name, each), weight in zip(candidates, weights, strict=True):
+        if name not in best or weight > best[name].weight:
+            best[name] = Form(name=name, weight=weight, points=each.points)
+    return list(best.values()), 1.0 - sum(weights)

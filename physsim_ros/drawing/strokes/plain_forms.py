@@ -1,0 +1,196 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+The forms of a stroke that is no sign: an open line, or a closed outline.
+
+Law: every closed outline is a solid. An outline that is neither round nor made of straight sides
+becomes a polygon along the stroke; an outline that crosses itself becomes its outer boundary.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+import math
+
+import numpy as np
+from physsim_ros.drawing.strokes import corner_detection, fitting
+from physsim_ros.drawing.strokes.corner_detection import bends_of
+from physsim_ros.drawing.strokes.evidence import Form, LEAST, Limit, logistic
+from physsim_ros.drawing.strokes.features import Features, loop_roundness
+from physsim_ros.drawing.strokes.fitting import rectangle, traced
+from physsim_ros.drawing.strokes.geometry import angles, principal_axis, size_of, widened
+from physsim_ros.drawing.strokes.outer_boundary import outer_boundary
+from physsim_ros.model.arrays import Floats
+from physsim_ros.model.shapes import crosses_itself, signed_area
+from physsim_ros.model.transform import next_vertices, norms
+
+# Names of the forms.
+LINE, DISC, OVAL, RECTANGLE, POLYGON = 'line', 'disc', 'oval', 'rectangle', 'polygon'
+# Of the swings of a line that trembles: the distance between its ends is above the first, in
+# shares of the length, or the height of the swings below the second, in shares of the size.
+_STRAIGHT, _FLAT = Limit(0.9, 0.02), Limit(0.06, 0.006)
+# The number of loops of a line, whose bends may have none: those of an x have one.
+_LOOPS = Limit(0.5, 0.1)
+# The greatest length of a loop that is a mistake of the hand, in shares of the length.
+_LOOP = 0.15
+# The greatest area of a loop that is the tip of a brace, by its length squared; the loop of an x
+# has 0.037 and more, that of a pigtail 0.07.
+_NARROW = 0.035
+# The greatest distance of an outline from a rectangle (rms), in shares of its size: that of an
+# octagon is 0.024 and more; and that in shares of the error of an ellipse, 0.5 for an oval.
+_SQUARE, _SQUARER = Limit(0.0222, 0.003), Limit(0.27, 0.03)
+# The spread of the radii of a circle or an oval, which is stretched to a circle, in shares of
+# their mean: of a square it is 0.11. The distance of an outline from straight sides between its
+# corners (rms), in shares of its size: that of a circle from a pentagon is 0.02.
+_ELLIPTIC, _SIDED = Limit(0.1, 0.01), Limit(0.022, 0.003)
+# The ratio of the axes of inertia of an outline: below, it is a line that was drawn to and fro.
+_BROAD = Limit(0.02, 0.003)
+# Of four corners of a rectangle: their mean distance from the corners of the nearest one, in mean
+# sides, and the mean deviation of their angles from right ones [rad]: a rhomb of 73° has 0.3.
+_OFF, _SLANT = Limit(0.115, 0.012), Limit(0.3, 0.024)
+# The least aspect of a circle as people draw it: from 0.5 to 0.63 no outline tells circles from
+# ovals, wheels are drawn more often, and the other reading is offered. The number of sides of an
+# oval, which rolls.
+_CIRCULAR, _OVAL_SIDES = Limit(0.58, 0.02), 48
+# Evidence for an ellipse, in log odds: a constant, and the factors of the logarithms of the
+# residuals of straight sides and of the ellipse, of the bulge of the sides, and of the log of
+# the aspect below that of `_PLANK`: what is thinner is more often a plank than an oval.
+_EVIDENCE, _SIDES, _ELLIPSE, _BULGE, _THIN, _PLANK = -5.5, 2.8, 5.55, 4.95, 7.5, 0.35
+# The least residual that is told from 0, in shares of the size.
+_EXACT = 0.001
+# Factor on the weight of an outline that is neither round nor made of straight sides.
+BLOB = 0.8
+
+
+def line_forms(features: Features, plain: float) -> Iterator[Form]:
+    """
+    Yield a line, straight, bent or curved; the points are its ends and bends.
+
+    :param plain: weight of the stroke being no sign
+    """
+    stroke, swings = features.stroke, features.swings
+    points = stroke.points
+    straight = float(norms(points[-1] - points[0])) / stroke.length
+    calm = max(
+        swings.absence,
+        _STRAIGHT.above(straight),
+        _FLAT.below(swings.height / stroke.size),
+    )
+    # Small loops come from bends, and from setting the pen down; narrow ones from retraced tips.
+    loops = sum(
+        each[2] - each[1] > _LOOP * len(points) and loop_roundness(points, each) > _NARROW
+        for each in features.crossings
+    )
+    weight = plain * calm * (1.0 - features.closure) * _LOOPS.below(loops)
+    if weight >= LEAST:
+        yield Form(name=LINE, weight=weight, points=bends_of(points))
+
+
+def outline_forms(features: Features, plain: float) -> Iterator[Form]:
+    """
+    Yield disc, oval, rectangle and polygon, which share the weight of a closed outline.
+
+    The points of a disc are its centre and a point on its rim; those of the others are corners.
+
+    :param plain: weight of the stroke being no sign
+    """
+    stroke = features.stroke
+    closed = plain * features.closure * features.swings.absence
+    if stroke.outline is None or closed < LEAST:
+        return
+    shapes = list(_shapes(stroke.outline))
+    total = sum(shape.weight for shape in shapes)
+    if total >= LEAST:
+        for shape in shapes:
+            yield replace(shape, weight=closed * shape.weight / total)
+
+
+def _shapes(outline: Floats) -> Iterator[Form]:
+    """Yield the shapes that an outline may have, with relative weights."""
+    ellipse = fitting.ellipse(outline)
+    error, aspect = ellipse.error, ellipse.aspect
+    wide, narrowed = widened(outline)
+    at = corner_detection.corners(wide, closed=True)
+    found = narrowed(corner_detection.vertices(wide, at, closed=True))
+    size = size_of(wide)
+    residual = corner_detection.side_error(wide, at) / size if len(at) >= 3 else 1.0
+    # Independent of the corners: a rectangle may have a bent side or a round corner.
+    corners, off = fitting.rectangle_of(wide)
+    off /= size
+    sides = min(residual, off)
+    edgeless = _edgelessness(sides=sides, error=error, aspect=aspect, bulge=_bulge(wide, at))
+    circle = edgeless * _ELLIPTIC.below(error)
+    sided = (1.0 - edgeless) * _SIDED.below(residual)
+    circular = _CIRCULAR.above(aspect)
+    rim = ellipse.center + np.array((ellipse.radius, 0.0))
+    disc = np.array((ellipse.center, rim))
+    yield Form(name=DISC, weight=circle * circular, points=disc)
+    # A thinner outline is a line, drawn to and fro.
+    _, longer, shorter = principal_axis(outline - outline.mean(axis=0))
+    broad = _BROAD.above(math.sqrt(shorter / longer))
+    oval = ellipse.corners(_OVAL_SIDES)
+    yield Form(name=OVAL, weight=broad * circle * (1.0 - circular), points=oval)
+    square = _SQUARE.below(off) * _SQUARER.below(off / max(error, 1e-6))
+    if len(at) == 4 and squareness(found) > square:
+        corners, square = found, squareness(found)
+    else:
+        corners = narrowed(corners)
+    yield Form(name=RECTANGLE, weight=broad * (1.0 - edgeless) * square, points=corners)
+    if len(at) >= 3 and crosses_itself(found):
+        boundary = outer_boundary(found)
+        sided = sided if boundary is not None else 0.0
+        found = found if boundary is None else boundary
+    sided *= 1.0 - square
+    free = BLOB * max(1.0 - max(square, circle) - sided, 0.0)
+    if free > sided:
+        # Neither round nor sided: a polygon along the stroke.
+        along = traced(outline)
+        boundary = outer_boundary(along) if crosses_itself(along) else along
+        found, free = (found, 0.0) if boundary is None else (boundary, free)
+    yield Form(name=POLYGON, weight=broad * (sided + free), points=found)
+
+
+def _edgelessness(*, sides: float, error: float, aspect: float, bulge: float) -> float:
+    """
+    Return the probability that an outline is an ellipse, and not one with straight sides.
+
+    Logistic regression on outlines of both kinds by hands of the tuning half of `make evaluate`,
+    with constants of earlier hands as the prior: thin outlines are planks.
+
+    :param sides: residual of straight sides, in shares of the size
+    :param error: residual of the ellipse, in shares of the size
+    :param aspect: of the ellipse
+    :param bulge: of the sides
+    """
+    evidence = (
+        _EVIDENCE
+        + _SIDES * math.log(max(sides, _EXACT))
+        - _ELLIPSE * math.log(max(error, _EXACT))
+        + _BULGE * bulge
+        + _THIN * math.log(min(max(aspect, _EXACT) / _PLANK, 1.0))
+    )
+    return logistic(evidence)
+
+
+def _bulge(outline: Floats, at: list[int]) -> float:
+    """Return how much the sides of a closed polyline are arcs: 1 those of a circle, 0 straight."""
+    if len(at) < 3:
+        return 1.0
+    beyond = 1.0 - abs(signed_area(outline[at])) / max(abs(signed_area(outline)), 1e-300)
+    turn = 2.0 * math.pi / len(at)
+    # Of a circle, over equal sides.
+    return min(max(beyond / (1.0 - math.sin(turn) / turn), 0.0), 2.0)
+
+
+def squareness(found: Floats) -> float:
+    """Return how well four corners fit a rectangle, 0 .. 1."""
+    nearest = rectangle(found)
+    sides = next_vertices(found) - found
+    lengths = norms(next_vertices(nearest) - nearest)
+    off = float(norms(nearest - found).mean() / lengths.mean())
+    slants = np.abs(np.abs(angles(np.roll(sides, 1, axis=0), sides)) - math.pi / 2)
+    # The direction of a short side is less exact than its ends.
+    slant = float(slants.mean()) * min(1.0, float(lengths.min() / lengths.max()) / 0.3)
+    return _OFF.below(off) * _SLANT.below(slant)

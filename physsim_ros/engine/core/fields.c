@@ -1,0 +1,157 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Fields: forces that depend on where bodies are and how they move, of media (`media.c`) and of bodies on each
+// other (`attraction.c`).
+//
+// Problem: as of applied forces (`applied_forces.c`), a force at the pose and velocity with which a sub-step begins is
+// that of a moment too early: what floats or swings gains energy, and what falls in air is too fast.
+// Method: velocity Verlet, as of gravity in `half_step.c`: forces are those of the poses after the move, and the lead
+// of a body in free flight has half of what they change its velocity by. Unlike gravity, that half depends on
+// velocities, and on other bodies; so it is state, and what a request sets is made into it as the next step begins: by
+// the force at the true velocity, over half a sub-step. True velocities do not jump where a field begins or ends.
+// Bodies that fields pull while they rest do not sleep where the field changes, nor before they float still.
+//
+// Cost: none without fields.
+// Without it what floats gains energy, and orbits open.
+
+#include "attraction.h"
+#include "media.h"
+#include "stages.h"
+
+static bool is_moved_by_fields(const Body *body) {
+    return body->dynamic && !sleeps(body);
+}
+
+static Twist weight_of(const World *world, const cpBody *engine) {
+    return (Twist){add(engine->f, scaled(world->space->gravity, engine->m)), engine->t};
+}
+
+// Find the force of media on a body for the time between now and a later moment [s], at its middle.
+static void find_pull(World *world, const Media *media, Body *body, double ahead, double lapse) {
+    // A body in free flight goes on with the acceleration that is half in its lead.
+    Twist change = {0}, twist = true_twist(body->engine);
+    if (body->state.free) {
+        change = body->state.lead;
+    }
+    Pose pose = moved(pose_of(body->engine), twist_sum(twist, change, ahead / world->dt), ahead);
+    twist = twist_sum(twist, change, 2.0 * ahead / world->dt);
+    world->own->pulls[body - world->bodies] = pull_of_media(world, media, body, pose, twist, lapse);
+}
+
+// Half of what a force changes a velocity by in a sub-step.
+static Twist half_change(const World *world, const cpBody *engine, Twist force) {
+    return (Twist){scaled(force.v, engine->m_inv * world->dt / 2.0), force.w * engine->i_inv * world->dt / 2.0};
+}
+
+static bool have_fields(const World *world) {
+    return world->has_fields && has_stage(world, STAGE_FIELDS);
+}
+
+// The force of attraction on each body (body_count), a time after now [s, N, N m].
+static Twist *attracted(World *world, double ahead) {
+    Twist *forces = TAKE(&world->own->arena, Twist, world->body_count);
+    const Vec *each = attractions(world, ahead);
+    for (int number = 0; number < world->attractor_count; number++) {
+        forces[world->attractors[number].body].v = each[number];
+    }
+    return forces;
+}
+
+// The mean force of all fields on a body in a time that begins with a twist, of which that of attraction is known.
+static Twist force_of_fields(const World *world, const Body *body, Twist twist, Twist attraction) {
+    const Pull *pull = world->own->pulls + (body - world->bodies);
+    Twist others = twist_sum(weight_of(world, body->engine), attraction, 1.0);
+    return twist_sum(force_of_pull(pull, body->engine, twist, others), attraction, 1.0);
+}
+
+static bool has_fresh(const World *world) {
+    for (int place = 0; place < world->body_count; place++) {
+        if (world->bodies[place].state.fresh) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void begin_field(World *world, const Media *media, Body *body, Twist attraction) {
+    if (world->region_count > 0) {
+        find_pull(world, media, body, 0.0, world->dt / 2.0);
+    }
+    Twist force = force_of_fields(world, body, true_twist(body->engine), attraction);
+    Twist field = half_change(world, body->engine, force);
+    if (body->state.free) {
+        Twist more = twist_sum(field, body->state.field, -1.0);
+        set_twist(body->engine, twist_sum(twist_of(body->engine), more, 1.0));
+    }
+    body->state.field = field;
+}
+
+void begin_fields(World *world) {
+    if (!have_fields(world) || world->own->sub_step > 0) {
+        return;
+    }
+    if (world->own->pulls == NULL) {
+        world->own->pulls = allocated((size_t)world->body_count, sizeof(Pull));
+    }
+    if (!has_fresh(world)) {
+        return;
+    }
+    find_leads(world);
+    Media media = media_of(world, 0.0);
+    const Twist *attraction = attracted(world, 0.0);
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        if (body->state.fresh && is_moved_by_fields(body)) {
+            begin_field(world, &media, body, attraction[place]);
+        }
+        body->state.fresh = false;
+    }
+}
+
+// Find the forces of media for the step that begins.
+static void find_pulls(World *world) {
+    // Velocities change at the ends of the four sub-steps.
+    double ahead = world->dt * (SUB_STEPS + 1) / 2.0;
+    Media media = media_of(world, ahead);
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        if (sleeps(body) && reaches(&media, body)) {
+            world->chipmunk.body_activate(body->engine);
+        }
+        if (is_moved_by_fields(body)) {
+            find_pull(world, &media, body, ahead, world->dt);
+        }
+    }
+}
+
+void apply_fields(World *world) {
+    if (!have_fields(world)) {
+        return;
+    }
+    if (world->own->sub_step == 0 && world->region_count > 0) {
+        find_pulls(world);
+    }
+    const Twist *attraction = attracted(world, world->dt);
+    for (int place = 0; place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        if (is_moved_by_fields(body)) {
+            Twist force = force_of_fields(world, body, twist_of(body->engine), attraction[place]);
+            body->scratch.field = half_change(world, body->engine, force);
+            body->engine->f = add(body->engine->f, force.v);
+            body->engine->t += force.w;
+        }
+    }
+    for (int number = 0; number < world->attractor_count; number++) {
+        world->bodies[world->attractors[number].body].scratch.stirred = true;
+    }
+}
+
+void keep_fields(World *world) {
+    for (int place = 0; have_fields(world) && place < world->body_count; place++) {
+        Body *body = world->bodies + place;
+        if (is_moved_by_fields(body)) {
+            body->state.field = body->scratch.field;
+        }
+    }
+}

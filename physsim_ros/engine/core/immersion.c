@@ -1,0 +1,318 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+#include "immersion.h"
+
+// Corners of the polygon that counts for a round region.
+enum { ROUND_CORNERS = 96 };
+
+static const double pi = 3.14159265358979323846;
+
+// A polygon that is clipped; `own` tells which edges, each from its corner on, are of the outline of the body.
+typedef struct Outline {
+    Vec *corners;
+    bool *own;
+    int count;
+} Outline;
+
+// A basin as seen from the centre of mass of a body, and the numbers of the edges that the body may cross.
+typedef struct Around {
+    const Basin *basin;
+    Outline edges;
+    int *crossing;
+    int crossing_count;
+} Around;
+
+static Outline outline_of(int most, Arena *arena) {
+    return (Outline){TAKE(arena, Vec, most), TAKE(arena, bool, most), 0};
+}
+
+static void add_corner(Outline *outline, Vec corner, bool own) {
+    outline->corners[outline->count] = corner;
+    outline->own[outline->count++] = own;
+}
+
+// Regions
+
+// Add corners on an arc, as a polygon of the same area has them.
+static void add_round(Basin *basin, Vec center, double radius, double from, int count) {
+    double step = 2.0 * pi / (double)ROUND_CORNERS, outer = radius * sqrt(step / sin(step));
+    for (int number = 0; number < count; number++) {
+        Rotation by = rotation(from + step * (number + 0.5));
+        basin->corners[basin->count++] = add(center, vec(outer * by.c, outer * by.s));
+    }
+}
+
+Basin basin_of(const Region *region, const cpShape *shape, Pose pose, Arena *arena) {
+    int count = corner_count(shape), most = count < 3 ? ROUND_CORNERS : count;
+    const cpBody *engine = shape->body;
+    Basin basin = {.region = region,
+                   .moves = engine->v.x != 0.0 || engine->v.y != 0.0 || engine->w != 0.0,
+                   .corners = TAKE(arena, Vec, most),
+                   .normals = TAKE(arena, Vec, most)};
+    Rotation by = rotation(pose.yaw);
+    if (count < 3) {
+        Vec a = corner_on_body(shape, 0).place, b = corner_on_body(shape, count - 1).place;
+        double along = atan2(b.y - a.y, b.x - a.x) - pi / 2.0;
+        add_round(&basin, b, radius_of(shape), along, ROUND_CORNERS / 2);
+        add_round(&basin, a, radius_of(shape), along + pi, ROUND_CORNERS / 2);
+    } else {
+        for (int number = 0; number < count; number++) {
+            basin.corners[basin.count++] = corner_on_body(shape, number).place;
+        }
+    }
+    for (int number = 0; number < basin.count; number++) {
+        basin.corners[number] = add(pose.p, rotated(basin.corners[number], by));
+        basin.center = add(basin.center, scaled(basin.corners[number], 1.0 / basin.count));
+    }
+    for (int number = 0; number < basin.count; number++) {
+        Vec corner = basin.corners[number], edge = sub(basin.corners[(number + 1) % basin.count], corner);
+        basin.normals[number] = scaled(negated(perpendicular(edge)), 1.0 / length(edge));
+        basin.radius = greatest(basin.radius, length(sub(corner, basin.center)));
+    }
+    return basin;
+}
+
+Fit fit_of(const Basin *basin, Vec center, double reach) {
+    Vec way = sub(center, basin->center);
+    double apart = basin->radius + reach;
+    if (dot(way, way) >= apart * apart) {
+        return OUTSIDE;
+    }
+    Fit fit = INSIDE;
+    for (int number = 0; number < basin->count; number++) {
+        double depth = dot(basin->normals[number], sub(center, basin->corners[number]));
+        if (depth >= reach) {
+            return OUTSIDE;
+        }
+        fit = depth > -reach ? CROSSING : fit;
+    }
+    return fit;
+}
+
+// Polygons
+
+// What of a convex polygon lies behind a line, whose normal points away from it.
+static Outline clipped(Outline from, Vec corner, Vec normal, Arena *arena) {
+    Outline kept = outline_of(from.count + 1, arena);
+    for (int number = 0; number < from.count; number++) {
+        Vec a = from.corners[number], b = from.corners[(number + 1) % from.count];
+        double out_a = dot(normal, sub(a, corner)), out_b = dot(normal, sub(b, corner));
+        if (out_a <= 0.0) {
+            add_corner(&kept, a, from.own[number]);
+        }
+        if ((out_a <= 0.0) != (out_b <= 0.0)) {
+            Vec crossing = add(a, scaled(sub(b, a), out_a / (out_a - out_b)));
+            add_corner(&kept, crossing, out_a > 0.0 && from.own[number]);
+        }
+    }
+    return kept;
+}
+
+static void add_area(Wet *wet, Vec a, Vec b, Vec c) {
+    double area = cross(sub(b, a), sub(c, a)) / 2.0;
+    wet->area += area;
+    wet->moment = add(wet->moment, scaled(add(a, add(b, c)), area / 3.0));
+}
+
+// Clip a polygon at the edges of a basin that its body may cross; no basin leaves it whole.
+static Outline in_basin(Outline outline, const Around *around, Arena *arena) {
+    for (int number = 0; around != NULL && number < around->crossing_count && outline.count > 0; number++) {
+        int edge = around->crossing[number];
+        outline = clipped(outline, around->edges.corners[edge], around->basin->normals[edge], arena);
+    }
+    return outline;
+}
+
+static void add_bulk(Wet *wet, Outline outline) {
+    for (int number = 2; number < outline.count; number++) {
+        add_area(wet, outline.corners[0], outline.corners[number - 1], outline.corners[number]);
+    }
+}
+
+static void add_sides(Wet *wet, Outline outline) {
+    for (int number = 0; number < outline.count; number++) {
+        if (outline.own[number]) {
+            Vec end = outline.corners[(number + 1) % outline.count];
+            wet->sides[wet->side_count++] = (Side){outline.corners[number], end};
+        }
+    }
+}
+
+// Discs
+
+// Add the sector between the directions of two points, which lie outside the disc as the edge between them does.
+static void add_sector(Wet *wet, Vec center, double radius, Vec a, Vec b) {
+    double turn = atan2(cross(a, b), dot(a, b)), from = atan2(a.y, a.x);
+    Rotation begin = rotation(from), end = rotation(from + turn);
+    double area = radius * radius * turn / 2.0, third = radius * radius * radius / 3.0;
+    Vec moment = vec(third * (end.s - begin.s), third * (begin.c - end.c));
+    wet->area += area;
+    wet->moment = add(wet->moment, add(scaled(center, area), moment));
+    wet->bows[wet->bow_count++] = (Bow){center, radius, from, from + turn};
+}
+
+// Add the segment of a disc that a line cuts off, behind its normal; `ahead` is how far before it the centre is [m].
+static void add_disc_segment(Wet *wet, Vec center, double radius, Vec normal, double ahead) {
+    if (ahead >= radius) {
+        return;
+    }
+    double half = ahead <= -radius ? pi : acos(ahead / radius), down = atan2(-normal.y, -normal.x);
+    double chord = radius * sin(half), area = radius * radius * half - ahead * chord;
+    Vec moment = scaled(normal, -2.0 / 3.0 * chord * chord * chord);
+    wet->area += area;
+    wet->moment = add(wet->moment, add(scaled(center, area), moment));
+    wet->bows[wet->bow_count++] = (Bow){center, radius, down - half, down + half};
+}
+
+// Add what of a disc lies in a convex polygon, as the sum over the triangles that the centre makes with its edges.
+static void add_disc(Wet *wet, Vec center, double radius, const Outline *basin) {
+    for (int number = 0; number < basin->count; number++) {
+        Vec a = sub(basin->corners[number], center);
+        Vec b = sub(basin->corners[(number + 1) % basin->count], center), edge = sub(b, a);
+        double square = dot(edge, edge), middle = dot(a, edge);
+        double within = middle * middle - square * (dot(a, a) - radius * radius);
+        double half = sqrt(greatest(within, 0.0));
+        double enters = clamped((-middle - half) / square, 0.0, 1.0);
+        double leaves = clamped((-middle + half) / square, 0.0, 1.0);
+        if (within <= 0.0 || enters >= leaves) {
+            add_sector(wet, center, radius, a, b);
+            continue;
+        }
+        Vec first = add(a, scaled(edge, enters)), last = add(a, scaled(edge, leaves));
+        if (enters > 0.0) {
+            add_sector(wet, center, radius, a, first);
+        }
+        add_area(wet, center, add(center, first), add(center, last));
+        if (leaves < 1.0) {
+            add_sector(wet, center, radius, last, b);
+        }
+    }
+}
+
+static void add_disc_in_basin(Wet *wet, Vec center, double radius, const Around *around) {
+    if (around->crossing_count == 1) {
+        int edge = around->crossing[0];
+        Vec normal = around->basin->normals[edge];
+        add_disc_segment(wet, center, radius, normal, dot(normal, sub(center, around->edges.corners[edge])));
+    } else {
+        add_disc(wet, center, radius, &around->edges);
+    }
+}
+
+static void add_whole_arc(Wet *wet, Vec center, double radius, double from, double turn) {
+    wet->bows[wet->bow_count++] = (Bow){center, radius, from, from + turn};
+}
+
+// Pieces of a body
+
+static Vec corner_at(const cpShape *shape, int number, Rotation by) {
+    return rotated(corner_on_body(shape, number).place, by);
+}
+
+static Outline polygon_of(const cpShape *shape, Rotation by, Arena *arena) {
+    int count = corner_count(shape);
+    Outline outline = outline_of(count, arena);
+    for (int number = 0; number < count; number++) {
+        add_corner(&outline, corner_at(shape, number, by), true);
+    }
+    return outline;
+}
+
+static Outline hull_of(const Body *body, Rotation by, Arena *arena) {
+    Outline outline = outline_of(body->hull_count, arena);
+    for (int number = 0; number < body->hull_count; number++) {
+        add_corner(&outline, rotated(body->hull[number], by), true);
+    }
+    return outline;
+}
+
+// The bar between the ends of a segment; only its long sides are of the outline.
+static Outline bar_of(Vec a, Vec b, double radius, Arena *arena) {
+    Vec along = sub(b, a), side = scaled(perpendicular(along), radius / length(along));
+    Outline bar = outline_of(4, arena);
+    add_corner(&bar, sub(a, side), true);
+    add_corner(&bar, sub(b, side), false);
+    add_corner(&bar, add(b, side), true);
+    add_corner(&bar, add(a, side), false);
+    return bar;
+}
+
+// Add a segment: a bar, and at each end half a disc.
+static void add_segment(Wet *wet, Vec a, Vec b, double radius, const Around *around, Arena *arena) {
+    Outline bar = in_basin(bar_of(a, b, radius, arena), around, arena);
+    add_bulk(wet, bar);
+    add_sides(wet, bar);
+    Vec ends[2] = {b, a};
+    for (int end = 0; end < 2; end++) {
+        Vec away = sub(ends[end], ends[1 - end]);
+        if (around == NULL) {
+            add_whole_arc(wet, ends[end], radius, atan2(away.y, away.x) - pi / 2.0, pi);
+        } else {
+            Outline beyond = clipped(around->edges, ends[end], negated(away), arena);
+            add_disc(wet, ends[end], radius, &beyond);
+        }
+    }
+}
+
+static void add_piece(Wet *wet, const cpShape *shape, Rotation by, const Around *around, Arena *arena) {
+    double radius = radius_of(shape);
+    switch (kind_of(shape)) {
+    case SHAPE_CIRCLE:
+        if (around == NULL) {
+            add_whole_arc(wet, corner_at(shape, 0, by), radius, 0.0, 2.0 * pi);
+        } else {
+            add_disc_in_basin(wet, corner_at(shape, 0, by), radius, around);
+        }
+        break;
+    case SHAPE_SEGMENT:
+        add_segment(wet, corner_at(shape, 0, by), corner_at(shape, 1, by), radius, around, arena);
+        break;
+    default: {
+        Outline outline = in_basin(polygon_of(shape, by, arena), around, arena);
+        add_bulk(wet, outline);
+        add_sides(wet, outline);
+    }
+    }
+}
+
+static Around around_of(const Basin *basin, Vec origin, double reach, Arena *arena) {
+    Around around = {basin, outline_of(basin->count, arena), TAKE(arena, int, basin->count), 0};
+    for (int number = 0; number < basin->count; number++) {
+        Vec corner = sub(basin->corners[number], origin);
+        add_corner(&around.edges, corner, false);
+        if (dot(basin->normals[number], corner) < reach) {
+            around.crossing[around.crossing_count++] = number;
+        }
+    }
+    return around;
+}
+
+Wet immersed(const Body *body, Pose pose, const Basin *basin, bool outlined, Arena *arena) {
+    Rotation by = rotation(pose.yaw);
+    Around around = basin == NULL ? (Around){0} : around_of(basin, pose.p, body->reach, arena);
+    const Around *edges = basin == NULL ? NULL : &around;
+    Wet wet = {0};
+    for (const cpShape *shape = body->engine->shapeList; shape != NULL; shape = shape->next) {
+        // A polygon has a side an edge. Each edge of the basin, and that which halves the disc at an end of a segment,
+        // makes two arcs at most.
+        wet.sides = TAKE(arena, Side, corner_count(shape));
+        wet.bows = kind_of(shape) == SHAPE_POLYGON ? NULL : TAKE(arena, Bow, 4 * (around.edges.count + 2));
+        wet.side_count = wet.bow_count = 0;
+        if (basin != NULL || (outlined && body->hull_count == 0)) {
+            add_piece(&wet, shape, by, edges, arena);
+        }
+    }
+    if (basin == NULL) {
+        wet.area = body->area;
+        wet.moment = (Vec){0};
+    }
+    if (body->hull_count > 0) {
+        wet.bow_count = wet.side_count = 0;
+        if (outlined) {
+            wet.sides = TAKE(arena, Side, body->hull_count);
+            add_sides(&wet, in_basin(hull_of(body, by, arena), edges, arena));
+        }
+    }
+    return wet;
+}

@@ -1,0 +1,263 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Media: water, air and other fluids in regions, or all over the world.
+//
+// Problem: what floats, sinks, is blown away or falls no faster than the air lets it.
+// Method: of each body the part that lies in a region is found (`immersion.h`), area A with its centroid, and outline.
+//   Buoyancy: -ρ A g at the centroid (Archimedes). In air that fills the world, what lies in no region.
+//   Linear drag: -3 η u for each metre of outline, u its velocity in the medium. A disc has 6π η r v, as a ball has by
+//   Stokes, whose traction is the same all over its surface; and 6π η r³ ω.
+//   Quadratic drag: -½ c ρ |n·u| u for each metre of outline that faces the flow, n its normal; in all ½ c ρ v² times
+//   the width across the flow. Turning counts by its part along n, at the centre of a round piece: friction alone would
+//   slow down the spin of a disc, and quadratic drag has none.
+// Both drags are -D (q - f) of the twists q of body and f of medium, with a matrix D that is symmetric and not
+// negative: drag takes energy from what moves in a medium at rest. What is dry, what is wet and their sum are the same
+// outline. Time: buoyancy and D are found once a step, for its middle; drag in each sub-step, of the velocity in the
+// middle of that (implicit midpoint rule). Where drag stops a body within a sub-step, the velocity is later than the
+// middle, by exponential fitting (W. Liniger, R. Willoughby, "Efficient Integration Methods for Stiff Systems", SIAM J.
+// Numer. Anal. 1970): no drag is too strong for the steps. Scope: no mass of medium that moves along (added mass), no
+// lift, no waves; a medium is not pushed. Cost: 0.1 µs a body and sub-step within a region, 0.5 µs at its surface.
+// Without it laws 70 and 71 fail: nothing floats.
+
+#include "media.h"
+#include "stages.h"
+
+// Media
+
+static Vec gust_of(const Region *region, double time) {
+    Vec gust = {0};
+    for (int number = 0; region->gusty && number < WAVES; number++) {
+        Rotation phase = rotation(region->waves[number].rate * time);
+        gust = add(gust, scaled(region->waves[number].cosine, phase.c));
+        gust = add(gust, scaled(region->waves[number].sine, phase.s));
+    }
+    return gust;
+}
+
+Media media_of(World *world, double ahead) {
+    Arena *arena = &world->own->arena;
+    Media media = {0};
+    double time = (double)(world->step * SUB_STEPS + world->own->sub_step) * world->dt + ahead;
+    int count = 0;
+    for (int number = 0; number < world->region_count; number++) {
+        const Region *region = world->regions + number;
+        const cpShape *shape = region->body < 0 ? NULL : world->bodies[region->body].engine->shapeList;
+        for (; shape != NULL; shape = shape->next) {
+            count++;
+        }
+    }
+    media.basins = TAKE(arena, Basin, count);
+    media.currents = TAKE(arena, Twist, count);
+    for (int number = 0; number < world->region_count; number++) {
+        const Region *region = world->regions + number;
+        Vec gust = gust_of(region, time);
+        if (region->body < 0) {
+            media.air = region;
+            media.wind = (Twist){add(region->flow, gust), 0.0};
+            continue;
+        }
+        const cpBody *engine = world->bodies[region->body].engine;
+        Twist twist = twist_of(engine);
+        Pose pose = moved(pose_of(engine), twist, ahead);
+        Vec flow = rotated(add(region->flow, gust), rotation(pose.yaw));
+        for (const cpShape *shape = engine->shapeList; shape != NULL; shape = shape->next) {
+            media.basins[media.basin_count] = basin_of(region, shape, pose, arena);
+            media.currents[media.basin_count++] = (Twist){add(twist.v, flow), 0.0};
+        }
+    }
+    return media;
+}
+
+// Drag
+
+// Add to D a weight of B'B, where B has the columns x, y and `turn`: how a place moves with the body.
+static void add_place(Resistance *sum, double weight, Vec turn, double square) {
+    sum->xx += weight;
+    sum->yy += weight;
+    sum->xw += weight * turn.x;
+    sum->yw += weight * turn.y;
+    sum->ww += weight * square;
+}
+
+static void add_linear_side(Resistance *sum, double weight, Side side) {
+    Vec way = sub(side.end, side.begin), middle = scaled(add(side.begin, side.end), 0.5);
+    double square = dot(middle, middle) + dot(way, way) / 12.0;
+    add_place(sum, weight * length(way), perpendicular(middle), square);
+}
+
+static void add_linear_bow(Resistance *sum, double weight, Bow bow) {
+    double turn = bow.to - bow.from, r = bow.radius;
+    Vec rim = {sin(bow.to) - sin(bow.from), cos(bow.from) - cos(bow.to)}; // integral of the unit vector
+    double square = (dot(bow.center, bow.center) + r * r) * turn + 2.0 * r * dot(bow.center, rim);
+    sum->xx += weight * r * turn;
+    sum->yy += weight * r * turn;
+    sum->xw -= weight * r * (bow.center.y * turn + r * rim.y);
+    sum->yw += weight * r * (bow.center.x * turn + r * rim.x);
+    sum->ww += weight * r * square;
+}
+
+// The part of a side that faces the flow: its normal velocity f and that by turning q are linear along it, so that the
+// integrals of f, f q and f q² are exact by Gauss's rule of two points.
+static void add_quadratic_side(Resistance *sum, double weight, Side side, Twist flow) {
+    Vec way = sub(side.end, side.begin);
+    double size = length(way);
+    if (size <= 0.0) {
+        return;
+    }
+    Vec normal = scaled(negated(perpendicular(way)), 1.0 / size);
+    double turn_begin = dot(normal, perpendicular(side.begin)), straight = dot(normal, flow.v);
+    double first = straight + flow.w * turn_begin, last = first - flow.w * size;
+    if (first <= 0.0 && last <= 0.0) {
+        return;
+    }
+    double from = first < 0.0 ? first / (first - last) : 0.0, to = last < 0.0 ? first / (first - last) : 1.0;
+    for (int point = 0; point < 2; point++) {
+        double share = from + (to - from) * (0.5 + (point == 0 ? -1.0 : 1.0) * 0.28867513459481288);
+        double turn = turn_begin - size * share;
+        double facing = weight * size * (to - from) / 2.0 * (first + (last - first) * share);
+        add_place(sum, facing, scaled(normal, turn), turn * turn);
+    }
+}
+
+// The integral of the positive part of the cosine from 0 to an angle.
+static double facing_up_to(double angle) {
+    const double half_turn = 3.14159265358979323846;
+    double since = angle + half_turn / 2.0, turns = floor(since / (2.0 * half_turn));
+    double rest = since - 2.0 * half_turn * turns;
+    return 2.0 * turns + (rest < half_turn ? 1.0 - cos(rest) : 2.0);
+}
+
+static void add_quadratic_bow(Resistance *sum, double weight, Bow bow, Twist flow) {
+    Vec velocity = velocity_at(flow, bow.center);
+    double speed = length(velocity), along = atan2(velocity.y, velocity.x);
+    double width = bow.radius * (facing_up_to(bow.to - along) - facing_up_to(bow.from - along));
+    add_place(sum, weight * width * speed, perpendicular(bow.center), dot(bow.center, bow.center));
+}
+
+// The matrix D of a part of a body that moves through a medium with a twist.
+static Resistance resistance_of(const Wet *wet, const Region *medium, Twist flow) {
+    Resistance sum = {0};
+    double linear = 3.0 * medium->viscosity, quadratic = 0.5 * medium->drag * medium->density;
+    for (int number = 0; number < wet->side_count && linear > 0.0; number++) {
+        add_linear_side(&sum, linear, wet->sides[number]);
+    }
+    for (int number = 0; number < wet->bow_count && linear > 0.0; number++) {
+        add_linear_bow(&sum, linear, wet->bows[number]);
+    }
+    for (int number = 0; number < wet->side_count && quadratic > 0.0; number++) {
+        add_quadratic_side(&sum, quadratic, wet->sides[number], flow);
+    }
+    for (int number = 0; number < wet->bow_count && quadratic > 0.0; number++) {
+        add_quadratic_bow(&sum, quadratic, wet->bows[number], flow);
+    }
+    return sum;
+}
+
+static Resistance sum_of(Resistance a, Resistance b) {
+    return (Resistance){a.xx + b.xx, a.xy + b.xy, a.yy + b.yy, a.xw + b.xw, a.yw + b.yw, a.ww + b.ww};
+}
+
+static Resistance times(Resistance d, double share) {
+    return (Resistance){d.xx * share, d.xy * share, d.yy * share, d.xw * share, d.yw * share, d.ww * share};
+}
+
+static Twist resisted(Resistance d, Twist twist) {
+    return (Twist){
+        {d.xx * twist.v.x + d.xy * twist.v.y + d.xw * twist.w, d.xy * twist.v.x + d.yy * twist.v.y + d.yw * twist.w},
+        d.xw * twist.v.x + d.yw * twist.v.y + d.ww * twist.w};
+}
+
+// The inverse of M + D, which is positive definite.
+static Resistance inverse_of(Resistance d, double mass, double moment) {
+    double a = mass + d.xx, b = mass + d.yy, c = moment + d.ww;
+    Resistance cofactor = {b * c - d.yw * d.yw,    d.yw * d.xw - d.xy * c, a * c - d.xw * d.xw,
+                           d.xy * d.yw - b * d.xw, d.xy * d.xw - a * d.yw, a * b - d.xy * d.xy};
+    double determinant = a * cofactor.xx + d.xy * cofactor.xy + d.xw * cofactor.xw;
+    return times(cofactor, 1.0 / determinant);
+}
+
+// Where in a time the velocity is taken that drag is of, 1/2 .. 1, by the share that drag would take of a velocity.
+static double fitted(double decay) {
+    return decay < 1e-3 ? 0.5 + decay / 12.0 : 1.0 / -expm1(-decay) - 1.0 / decay;
+}
+
+static bool resists(const Region *medium) {
+    return medium->viscosity > 0.0 || (medium->density > 0.0 && medium->drag > 0.0);
+}
+
+// Add the force of a medium on a part of a body, which moves with a twist; taken off with a negative sign.
+static void add_medium(Pull *pull, const Wet *wet, const Region *medium, Twist current, Twist twist, Vec gravity,
+                       double sign) {
+    double weight = -medium->density * sign;
+    Twist buoyancy = {scaled(gravity, weight * wet->area), weight * cross(wet->moment, gravity)};
+    pull->steady = twist_sum(pull->steady, buoyancy, 1.0);
+    if (resists(medium)) {
+        Resistance d = resistance_of(wet, medium, twist_sum(twist, current, -1.0));
+        pull->steady = twist_sum(pull->steady, resisted(d, current), sign);
+        pull->resistance = sum_of(pull->resistance, times(d, sign));
+        pull->has_drag = true;
+    }
+}
+
+static void fit_drag(Pull *pull, const cpBody *engine, double lapse) {
+    const Resistance *d = &pull->resistance;
+    double most = greatest(greatest(d->xx, d->yy) * engine->m_inv, d->ww * engine->i_inv);
+    double time = lapse * fitted(lapse * greatest(most, 0.0));
+    pull->inverse = inverse_of(times(*d, time), engine->m, engine->i);
+}
+
+Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, Twist twist, double lapse) {
+    Arena *arena = &world->own->arena;
+    size_t mark = arena_mark(arena);
+    const Region *air = media->air;
+    Vec gravity = world->space->gravity;
+    Pull pull = {0};
+    body->scratch.afloat = false;
+    body->scratch.stirred = air != NULL && air->gusty;
+    for (int number = 0; number < media->basin_count; number++) {
+        const Basin *basin = media->basins + number;
+        Fit fit = fit_of(basin, pose.p, body->reach);
+        if (fit == OUTSIDE) {
+            continue;
+        }
+        bool outlined = resists(basin->region) || (air != NULL && resists(air));
+        Wet wet = immersed(body, pose, fit == INSIDE ? NULL : basin, outlined, arena);
+        body->scratch.afloat = body->scratch.afloat || fit == CROSSING;
+        body->scratch.stirred = body->scratch.stirred || basin->region->gusty || basin->moves;
+        add_medium(&pull, &wet, basin->region, media->currents[number], twist, gravity, 1.0);
+        if (air != NULL) {
+            add_medium(&pull, &wet, air, media->wind, twist, gravity, -1.0);
+        }
+    }
+    if (air != NULL) {
+        Wet all = immersed(body, pose, NULL, resists(air), arena);
+        add_medium(&pull, &all, air, media->wind, twist, gravity, 1.0);
+    }
+    if (pull.has_drag) {
+        fit_drag(&pull, body->engine, lapse);
+    }
+    arena_release(arena, mark);
+    return pull;
+}
+
+bool reaches(const Media *media, const Body *body) {
+    for (int number = 0; number < media->basin_count; number++) {
+        const Basin *basin = media->basins + number;
+        if (basin->moves && fit_of(basin, body->engine->p, body->reach) != OUTSIDE) {
+            return true;
+        }
+    }
+    return false;
+}
+
+Twist force_of_pull(const Pull *pull, const cpBody *engine, Twist twist, Twist others) {
+    if (!pull->has_drag) {
+        return pull->steady;
+    }
+    // M a = others + steady - D (q + a t), solved for the acceleration a.
+    Twist all = twist_sum(twist_sum(pull->steady, others, 1.0), resisted(pull->resistance, twist), -1.0);
+    Twist acceleration = resisted(pull->inverse, all);
+    Twist force = {scaled(acceleration.v, engine->m), acceleration.w * engine->i};
+    return twist_sum(force, others, -1.0);
+}

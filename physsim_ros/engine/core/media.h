@@ -1,0 +1,45 @@
+// Copyright 2026 physsim_ros maintainers
+// SPDX-License-Identifier: Apache-2.0
+
+// Forces of media on bodies: buoyancy, drag and flow (`media.c`).
+
+#ifndef PHYSSIM_MEDIA_H
+#define PHYSSIM_MEDIA_H
+
+#include "immersion.h"
+
+// The media of a world at a moment.
+typedef struct Media {
+    Basin *basins;
+    Twist *currents; // of the medium in each: flow and gusts, as the region moves
+    int basin_count;
+    const Region *air; // NULL is none
+    Twist wind;
+} Media;
+
+// A symmetric matrix of velocity x, velocity y and spin.
+typedef struct Resistance {
+    double xx, xy, yy, xw, yw, ww; // [N s/m, N s, N m s]
+} Resistance;
+
+// The force of the media on a body: steady - D q, of its twist q.
+typedef struct Pull {
+    Twist steady;          // buoyancy, and the drag of what flows [N, N m]
+    Resistance resistance; // D
+    bool has_drag;
+    Resistance inverse; // of M + D t, with the time t after which the velocity counts
+} Pull;
+
+// The media a time after now [s].
+Media media_of(World *world, double ahead);
+
+// The force of the media on a body at a pose, of twists near one, in times of a length [s].
+Pull pull_of_media(World *world, const Media *media, Body *body, Pose pose, Twist twist, double lapse);
+
+// Whether a region that moves has come to a body.
+bool reaches(const Media *media, const Body *body);
+
+// The mean of that force in such a time, which begins with a twist, under other forces [N, N m].
+Twist force_of_pull(const Pull *pull, const cpBody *engine, Twist twist, Twist others);
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Meters: a quantity of a body, or the force of a joint, that stays beside it in the world, as somebody has chosen in its panel. */
+
+import {checkField, choice, createElement} from '../dom.js';
+import {jointTexts} from '../panels/joint_panel.js';
+import {QUANTITIES, toldOf} from './quantities.js';
+import {t} from '../strings.js';
+
+/** @import {App, Point, SceneView} from '../types.js' */
+
+const ABOVE = 22, PADDING = 6, HALF = 11; // px: from a body to its meter; beside the text; half of the height
+
+export class Meters {
+  /** @param {App} app */
+  constructor(app) {
+    this.app = app;
+    /** @type {Map<string, string>} quantities by body */
+    this.bodies = new Map();
+    /** @type {Set<string>} names */
+    this.joints = new Set();
+    app.view.overlays.push((view) => this.#draw(view));
+    app.connection.on('world', () => {
+      this.joints.clear();
+      this.bodies.clear();
+      this.#record();
+    });
+  }
+
+  /**
+   * @param {string} name of a body
+   * @returns {HTMLElement} the choice of its meter
+   */
+  field(name) {
+    const label = t('Meter in the world'), quantities = Object.entries(QUANTITIES).slice(1).map(([key, {label: each}]) => /** @type {[string, string]} */ ([key, each]));
+    return createElement('label', {}, label, choice(label, [['', t('none')], ...quantities], this.bodies.get(name) ?? '', (key) => {
+      if (key) this.bodies.set(name, key);
+      else this.bodies.delete(name);
+      this.#record();
+    }));
+  }
+
+  /**
+   * @param {string} name of a joint
+   * @returns {HTMLElement} the switch of its meter
+   */
+  jointField(name) {
+    return checkField(t('Meter in the world'), this.joints.has(name), (shown) => { this.joints[shown ? 'add' : 'delete'](name); });
+  }
+
+  #record() {
+    this.app.records.want(this, [...this.bodies.keys()]);
+  }
+
+  /** @param {SceneView} view */
+  #draw(view) {
+    const {world, records} = this.app, {bodies, joints, gravity} = world.scene, now = world.frame.time + 1e-9;
+    for (const [name, key] of this.bodies) {
+      const top = world.topOf(name), sample = records.samples(name).findLast(({time}) => time <= now);
+      if (top && sample) drawMeter(view, top, toldOf(key, QUANTITIES[key].of(sample, bodies[world.row(name)], gravity)));
+    }
+    for (const joint of joints) {
+      if (!this.joints.has(joint.name)) continue;
+      const [[px, py], [qx, qy]] = [world.place(joint.a, joint.points[0]), world.place(joint.b, joint.points[1])];
+      drawMeter(view, [(px + qx) / 2, (py + qy) / 2], jointTexts(world, joint).slice(0, 2).join(' · '));
+    }
+  }
+}
+
+/**
+ * @param {SceneView} view
+ * @param {Point} place above which it stands [m]
+ * @param {string} text
+ */
+function drawMeter({ctx, camera, palette}, place, text) {
+  const [x, y] = camera.toPage(...place);
+  ctx.font = '600 13px system-ui, sans-serif';
+  const half = ctx.measureText(text).width / 2 + PADDING;
+  ctx.fillStyle = palette.paper;
+  ctx.strokeStyle = palette.faint;
+  ctx.lineWidth = 1;
+  ctx.beginPath();
+  ctx.roundRect(x - half, y - ABOVE - HALF, 2 * half, 2 * HALF, PADDING);
+  ctx.fill();
+  ctx.stroke();
+  ctx.fillStyle = palette.ink;
+  ctx.textAlign = 'center';
+  ctx.fillText(text, x, y - ABOVE + HALF / 2);
+}

@@ -1,0 +1,97 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+`make mutate`: a dozen mutations chosen at random, each with the fast tests of its folder.
+
+`SEED=7 make mutate` chooses others and `COUNT=3` fewer. `make mutate ARGS=engine/core/floor` tries
+those of files whose path below `physsim_ros/` begins so, as after a change of them. The exit code
+is the number of mutations that no test noticed.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from random import Random
+import subprocess
+import sys
+from tempfile import TemporaryDirectory
+from test.source_tree import compile_core, copy_source, ROOT
+
+from .mutations import Mutation, mutations_of
+
+PACKAGE = Path('physsim_ros')
+CORE = PACKAGE / 'engine/core'
+# Many times what the fast tests of a folder take [s].
+LONGEST = 1800
+
+
+def candidates(words: list[str]) -> list[Mutation]:
+    """Return the mutations of all files, or of those whose path begins with one of the words."""
+    paths = (path.relative_to(ROOT) for path in sorted((ROOT / PACKAGE).rglob('*.[cp]*')))
+    chosen = [
+        path
+        for path in paths
+        if path.suffix in {'.c', '.py'} and path.name != '_declarations.py'
+        if not words or any(str(path.relative_to(PACKAGE)).startswith(word) for word in words)
+    ]
+    return [
+        each for path in chosen for each in mutations_of(path, (ROOT / path).read_text('utf-8'))
+    ]
+
+
+def tests_of(path: Path) -> list[str]:
+    """Return the folders whose fast tests have to notice a mutation of a file."""
+    if path.suffix == '.c':
+        return ['test/engine', 'test/laws']
+    folder = f'test/{path.parts[1]}'
+    return [folder if (ROOT / folder).is_dir() else 'test']
+
+
+def is_noticed(tree: Path, path: Path) -> bool:
+    """Return whether the core does not compile any more, or a test fails."""
+    if path.suffix == '.c':
+        try:
+            compile_core(tree)
+        except AssertionError:
+            return True
+    command = [sys.executable, '-m', 'pytest', '--exitfirst', '--quiet', '--numprocesses=auto']
+    command += ['--maxprocesses=8', '--max-worker-restart=0', '-m', 'not slow', *tests_of(path)]
+    try:
+        done = subprocess.run(
+            command,
+            cwd=tree,
+            env=os.environ | {'PYTHONPATH': str(tree)},
+            capture_output=True,
+            check=False,
+            timeout=LONGEST,
+        )
+    except subprocess.TimeoutExpired:
+        return True
+    return done.returncode != 0
+
+
+def main(words: list[str]) -> int:
+    """Try mutations, and return how many survive."""
+    every = candidates(words)
+    count = min(int(os.environ.get('COUNT') or 12), len(every))
+    survivors = 0
+    with TemporaryDirectory(prefix='mutate_') as place:
+        tree = copy_source(Path(place) / 'source')
+        compile_core(tree)
+        for mutation in Random(int(os.environ.get('SEED') or 0)).sample(every, count):
+            text = (ROOT / mutation.path).read_bytes()
+            (tree / mutation.path).write_bytes(mutation.applied(text))
+            noticed = is_noticed(tree, mutation.path)
+            print(f'{"noticed " if noticed else "SURVIVES"} {mutation.told(text)}', flush=True)
+            survivors += not noticed
+            (tree / mutation.path).write_bytes(text)
+            if mutation.path.suffix == '.c':
+                compile_core(tree)
+    print(f'mutate: {survivors} of {count} survive, of {len(every)} that there can be')
+    return survivors
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))
