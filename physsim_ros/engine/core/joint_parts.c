@@ -35,7 +35,7 @@ double *impulse_at(const Part *part, int component) {
     case PART_MOTOR:
         return &((cpSimpleMotor *)part->constraint)->jAcc;
     default:
-        assert(part->kind == PART_SPRING);
+        assert(part->kind == PART_SPRING || part->kind == PART_LINEAR_MOTOR);
         return &((cpDampedSpring *)part->constraint)->jAcc;
     }
 }

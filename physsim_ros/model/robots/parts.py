@@ -124,7 +124,7 @@ class LinkJoint(Checked):
         """
         Return the joint of a YAML mapping, whose properties are keys.
 
-        :raises Refusal: as `Checked.from_mapping` and `JointProperties.from_mapping`
+        :raises Refusal: as `Checked.from_mapping`, for its properties too
         """
         own = [each for each in cls.FIELDS if each != 'properties']
         for key in mapping:
