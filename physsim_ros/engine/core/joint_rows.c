@@ -51,7 +51,7 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
     case ROW_ACROSS:
         return place_on_line(perpendicular(rotated(axis, anchors->of_b)), anchors, jacobian);
     default:
-        assert(row->kind == ROW_ALONG);
+        assert(row->kind == ROW_ALONG || row->kind == ROW_WAY);
         return place_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
     }
 }
