@@ -16,6 +16,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.scene import Scene
+from physsim_ros.model.settings import STANDARD_GRAVITY
 from physsim_ros.model.snapshot import Snapshot
 
 # Colours at no force, and at the full-scale force: red, green, blue.
@@ -24,8 +25,6 @@ _AMBER = (0.93, 0.6, 0.13)
 # Full-scale force of a joint without `break_force`: in weights of the heaviest body; and the least
 # one [N].
 _FULL_SCALE, _LEAST = 2.0, 1e-3
-# Standard gravity [m/s²], for worlds without one.
-_WEIGHT = 9.81
 
 
 class JointColors:
@@ -70,7 +69,8 @@ def full_scale_force(scene: Scene) -> float:
 
     It is a round number, at least twice the weight of the heaviest body.
     """
-    gravity = math.hypot(*scene.settings.gravity) or _WEIGHT
+    # In worlds without gravity, standard gravity.
+    gravity = math.hypot(*scene.settings.gravity) or STANDARD_GRAVITY
     greatest = _FULL_SCALE * gravity * float(scene.inertia[:, 0].max(initial=0.0))
     return nice_number(max(greatest, _LEAST))
 

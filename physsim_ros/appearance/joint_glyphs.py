@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import math
 
 import numpy as np
+from physsim_ros.appearance.rope_corners import corner_count
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.scene import Joint
 
@@ -75,6 +76,10 @@ def joint_strips(joint: Joint, size: float) -> list[Strip]:
         case JointKind.ROD:
             sides = [[Corner(0.0, side), Corner(1.0, side)] for side in (-size / 3, size / 3)]
             return [*sides, _circle(size / 2), _circle(size / 2, at=1.0)]
+        case JointKind.ROPE if joint.guides:
+            # `joint_lines` puts its corners along the path.
+            path = [Corner(0.5)] * corner_count(len(joint.guides))
+            return [path, _circle(size / 3), _circle(size / 3, at=1.0)]
         case JointKind.ROPE:
             shares = np.linspace(0.0, 1.0, _ROPE + 1).tolist()
             curve = [Corner(share, sag=4 * share * (1 - share)) for share in shares]

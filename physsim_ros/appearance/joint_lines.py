@@ -18,9 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.appearance.joint_colors import JointColors
 from physsim_ros.appearance.joint_glyphs import is_rigid, joint_strips, Strip
+from physsim_ros.appearance.rope_corners import corner_count, path_corners
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.scene import Scene
+from physsim_ros.model.scene import Joint, Scene
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Point, rotated_each
 
@@ -44,6 +45,22 @@ class Place(NamedTuple):
     joint: int
     point: int
     side: int
+
+
+class _Path(NamedTuple):
+    """
+    The path of a rope past its guides.
+
+    :ivar corners: indices of its corners, those of its ends excepted
+    :ivar rows: (k,) intp: of the bodies that it passes, its ends among them
+    :ivar anchors: (k, 2) float64: in their frames [m]
+    :ivar radii: (k,) float64: as in `model.rope_path` [m]
+    """
+
+    corners: NDArray[np.intp]
+    rows: NDArray[np.intp]
+    anchors: Floats
+    radii: Floats
 
 
 class JointGlyphs:
@@ -88,8 +105,19 @@ class JointGlyphs:
         self._rows = scene.joint_rows[self._joints, on_b]
         self._seats = _drawn_seats(scene)
         self._rope_lengths = np.array(
-            [joint.rest_length if joint.kind is JointKind.ROPE else 0.0 for joint in scene.joints]
+            [
+                # What a winch has wound in is not slack.
+                joint.rest_length
+                if joint.kind is JointKind.ROPE and not joint.properties.rate
+                else 0.0
+                for joint in scene.joints
+            ]
         )
+        self._paths = [
+            _path_of(scene, joint, np.flatnonzero(self._joints == number))
+            for number, joint in enumerate(scene.joints)
+            if joint.guides and joint.kind is JointKind.ROPE
+        ]
         gravity = np.array(scene.settings.gravity)
         strength = float(np.hypot(*gravity))
         self._down = gravity / strength if strength > 0 else np.array((0.0, -1.0))
@@ -137,7 +165,13 @@ class JointGlyphs:
         yaw = np.concatenate((poses[..., 2], background), axis=-1)[..., self._rows]
         corners: Floats = first[..., joints, :] + self._along * span[..., joints, :]
         corners += self._across * side[..., joints, :] + self._sag * depth[..., joints, :]
-        return corners + rotated_each(self._arms, yaw)
+        corners += rotated_each(self._arms, yaw)
+        frames = np.concatenate((poses, np.zeros((*poses.shape[:-2], 1, 3))), axis=-2)
+        for path in self._paths:
+            stops = frames[..., path.rows, :]
+            places = stops[..., :2] + rotated_each(path.anchors, stops[..., 2])
+            corners[..., path.corners, :] = path_corners(places, path.radii)
+        return corners
 
     def symbol_poses(self, poses: Floats) -> Floats:
         """
@@ -175,6 +209,18 @@ def _symbols(glyphs: Sequence[Sequence[Strip]]) -> dict[Symbol, list[Place]]:
         for place, symbol in lines.items():
             symbols[symbol].append(place)
     return symbols
+
+
+def _path_of(scene: Scene, joint: Joint, corners: NDArray[np.intp]) -> _Path:
+    names = (joint.a, *(guide.body for guide in joint.guides), joint.b)
+    seat = joint.seat
+    passed = [(guide.x, guide.y) for guide in joint.guides]
+    return _Path(
+        corners[: corner_count(len(passed))],
+        np.array([scene.row_of[name] for name in names], np.intp),
+        np.array([(seat.ax, seat.ay), *passed, (seat.bx, seat.by)]),
+        np.array([0.0, *(guide.radius for guide in joint.guides), 0.0]),
+    )
 
 
 def _drawn_seats(scene: Scene) -> Floats:

@@ -44,6 +44,7 @@ class Tool(StrEnum):
     SPRING = 'spring'
     ROD = 'rod'
     ROPE = 'rope'
+    PULLEY = 'pulley'
     CHAIN = 'chain'
     VELOCITY = 'velocity'
     GRAVITY = 'gravity'

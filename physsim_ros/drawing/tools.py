@@ -31,7 +31,7 @@ from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checks import check_point
 from physsim_ros.model.errors import Anchored, BadOutline, NothingThere
-from physsim_ros.model.joints import JointKind
+from physsim_ros.model.joints import JointKind, JointProperties, MOST_STOPS
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import (
     Anchor,
@@ -204,6 +204,33 @@ def join(
     return _finished(Join(name=scene.next_joint(), kind=kind, points=(start, end), a=a, b=b))
 
 
+def pulley(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
+    """Draw a rope past wheels and rings, click after click; its end is clicked twice."""
+    points = [click.current_point(scene) for click in clicks]
+    if len(points) > 1 and math.dist(points[-2], points[-1]) <= settings.snap:
+        names = [click.body or WORLD for click in clicks[:-1]]
+        points = points[:-1]
+        if names[0] == WORLD:
+            names.reverse()
+            points.reverse()
+        if len(names) < 2 or names[0] == WORLD:
+            raise NothingThere('there is no body at either end of the rope', field='point')
+        join = Join(
+            name=scene.next_joint(),
+            kind=JointKind.ROPE,
+            points=tuple(points),
+            a=names[0],
+            b=names[-1],
+            properties=JointProperties(over=tuple(names[1:-1]) or None),
+        )
+        return _finished(join)
+    if len(points) > MOST_STOPS:
+        # Each click looks at all points.
+        raise BadOutline(f'a rope has at most {MOST_STOPS} points', field='point')
+    where = clicks[-1].body or 'the background'
+    return _next_click(f'the rope is on {where}', 'the next wheel or ring; its end twice')
+
+
 def chain(clicks: Sequence[Click], scene: SceneQuery, settings: DrawingSettings) -> ClickResult:
     """Draw a chain of links from the body, or the background, under one click to another."""
     if len(clicks) < 2:
@@ -230,6 +257,7 @@ TOOLS: dict[Tool, Draw] = {
     Tool.SPRING: partial(join, JointKind.SPRING),
     Tool.ROD: partial(join, JointKind.ROD),
     Tool.ROPE: partial(join, JointKind.ROPE),
+    Tool.PULLEY: pulley,
     Tool.CHAIN: chain,
     Tool.VELOCITY: velocity,
     Tool.GRAVITY: gravity,

@@ -79,6 +79,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
         commands=tuple(space.joints.commands.values()),
+        bounds=space.joints.bounds(),
         robots=table.robot_states,
         actors=table.actor_states,
     )
@@ -121,7 +122,7 @@ def saved_state(space: Space, step: int) -> WorldState:
     return WorldState(
         settings=checkpoint.scene.settings,
         bodies=tuple(bodies),
-        joints=checkpoint.scene.joints,
+        joints=space.joints.drawn_now(),
         commands=_shifted(checkpoint.commands, -step),
         lesson=checkpoint.scene.lesson,
         memory=memory,
@@ -255,6 +256,7 @@ def restore_checkpoint(
     for command, begun in checkpoint.commands:
         space.joints.command(command, begun)
     space.joints.set_unstepped(checkpoint.unstepped)
+    space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()
     space.joints.set_impulses(checkpoint.memory.joints)
     space.joints.set_totals(checkpoint.memory.totals)

@@ -88,18 +88,19 @@ class CoreWorld:
         )
         self._tables['bodies'] = (bodies,)
 
-    def use_joints(self, joints: Table, parts: Table, rows: Table) -> None:
-        """Have the core step these joints: `Joint`, `Part` and `Row` of `engine/core/core.h`."""
-        tables = zip((joints, parts, rows), ('Joint', 'Part', 'Row'), strict=True)
+    def use_joints(self, joints: Table, parts: Table, rows: Table, guides: Table) -> None:
+        """Have the core step these joints, by structs of their names in `engine/core/core.h`."""
+        structs = 'Joint', 'Part', 'Row', 'Guide'
+        tables = zip((joints, parts, rows, guides), structs, strict=True)
         pointers = (each for table in tables for each in _pointer_and_count(*table))
         lib.core_use_joints(self._world, *pointers)
-        self._tables['joints'] = joints, parts, rows
+        self._tables['joints'] = joints, parts, rows, guides
 
     def drop_joints(self) -> None:
         """Have the core step no joints, before one of them comes or goes."""
         if 'joints' not in self._tables:
             return
-        lib.core_use_joints(self._world, ffi.NULL, 0, ffi.NULL, 0, ffi.NULL, 0)
+        lib.core_use_joints(self._world, *(ffi.NULL, 0) * 4)
         self._world.motor_count = 0
         del self._tables['joints']
 

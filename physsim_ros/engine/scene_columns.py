@@ -14,7 +14,7 @@ import numpy as np
 from physsim_ros.engine.core import dtype_of, lib
 from physsim_ros.engine.core_world import Table
 from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
-from physsim_ros.model.actors import ACTORS, Pedestrian, REPEATS
+from physsim_ros.model.actors import Pedestrian
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.attraction import attracts
 from physsim_ros.model.joints import JointKind
@@ -24,12 +24,6 @@ from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Chain, Convex, Form, hull_of, lever_of
 
-# A pair that approaches by less than this share of the lesser inner radius in a step needs no time
-# of impact: each keeps its centre well on the side it came from. `time_of_impact.h` has it too.
-SAFE_SHARE = 0.25
-# Corners of a polygon whose time of impact costs as much as that of a round shape, most of which
-# does not depend on the corners.
-ROUND_COST = 4
 _BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
 _FORCE, _REGION = dtype_of('AppliedForce'), dtype_of('Region')
 _ATTRACTOR = dtype_of('Attractor')
@@ -164,7 +158,7 @@ def _safe_depth(body: Body) -> float:
     """
     if body.anchored and isinstance(body.shape, Chain):
         return math.inf
-    return body.shape.form.inner * SAFE_SHARE
+    return body.shape.form.inner / int(lib.SAFE_DEPTHS)
 
 
 def _slop(body: Body) -> float:
@@ -177,7 +171,8 @@ def _numbers_of(form: Form) -> tuple[float, float, float, int, int]:
     # A disc covers the same ground however it turns.
     turning_radius = 0.0 if form.inner >= form.outer else form.outer
     corners = sum(
-        len(piece.vertices) if isinstance(piece, Convex) else ROUND_COST for piece in form.pieces
+        len(piece.vertices) if isinstance(piece, Convex) else lib.ROUND_COST
+        for piece in form.pieces
     )
     return form.outer, form.inner, turning_radius, corners, len(form.pieces)
 
@@ -290,12 +285,12 @@ def _actor_records(
 ) -> Table:
     records = np.zeros(len(tracks), _ACTOR)
     robots = {row: number for number, row in enumerate(scene.robot_rows.tolist())}
-    kinds = list(ACTORS)
     for record, row, track in zip(records, scene.actor_rows.tolist(), tracks, strict=True):
         body = scene.bodies[row]
         actor, start = body.actor, body.actor.start
         record['body'], record['robot'] = row, robots.get(row, -1)
-        record['kind'], record['repeat'] = kinds.index(actor.KIND), REPEATS.index(actor.repeat)
+        record['kind'] = getattr(lib, f'ACTOR_{actor.KIND.upper()}')
+        record['repeat'] = getattr(lib, actor.repeat.upper())
         for name in ('gate', 'by', 'near'):
             record[name] = rows.get(getattr(start, name), -1)
         record['waits'] = start.gate is not None or start.near is not None

@@ -367,7 +367,7 @@ class Space:
         self.changes += 1
         joint, bodies = self.joints.by_name[name].joint, self.bodies.by_name
         self.joints.remove(name)
-        self._release(bodies[end] for end in (joint.a, joint.b) if end in bodies)
+        self._release(bodies[end] for end in joint.bodies if end in bodies)
 
     # Steps
 

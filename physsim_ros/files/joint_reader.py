@@ -23,7 +23,7 @@ from physsim_ros.model.joints import joined_from, MOST_RATIO
 from physsim_ros.model.motor_command import CommandPoint, MotorCommand, points_from
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests import join_from, Restore
-from physsim_ros.model.scene import Joint, Seat
+from physsim_ros.model.scene import Guide, Joint, Seat
 from physsim_ros.model.transform import Point, Pose, REST
 from physsim_ros.simulation.world import World
 
@@ -67,7 +67,7 @@ def joints_from(
             points = point_list(entry.get('points'), 'points')
             joints[name] = None
             if 'seat' in entry:
-                joint = _saved_joint(name, terms, _seat(entry['seat']))
+                joint = _saved_joint(name, terms, entry['seat'])
                 if _is_unedited(joint, points, poses, unmoved):
                     joints[name] = joint
                     continue
@@ -123,12 +123,13 @@ def command_entry(command: MotorCommand, begun: int, physics_rate: float) -> dic
     return {'mode': command.mode, 'points': points, 'seconds': -begun / physics_rate}
 
 
-def _saved_joint(name: str, terms: Mapping[Any, Any], seat: Seat) -> Joint:
+def _saved_joint(name: str, terms: Mapping[Any, Any], saved: object) -> Joint:
     """Return a joint with its saved seat, which no request might be able to draw."""
     check_name(name)
     kind, a, b, properties = joined_from(terms)
     properties.check_kind(kind)
-    return Joint(name=name, kind=kind, a=a, b=b, seat=seat, properties=properties)
+    seat, guides = _seat(saved, properties.over or ())
+    return Joint(name=name, kind=kind, a=a, b=b, seat=seat, properties=properties, guides=guides)
 
 
 def _is_unedited(
@@ -137,7 +138,7 @@ def _is_unedited(
     """Return whether the points of a saved joint and the poses of its bodies are unedited."""
     seat, phase = joint.seat, joint.properties.phase
     # The background is never among the bodies.
-    if joint.a not in unmoved or joint.b not in unmoved | {WORLD} or joint.a == joint.b:
+    if joint.a == joint.b or not unmoved.issuperset({*joint.bodies} - {WORLD}) or joint.a == WORLD:
         return False
     if joint.kind.schema.has_axis and abs(math.hypot(seat.ux, seat.uy) - 1.0) > ROUNDING:
         return False
@@ -145,11 +146,24 @@ def _is_unedited(
         difference = abs(math.remainder(seat.phase - phase, math.tau))
         if difference > ROUNDING + 4.0 * math.ulp(seat.phase):
             return False
-    return joint.kind.points == len(points) and is_same(joint.drawn_points(poses), points)
+    drawn = joint.drawn_points(poses)
+    return len(drawn) == len(points) and is_same(drawn, points)
 
 
-def _seat(value: object) -> Seat:
-    count = len(Seat._fields)
+def _seat(value: object, over: tuple[str, ...]) -> tuple[Seat, tuple[Guide, ...]]:
+    """
+    Return the seat of a joint, and its guides.
+
+    :param value: numbers of the seat, then those of each guide
+    :param over: names of the bodies of its guides
+    """
+    own, each = len(Seat._fields), len(Guide._fields) - 1
+    count = own + each * len(over)
     if not isinstance(value, list) or len(value) != count:
         raise BadProperty(f'seat must be {count} numbers', field='seat')
-    return Seat(*(_IN_SEAT(each, 'seat') for each in value))
+    numbers = [_IN_SEAT(each, 'seat') for each in value]
+    firsts = range(own, count, each)
+    guides = zip(over, firsts, strict=True)
+    return Seat(*numbers[:own]), tuple(
+        Guide(name, *numbers[first : first + each]) for name, first in guides
+    )

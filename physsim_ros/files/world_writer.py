@@ -103,7 +103,13 @@ def _joint_entry(joint: Joint, poses: Mapping[str, Pose]) -> dict[str, object]:
     points = joint.drawn_points(poses)
     entry: dict[str, object] = {'name': joint.name, 'kind': str(joint.kind)}
     entry |= {'a': joint.a, 'b': joint.b, 'points': [list(point) for point in points]}
-    return entry | joint.properties.explicit() | {'seat': list(joint.seat)}
+    properties: dict[str, object] = joint.properties.entry()
+    return entry | properties | {'seat': _seat_entry(joint)}
+
+
+def _seat_entry(joint: Joint) -> list[float]:
+    """Return the numbers of its seat, then those of each guide."""
+    return [*joint.seat, *(number for guide in joint.guides for number in guide[1:])]
 
 
 def _color_entry(color: Color) -> object:

@@ -9,6 +9,7 @@ Law: two worlds that continue from the same checkpoint have the same bits ever a
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -150,6 +151,7 @@ class Checkpoint:
     :param grips: of hands on bodies
     :param unstepped: names of the joints whose first step is to come
     :param commands: of motors, with the step of each
+    :param bounds: `lower` and `upper` of the rows of joints of which one moves, by name
     :param robots: (r,) `ROBOT_STATE`: states of the robots, in the order of the scene
     :param actors: (a,) `ACTOR_STATE`: states of the actors, in the order of the scene
     """
@@ -164,6 +166,7 @@ class Checkpoint:
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
     commands: Commands = ()
+    bounds: Mapping[str, NDArray[np.void]] = field(default_factory=dict)
     robots: Records = field(default_factory=lambda: NO_ROBOTS)
     actors: Records = field(default_factory=lambda: NO_ACTORS)
 

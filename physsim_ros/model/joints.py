@@ -27,6 +27,9 @@ MOST_RATIO = 1e6
 _MOST_PHASE = 1e6
 
 
+# Points of a rope, at most: each is looked at in every step.
+MOST_STOPS = 64
+
 # The properties of every kind.
 _COMMON = ('max_force', 'break_force', 'collide')
 
@@ -34,6 +37,12 @@ _COMMON = ('max_force', 'break_force', 'collide')
 # The note of a property is its value where nobody sets it: a number, or this, as the poses of the
 # bodies have it when the joint is made.
 AS_DRAWN = 'as drawn'
+
+
+def _names(value: object, name: str) -> tuple[str, ...]:
+    if not isinstance(value, list | tuple) or not all(isinstance(each, str) for each in value):
+        raise BadProperty(f'{name} must be a list of names, not {shown(value)}', field=name)
+    return tuple(value)
 
 
 def _ratio(value: object, name: str) -> float:
@@ -49,6 +58,7 @@ class Schema:
     The points and properties of a kind of joint.
 
     :param points: number of points that a joint is drawn with, 1 or 2
+    :param passes: whether there may be further points between its two, of bodies that it passes
     :param sentence: what it does, in Markdown
     :param own: names of the properties that not every kind has
     :param words: everyday words for it; those of Box2D, Pymunk and URDF among them
@@ -65,6 +75,7 @@ class Schema:
     least_distance: float = 0.0
     has_axis: bool = False
     along_line: bool = False
+    passes: bool = False
 
     @property
     def properties(self) -> tuple[str, ...]:
@@ -126,10 +137,12 @@ class JointKind(StrEnum):
         'rope',
         Schema(
             2,
-            'keeps its ends at most `length` apart',
-            own=('length',),
-            words=('string', 'cord', 'cable', 'chain', 'slide'),
+            'is at most `length` long, from its first point past rings and around wheels to its '
+            'last; with `rate` a winch',
+            own=('length', 'over', 'rate', 'lower', 'upper'),
+            words=('string', 'cord', 'cable', 'chain', 'slide', 'pulley', 'winch', 'tackle'),
             along_line=True,
+            passes=True,
         ),
     )
     SLIDER = (
@@ -198,15 +211,18 @@ class JointProperties(Checked):
         float | None,
         Within(-LARGEST, LARGEST, 'rad or m'),
         'least angle of `a` relative to `b`, or displacement of `a` along the axis, from where '
-        'they were joined',
+        'they were joined; of a winch, its least length',
     ] = None
     upper: Annotated[
-        float | None, Within(-LARGEST, LARGEST, 'rad or m'), 'greatest angle or displacement'
+        float | None,
+        Within(-LARGEST, LARGEST, 'rad or m'),
+        'greatest angle, displacement or length',
     ] = None
     rate: Annotated[
         float | None,
-        Within(-FASTEST, FASTEST, 'rad/s'),
-        'angular velocity of `a` relative to `b`, counter-clockwise',
+        Within(-FASTEST, FASTEST, 'rad/s or m/s'),
+        'angular velocity of `a` relative to `b`, counter-clockwise; of a winch, that of its '
+        'length, which begins as `length` and stays within its limits',
         1.0,
     ] = None
     max_torque: Annotated[
@@ -241,6 +257,13 @@ class JointProperties(Checked):
     ] = None
     length: Annotated[
         float | None, Within(0.0, LARGEST, 'm'), "greatest distance of a rope's points", AS_DRAWN
+    ] = None
+    over: Annotated[
+        tuple[str, ...] | None,
+        _names,
+        'names of the bodies at the points between its ends, `world` for the background; a body '
+        'that is a disc is a wheel, on which the rope does not slip, others are rings',
+        AS_DRAWN,
     ] = None
     ratio: Annotated[
         float | None,

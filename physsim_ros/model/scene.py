@@ -133,6 +133,26 @@ class Seat(NamedTuple):
     length: float
 
 
+class Guide(NamedTuple):
+    """
+    A body that a joint has beside its two: what a rope passes, or the carrier of a gear.
+
+    body: its name, 'world' for the background; x, y [m]: the ring, or the centre of the wheel, in
+    its frame; radius [m]: > 0 where the rope runs counter-clockwise around a wheel, < 0 clockwise,
+    0 of a ring; yaw [rad]: of the body when the joint was drawn; heading_in, heading_out [rad]:
+    directions in which the rope came and went then; span [m]: length of its span to here then.
+    """
+
+    body: str
+    x: float
+    y: float
+    radius: float = 0.0
+    yaw: float = 0.0
+    heading_in: float = 0.0
+    heading_out: float = 0.0
+    span: float = 0.0
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Joint:
     """
@@ -144,6 +164,7 @@ class Joint:
     :param b: name of another body, or 'world' for the background
     :param seat: its anchor points on them, and what else was measured when it was drawn
     :param properties: those that a request has set
+    :param guides: what it passes between its anchor points, in this order
     """
 
     name: str
@@ -152,6 +173,12 @@ class Joint:
     b: str
     seat: Seat
     properties: JointProperties
+    guides: tuple[Guide, ...] = field(default=(), repr=False)
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """Return the names of its bodies, each once, the background among them."""
+        return tuple(dict.fromkeys((self.a, self.b, *(guide.body for guide in self.guides))))
 
     @property
     def rest_length(self) -> float:
@@ -202,7 +229,11 @@ class Joint:
         if self.kind.schema.has_axis:
             ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
             return (x, y), (x + ux, y + uy)
-        return (x, y), local_to_world((seat.bx, seat.by), pose_b)
+        passed = [
+            local_to_world((guide.x, guide.y), poses.get(guide.body, ORIGIN))
+            for guide in self.guides
+        ]
+        return (x, y), *passed, local_to_world((seat.bx, seat.by), pose_b)
 
     def drawn_values(self) -> dict[str, float]:
         """Return the properties whose default is the value as drawn, by name."""
@@ -212,7 +243,8 @@ class Joint:
             'phase': self.seat.phase,
         }
         fields, own = JointProperties.FIELDS, self.kind.schema.own
-        return {name: values[name] for name in own if AS_DRAWN in fields[name].notes}
+        drawn = [name for name in own if AS_DRAWN in fields[name].notes]
+        return {name: values[name] for name in drawn if name in values}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -245,6 +277,7 @@ class Scene:
             for body in self.bodies
             if (value := getattr(body, name)) != default
         ]
+        rare += [(joint.name, 'guides', joint.guides) for joint in self.joints if joint.guides]
         rare += [
             ('', name, value)
             for name, default in _RARE_SETTINGS
@@ -260,19 +293,14 @@ class Scene:
         return tuple(body.name for body in self.bodies)
 
     @cached_property
-    def rows(self) -> Mapping[str, int]:
-        """Rows of the bodies by name."""
-        return {name: row for row, name in enumerate(self.names)}
-
-    @cached_property
     def owners(self) -> Ints:
         """(n,) int64: row of the robot of which each body is a part, else its own."""
         owners = np.arange(len(self.bodies))
         for row, robot in zip(self.robot_rows.tolist(), self.robots, strict=True):
             for link in robot.links:
                 name = part_name(self.names[row], link.name)
-                if name in self.rows:
-                    owners[self.rows[name]] = row
+                if name in self.row_of:
+                    owners[self.row_of[name]] = row
         return owners
 
     @cached_property
@@ -332,10 +360,14 @@ class Scene:
         return np.array([body.shape.form.outer for body in self.bodies], np.float64)
 
     @cached_property
+    def row_of(self) -> Mapping[str, int]:
+        """Rows of the bodies by name; -1 is the background."""
+        return {name: row for row, name in enumerate(self.names)} | {WORLD: -1}
+
+    @cached_property
     def joint_rows(self) -> Ints:
         """(j, 2) int64: rows of the bodies a and b of each joint; -1 is the background."""
-        rows = {**self.rows, WORLD: -1}
-        pairs = [(rows[joint.a], rows[joint.b]) for joint in self.joints]
+        pairs = [(self.row_of[joint.a], self.row_of[joint.b]) for joint in self.joints]
         return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
     @cached_property

@@ -15,6 +15,8 @@ from physsim_ros.model.transform import Point
 
 Bounds = tuple[float, float, float, float]
 
+# Standard gravity [m/s²]; `engine/core/world.h` has it for the core.
+STANDARD_GRAVITY = 9.81
 # Greatest gravity [m/s²]: a thousand times that of the earth, 40 m/s in a step.
 STRONGEST = 1e4
 # Greatest number of joints on one body [1]: a new joint takes a microsecond for each joint on its
@@ -55,7 +57,10 @@ class WorldSettings(Checked):
     :raises BadProperty: a value is out of range
     """
 
-    gravity: Annotated[Point, Vector(STRONGEST, 'm/s²', 'stronger'), 'acceleration'] = (0.0, -9.81)
+    gravity: Annotated[Point, Vector(STRONGEST, 'm/s²', 'stronger'), 'acceleration'] = (
+        0.0,
+        -STANDARD_GRAVITY,
+    )
     damping: Annotated[
         float, Within(0.0, 1.0), 'share of velocity lost to the air each second'
     ] = 0.0

@@ -64,6 +64,7 @@ EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
     'damping': ('damper', 'viscosity', 'c'),
     'rest_length': ('natural_length', 'free_length', 'rest'),
     'length': ('distance', 'long'),
+    'over': ('via', 'through', 'wheels', 'pulleys', 'rings', 'sheaves'),
     'ratio': ('transmission', 'teeth'),
     'phase': ('angle', 'offset'),
     'max_force': ('force',),

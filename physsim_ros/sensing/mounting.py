@@ -35,7 +35,7 @@ def mounted_row(snapshot: Snapshot, row: int, sensor: Sensor) -> int:
     if sensor.link == BASE:
         return row
     scene = snapshot.scene
-    return scene.rows.get(part_name(scene.names[row], sensor.link), row)
+    return scene.row_of.get(part_name(scene.names[row], sensor.link), row)
 
 
 def noise_of(snapshot: Snapshot, row: int, sensor: Sensor, count: int) -> Floats:

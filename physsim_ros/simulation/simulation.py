@@ -209,6 +209,14 @@ class Simulation(FrameMaker):
         """
         return self.at_shown_moment().cursor.world.save()
 
+    def state_of_run(self) -> WorldState:
+        """
+        Return the state with which this run began: that after the last request, to the bit.
+
+        A world that begins with it, and is left alone, does the same ever after.
+        """
+        return self.at_shown_moment().frames.state_of_run()
+
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """
         Return the forces of contacts and joints of a world that has not stepped since a change.

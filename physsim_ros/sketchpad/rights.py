@@ -190,7 +190,7 @@ def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:
         ):
             joints = (each for each in scene.joints if each.name == node.subject)
             joint = next(joints, None)
-            return scene.names if joint is None else (joint.a, joint.b)
+            return scene.names if joint is None else joint.bodies
         case requests.Grab() | requests.Anchor() | requests.Release():
             return (node.subject,)
     return _bodies_of(request, snapshot)
@@ -208,10 +208,13 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
             return request.names
         case requests.Spawn() | requests.ChangeBody() | requests.Delete() | requests.DriveRobot():
             return (request.name,)
-        case requests.Join(a=a, b=b, points=points):
+        case requests.Join(a=a, b=b, points=points, properties=properties):
+            names = (a, *(properties.over or ('',) * (len(points) - 2)), b)
+            # One point is that of both ends.
+            places = points if len(points) > 1 else points * 2
             return tuple(
                 each
-                for name, point in ((a, points[0]), (b, points[-1]))
+                for name, point in zip(names, places, strict=True)
                 for each in ((name,) if name else query.bodies_at(point)[:1])
             )
         case requests.Rejoin(a=a, b=b):
@@ -221,7 +224,7 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
             return tuple(name for names in parts for name in names)
         case requests.Unjoin(name=name):
             joints = (each for each in query.joints if each.name == name)
-            return tuple(each for joint in joints for each in (joint.a, joint.b))
+            return tuple(each for joint in joints for each in joint.bodies)
         case requests.Grab(point=point):
             under = query.bodies_at(point)
             return tuple(each for each in under if query.body(each).dynamic)[:1] or under[:1]

@@ -28,6 +28,7 @@ Tool = Literal[
     'spring',
     'rod',
     'rope',
+    'pulley',
     'chain',
     'velocity',
     'gravity',

@@ -23,7 +23,7 @@ def stretched(world: World) -> float:
     return max(abs(math.dist(places[rod.a], places[rod.b]) - MESH) for rod in rods)
 
 
-@pytest.mark.parametrize('side', [5, 20])
+@pytest.mark.parametrize('side', [5, 12])
 def test_a_net_is_as_long_as_its_rods(side):
     world = net(side)
     for _ in range(10):

@@ -60,6 +60,28 @@ def test_joints_round_trip_to_the_bit_in_the_middle_of_motion(folder: Path) -> N
     assert_round_trip(world, folder)
 
 
+HOIST = """format: 1
+bodies:
+  - {name: wheel/0, circle: {radius: 0.5}, at: [0, 5]}
+  - {name: box/0, box: {width: 0.4, height: 0.4}, at: [-0.5, 2], mass: 2}
+  - {name: box/1, box: {width: 0.4, height: 0.4}, at: [1.5, 2], mass: 3}
+joints:
+  - {name: joint/0, kind: axle, a: wheel/0, b: world, points: [[0, 5]]}
+  - {name: joint/1, kind: rope, a: box/0, b: box/1, over: [wheel/0, world], rate: -0.3, lower: 2,
+     points: [[-0.5, 2], [0, 5], [1.5, 5], [1.5, 2]]}
+"""
+
+
+def test_a_winch_over_a_wheel_round_trips_to_the_bit_while_it_winds(folder: Path) -> None:
+    world = loaded(HOIST, folder)
+    rope = world.save().joints[1]
+    assert [guide.radius for guide in rope.guides] == [-0.5, 0.0]
+    world.step(333)
+
+    assert world.save().joints[1].rest_length == pytest.approx(rope.rest_length - 0.3 * 333 / RATE)
+    assert_round_trip(world, folder)
+
+
 def test_a_joint_whose_points_somebody_edited_sits_at_the_new_ones(folder: Path) -> None:
     world = loaded(MACHINE, folder)
 

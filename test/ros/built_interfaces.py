@@ -43,6 +43,15 @@ KINDS = ('msg', 'srv', 'action')
 _LOADED: dict[str, dict[str, ModuleType]] = {}
 
 
+def _kept(request: pytest.FixtureRequest) -> Path:
+    """Return pytest's cache; where there is none, a folder that all workers of a run share."""
+    if request.config.pluginmanager.has_plugin('cacheprovider'):
+        return request.config.cache.mkdir('interfaces')
+    shared = request.getfixturevalue('tmp_path_factory').getbasetemp().parent / 'interfaces'
+    shared.mkdir(exist_ok=True)
+    return shared
+
+
 def import_built(package: str, request: pytest.FixtureRequest) -> None:
     """Make a package importable until a fixture ends, or skip the test with the reason."""
     if find_spec(package) is not None:
@@ -58,7 +67,7 @@ def import_built(package: str, request: pytest.FixtureRequest) -> None:
     found = _definitions(package)
     texts = [path.read_bytes() for path in (Path(__file__), *found)]
     digest = hashlib.sha256(b'\0'.join((repr((generators, sys.version)).encode(), *texts)))
-    cache = request.config.cache.mkdir('interfaces')
+    cache = _kept(request)
     built = cache / f'{package}-{digest.hexdigest()[:16]}'
     with _locked(cache / f'{package}.lock'):
         if not built.exists():

@@ -261,10 +261,11 @@ def drive_of(rng: Choices) -> requests.DriveRobot:
 def join_of(rng: Choices) -> requests.Join:
     kind = rng.choice(list(JointKind))
     first, second = rng.sample(rng.names, 2)
+    passed = rng.choice((0, 0, 1, 2)) if kind.schema.passes else 0
     return requests.Join(
         name=rng.choice(rng.joints),
         kind=kind,
-        points=tuple(rng.point() for _ in range(kind.points)),
+        points=tuple(rng.point() for _ in range(kind.points + passed)),
         frame=frame_of(rng),
         a=first,
         b=rng.choice((second, 'world')),
@@ -291,7 +292,9 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
         'break_force': 30.0,
         'collide': rng.random() < 0.5,
     }
-    names = [name for name in kind.schema.properties if rng.random() < 0.3]
+    # What a rope passes is at its points.
+    known = [name for name in kind.schema.properties if name in said]
+    names = [name for name in known if rng.random() < 0.3]
     return JointProperties(**{name: said[name] for name in names})
 
 

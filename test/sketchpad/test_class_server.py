@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import ExitStack
+from functools import partial
 from http.client import HTTPConnection, HTTPResponse
 import json
 from pathlib import Path
@@ -27,9 +28,9 @@ import pytest
 from .chromium import circle, Sheet
 from ..outside import Outside, PATIENCE, Program
 
-# Colours of the picture of the first seat.
-COLORS = """() => {
-    const canvas = document.querySelector('#seats canvas');
+# Colours of a picture.
+COLORS = """selector => {
+    const canvas = document.querySelector(selector);
     const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
     const seen = new Set();
     for (let i = 0; i < data.length; i += 4) seen.add([...data.slice(i, i + 3)].join());
@@ -257,6 +258,9 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     program, pupils, teacher = run_class
     anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
     before = anna.names()
+    # A lesson begins with the hand, and without the pen.
+    anna.press('All tools')
+    anna.press('Pen')
     anna.drag(*circle(0.0, 3.0, 0.6))
     drawn = anna.wait_for_new(before)
     assert drawn not in ben.names()
@@ -285,7 +289,9 @@ def test_pupils_come_by_one_address_each_to_a_world_and_a_teacher_sees_them(
     sheet.press('Send')
     ben.page.get_by_text('Teacher: Five minutes left').wait_for()
     # The picture shows the block of ice.
-    sheet.until(lambda: [118, 183, 178] in sheet.page.evaluate(COLORS), 'a picture')
+    sheet.until(
+        lambda: [118, 183, 178] in sheet.page.evaluate(COLORS, '#seats canvas'), 'a picture'
+    )
     with sheet.context.expect_page() as opened:
         links.first.click()
     opened.value.locator('.whose').get_by_text('World of Anna').wait_for()
@@ -337,6 +343,8 @@ def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
     card.get_by_text('not here').wait_for()
     sheet.press('Results')
     sheet.page.get_by_role('row', name='Anna').get_by_text('1.01 ✓').wait_for()
+    sheet.page.locator('.histogram').get_by_text('1 … 2').wait_for()
+    assert sheet.page.locator('.histogram .right').evaluate('bar => bar.style.width') == '100%'
     with sheet.page.expect_download() as table:
         sheet.press('Save table (CSV)')
     head, row = Path(table.value.path()).read_text('utf-8-sig').splitlines()
@@ -348,3 +356,42 @@ def test_a_teacher_sees_hands_and_results_and_who_is_not_here(
     assert program.interrupt() == 0
     sheet.page.get_by_text('The class is not reachable').wait_for()
     sheet.context.close()
+
+
+def test_a_teacher_sees_all_runs_in_one_picture_and_shows_one_to_all(
+    chromium: Any, run_class: tuple[Program, str, str]
+) -> None:
+    program, pupils, teacher = run_class
+    anna, ben = come(chromium, pupils, 'Anna'), come(chromium, pupils, 'Ben')
+    for sheet in (anna, ben):
+        sheet.begin(2)
+    anna.page.mouse.click(*anna.place(*anna.pose('heavy/0')[:2]))
+    anna.page.get_by_text('Enter numbers').click()
+    field = anna.page.get_by_label('vx [m/s]')
+    field.fill('-2')
+    field.press('Enter')
+    anna.page.get_by_role('status').get_by_text('changed').wait_for()
+    for sheet in (anna, ben):
+        sheet.play_until(0.9)
+
+    boss = Sheet(chromium, teacher)
+    boss.page.get_by_text('2 of 2 here').wait_for()
+    boss.press('All runs in one picture')
+    for color in ([30, 87, 143], [143, 30, 54]):
+        seen = partial(boss.page.evaluate, COLORS, '.together')
+        boss.until(lambda color=color, seen=seen: color in seen(), f'a way in {color}')
+    boss.press('Close')
+    boss.page.locator('#seats li').first.get_by_role('button', name='More').click()
+    boss.press('Show this run to all')
+    # Its beginning is that of Anna's run, and so it goes as that went.
+    ben.wait('Math.abs(physsim.time) < 0.9 && physsim.speed === 1')
+    ben.wait('physsim.time > 0.9')
+    ben.press('Pause')
+    for time in (0.5, 0.9):
+        for sheet in (anna, ben):
+            sheet.seek(time)
+        assert ben.pose('heavy/0') == anna.pose('heavy/0')
+    assert ben.pose('heavy/0')[0] < 1.0
+    for sheet in (anna, ben, boss):
+        sheet.close()
+    assert program.interrupt() == 0

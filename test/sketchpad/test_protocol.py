@@ -252,6 +252,34 @@ def test_worlds_are_listed_saved_opened_shared_and_uploaded(browser: Browser) ->
     assert physsim.names == ()
 
 
+def test_a_run_that_is_sent_is_replayed_to_the_bit(browser: Browser) -> None:
+    physsim, page = browser.physsim, browser.open_page()
+    teacher = browser.open_page(cookie=browser.cookie_of(Role.TEACH))
+    assert page.spawn('floor/0', 0, -1, box={'width': 20, 'height': 1}, anchored=True)['ok']
+    for number in range(3):
+        assert page.spawn(f'a/{number}', 0.1 * number, 1.5 * number)['ok']
+    page.ask('service', name='pause')
+    assert page.spawn('b/0', 1.0, 1.0)['ok']
+    assert page.ask('delete', names=['b/0'])['ok']
+    assert page.ask('change', name='a/2', properties={'velocity': [3.0, 1.0]})['ok']
+    page.ask('service', name='play')
+    physsim.run(2.0)
+    poses = physsim.node.simulation.world.snapshot().poses
+    physsim.run(0.5)
+    page.ask('seek', time=1.0)
+    text = page.ask('share', run=True)['values']['yaml']
+    assert page.ask('open_text', world=text)['code'] == 'teacher_only'
+    assert teacher.ask('open_text', world=text)['ok']
+    physsim.run(2.0)
+    assert np.array_equal(physsim.node.simulation.world.snapshot().poses, poses)
+    # One undo takes it back.
+    assert teacher.ask('service', name='undo')['ok']
+    assert physsim.time == pytest.approx(1.0)
+    assert teacher.ask('open_text', world='[')['code'] == 'malformed'
+    long = 'x' * (worlds.MOST_SENT + 1)
+    assert teacher.ask('open_text', world=long)['code'] == 'bad_property'
+
+
 def test_a_world_is_shared_when_a_seek_under_way_has_ended(
     browser: Browser, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -292,7 +320,7 @@ def test_forces_of_a_past_are_told_of_a_body_that_is_watched_after_it(browser: B
     assert page.spawn('floor/0', 0.0, -0.5, **floor)['ok']
     assert page.spawn('a/0', 0.0, 0.6, velocity=[2.0, 0.0], elasticity=0.0)['ok']
     physsim.run(1.0)
-    page.send('watch', name='a/0')
+    page.send('watch', name='a/0', forces=True)
     page.send('show', contacts=True)
     physsim.run(0.1)
     assert not page.of_type('past_forces')

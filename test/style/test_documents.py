@@ -12,6 +12,7 @@ from physsim_ros.model import checks
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.joints import JOINT_KEYS, JointProperties
 from physsim_ros.model.names import LONGEST_NAME
+from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.shapes import MOST_POINTS
 import pytest
 from tools.tables import cheat_sheet, search_words
@@ -148,6 +149,16 @@ def test_the_table_of_world_files_has_every_key():
     }.items():
         told = [key for each, said in rows if each == of for key in said.split(', ')]
         assert sorted(told) == sorted(f'`{key}`' for key in keys)
+
+
+def test_the_table_of_topics_of_robots_has_the_message_of_every_sensor():
+    messages = pytest.importorskip('physsim_ros.ros.robots.messages', reason='there is no ROS')
+    text = (DOCS / 'robots.md').read_text('utf-8')
+
+    assert messages.READINGS.keys() == {*SENSORS.values()}
+    for reading in messages.READINGS.values():
+        package, name = reading.kind.__module__.partition('.')[0], reading.kind.__name__
+        assert re.search(rf'^\| .* \| `{package}/{name}` \|', text, re.MULTILINE), name
 
 
 def test_the_limits_of_values_are_those_of_the_code():

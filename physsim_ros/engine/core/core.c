@@ -62,13 +62,15 @@ static void list_jointed(World *world) {
 }
 
 void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
-                     int32_t row_count) {
+                     int32_t row_count, Guide *guides, int32_t guide_count) {
     world->joints = joints;
     world->joint_count = joint_count;
     world->parts = parts;
     world->part_count = part_count;
     world->rows = rows;
     world->row_count = row_count;
+    world->guides = guides;
+    world->guide_count = guide_count;
     for (int place = 0; place < world->body_count; place++) {
         world->bodies[place].jointed = world->bodies[place].joined = false;
     }
@@ -85,6 +87,9 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
         }
     }
     assert(next_part == part_count && next_row == row_count);
+    for (int number = 0; number < guide_count; number++) {
+        world->bodies[guides[number].body].joined = world->bodies[guides[number].body].jointed = true;
+    }
     list_jointed(world);
     prepare_springs(world);
 }

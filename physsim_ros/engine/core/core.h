@@ -156,7 +156,7 @@ typedef struct Robot {
     Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes
 } Robot;
 
-// What moves an actor, and what it does at its last point; both in the order of `model/actors`.
+// What moves an actor, and what it does at its last point; Python finds both by their names in `model/actors`.
 enum { ACTOR_PATH, ACTOR_SOCIAL_FORCE, ACTOR_ORCA };
 enum { ONCE, LOOP, TO_AND_FRO };
 
@@ -223,21 +223,36 @@ enum {
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
     ROW_ALONG,    // way of the first anchor along that axis [m]
-    ROW_SPRING,   // distance of the two anchors, as a spring and its damper give it [m]
-    ROW_SPIN,     // ROW_ANGLE, whose rate a motor gives [rad/s]
-    ROW_WAY       // ROW_ALONG, whose rate a motor gives [m/s]
+    ROW_PATH      // length of a rope on its way past its guides [m]
 };
 
-// A constraint row: lower <= x <= upper, both the same for an equality; a spring has its rest length in both.
+// Laws of constraint rows: lower <= x <= upper, both the same for an equality; the force of a spring and its damper,
+// without which x is `lower`; x changes at `rate`, with a force of any size up to `most`.
+enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE };
+
+// What a rope passes, in the order of its way: the bodies at its ends, rings, and wheels. Of a gear it is the carrier.
+typedef struct Guide {
+    int32_t body;
+    cpVect anchor;                  // the centre of a wheel in the frame of its body, from the centre of mass [m]
+    double radius;                  // > 0 where the rope runs counter-clockwise around a wheel, < 0 clockwise [m]
+    double yaw;                     // of the body, as the joint was drawn [rad]
+    double heading_in, heading_out; // of the rope as it was drawn: where it comes, and where it goes [rad]
+} Guide;
+
+// A constraint row.
 typedef struct Row {
     int32_t kind;
+    int32_t law;
     int32_t part, component; // which impulse of which constraint is that of the row
     double lower, upper;     // [m, rad]
     double below, above;     // factors from Chipmunk's impulse to λ, where x is below the lower bound, and elsewhere
     double most;             // greatest absolute value of λ in a step [N s, N m s]
+    double rate;             // of x where it is driven, of the upper bound elsewhere [m/s, rad/s]
+    double least, greatest;  // upper bound that such a rate leads to [m]
+    double offset;           // of a path, the length that is added to it [m]
     double stiffness;        // of a spring [N/m]
     double damping;          // of a spring, with what its stiffness adds to it [N s/m]
-    double rate;             // that a motor gives x [m/s, rad/s]
+    int32_t first_guide, guide_count;
 } Row;
 
 // A point of a command: when [s], which position, rate, or force or torque, and at which rate there; NAN is none.
@@ -245,7 +260,7 @@ typedef struct CommandPoint {
     double time, value, rate;
 } CommandPoint;
 
-// What the value of a command is, in the order of `model/joint_command.py`.
+// What the value of a command is, in the order of `model/motor_command.py`.
 enum { COMMAND_POSITION, COMMAND_VELOCITY, COMMAND_EFFORT };
 
 // A motor of an axle or a slider.
@@ -261,8 +276,21 @@ typedef struct Motor {
     int64_t begun; // step at which the command began
 } Motor;
 
-// Kinds of constraints of Chipmunk.
-enum { PART_PIVOT, PART_PIN, PART_SLIDE, PART_GEAR, PART_ROTARY_LIMIT, PART_MOTOR, PART_SPRING, PART_LINEAR_MOTOR };
+// Kinds of constraints of Chipmunk. PART_OWN, PART_WAY and PART_ROPE are solved by the core alone: a motor without
+// torque keeps the impulse of their row. PART_WAY acts along the axis of its joint; PART_ROPE pulls the second body of
+// its joint along the last span of its path.
+enum {
+    PART_PIVOT,
+    PART_PIN,
+    PART_SLIDE,
+    PART_GEAR,
+    PART_ROTARY_LIMIT,
+    PART_MOTOR,
+    PART_SPRING,
+    PART_OWN,
+    PART_WAY,
+    PART_ROPE
+};
 
 // A constraint of a joint.
 typedef struct Part {
@@ -323,6 +351,14 @@ enum {
 
 enum { SUB_STEPS = 4 };
 
+// Of each body, safe depths in its inner radius: two that approach by less than the lesser safe depth in a step need no
+// time of impact, since each keeps its centre well on the side it came from.
+enum { SAFE_DEPTHS = 4 };
+
+// Corners of a polygon whose time of impact costs as much as that of a round shape, most of which does not depend on
+// the corners.
+enum { ROUND_COST = 4 };
+
 // A pair of bodies that touched during a frame; -1, always second, is the background.
 typedef struct Contact {
     int64_t rows[2]; // of the two bodies, the lesser first; -1, always second, is the background
@@ -374,14 +410,15 @@ typedef struct World {
     Part *parts;
     Row *rows;
     Motor *motors; // in the order of their joints
+    Guide *guides; // of rows
     Grip *grips;
     AppliedForce *forces;  // in the order of their bodies
     Region *regions;       // in the order of their bodies; the air comes last
     Attractor *attractors; // in the order of their bodies
     Robot *robots;
     Actor *actors;
-    int32_t body_count, joint_count, part_count, row_count, motor_count, grip_count, force_count, region_count,
-        attractor_count, robot_count, actor_count;
+    int32_t body_count, joint_count, part_count, row_count, guide_count, motor_count, grip_count, force_count,
+        region_count, attractor_count, robot_count, actor_count;
     // These fields are results of the last steps.
     uint8_t has_broken; // a joint
     uint8_t has_lost;   // a body has left the range of numbers
@@ -405,7 +442,7 @@ void core_free(World *world);
 // Have the core step other bodies. `former` has the place (count) that each body had in the table before; -1 is none.
 void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *former);
 void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
-                     int32_t row_count);
+                     int32_t row_count, Guide *guides, int32_t guide_count);
 
 // Make a number of steps, and return how many were made: fewer where a joint breaks or a body is lost.
 int32_t core_step(World *world, int32_t count);

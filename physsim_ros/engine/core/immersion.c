@@ -6,8 +6,6 @@
 // Corners of the polygon that counts for a round region.
 enum { ROUND_CORNERS = 96 };
 
-static const double pi = 3.14159265358979323846;
-
 // A polygon that is clipped; `own` tells which edges, each from its corner on, are of the outline of the body.
 typedef struct Outline {
     Vec *corners;

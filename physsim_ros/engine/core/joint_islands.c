@@ -125,6 +125,28 @@ static void unite_dynamic(const World *world, int *parents, int a, int b) {
     }
 }
 
+// The place of a body that forces move, of those of a joint with rows.
+static int moved_by(const World *world, const Joint *joint) {
+    int place = world->bodies[joint->a].dynamic ? joint->a : joint->b;
+    for (int row = joint->first_row; row < joint->first_row + joint->row_count; row++) {
+        const Row *of_joint = world->rows + row;
+        for (int guide = 0; guide < of_joint->guide_count && !world->bodies[place].dynamic; guide++) {
+            place = world->guides[of_joint->first_guide + guide].body;
+        }
+    }
+    return place;
+}
+
+static void unite_guides(const World *world, int *parents, const Joint *joint) {
+    int moved = moved_by(world, joint);
+    for (int row = joint->first_row; row < joint->first_row + joint->row_count; row++) {
+        const Row *of_joint = world->rows + row;
+        for (int guide = 0; guide < of_joint->guide_count; guide++) {
+            unite_dynamic(world, parents, moved, world->guides[of_joint->first_guide + guide].body);
+        }
+    }
+}
+
 // The number of the island that a joint or contact belongs to.
 static int island_of(const World *world, int *parents, const int *numbers, int a, int b) {
     int number = numbers[root_of(parents, world->bodies[a].dynamic ? a : b)];
@@ -140,6 +162,7 @@ static Islands split(World *world, Touches touches) {
         const Joint *joint = world->joints + number;
         if (joint->row_count > 0) {
             unite_dynamic(world, parents, joint->a, joint->b);
+            unite_guides(world, parents, joint);
         }
     }
     for (int number = 0; number < touches.count; number++) {
@@ -149,7 +172,7 @@ static Islands split(World *world, Touches touches) {
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
         if (joint->row_count > 0) {
-            int root = root_of(parents, world->bodies[joint->a].dynamic ? joint->a : joint->b);
+            int root = root_of(parents, moved_by(world, joint));
             if (numbers[root] == 0) {
                 numbers[root] = ++found.count;
             }
@@ -172,7 +195,8 @@ static Islands split(World *world, Touches touches) {
     for (int number = 0; number < world->joint_count; number++) {
         const Joint *joint = world->joints + number;
         if (joint->row_count > 0) {
-            Island *island = found.islands + island_of(world, parents, numbers, joint->a, joint->b);
+            int moved = moved_by(world, joint);
+            Island *island = found.islands + island_of(world, parents, numbers, moved, moved);
             island->joints[island->joint_count++] = joint;
         }
     }
@@ -199,10 +223,49 @@ static int number_in(const World *world, Island *island, int *numbers, int *plac
     return numbers[body] - 1;
 }
 
+// Number the bodies of the links of a row, the further ones from a number on; return the number after them.
+static int lay_out_links(const World *world, Island *island, int row, int link, const Joint *joint, int *numbers,
+                         int *places) {
+    const Row *of_joint = island->rows[row];
+    const Guide *guides = world->guides + of_joint->first_guide;
+    bool is_path = of_joint->kind == ROW_PATH;
+    island->ends[row] = (Ends){number_in(world, island, numbers, places, is_path ? guides[0].body : joint->a),
+                               number_in(world, island, numbers, places, is_path ? guides[1].body : joint->b)};
+    for (int guide = is_path ? 1 : 0, count = further_count(of_joint); count > 0; guide++, count--) {
+        int next = is_path ? guide + 1 : guide;
+        island->ends[link++] = (Ends){number_in(world, island, numbers, places, guides[guide].body),
+                                      number_in(world, island, numbers, places, guides[next].body)};
+    }
+    return link;
+}
+
+static int link_count(const World *world, const Island *island) {
+    int count = island->row_count;
+    for (int number = 0; number < island->joint_count; number++) {
+        for (int each = 0; each < island->joints[number]->row_count; each++) {
+            count += further_count(world->rows + island->joints[number]->first_row + each);
+        }
+    }
+    return count;
+}
+
+// Find where Chipmunk stores the impulses of a row of a joint.
+static void take_impulse(const World *world, Island *island, int row) {
+    const Row *of_joint = island->rows[row];
+    Part *part = world->parts + of_joint->part;
+    island->impulses[row] = impulse_at(part, of_joint->component);
+    island->last[row] = *island->impulses[row];
+    if (part->kind == PART_OWN || part->kind == PART_ROPE) {
+        // Chipmunk gives none.
+        *island->impulses[row] = 0.0;
+    }
+    island->closing[row] = of_joint->component == 0 ? &part->closing.x : &part->closing.y;
+}
+
 // Number the bodies of an island, and the ends of its rows.
 static void lay_out(World *world, Island *island, int *numbers) {
     Arena *arena = &world->own->arena;
-    int most = 2 * (island->joint_count + island->touch_count), row = 0, group = 0;
+    int link = link_count(world, island), most = 2 * link, row = 0, group = 0;
     island->engine = TAKE(arena, cpBody *, most);
     island->jointed = TAKE(arena, bool, most);
     island->inverses = TAKE(arena, Inverse, most);
@@ -213,22 +276,22 @@ static void lay_out(World *world, Island *island, int *numbers) {
     island->impulses = TAKE(arena, double *, island->joint_row_count);
     island->last = TAKE(arena, double, island->row_count);
     island->closing = TAKE(arena, double *, island->joint_row_count);
-    island->ends = TAKE(arena, Ends, island->row_count);
+    island->guides = world->guides;
+    island->ends = TAKE(arena, Ends, link);
+    island->further = TAKE(arena, int, island->row_count + 1);
     island->groups = TAKE(arena, int, island->row_count);
     int *places = TAKE(arena, int, most);
+    link = island->row_count;
     for (int number = 0; number < island->joint_count; number++, group++) {
         const Joint *joint = island->joints[number];
-        Ends ends = {number_in(world, island, numbers, places, joint->a),
-                     number_in(world, island, numbers, places, joint->b)};
         for (int each = 0; each < joint->row_count; each++, row++) {
             island->rows[row] = world->rows + joint->first_row + each;
             island->joint_of_row[row] = number;
-            const Row *of_joint = island->rows[row];
-            Part *part = world->parts + of_joint->part;
-            island->impulses[row] = impulse_at(part, of_joint->component);
-            island->last[row] = *island->impulses[row];
-            island->closing[row] = of_joint->component == 0 ? &part->closing.x : &part->closing.y;
-            island->ends[row] = ends;
+            take_impulse(world, island, row);
+            island->further[row] = link;
+            // Rows with guides have bodies of their own.
+            group += each > 0 && island->rows[row]->guide_count > 0;
+            link = lay_out_links(world, island, row, link, joint, numbers, places);
             island->groups[row] = group;
         }
     }
@@ -240,9 +303,11 @@ static void lay_out(World *world, Island *island, int *numbers) {
             island->last[row] = side == 0 ? touch->point->jnAcc : touch->point->jtAcc;
             island->ends[row] = (Ends){number_in(world, island, numbers, places, touch->a),
                                        number_in(world, island, numbers, places, touch->b)};
+            island->further[row] = link;
             island->groups[row] = group;
         }
     }
+    island->further[row] = link;
     assert(row == island->row_count);
     for (int number = 0; number < island->body_count; number++) {
         numbers[places[number]] = 0;

@@ -33,8 +33,10 @@ typedef struct Island {
     Inverse *inverses;
     Pose *poses;
     Twist *velocities;
-    Ends *ends;  // (row_count)
-    int *groups; // (row_count): one for each joint, and for each pair of bodies that touch
+    const Guide *guides; // of all rows
+    Ends *ends;          // (link_count)
+    int *further;        // (row_count + 1): the first further link of each row (`saddle_point.h`)
+    int *groups;         // (row_count): one for rows of a joint between the same bodies, and for a pair that touches
 } Island;
 
 typedef struct Islands {

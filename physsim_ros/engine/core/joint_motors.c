@@ -53,7 +53,7 @@ static double position_of(const World *world, const Motor *motor) {
     Anchors anchors = anchors_at(joint, a, b);
     Jacobian jacobian;
     double x = row_at(row, joint, &anchors, a, b, &jacobian) - motor->zero;
-    return row->kind == ROW_SPIN ? -x : x;
+    return row->kind == ROW_ANGLE ? -x : x;
 }
 
 // Set what a command asks of the row of a motor: rate of the joint, and greatest force.
@@ -87,7 +87,7 @@ void command_motors(World *world) {
             obey(world, motor, &rate, &most);
         }
         rate = clamped(rate, -motor->speed, motor->speed);
-        row->rate = row->kind == ROW_SPIN ? -rate : rate;
+        row->rate = row->kind == ROW_ANGLE ? -rate : rate;
         row->most = most * world->dt;
     }
 }

@@ -33,9 +33,12 @@ double *impulse_at(const Part *part, int component) {
     case PART_ROTARY_LIMIT:
         return &((cpRotaryLimitJoint *)part->constraint)->jAcc;
     case PART_MOTOR:
+    case PART_OWN:
+    case PART_WAY:
+    case PART_ROPE:
         return &((cpSimpleMotor *)part->constraint)->jAcc;
     default:
-        assert(part->kind == PART_SPRING || part->kind == PART_LINEAR_MOTOR);
+        assert(part->kind == PART_SPRING);
         return &((cpDampedSpring *)part->constraint)->jAcc;
     }
 }
@@ -140,7 +143,7 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     if (part->kind == PART_PIN) {
         return negated(perpendicular(axis));
     }
-    if (part->kind == PART_LINEAR_MOTOR) {
+    if (part->kind == PART_WAY) {
         return negated(axis);
     }
     const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
@@ -151,13 +154,27 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
 
 // Whether a part acts along the line from one anchor to the other: that of a rod, a rope, a spring, a limit, a motor.
 static bool is_axial(const Part *part) {
-    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING ||
-           part->kind == PART_LINEAR_MOTOR;
+    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING || part->kind == PART_WAY ||
+           part->kind == PART_ROPE;
+}
+
+// The unit vector along which a rope with guides comes to its second end.
+static Vec by_path(const World *world, const Joint *joint) {
+    const Row *row = world->rows + joint->first_row + joint->row_count - 1;
+    int span = row->guide_count - 2;
+    const Guide *guide = world->guides + row->first_guide + span;
+    Pose a = pose_of(world->bodies[guide[0].body].engine), b = pose_of(world->bodies[guide[1].body].engine);
+    Jacobian jacobian;
+    span_at(row, world->guides, span, a, b, &jacobian);
+    return jacobian.b.v;
 }
 
 // The unit vector along which an axial part pushes the second body of its joint.
 static Vec line_of(const World *world, const Joint *joint, const Part *part) {
-    // The anchors of all three kinds lie in the same place.
+    if (part->kind == PART_ROPE) {
+        return by_path(world, joint);
+    }
+    // The anchors of all other kinds lie in the same place.
     const cpPinJoint *axial = (cpPinJoint *)part->constraint;
     return joint->has_axis ? by_axis(world, joint, part) : between(part->constraint, axial->anchorA, axial->anchorB);
 }
@@ -204,15 +221,32 @@ void core_read_joints(const World *world, double *impulses, cpVect *pulls, uint8
     }
 }
 
+// Return x of a row.
+static double place_of_row(const World *world, const Joint *joint, const Row *row) {
+    Pose a = pose_of(world->bodies[joint->a].engine), b = pose_of(world->bodies[joint->b].engine);
+    const Guide *guide = world->guides + row->first_guide;
+    Jacobian jacobian;
+    double x = row->offset;
+    if (row->kind == ROW_PATH) {
+        for (int span = 0; span < row->guide_count - 1; span++, guide++) {
+            a = pose_of(world->bodies[guide[0].body].engine);
+            b = pose_of(world->bodies[guide[1].body].engine);
+            x += span_at(row, world->guides, span, a, b, &jacobian);
+        }
+        return x;
+    }
+    Anchors anchors = anchors_at(joint, a, b);
+    x += row_at(row, joint, &anchors, a, b, &jacobian);
+    return row->guide_count == 0 ? x
+                                 : x + carrier_at(joint, guide, pose_of(world->bodies[guide->body].engine), &jacobian);
+}
+
 // How far the row of a joint that is furthest out of its bounds is out of them [m, rad].
 static double apart_by(const World *world, const Joint *joint) {
-    Pose a = pose_of(world->bodies[joint->a].engine), b = pose_of(world->bodies[joint->b].engine);
-    Anchors anchors = anchors_at(joint, a, b);
-    Jacobian jacobian;
     double most = 0.0;
     for (const Row *row = world->rows + joint->first_row, *end = row + joint->row_count; row < end; row++) {
-        double x = row_at(row, joint, &anchors, a, b, &jacobian);
-        most = greatest(most, !is_force(row) ? greatest(x - row->upper, row->lower - x) : 0.0);
+        double x = place_of_row(world, joint, row);
+        most = greatest(most, row->law == LAW_BOUNDS ? greatest(x - row->upper, row->lower - x) : 0.0);
     }
     return most;
 }

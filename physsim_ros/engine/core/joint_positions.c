@@ -19,8 +19,6 @@
 #include "mixed_lcp.h"
 #include <string.h>
 
-// Violated limits are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
-static const double limit_slop = 1e-4;
 // The fastest that a gap is closed at [m/s, rad/s]: a body that is put elsewhere comes back like a thrown one, and
 // joints that contradict each other move their bodies no further than that.
 static const double fastest_correction = 20.0;
@@ -43,7 +41,7 @@ enum { MOST_STEPS = 16 };
 typedef struct Displacement {
     Pose *start, *pushed; // (body_count): before it, and after the pushes of other contacts
     double *excess;       // (joint_row_count): C at the poses of now
-    Jacobian *jacobians;  // (row_count): of joints there
+    Jacobian *jacobians;  // (link_count): of joints there
     double *gaps;         // (joint_row_count): C, less what is not closed in this step
     double *left;         // (joint_row_count): parts of gaps that are too wide to be closed in one step
     double *apart;        // (touch_count): distance by which contacts may approach at the start [m]
@@ -103,7 +101,7 @@ static Displacement begin_displacement(Solve *solve) {
     Displacement move = {.start = TAKE(arena, Pose, island->body_count),
                          .pushed = TAKE(arena, Pose, island->body_count),
                          .excess = TAKE(arena, double, island->joint_row_count),
-                         .jacobians = TAKE(arena, Jacobian, island->row_count),
+                         .jacobians = TAKE(arena, Jacobian, solve->system.link_count),
                          .gaps = TAKE(arena, double, island->joint_row_count),
                          .left = TAKE(arena, double, island->joint_row_count),
                          .apart = TAKE(arena, double, island->touch_count),
@@ -112,7 +110,7 @@ static Displacement begin_displacement(Solve *solve) {
     memcpy(move.start, solve->poses, (size_t)island->body_count * sizeof(Pose));
     take_pushes(solve);
     memcpy(move.pushed, solve->poses, (size_t)island->body_count * sizeof(Pose));
-    memcpy(move.jacobians, solve->jacobians, (size_t)island->row_count * sizeof(Jacobian));
+    memcpy(move.jacobians, solve->jacobians, (size_t)solve->system.link_count * sizeof(Jacobian));
     read_rows(island, solve->poses, move.excess, move.jacobians);
     double most = fastest_correction * solve->dt;
     for (int row = 0; row < island->joint_row_count; row++) {
@@ -225,8 +223,8 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
 // joints that contradict each other λ is of any size, and would give energy.
 static void turn_momenta(Solve *solve, const Displacement *move, const double *impulses) {
     const Island *island = solve->island;
-    Jacobian *now = TAKE(solve->arena, Jacobian, island->row_count);
-    Jacobian *later = TAKE(solve->arena, Jacobian, island->row_count);
+    Jacobian *now = TAKE(solve->arena, Jacobian, solve->system.link_count);
+    Jacobian *later = TAKE(solve->arena, Jacobian, solve->system.link_count);
     Pose *ahead = TAKE(solve->arena, Pose, island->body_count);
     Twist *changes = TAKE(solve->arena, Twist, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
@@ -237,8 +235,8 @@ static void turn_momenta(Solve *solve, const Displacement *move, const double *i
     for (int row = 0; row < island->joint_row_count; row++) {
         bool drawn = island->joints[island->joint_of_row[row]]->apart > 0.0;
         double impulse = drawn ? impulses[row] / solve->dt : 0.0;
-        add_momenta(now[row], island->ends[row], impulse, changes);
-        add_momenta(later[row], island->ends[row], -impulse, changes);
+        add_row_momenta(&solve->system, now, row, impulse, changes);
+        add_row_momenta(&solve->system, later, row, -impulse, changes);
     }
     for (int body = 0; body < island->body_count; body++) {
         changes[body].v = scaled(changes[body].v, island->inverses[body].mass);

@@ -6,7 +6,12 @@
 // Poses are those of the centres of mass. The excess C of a row is how far x lies outside of its bounds [m, rad].
 // Source: E. Catto, "Modeling and Solving Constraints", GDC 2009.
 
+// A rope leaves a wheel along a tangent. Where a row begins or ends at a wheel, the rope does not slip on it, and its
+// path has the length that the wheel has wound up; a wheel between them lets it slide.
+
 #include "joint_rows.h"
+
+static const double full_turn = 6.283185307179586;
 
 Anchors anchors_at(const Joint *joint, Pose a, Pose b) {
     Anchors anchors = {.of_b = rotation(b.yaw)};
@@ -37,11 +42,9 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
         *jacobian = along(vec(0.0, 1.0), anchors->arm_a, anchors->arm_b);
         return anchors->apart.y;
     case ROW_ANGLE:
-    case ROW_SPIN:
         *jacobian = (Jacobian){{{0.0, 0.0}, -1.0}, {{0.0, 0.0}, joint->ratio}};
         return joint->ratio * b.yaw - a.yaw;
-    case ROW_DISTANCE:
-    case ROW_SPRING: {
+    case ROW_DISTANCE: {
         double distance = length(anchors->apart);
         // Anchors on each other have no direction; any one parts them.
         Vec direction = distance > 0.0 ? scaled(anchors->apart, 1.0 / distance) : vec(1.0, 0.0);
@@ -51,7 +54,44 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
     case ROW_ACROSS:
         return place_on_line(perpendicular(rotated(axis, anchors->of_b)), anchors, jacobian);
     default:
-        assert(row->kind == ROW_ALONG || row->kind == ROW_WAY);
+        assert(row->kind == ROW_ALONG);
         return place_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
     }
+}
+
+double carrier_at(const Joint *joint, const Guide *guide, Pose carrier, Jacobian *jacobian) {
+    // ratio (yaw_b - yaw_c) - (yaw_a - yaw_c), of which `row_at` has the rest.
+    *jacobian = (Jacobian){.a = {.w = 1.0 - joint->ratio}};
+    return (1.0 - joint->ratio) * (carrier.yaw - guide->yaw);
+}
+
+// The direction of a rope from one guide to the next, along their common tangent, and its length.
+static Vec tangent_between(Vec from, double radius, Vec to, double other_radius, double *span) {
+    Vec apart = sub(to, from);
+    double distance = length(apart), across = radius - other_radius;
+    if (distance <= fabs(across)) {
+        // Wheels that lie in each other have no common tangent.
+        *span = 0.0;
+        return distance > 0.0 ? scaled(apart, 1.0 / distance) : vec(1.0, 0.0);
+    }
+    *span = sqrt(distance * distance - across * across);
+    return rotated(scaled(apart, 1.0 / distance), (Rotation){*span / distance, across / distance});
+}
+
+double span_at(const Row *row, const Guide *guides, int number, Pose a, Pose b, Jacobian *jacobian) {
+    const Guide *from = guides + row->first_guide + number, *to = from + 1;
+    Vec arm_a = rotated(from->anchor, rotation(a.yaw)), arm_b = rotated(to->anchor, rotation(b.yaw));
+    double span = 0.0;
+    Vec along_rope = tangent_between(add(a.p, arm_a), from->radius, add(b.p, arm_b), to->radius, &span);
+    Vec outward = negated(perpendicular(along_rope));
+    arm_a = add(arm_a, scaled(outward, from->radius));
+    arm_b = add(arm_b, scaled(outward, to->radius));
+    *jacobian = along(negated(along_rope), arm_a, arm_b);
+    double heading = atan2(along_rope.y, along_rope.x);
+    double x = span;
+    x += from->radius * remainder(heading - from->heading_out, full_turn);
+    x -= to->radius * remainder(heading - to->heading_in, full_turn);
+    x -= number == 0 ? from->radius * (a.yaw - from->yaw) : 0.0;
+    x += number == row->guide_count - 2 ? to->radius * (b.yaw - to->yaw) : 0.0;
+    return x;
 }

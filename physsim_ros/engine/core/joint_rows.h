@@ -16,23 +16,31 @@ typedef struct Anchors {
 
 Anchors anchors_at(const Joint *joint, Pose a, Pose b);
 
-// Whether a row gives x a rate, within its greatest force.
-static inline bool is_motor(const Row *row) {
-    return row->kind == ROW_SPIN || row->kind == ROW_WAY;
-}
-
-// Whether a row acts on velocities alone, by a force, rather than holds x within bounds.
-static inline bool is_force(const Row *row) {
-    return row->kind == ROW_SPRING || is_motor(row);
-}
-
 // Whether a row holds x where it is.
 static inline bool is_equality(const Row *row) {
-    return row->lower == row->upper && !is_force(row);
+    return row->law == LAW_BOUNDS && row->lower == row->upper;
 }
 
 // Return x of a row, and its Jacobian.
 double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a, Pose b, Jacobian *jacobian);
+
+// The rate of the upper bound of a row, or of x where it is driven [m/s, rad/s].
+static inline double bound_rate(const Row *row) {
+    bool ends = row->rate < 0.0 ? row->upper <= row->least : row->upper >= row->greatest;
+    return row->law == LAW_BOUNDS && ends ? 0.0 : row->rate;
+}
+
+// How many links a row has beside its first (`saddle_point.h`).
+static inline int further_count(const Row *row) {
+    return row->kind == ROW_PATH ? row->guide_count - 2 : row->guide_count;
+}
+
+// Return what a span of a rope, from the guide of a number to the next one, adds to the length of its path, and its
+// Jacobian.
+double span_at(const Row *row, const Guide *guides, int number, Pose a, Pose b, Jacobian *jacobian);
+
+// Return what a carrier adds to x of a gear that turns about it, and its Jacobian.
+double carrier_at(const Joint *joint, const Guide *guide, Pose carrier, Jacobian *jacobian);
 
 // The Jacobian of direction . (p_a - p_b), for points that are `arm_a` and `arm_b` from the centres of mass.
 Jacobian along(Vec direction, Vec arm_a, Vec arm_b);

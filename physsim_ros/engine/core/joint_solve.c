@@ -5,17 +5,33 @@
 
 #include "joint_solve.h"
 
-void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians) {
-    int row = 0;
-    for (int number = 0; number < island->joint_count; number++) {
-        const Joint *joint = island->joints[number];
-        Pose a = poses[island->ends[row].a], b = poses[island->ends[row].b];
-        Anchors anchors = anchors_at(joint, a, b);
-        for (int each = 0; each < joint->row_count; each++, row++) {
-            const Row *of_joint = island->rows[row];
-            double x = row_at(of_joint, joint, &anchors, a, b, jacobians + row);
-            excess[row] = greatest(x - of_joint->upper, 0.0) + least(x - of_joint->lower, 0.0);
+// Return x of the row of a number, and the Jacobians of its links.
+static double read_row(const Island *island, const Joint *joint, int row, const Pose *poses, Jacobian *jacobians) {
+    const Row *of_joint = island->rows[row];
+    Pose a = poses[island->ends[row].a], b = poses[island->ends[row].b];
+    int first = island->further[row];
+    double x = of_joint->offset;
+    if (of_joint->kind == ROW_PATH) {
+        x += span_at(of_joint, island->guides, 0, a, b, jacobians + row);
+        for (int link = first; link < island->further[row + 1]; link++) {
+            Ends ends = island->ends[link];
+            x += span_at(of_joint, island->guides, link - first + 1, poses[ends.a], poses[ends.b], jacobians + link);
         }
+        return x;
+    }
+    Anchors anchors = anchors_at(joint, a, b);
+    x += row_at(of_joint, joint, &anchors, a, b, jacobians + row);
+    if (of_joint->guide_count > 0) {
+        x += carrier_at(joint, island->guides + of_joint->first_guide, poses[island->ends[first].a], jacobians + first);
+    }
+    return x;
+}
+
+void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians) {
+    for (int row = 0; row < island->joint_row_count; row++) {
+        const Row *of_joint = island->rows[row];
+        double x = read_row(island, island->joints[island->joint_of_row[row]], row, poses, jacobians);
+        excess[row] = greatest(x - of_joint->upper, 0.0) + least(x - of_joint->lower, 0.0);
     }
 }
 
@@ -40,14 +56,14 @@ Solve joint_solve(World *world, const Island *island) {
         island->velocities[body] = twist_of(island->engine[body]);
     }
     solve.excess = TAKE(arena, double, island->joint_row_count);
-    solve.jacobians = TAKE(arena, Jacobian, island->row_count);
+    solve.jacobians = TAKE(arena, Jacobian, island->further[island->row_count]);
     solve.holds = TAKE(arena, bool, island->joint_row_count);
     solve.springs = TAKE(arena, bool, island->row_count);
-    solve.system =
-        system_of(arena, island->body_count, island->inverses, island->row_count, island->ends, island->groups);
+    solve.system = system_of(arena, island->body_count, island->inverses, island->row_count, island->ends,
+                             island->further, island->groups);
     for (int row = 0; row < island->joint_row_count; row++) {
-        solve.holds[row] = !is_force(island->rows[row]);
-        solve.springs[row] = island->rows[row]->kind == ROW_SPRING;
+        solve.holds[row] = island->rows[row]->law == LAW_BOUNDS;
+        solve.springs[row] = island->rows[row]->law == LAW_SPRING;
     }
     read_rows(island, island->poses, solve.excess, solve.jacobians);
     int normal = island->joint_row_count, tangent = normal + island->touch_count;

@@ -6,6 +6,9 @@
 
 #include "joint_islands.h"
 
+// Violated limits are closed but for this [m, rad]: Chipmunk stops a limit while it is violated.
+static const double limit_slop = 1e-4;
+
 // One island in one step.
 typedef struct Solve {
     Arena *arena;
@@ -16,8 +19,8 @@ typedef struct Solve {
     Twist *velocities;   // (body_count): of this step
     Pose *poses;         // (body_count)
     double *excess;      // (joint_row_count): C [m, rad]
-    Jacobian *jacobians; // (row_count): where the step of Chipmunk ends
-    bool *holds;         // (joint_row_count): rows that hold positions and have not reached their greatest force
+    Jacobian *jacobians; // (link_count): where the step of Chipmunk ends
+    bool *holds;         // (joint_row_count): rows of joints that have not reached their greatest force
     bool *springs;       // (row_count)
 } Solve;
 
@@ -34,11 +37,11 @@ static inline double sign_of(const Row *row, double excess) {
 
 // Bounds of λ of a row of a joint, without its greatest force.
 static inline double lower_bound(const Row *row, bool holds, double excess) {
-    return holds && (is_force(row) || row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
+    return holds && (row->law != LAW_BOUNDS || row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
 }
 
 static inline double upper_bound(const Row *row, bool holds, double excess) {
-    return holds && (is_force(row) || row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
+    return holds && (row->law != LAW_BOUNDS || row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
 }
 
 // The side of a row by a guess of λ.

@@ -10,7 +10,7 @@
 // positions (`joint_positions`).
 // Cost: 5 µs a step for a pendulum, 150 µs for a chain of fifty axles.
 // Without it laws 14 to 16, 20, 22, 23, 33, 34, 61 and 62 fail. Chipmunk's impulses are the first guess. Impulses of
-// springs and of joints of the kind `motor`, and contacts between bodies without joints, stay Chipmunk's.
+// springs without dampers, and contacts between bodies without joints, stay Chipmunk's.
 
 #include "joint_positions.h"
 #include "joint_velocities.h"
@@ -19,11 +19,26 @@
 // Whether springs and dampers alone join an island: sleeping.c finds whether it rests.
 static bool of_springs(const Island *island) {
     for (int row = 0; row < island->joint_row_count; row++) {
-        if (island->rows[row]->kind != ROW_SPRING) {
+        if (island->rows[row]->law != LAW_SPRING) {
             return false;
         }
     }
     return true;
+}
+
+// Move the upper bounds that have a rate: by that as long as the joint holds, else no further than to where x will be
+// in the next step.
+static void move_bounds(World *world, const Solve *solve) {
+    const Island *island = solve->island;
+    for (int number = 0; number < island->joint_row_count; number++) {
+        Row *row = world->rows + (island->rows[number] - world->rows);
+        if (row->law == LAW_BOUNDS && row->rate != 0.0) {
+            double next = clamped(row->upper + row->rate * solve->dt, row->least, row->greatest);
+            double ahead = row_rate(&solve->system, solve->jacobians, number, solve->velocities) * solve->dt;
+            double given = row->upper + solve->excess[number] + ahead - limit_slop;
+            row->upper = solve->holds[number] ? next : greatest(next, given);
+        }
+    }
 }
 
 static void solve_island(World *world, const Island *island) {
@@ -31,6 +46,7 @@ static void solve_island(World *world, const Island *island) {
     Solve solve = joint_solve(world, island);
     solve_velocities(&solve);
     solve_positions(&solve);
+    move_bounds(world, &solve);
     bool may_sleep = of_springs(island);
     for (int body = 0; body < island->body_count; body++) {
         if (island->inverses[body].mass > 0.0) {

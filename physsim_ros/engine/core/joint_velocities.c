@@ -52,7 +52,7 @@ static const double slip_error = 1e-4, slip_share = 1e-3;
 // impulse along an edge, λ >= 0, is one along the normal and μ times as much across it, to one side or the other.
 typedef struct VelocityRows {
     Problem problem;
-    Jacobian *jacobians;            // (row_count)
+    Jacobian *jacobians;            // (link_count)
     double *wanted, *lower, *upper; // of the problem
     double *rates;                  // (row_count): J v without impulses
     double *last;                   // (row_count): λ of the step before
@@ -70,7 +70,7 @@ typedef struct Change {
 
 static double softness_of(const Solve *solve, int row) {
     const Row *of_joint = solve->island->rows[row];
-    if (of_joint->kind != ROW_SPRING) {
+    if (of_joint->law != LAW_SPRING) {
         return joint_softness;
     }
     Ends ends = solve->island->ends[row];
@@ -101,7 +101,7 @@ static void take_back(const Solve *solve, Twist *without) {
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     for (int row = 0; row < normal; row++) {
         double impulse = *island->impulses[row] * sign_of(island->rows[row], solve->excess[row]);
-        add_momenta(solve->jacobians[row], island->ends[row], -impulse, without);
+        add_row_momenta(&solve->system, solve->jacobians, row, -impulse, without);
     }
     for (int number = 0; number < island->touch_count; number++) {
         const cpContact *point = island->touches[number].point;
@@ -135,7 +135,7 @@ static double *last_impulses(const Solve *solve) {
 
 static void begin_joints(const Solve *solve, VelocityRows *rows, double *soft) {
     const Island *island = solve->island;
-    memcpy(rows->jacobians, solve->jacobians, (size_t)island->joint_row_count * sizeof(Jacobian));
+    memcpy(rows->jacobians, solve->jacobians, (size_t)solve->system.link_count * sizeof(Jacobian));
     for (int row = 0; row < island->joint_row_count; row++) {
         const Row *of_joint = island->rows[row];
         rows->lower[row] = greatest(lower_bound(of_joint, true, solve->excess[row]), -of_joint->most);
@@ -174,7 +174,7 @@ static void begin_contacts(const Solve *solve, VelocityRows *rows, double *soft,
 static VelocityRows velocity_rows(Solve *solve, const Twist *without) {
     const Island *island = solve->island;
     Arena *arena = solve->arena;
-    VelocityRows rows = {.jacobians = TAKE(arena, Jacobian, island->row_count),
+    VelocityRows rows = {.jacobians = TAKE(arena, Jacobian, solve->system.link_count),
                          .wanted = TAKE(arena, double, island->row_count),
                          .lower = TAKE(arena, double, island->row_count),
                          .upper = TAKE(arena, double, island->row_count),
@@ -187,7 +187,7 @@ static VelocityRows velocity_rows(Solve *solve, const Twist *without) {
     begin_joints(solve, &rows, soft);
     begin_contacts(solve, &rows, soft, prior, without);
     for (int row = 0; row < island->row_count; row++) {
-        rows.rates[row] = rate(rows.jacobians[row], island->ends[row], without);
+        rows.rates[row] = row_rate(&solve->system, rows.jacobians, row, without);
     }
     rows.problem = (Problem){rows.jacobians, rows.wanted, rows.lower, rows.upper, soft, prior, solve->springs};
     return rows;
@@ -199,9 +199,8 @@ static void set_targets(const Solve *solve, VelocityRows *rows, const double *bo
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     for (int row = 0; row < normal; row++) {
         const Row *of_joint = island->rows[row];
-        bool is_spring = of_joint->kind == ROW_SPRING;
-        double pull = is_spring ? of_joint->stiffness * solve->excess[row] / of_joint->damping : 0.0;
-        rows->wanted[row] = of_joint->rate - pull - rows->rates[row];
+        double pull = solve->springs[row] ? of_joint->stiffness * solve->excess[row] / of_joint->damping : 0.0;
+        rows->wanted[row] = bound_rate(of_joint) - pull - rows->rates[row];
     }
     for (int number = 0; number < island->touch_count; number++) {
         const Bearing *touch = island->touches + number;
@@ -248,7 +247,7 @@ static Solution solve_with_bounce(Solve *solve, VelocityRows *rows, const double
 
 // The work of the impulses of a solution [J].
 //
-// Velocities are relative to the surfaces that touch: the work that a kinematic body or a conveyor does is not counted.
+// Velocities are relative to the surfaces that touch: the work that a kinematic body, a conveyor does is not counted.
 // Chipmunk measures the approach before gravity and springs act on it, so that it may have been as fast as `bounce`.
 static double work_of(const Solve *solve, const VelocityRows *rows, const Solution *solution) {
     const Island *island = solve->island;
@@ -256,9 +255,10 @@ static double work_of(const Solve *solve, const VelocityRows *rows, const Soluti
     double work = 0.0;
     for (int row = 0; row < normal; row++) {
         double before = rows->rates[row];
-        double after = before + rate(solve->jacobians[row], island->ends[row], solution->changes);
-        // A spring gives back what it has taken, and a motor may do work.
-        work += is_force(island->rows[row]) ? 0.0 : solution->impulses[row] * (before + after) / 2.0;
+        double after = before + row_rate(&solve->system, solve->jacobians, row, solution->changes);
+        // A spring gives back what it has taken, and a drive gives energy.
+        bool bounds = island->rows[row]->law == LAW_BOUNDS;
+        work += bounds ? solution->impulses[row] * (before + after) / 2.0 : 0.0;
     }
     for (int number = 0; number < island->touch_count; number++) {
         int left = normal + number, right = tangent + number;
@@ -336,15 +336,15 @@ static void bend(Solve *solve, Solution *solution, Twist *velocities) {
         begun[body] = body_of(island->engine[body])->scratch.twist;
     }
     double *excess = TAKE(arena, double, island->joint_row_count);
-    Jacobian *jacobians = TAKE(arena, Jacobian, island->joint_row_count);
+    Jacobian *jacobians = TAKE(arena, Jacobian, solve->system.link_count);
     read_rows(island, halfway, excess, jacobians);
     double *before = TAKE(arena, double, island->row_count), *wanted = TAKE(arena, double, island->row_count);
     for (int row = 0; row < island->joint_row_count; row++) {
-        Ends ends = island->ends[row];
-        double bent = rate(solve->jacobians[row], ends, velocities) - rate(jacobians[row], ends, velocities);
-        bool pressed_on = solve->excess[row] * bent < 0.0;
+        double bent = row_rate(&solve->system, solve->jacobians, row, velocities) -
+                      row_rate(&solve->system, jacobians, row, velocities);
+        bool pressed_on = island->rows[row]->law != LAW_DRIVE && solve->excess[row] * bent < 0.0;
         if (solution->sides[row] == 0 && (is_equality(island->rows[row]) || pressed_on)) {
-            before[row] = -rate(solve->jacobians[row], ends, begun);
+            before[row] = bound_rate(island->rows[row]) - row_rate(&solve->system, solve->jacobians, row, begun);
             wanted[row] = bent;
         }
     }
@@ -371,11 +371,12 @@ static void write_impulses(Solve *solve, const Solution *solution) {
     }
 }
 
-// A joint of which a row has reached its greatest force does not hold.
+// A joint of which a row has reached its greatest force does not hold; one that is driven holds all the same.
 static void find_yielded(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
     for (int row = 0; row < island->joint_row_count; row++) {
-        if (!is_motor(island->rows[row]) && fabs(solution->impulses[row]) >= island->rows[row]->most) {
+        const Row *of_joint = island->rows[row];
+        if (of_joint->law != LAW_DRIVE && fabs(solution->impulses[row]) >= of_joint->most) {
             for (int other = 0; other < island->joint_row_count; other++) {
                 if (island->joint_of_row[other] == island->joint_of_row[row]) {
                     solve->holds[other] = false;

@@ -88,7 +88,8 @@ void ldl_factor(Ldl *system) {
     for (int row = 0; row < system->size; row++) {
         double pivot = system->diagonal[row];
         for (int entry = system->starts[row]; entry < system->starts[row + 1]; entry++) {
-            work[system->rows[entry]] = system->values[entry];
+            // Links of a row that share a body have several entries in one place.
+            work[system->rows[entry]] += system->values[entry];
         }
         for (int k = system->pattern_starts[row]; k < system->pattern_starts[row + 1]; k++) {
             int column = system->pattern[k], end = system->filled[column];

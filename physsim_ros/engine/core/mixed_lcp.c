@@ -20,15 +20,14 @@ enum { MIXED_EXCHANGES = 40 };
 
 // What the softness of a row is a share of.
 static double unit_of(const System *system, const Problem *problem, int row) {
-    Ends ends = system->ends[row];
-    return softness_unit(problem->jacobians[row], system->inverses[ends.a], system->inverses[ends.b]);
+    return row_softness_unit(system, problem->jacobians, row);
 }
 
 static void factor_sides(System *system, const Problem *problem, const int8_t *sides) {
     for (int row = 0; row < system->row_count; row++) {
         double unit = sides[row] == 0 ? unit_of(system, problem, row) : 0.0;
-        Jacobian used = sides[row] == 0 ? problem->jacobians[row] : (Jacobian){0};
-        set_row(system, row, used, unit > 0.0 ? problem->softness[row] * unit : 1.0);
+        set_row(system, row, sides[row] == 0 ? problem->jacobians : NULL,
+                unit > 0.0 ? problem->softness[row] * unit : 1.0);
     }
     ldl_factor(&system->factors);
 }
@@ -46,7 +45,7 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
         double impulse = solution->impulses[row], lower = problem->lower[row], upper = problem->upper[row];
         double outside = greatest(lower - impulse, impulse - upper), beyond = 0.0;
         if (solution->sides[row] != 0 && lower < upper) {
-            double reached = rate(problem->jacobians[row], system->ends[row], solution->changes);
+            double reached = row_rate(system, problem->jacobians, row, solution->changes);
             beyond = (reached - problem->wanted[row]) * solution->sides[row];
         }
         solution->wrong[row] = outside > slack || beyond > rounding_of_rows;
@@ -82,7 +81,7 @@ static void solve_sides(System *system, const Problem *problem, Solution *soluti
         if (solution->sides[row] != 0) {
             double bound = solution->sides[row] < 0 ? problem->lower[row] : problem->upper[row];
             solution->impulses[row] = bound;
-            add_momenta(problem->jacobians[row], system->ends[row], bound, momenta);
+            add_row_momenta(system, problem->jacobians, row, bound, momenta);
         }
     }
     solve_with(system, solution->sides, problem->wanted, momenta, solution->impulses, solution->changes);
@@ -133,8 +132,7 @@ void refine(System *system, const Problem *problem, Solution *solution, Arena *a
     double *left = TAKE(arena, double, system->row_count), *impulses = TAKE(arena, double, system->row_count);
     Twist *changes = TAKE(arena, Twist, system->body_count);
     for (int row = 0; row < system->row_count; row++) {
-        Ends ends = system->ends[row];
-        left[row] = problem->wanted[row] - rate(problem->jacobians[row], ends, solution->changes);
+        left[row] = problem->wanted[row] - row_rate(system, problem->jacobians, row, solution->changes);
         if (problem->springs != NULL && problem->springs[row]) {
             left[row] -= problem->softness[row] * unit_of(system, problem, row) * solution->impulses[row];
         }

@@ -16,7 +16,6 @@
 
 #include "stages.h"
 
-static const double pi = 3.14159265358979323846;
 // Undamped frequency of the spring [Hz], and its damping ratio: 1 is critical.
 static const double frequency = 5.0, damping_ratio = 1.0;
 

@@ -50,22 +50,33 @@ static Nodes nodes_of(const System *system, const int *groups, Arena *arena) {
     return nodes;
 }
 
-// The nodes of the bodies of a row that forces move, at most two.
-static int ends_that_move(const System *system, int row, int ends[2]) {
-    int count = 0, a = system->body_unknowns[system->ends[row].a], b = system->body_unknowns[system->ends[row].b];
-    if (a != NO_UNKNOWN) {
-        ends[count++] = a;
+static int add_end(const System *system, int body, int *ends, int count) {
+    int node = system->body_unknowns[body];
+    for (int end = 0; end < count; end++) {
+        node = ends[end] == node ? NO_UNKNOWN : node;
     }
-    if (b != NO_UNKNOWN && b != a) {
-        ends[count++] = b;
+    if (node == NO_UNKNOWN) {
+        return count;
+    }
+    ends[count] = node;
+    return count + 1;
+}
+
+// The nodes of the bodies of a row that forces move, at most two for each of its links.
+static int ends_that_move(const System *system, int row, int *ends) {
+    int count = add_end(system, system->ends[row].a, ends, 0);
+    count = add_end(system, system->ends[row].b, ends, count);
+    for (int link = system->further[row]; link < system->further[row + 1]; link++) {
+        count = add_end(system, system->ends[link].a, ends, count);
+        count = add_end(system, system->ends[link].b, ends, count);
     }
     return count;
 }
 
 static int *order_of(const System *system, const Nodes *nodes, Arena *arena) {
-    int group_count = nodes->count - nodes->body_count, ends[2];
+    int group_count = nodes->count - nodes->body_count;
     int *weights = TAKE(arena, int, nodes->count), *starts = TAKE(arena, int, nodes->count + 2);
-    int *neighbours = TAKE(arena, int, 4 * group_count + 1);
+    int *neighbours = TAKE(arena, int, 4 * system->link_count + 1), *ends = TAKE(arena, int, 2 * system->link_count);
     for (int node = 0; node < nodes->body_count; node++) {
         weights[node] = 3;
     }
@@ -109,41 +120,58 @@ static int number_unknowns(System *system, const Nodes *nodes, const int *order)
     return count;
 }
 
-// The column and the row of an entry of J above the diagonal; whether there is one.
-static bool entry_at(const System *system, int row, int number, int *column, int *line) {
+// The column and the line of an entry of J of a link above the diagonal; whether there is one.
+static bool entry_at(const System *system, int row, int link, int number, int *column, int *line) {
     assert(number >= 0 && number < 6);
-    int body = system->body_unknowns[number < 3 ? system->ends[row].a : system->ends[row].b];
+    int body = system->body_unknowns[number < 3 ? system->ends[link].a : system->ends[link].b];
     int unknown = body + number % 3, own = system->row_unknowns[row];
     *column = own > unknown ? own : unknown;
     *line = own > unknown ? unknown : own;
     return body != NO_UNKNOWN;
 }
 
+// Count the entries of a link by columns.
+static void count_entries(const System *system, int row, int link, int *starts) {
+    int column = 0, line = 0;
+    for (int number = 0; number < 6; number++) {
+        if (entry_at(system, row, link, number, &column, &line)) {
+            starts[column + 2]++;
+        }
+    }
+}
+
+static void place_entries(System *system, int row, int link, int *starts, int *rows) {
+    int column = 0, line = 0;
+    for (int number = 0; number < 6; number++) {
+        system->places[link][number] = NO_UNKNOWN;
+        if (entry_at(system, row, link, number, &column, &line)) {
+            system->places[link][number] = starts[column + 1];
+            rows[starts[column + 1]++] = line;
+        }
+    }
+}
+
 static void lay_out_entries(System *system, Arena *arena) {
-    int size = system->factors.size, column = 0, line = 0;
-    int *starts = TAKE(arena, int, size + 2), *rows = TAKE(arena, int, 6 * system->row_count);
+    int size = system->factors.size;
+    int *starts = TAKE(arena, int, size + 2), *rows = TAKE(arena, int, 6 * system->link_count);
     for (int row = 0; row < system->row_count; row++) {
-        for (int number = 0; number < 6; number++) {
-            if (entry_at(system, row, number, &column, &line)) {
-                starts[column + 2]++;
-            }
+        count_entries(system, row, row, starts);
+        for (int link = system->further[row]; link < system->further[row + 1]; link++) {
+            count_entries(system, row, link, starts);
         }
     }
     for (int each = 1; each <= size; each++) {
         starts[each + 1] += starts[each];
     }
     for (int row = 0; row < system->row_count; row++) {
-        for (int number = 0; number < 6; number++) {
-            system->places[row][number] = NO_UNKNOWN;
-            if (entry_at(system, row, number, &column, &line)) {
-                system->places[row][number] = starts[column + 1];
-                rows[starts[column + 1]++] = line;
-            }
+        place_entries(system, row, row, starts, rows);
+        for (int link = system->further[row]; link < system->further[row + 1]; link++) {
+            place_entries(system, row, link, starts, rows);
         }
     }
     system->factors.starts = starts;
     system->factors.rows = rows;
-    system->factors.values = TAKE(arena, double, 6 * system->row_count);
+    system->factors.values = TAKE(arena, double, 6 * system->link_count);
     system->factors.diagonal = TAKE(arena, double, size);
     for (int body = 0; body < system->body_count; body++) {
         int unknown = system->body_unknowns[body];
@@ -156,11 +184,13 @@ static void lay_out_entries(System *system, Arena *arena) {
 }
 
 System system_of(Arena *arena, int body_count, const Inverse *inverses, int row_count, const Ends *ends,
-                 const int *groups) {
+                 const int *further, const int *groups) {
     System system = {.body_count = body_count, .row_count = row_count, .inverses = inverses, .ends = ends};
+    system.further = further;
+    system.link_count = further[row_count];
     system.body_unknowns = TAKE(arena, int, body_count);
     system.row_unknowns = TAKE(arena, int, row_count);
-    system.places = arena_take(arena, (size_t)row_count, sizeof(*system.places));
+    system.places = arena_take(arena, (size_t)system.link_count, sizeof(*system.places));
     Nodes nodes = nodes_of(&system, groups, arena);
     system.factors.size = number_unknowns(&system, &nodes, order_of(&system, &nodes, arena));
     lay_out_entries(&system, arena);
@@ -193,27 +223,31 @@ double softness_unit(Jacobian jacobian, Inverse a, Inverse b) {
     return linear > 0.0 ? linear : angular;
 }
 
-void set_row(System *system, int row, Jacobian jacobian, double stiffness) {
+double row_softness_unit(const System *system, const Jacobian *jacobians, int row) {
+    Ends ends = system->ends[row];
+    double unit = softness_unit(jacobians[row], system->inverses[ends.a], system->inverses[ends.b]);
+    for (int link = system->further[row]; link < system->further[row + 1]; link++) {
+        ends = system->ends[link];
+        unit += softness_unit(jacobians[link], system->inverses[ends.a], system->inverses[ends.b]);
+    }
+    return unit;
+}
+
+static void set_link(System *system, int link, Jacobian jacobian) {
     double entries[6] = {jacobian.a.v.x, jacobian.a.v.y, jacobian.a.w, jacobian.b.v.x, jacobian.b.v.y, jacobian.b.w};
-    system->factors.diagonal[system->row_unknowns[row]] = -stiffness;
     for (int number = 0; number < 6; number++) {
-        if (system->places[row][number] != NO_UNKNOWN) {
-            system->factors.values[system->places[row][number]] = entries[number];
+        if (system->places[link][number] != NO_UNKNOWN) {
+            system->factors.values[system->places[link][number]] = entries[number];
         }
     }
 }
 
-void solve_rows(System *system, const double *wanted, double *impulses) {
-    double *x = system->side;
-    for (int unknown = 0; unknown < system->factors.size; unknown++) {
-        x[unknown] = 0.0;
-    }
-    for (int row = 0; row < system->row_count; row++) {
-        x[system->row_unknowns[row]] = wanted[row];
-    }
-    ldl_solve(&system->factors, x);
-    for (int row = 0; row < system->row_count; row++) {
-        impulses[row] = -x[system->row_unknowns[row]];
+void set_row(System *system, int row, const Jacobian *jacobians, double stiffness) {
+    Jacobian none = {0};
+    system->factors.diagonal[system->row_unknowns[row]] = -stiffness;
+    set_link(system, row, jacobians == NULL ? none : jacobians[row]);
+    for (int link = system->further[row]; link < system->further[row + 1]; link++) {
+        set_link(system, link, jacobians == NULL ? none : jacobians[link]);
     }
 }
 

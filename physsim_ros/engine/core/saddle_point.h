@@ -25,21 +25,23 @@ typedef struct Inverse {
     double mass, moment;
 } Inverse;
 
-// A set of rows, whose Jacobian may change.
+// A set of rows, whose Jacobian may change. A row has a link between two bodies, with its own number, and may have
+// further ones, whose J v is added.
 typedef struct System {
-    int body_count, row_count;
+    int body_count, row_count, link_count;
     const Inverse *inverses; // (body_count)
-    const Ends *ends;        // (row_count)
+    const Ends *ends;        // (link_count)
+    const int *further;      // (row_count + 1): the first further link of each row, from `row_count` on
     int *body_unknowns;      // (body_count): the first of three unknowns of each; -1 for those that do not move
     int *row_unknowns;       // (row_count)
-    int (*places)[6];        // (row_count): of the entries of J among the values of the matrix; -1 for none
+    int (*places)[6];        // (link_count): of the entries of J among the values of the matrix; -1 for none
     Ldl factors;
     double *side; // the right side, then the solution
 } System;
 
 // Rows with targets and bounds.
 typedef struct Problem {
-    const Jacobian *jacobians;
+    const Jacobian *jacobians;   // (link_count)
     const double *wanted;        // target - J v [m/s, rad/s]
     const double *lower, *upper; // of λ [N s, N m s]
     const double *softness;      // E as a share of `softness_unit`
@@ -57,17 +59,17 @@ typedef struct Solution {
 
 // Return the system of rows; those of a joint or of a pair of bodies have one group and follow one another.
 System system_of(Arena *arena, int body_count, const Inverse *inverses, int row_count, const Ends *ends,
-                 const int *groups);
+                 const int *further, const int *groups);
 
 Solution solution_for(const System *system, Arena *arena);
 
-// J v of a row.
+// J v of a link.
 static inline double rate(Jacobian jacobian, Ends ends, const Twist *velocities) {
     Twist a = velocities[ends.a], b = velocities[ends.b];
     return dot(jacobian.a.v, a.v) + jacobian.a.w * a.w + dot(jacobian.b.v, b.v) + jacobian.b.w * b.w;
 }
 
-// Add Jᵀ λ of a row to momenta [N s, N m s].
+// Add Jᵀ λ of a link to momenta [N s, N m s].
 static inline void add_momenta(Jacobian jacobian, Ends ends, double impulse, Twist *momenta) {
     Twist *a = momenta + ends.a, *b = momenta + ends.b;
     a->v = add(a->v, scaled(jacobian.a.v, impulse));
@@ -76,18 +78,35 @@ static inline void add_momenta(Jacobian jacobian, Ends ends, double impulse, Twi
     b->w += jacobian.b.w * impulse;
 }
 
+// J v of a row.
+static inline double row_rate(const System *system, const Jacobian *jacobians, int row, const Twist *velocities) {
+    double sum = rate(jacobians[row], system->ends[row], velocities);
+    for (int link = system->further[row]; link < system->further[row + 1]; link++) {
+        sum += rate(jacobians[link], system->ends[link], velocities);
+    }
+    return sum;
+}
+
+// Add Jᵀ λ of a row to momenta [N s, N m s].
+static inline void add_row_momenta(const System *system, const Jacobian *jacobians, int row, double impulse,
+                                   Twist *momenta) {
+    add_momenta(jacobians[row], system->ends[row], impulse, momenta);
+    for (int link = system->further[row]; link < system->further[row + 1]; link++) {
+        add_momenta(jacobians[link], system->ends[link], impulse, momenta);
+    }
+}
+
 // Return u M v of two changes of velocities [J].
 double mass_product(const System *system, const Twist *u, const Twist *v);
 
 // What the softness of a row is a share of [1/kg, 1/(kg m²)]: J M⁻¹ Jᵀ as if the row acted at the centres of mass, so
 // that rows between the same bodies are equally soft, and share a load that statics leaves open equally.
 double softness_unit(Jacobian jacobian, Inverse a, Inverse b);
+// The sum of those of the links of a row.
+double row_softness_unit(const System *system, const Jacobian *jacobians, int row);
 
-// Set J and E of a row in the matrix.
-void set_row(System *system, int row, Jacobian jacobian, double stiffness);
-
-// Solve the factored system for λ of all rows.
-void solve_rows(System *system, const double *wanted, double *impulses);
+// Set J and E of a row in the matrix; without `jacobians` J is 0.
+void set_row(System *system, int row, const Jacobian *jacobians, double stiffness);
 
 // Solve the factored system for λ of active rows, given the momenta that the others bring; NULL is none.
 void solve_with(System *system, const int8_t *sides, const double *wanted, const Twist *momenta, double *impulses,

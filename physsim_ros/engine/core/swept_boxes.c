@@ -16,8 +16,6 @@
 // Corners that an island may go through in a round of impacts, those of both shapes for each pair of convex shapes:
 // those of 125 boxes that all may meet each other, or of one box and 15,000 others.
 static const double budget = 125000.0;
-// Corners of a polygon whose time of impact costs as much as that of a round shape.
-static const double round_cost = 4.0;
 // Greatest count of cuts of a horizon, by half each, after which a body is not followed at all.
 enum { CUTS = 8 };
 
@@ -43,7 +41,7 @@ static Mover static_mover(Body *body, const cpShape *shape) {
                    .pivot = body->engine->p,
                    .depth = body->safe_depth,
                    .shapes = 1.0,
-                   .corners = greatest((double)corner_count(shape), round_cost),
+                   .corners = greatest(corner_count(shape), ROUND_COST),
                    .horizon = 1.0,
                    .start = middle,
                    .end = middle,

@@ -22,14 +22,14 @@ enum { ADVANCES = 24 };
 static const double tolerance = 0.1;
 
 // A shape in the coming step.
-typedef struct Side {
+typedef struct MovingShape {
     const Mover *mover;
     int count;
     Corner *still;   // (count): in the frame of the body
     Corner *corners; // (count): where it is
     double reach;    // greatest distance of a corner from the centre of rotation [m]
     Vec pivot;
-} Side;
+} MovingShape;
 
 // How far two shapes are apart, along which axis.
 typedef struct Separation {
@@ -38,8 +38,8 @@ typedef struct Separation {
     bool of_first;   // whether it is a normal of the first
 } Separation;
 
-static Side side_of(const Mover *mover, const cpShape *shape, Arena *arena) {
-    Side side = {.mover = mover, .count = corner_count(shape)};
+static MovingShape side_of(const Mover *mover, const cpShape *shape, Arena *arena) {
+    MovingShape side = {.mover = mover, .count = corner_count(shape)};
     side.still = TAKE(arena, Corner, side.count);
     side.corners = TAKE(arena, Corner, side.count);
     double reach = 0.0;
@@ -51,7 +51,7 @@ static Side side_of(const Mover *mover, const cpShape *shape, Arena *arena) {
     return side;
 }
 
-static void place(Side *side, double share) {
+static void place(MovingShape *side, double share) {
     Pose pose = pose_at(side->mover, share, &side->pivot);
     Rotation by = rotation(pose.yaw);
     for (int number = 0; number < side->count; number++) {
@@ -60,7 +60,7 @@ static void place(Side *side, double share) {
     }
 }
 
-static int foremost(const Side *side, Vec axis) {
+static int foremost(const MovingShape *side, Vec axis) {
     int best = 0;
     for (int number = 1; number < side->count; number++) {
         best = dot(axis, side->corners[number].place) > dot(axis, side->corners[best].place) ? number : best;
@@ -79,7 +79,8 @@ static void keep_nearer(Vec between, bool of_first, Vec *nearest) {
 // them moves on in the same sense (rotating calipers; Toussaint, "Solving Geometric Problems with the Rotating
 // Calipers", 1983). The nearest corners of disjoint shapes are among those that face each other on the way, which are
 // the corners of the Minkowski difference.
-static void try_faces(const Side *side, const Side *other, bool of_first, Separation *best, Vec *nearest) {
+static void try_faces(const MovingShape *side, const MovingShape *other, bool of_first, Separation *best,
+                      Vec *nearest) {
     int facing = foremost(other, negated(side->corners[0].normal));
     Vec corner = side->corners[side->count - 1].place;
     for (int number = 0; number <= side->count; number++) {
@@ -103,7 +104,7 @@ static void try_faces(const Side *side, const Side *other, bool of_first, Separa
 }
 
 // The separation of the cores of two shapes, exact for disjoint ones; else the negative least depth.
-static Separation separation_of(const Side *a, const Side *b) {
+static Separation separation_of(const MovingShape *a, const MovingShape *b) {
     Separation best = {-1e300, {0.0, 0.0}, true};
     Vec nearest = sub(b->corners[0].place, a->corners[0].place);
     try_faces(a, b, true, &best, &nearest);
@@ -119,13 +120,13 @@ static Separation separation_of(const Side *a, const Side *b) {
 // The greatest speed at which the separation along an axis can shrink [m a step]. The axis may be held in the world, or
 // turn with either body; the least bound is taken. A body that turns sees a point move by its distance from the pivot
 // only.
-static double speed_bound(const Side *a, const Side *b, Vec axis, double lapse) {
-    const Side *sides[2] = {a, b};
+static double speed_bound(const MovingShape *a, const MovingShape *b, Vec axis, double lapse) {
+    const MovingShape *sides[2] = {a, b};
     Vec relative = sub(a->mover->rate.v, b->mover->rate.v);
     double way = length(relative), turns[2] = {fabs(a->mover->rate.w), fabs(b->mover->rate.w)};
     double bound = dot(relative, axis) + turns[0] * a->reach + turns[1] * b->reach;
     for (int side = 0; side < 2; side++) {
-        const Side *other = sides[1 - side];
+        const MovingShape *other = sides[1 - side];
         double far = 0.0;
         for (int number = 0; number < other->count; number++) {
             Vec arm = sub(other->corners[number].place, sides[side]->pivot);
@@ -138,20 +139,20 @@ static double speed_bound(const Side *a, const Side *b, Vec axis, double lapse) 
 }
 
 // How far a point of a body would go along an axis in a whole step [m].
-static double rate_along(const Side *side, Vec point, Vec axis) {
+static double rate_along(const MovingShape *side, Vec point, Vec axis) {
     return dot(velocity_at(side->mover->rate, sub(point, side->pivot)), axis);
 }
 
 // The velocity at which two shapes approach along an axis where they meet [m a step].
-static double approach(const Side *a, const Side *b, const Separation *found) {
-    const Side *cornered = found->of_first ? b : a;
+static double approach(const MovingShape *a, const MovingShape *b, const Separation *found) {
+    const MovingShape *cornered = found->of_first ? b : a;
     Vec axis = found->of_first ? negated(found->axis) : found->axis;
     Vec point = cornered->corners[foremost(cornered, axis)].place;
     return rate_along(a, point, found->axis) - rate_along(b, point, found->axis);
 }
 
 // The share of the step at which two shapes first overlap by the skin.
-static double advance(Side *a, Side *b, double radii, double skin, double depth) {
+static double advance(MovingShape *a, MovingShape *b, double radii, double skin, double depth) {
     double share = greatest(a->mover->since, b->mover->since), target = -skin;
     for (int number = 0; number < ADVANCES; number++) {
         place(a, share);
@@ -160,7 +161,7 @@ static double advance(Side *a, Side *b, double radii, double skin, double depth)
         double distance = found.distance - radii;
         bool met = distance <= target + tolerance * skin;
         if (number == 0 && met) {
-            if (distance < -skin - depth / safe_share) {
+            if (distance < -skin - depth * SAFE_DEPTHS) {
                 return INFINITY;
             }
             target = distance - skin;
@@ -191,7 +192,7 @@ static double impact_of_shapes(World *world, const Mover *one, const cpShape *a,
     double radii = radius_of(a) + radius_of(b), skin = least(world->space->collisionSlop, depth);
     bool is_round = corner_count(a) < 3 || corner_count(b) < 3;
     skin = is_round ? least(skin, radii / 2.0) : skin;
-    Side first = side_of(one, a, arena), second = side_of(other, b, arena);
+    MovingShape first = side_of(one, a, arena), second = side_of(other, b, arena);
     double share = advance(&first, &second, radii, skin, depth);
     arena_release(arena, mark);
     return share;

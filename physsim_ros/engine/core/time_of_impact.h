@@ -6,10 +6,6 @@
 
 #include "motion.h"
 
-// Share of the lesser inner radius by which bodies may enter each other in a step unseen: each keeps its centre well on
-// the side it came from.
-static const double safe_share = 0.25;
-
 // The share of the step at which two movers first overlap by the slop; infinite is never.
 double first_impact(World *world, const Mover *one, const Mover *other, double depth);
 

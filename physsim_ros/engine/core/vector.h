@@ -11,6 +11,8 @@
 
 typedef cpVect Vec;
 
+static const double pi = 3.14159265358979323846;
+
 typedef struct Rotation {
     double c, s; // cosine and sine of the angle
 } Rotation;

@@ -12,10 +12,12 @@ the engine; a `max_force` that is not reached changes nothing.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 import itertools
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
@@ -25,7 +27,6 @@ from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.motor_command import MotorCommand
-from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
@@ -70,6 +71,8 @@ class JointSet:
         self._totals: dict[str, Floats] = {}
         # The last command of each motor, by the name of its joint, and its step.
         self.commands: dict[str, tuple[MotorCommand, int]] = {}
+        # The bounds of the rows of each joint that has one which moves, by name, likewise.
+        self._bounds: dict[str, NDArray[np.void]] = {}
 
     def names_on(self, body: str) -> tuple[str, ...]:
         """Return the names of a body's joints, in the order in which they were made."""
@@ -99,8 +102,10 @@ class JointSet:
             if (old.joint.kind, old.joint.a, old.joint.b) != (joint.kind, joint.a, joint.b):
                 self._totals.pop(joint.name, None)
                 self.commands.pop(joint.name, None)
+            if _reference(old.joint) != _reference(joint):
+                self._bounds.pop(joint.name, None)
         self._add_constraints(joint)
-        for body in (joint.a, joint.b):
+        for body in joint.bodies:
             self._on.setdefault(body, {})[joint.name] = None
         self._serials.setdefault(joint.name, self._next_serial)
         self._next_serial += 1
@@ -110,6 +115,7 @@ class JointSet:
         self._remove_constraints(self.by_name[name])
         self._totals.pop(name, None)
         self.commands.pop(name, None)
+        self._bounds.pop(name, None)
         del self.by_name[name], self._serials[name]
 
     def clear(self) -> None:
@@ -119,6 +125,7 @@ class JointSet:
         self._drop_table()
         self._totals.clear()
         self.commands.clear()
+        self._bounds.clear()
         self.by_name.clear()
         self._on.clear()
         self._serials.clear()
@@ -152,11 +159,13 @@ class JointSet:
                 self._soft_springs(),
                 self._dt,
             )
+            self._table.set_bounds(self._bounds)
             for command, begun in self.commands.values():
                 self._table.command(command, begun)
         self._table.place_ends(places)
-        self._core.use_joints(self._table.joints, self._table.parts, self._table.rows)
-        self._core.use(motors=self._table.motors)
+        table = self._table
+        self._core.use_joints(table.joints, table.parts, table.rows, table.guides)
+        self._core.use(motors=table.motors)
 
     def command(self, command: MotorCommand, begun: int) -> None:
         """
@@ -211,6 +220,29 @@ class JointSet:
         if self._table is not None and len(totals) == len(self._table.parts):
             self._table.parts['total'] = totals
 
+    def bounds(self) -> dict[str, NDArray[np.void]]:
+        """Return `lower` and `upper` of the rows of each joint that has one which moves."""
+        return dict(self._bounds) if self._table is None else self._table.bounds
+
+    def set_bounds(self, bounds: Mapping[str, NDArray[np.void]]) -> None:
+        """Set the bounds of joints, by name."""
+        self._drop_table()
+        self._bounds = dict(bounds)
+
+    def drawn_now(self) -> tuple[Joint, ...]:
+        """Return the joints as they would be drawn now: a winch has its present length."""
+        bounds = self.bounds()
+        return tuple(
+            replace(
+                joint,
+                properties=replace(joint.properties, length=float(bounds[name]['upper'][-1])),
+            )
+            if name in bounds
+            else joint
+            for name, each in self.by_name.items()
+            for joint in (each.joint,)
+        )
+
     def unstepped(self) -> frozenset[str]:
         """Return the names of the joints whose first step is to come."""
         unstepped = self._unstepped if self._table is None else self._table.unstepped
@@ -240,8 +272,7 @@ class JointSet:
         ]
 
     def _add_constraints(self, joint: Joint) -> None:
-        other = None if joint.b == WORLD else self._bodies[joint.b]
-        engine_joint = build_joint(joint, self._bodies[joint.a], other, self._pm_space.static_body)
+        engine_joint = build_joint(joint, self._bodies, self._pm_space.static_body)
         self._pm_space.add(*engine_joint.constraints)
         self._drop_table()
         self.by_name[joint.name] = engine_joint
@@ -249,7 +280,7 @@ class JointSet:
 
     def _remove_constraints(self, engine_joint: EngineJoint) -> None:
         self._pm_space.remove(*engine_joint.constraints)
-        for body in (engine_joint.joint.a, engine_joint.joint.b):
+        for body in engine_joint.joint.bodies:
             self._on[body].pop(engine_joint.joint.name, None)
             if not self._on[body]:
                 del self._on[body]
@@ -259,5 +290,11 @@ class JointSet:
         """Drop the table of all joints, as one of them comes or goes."""
         if self._table is not None:
             self._unstepped, self._totals = self._table.unstepped, self._table.totals
+            self._bounds = self._table.bounds
         self._table = self._springs = None
         self._core.drop_joints()
+
+
+def _reference(joint: Joint) -> tuple[object, ...]:
+    """Return what bounds that have moved count from."""
+    return joint.kind, joint.a, joint.b, joint.seat, joint.guides, joint.rest_length

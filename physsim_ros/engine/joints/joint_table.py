@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.core import dtype_of, lib
-from physsim_ros.engine.joints.kinds import EngineJoint
+from physsim_ros.engine.joints.kinds import EngineGuide, EngineJoint
 from physsim_ros.engine.layout import address_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
@@ -19,9 +19,8 @@ from physsim_ros.model.motor_command import MODES, MotorCommand
 from physsim_ros.model.scene import Joint
 import pymunk
 
-_JOINT, _PART, _ROW = dtype_of('Joint'), dtype_of('Part'), dtype_of('Row')
+_JOINT, _PART, _ROW, _GUIDE = map(dtype_of, ('Joint', 'Part', 'Row', 'Guide'))
 _MOTOR, _POINT = dtype_of('Motor'), dtype_of('CommandPoint')
-_MOTOR_ROWS = {lib.ROW_SPIN, lib.ROW_WAY}
 # Kinds whose part may push their bodies apart.
 _PRESSING = {JointKind.ROD, JointKind.SPRING}
 
@@ -40,6 +39,7 @@ class JointTable:
     :ivar parts: (p,) `Part`: the constraints, joint by joint
     :ivar rows: (r,) `Row`: joint by joint
     :ivar motors: (m,) `Motor`: joint by joint
+    :ivar guides: (g,) `Guide`: row by row
     """
 
     def __init__(
@@ -77,22 +77,28 @@ class JointTable:
             if 0 < len(former := totals.get(name, ())) == len(of_joint):
                 of_joint[:] = former
         self.rows = np.zeros(sum(map(len, rows)), _ROW)
-        _fill(self.rows, [row for each in rows for row in each])
-        found = [
-            (int(self.rows_of(number)[row]), number)
-            for number, each in enumerate(rows)
-            for row in range(len(each))
-            if each[row][0] in _MOTOR_ROWS
-        ]
-        self.motors = np.zeros(len(found), _MOTOR)
-        _fill(
-            self.motors, [_motor_fields(joints[joint].joint, joint, row) for row, joint in found]
-        )
-        self._motor_of = {self.names[joint]: place for place, (_, joint) in enumerate(found)}
+        _fill(self.rows, [row for each in rows for row, _ in each])
+        self._guides = [guide for each in rows for _, guides in each for guide in guides]
+        self.rows['guide_count'] = counts = [len(guides) for each in rows for _, guides in each]
+        self.rows['first_guide'] = np.cumsum(counts) - counts
+        self.guides = np.zeros(len(self._guides), _GUIDE)
+        _fill(self.guides, [(-1, *guide[1:6]) for guide in self._guides])
+        laws, motors = self.rows['law'].tolist(), []
+        for number, each in enumerate(joints):
+            if each.joint.properties.effort:
+                motors += [
+                    _motor_fields(each.joint, number, row)
+                    for row in self._rows_of(number)
+                    if laws[row] == lib.LAW_DRIVE
+                ]
+        self.motors = np.zeros(len(motors), _MOTOR)
+        _fill(self.motors, motors)
+        numbers = self.motors['joint'].tolist()
+        self._motor_of = {self.names[number]: place for place, number in enumerate(numbers)}
         # The points of the last commands, which the records refer to.
         self._points: dict[str, NDArray[np.void]] = {}
 
-    def rows_of(self, number: int) -> range:
+    def _rows_of(self, number: int) -> range:
         """Return the numbers of the rows of a joint."""
         first, count = self.joints[number][['first_row', 'row_count']].tolist()
         return range(first, first + count)
@@ -116,6 +122,7 @@ class JointTable:
         """Set the places of bodies in the table of bodies, the background among them."""
         self.joints['a'] = [places[ends.a] for ends in self._ends]
         self.joints['b'] = [places[ends.b] for ends in self._ends]
+        self.guides['body'] = [places[guide.body] for guide in self._guides]
 
     @property
     def broken(self) -> list[int]:
@@ -127,6 +134,27 @@ class JointTable:
     def totals(self) -> dict[str, Floats]:
         """Return (k, 2) float64 of each joint: impulses of its constraints in the last step."""
         return dict(zip(self.names, self._totals, strict=True))
+
+    def set_bounds(self, bounds: Mapping[str, NDArray[np.void]]) -> None:
+        """Set `lower` and `upper` of the rows of joints, by name."""
+        for name, rows in zip(self.names, self._bounds, strict=True):
+            former = bounds.get(name)
+            if former is not None and len(former) == len(rows):
+                rows[['lower', 'upper']] = former
+
+    @property
+    def bounds(self) -> dict[str, NDArray[np.void]]:
+        """Return `lower` and `upper` of the rows of each joint that has one which moves."""
+        pairs = zip(self.names, self._bounds, strict=True)
+        return {
+            name: rows[['lower', 'upper']].copy()
+            for name, rows in pairs
+            if (rows['rate'][rows['law'] == lib.LAW_BOUNDS] != 0.0).any()
+        }
+
+    @property
+    def _bounds(self) -> list[NDArray[np.void]]:
+        return np.split(self.rows, self.joints['first_row'][1:])
 
     @property
     def _totals(self) -> list[Floats]:
@@ -160,15 +188,17 @@ def _motor_fields(joint: Joint, number: int, row: int) -> tuple[object, ...]:
     return number, row, joint.properties.effort, *numbers
 
 
-def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[tuple[object, ...]]:
+def _rows_of(
+    each: EngineJoint, first: int, damping: float, dt: float
+) -> list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]]:
     """
-    Return the rows of a joint.
+    Return the rows of a joint, each with its guides.
 
     :param first: number of its first part
     :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
     """
     force = each.joint.properties.max_force
-    rows: list[tuple[object, ...]] = []
+    rows: list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]] = []
     for number, part in enumerate(each.parts, first):
         if part.kind == lib.PART_SPRING:
             # One of the two gives its force.
@@ -176,10 +206,12 @@ def _rows_of(each: EngineJoint, first: int, damping: float, dt: float) -> list[t
             if not damping:
                 continue
         for component, row in enumerate(part.rows):
-            most = math.inf if force is None else force * dt * abs(row.above)
-            spring = (each.joint.stiffness, damping) if row.kind == lib.ROW_SPRING else (0.0, 0.0)
-            bounds = row.lower, row.upper, row.below, row.above, most
-            rows.append((row.kind, number, component, *bounds, *spring))
+            greatest = force if row.most is None else row.most
+            most = math.inf if greatest is None else greatest * dt * abs(row.above)
+            spring = (each.joint.stiffness, damping) if row.law == lib.LAW_SPRING else (0.0, 0.0)
+            bounds = row.lower, row.upper, row.below, row.above, most, row.rate, *row.reach
+            fields = (row.kind, row.law, number, component, *bounds, row.offset, *spring)
+            rows.append((fields, row.guides))
     return rows
 
 

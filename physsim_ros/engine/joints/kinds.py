@@ -5,21 +5,24 @@
 The kinds of joints: the constraints of Chipmunk that each consists of, and their rows.
 
 Chipmunk solves the constraints together with contacts, without their bias, a velocity that closes
-gaps; the core then solves the rows (`core/joint_solver.c`). A constraint without rows, as
-that of a motor, is solved by Chipmunk alone.
+gaps; the core then solves the rows (`core/joint_solver.c`). A constraint without rows is solved by
+Chipmunk alone.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 import math
 from typing import NamedTuple
 
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.core import lib
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.scene import Joint
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.rope_path import arc
+from physsim_ros.model.scene import Guide, Joint
 from physsim_ros.model.shapes import SMALLEST
 from physsim_ros.model.transform import Point
 import pymunk
@@ -29,11 +32,25 @@ _NO_BIAS = 1.0
 # With 1 Chipmunk takes a limit of an angle whose bias is 0 for one that is not reached: this
 # corrects a share of 4e-7 of an angle in a step of 1/240 s.
 _NEARLY_NO_BIAS = 1.0 - 1e-4
-# Parts that have a greatest force of their own.
-_MOTORS = {lib.PART_MOTOR, lib.PART_LINEAR_MOTOR}
 # How far behind its lower limit the point lies from which the way of a slider is measured [m]; any
 # distance will do.
 _BACK = 1.0
+
+
+class EngineGuide(NamedTuple):
+    """
+    A guide of a joint, or an end, in the engine; fields as those of `Guide` in the scene.
+
+    :ivar anchor: in the frame of the body, its origin the centre of mass [m]
+    """
+
+    body: pymunk.Body
+    anchor: Point
+    radius: float = 0.0
+    yaw: float = 0.0
+    heading_in: float = 0.0
+    heading_out: float = 0.0
+    span: float = 0.0
 
 
 class Row(NamedTuple):
@@ -45,6 +62,12 @@ class Row(NamedTuple):
     :ivar upper: greatest x [m, rad]
     :ivar below: λ by the impulse that Chipmunk stores, where x is below its bounds
     :ivar above: the same where it is not
+    :ivar law: one of `LAW_BOUNDS` ... of `engine/core/core.h`
+    :ivar rate: of x where it is driven, of the upper bound elsewhere [m/s, rad/s]
+    :ivar most: its greatest force [N, N m]; None is that of the joint
+    :ivar reach: least and greatest upper bound that such a rate leads to [m]
+    :ivar offset: of a path, the length that is added to it [m]
+    :ivar guides: what it passes, its ends among them, or the carrier of a gear
     """
 
     kind: int
@@ -52,6 +75,12 @@ class Row(NamedTuple):
     upper: float = 0.0
     below: float = 1.0
     above: float = 1.0
+    law: int = lib.LAW_BOUNDS
+    rate: float = 0.0
+    most: float | None = None
+    reach: tuple[float, float] = (0.0, math.inf)
+    offset: float = 0.0
+    guides: tuple[EngineGuide, ...] = ()
 
 
 class Part(NamedTuple):
@@ -77,12 +106,14 @@ class Ends:
     :param b: another one, or the background
     :param at_a: anchor in the frame of the first, its origin the centre of mass [m]
     :param at_b: the same in the frame of the second
+    :param guides: of the joint
     """
 
     a: pymunk.Body
     b: pymunk.Body
     at_a: Point
     at_b: Point
+    guides: tuple[EngineGuide, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -135,7 +166,7 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     against a, from zero.
     """
     lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
-    parts = _pivot(ends), *_rotary_motor(joint, ends)
+    parts = _pivot(ends), *_commanded(joint, ends, lib.PART_OWN, lib.ROW_ANGLE)
     if lower is None and upper is None:
         return parts
     least = -math.inf if upper is None else phase - upper
@@ -146,32 +177,25 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     return *parts, Part(lib.PART_ROTARY_LIMIT, limit, (row,))
 
 
-def _rotary_motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
-    """Return the motor of an axle, if it has one, whose rate the core sets."""
-    if not joint.properties.effort:
-        return ()
-    motor = pymunk.SimpleMotor(ends.a, ends.b, 0.0)
-    motor.max_force = 0.0
-    return (Part(lib.PART_MOTOR, motor, (Row(lib.ROW_SPIN, -math.inf, math.inf),)),)
-
-
-def _linear_motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+def _commanded(joint: Joint, ends: Ends, part: int, row: int) -> tuple[Part, ...]:
     """
-    Return the motor of a slider, if it has one, whose rate the core sets.
+    Return the motor of an axle or slider, if it has one, whose rate and force the core sets.
 
-    Chipmunk has none: a spring that gives no force keeps its impulses.
+    :param part: kind of its part
+    :param row: kind of its row
     """
     if not joint.properties.effort:
         return ()
-    spring = pymunk.DampedSpring(ends.a, ends.b, ends.at_a, ends.at_b, 0.0, 0.0, 0.0)
-    return (Part(lib.PART_LINEAR_MOTOR, spring, (Row(lib.ROW_WAY, -math.inf, math.inf),)),)
+    return (_own(part, ends, Row(row, law=lib.LAW_DRIVE, most=joint.properties.effort)),)
 
 
 def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """Return an axle that turns one body against the other at a rate, with a greatest torque."""
-    motor = pymunk.SimpleMotor(ends.a, ends.b, joint.number('rate'))
-    motor.max_force = joint.number('max_torque')
-    return _pivot(ends), Part(lib.PART_MOTOR, motor)
+    rate, most = joint.number('rate'), joint.number('max_torque')
+    motor = pymunk.SimpleMotor(ends.a, ends.b, rate)
+    motor.max_force = most
+    row = Row(lib.ROW_ANGLE, law=lib.LAW_DRIVE, rate=-rate, most=most)
+    return _pivot(ends), Part(lib.PART_MOTOR, motor, (row,))
 
 
 def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -179,7 +203,9 @@ def _spring(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     rest, stiffness = joint.rest_length, joint.stiffness
     anchors = ends.at_a, ends.at_b
     spring = pymunk.DampedSpring(ends.a, ends.b, *anchors, rest, stiffness, damping=0.0)
-    return (Part(lib.PART_SPRING, spring, (Row(lib.ROW_SPRING, rest, rest),)),)
+    return (
+        Part(lib.PART_SPRING, spring, (Row(lib.ROW_DISTANCE, rest, rest, law=lib.LAW_SPRING),)),
+    )
 
 
 def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -189,13 +215,64 @@ def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     return (Part(lib.PART_PIN, rod, (Row(lib.ROW_DISTANCE, rod.distance, rod.distance),)),)
 
 
+def _own(kind: int, ends: Ends, row: Row) -> Part:
+    """Return a row that no constraint of Chipmunk has: a motor without torque has its impulse."""
+    bodies = [ends.a, ends.b, *(guide.body for guide in ends.guides)]
+    moved = next(body for body in bodies if body.body_type == pymunk.Body.DYNAMIC)
+    other = ends.b if ends.b is not moved else ends.a
+    motor = pymunk.SimpleMotor(moved, other, 0.0)
+    motor.max_force = 0.0
+    return Part(kind, motor, (row,))
+
+
+def _path(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """
+    Return a rope past its guides, from wheel to wheel: it does not slip on those that can turn.
+
+    The row of its last piece has what a winch winds in, and what it is longer than drawn.
+    """
+    passed = sum(each.span + arc(*each[2:3], *each[4:6]) for each in ends.guides)
+    end = EngineGuide(ends.b, ends.at_b, span=joint.seat.length - passed)
+    stops = [EngineGuide(ends.a, ends.at_a), *ends.guides, end]
+    wheels = [
+        number
+        for number, stop in enumerate(stops)
+        if stop.radius and stop.body.body_type == pymunk.Body.DYNAMIC
+    ]
+    pieces = [
+        tuple(stops[first : last + 1])
+        for first, last in pairwise((0, *wheels, len(stops) - 1))
+        # What a wheel has wound up from a point of its rim neither moves nor stretches.
+        if len({stop.body for stop in stops[first : last + 1]}) > 1
+    ]
+    rows = [
+        Row(lib.ROW_PATH, 0.0, sum(stop.span for stop in piece[1:]), guides=piece)
+        for piece in pieces
+    ]
+    last = rows[-1]._replace(upper=joint.rest_length, offset=joint.seat.length - rows[-1].upper)
+    return (
+        *(_own(lib.PART_OWN, ends, row) for row in rows[:-1]),
+        _own(lib.PART_ROPE, ends, _winch(joint, last)),
+    )
+
+
+def _winch(joint: Joint, row: Row) -> Row:
+    """Return the row of a rope whose upper bound has a rate."""
+    lower, upper = joint.properties.lower, joint.properties.upper
+    reach = max(lower or 0.0, 0.0), math.inf if upper is None else upper
+    return row._replace(rate=joint.properties.rate or 0.0, reach=reach)
+
+
 def _rope(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """Return two anchors that are no further from each other than its length."""
+    if ends.guides:
+        return _path(joint, ends)
     longest = joint.rest_length
     rope = pymunk.SlideJoint(ends.a, ends.b, ends.at_a, ends.at_b, 0.0, longest)
     rope.error_bias = _NO_BIAS
     # It only holds back, from its least length on too.
-    return (Part(lib.PART_SLIDE, rope, (Row(lib.ROW_DISTANCE, 0.0, longest, below=-1.0),)),)
+    row = Row(lib.ROW_DISTANCE, 0.0, longest, below=-1.0)
+    return (Part(lib.PART_SLIDE, rope, (_winch(joint, row),)),)
 
 
 def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -212,7 +289,7 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     pin.error_bias = _NO_BIAS
     parts = (Part(lib.PART_PIN, pin, (Row(lib.ROW_ACROSS),)), _turn(joint, ends))
     lower, upper = joint.properties.lower, joint.properties.upper
-    motor = _linear_motor(joint, ends)
+    motor = _commanded(joint, ends, lib.PART_WAY, lib.ROW_ALONG)
     if lower is None and upper is None:
         return *parts, *motor
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
@@ -244,7 +321,7 @@ KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {
 
 
 def build_joint(
-    joint: Joint, a: RigidBody, b: RigidBody | None, background: pymunk.Body
+    joint: Joint, bodies: Mapping[str, RigidBody], background: pymunk.Body
 ) -> EngineJoint:
     """
     Make the constraints of a joint, outside any space.
@@ -253,10 +330,10 @@ def build_joint(
     there are none; such a joint waits until one of them is. A slider whose limits are one point is
     welded there.
 
-    :param a: the first body
-    :param b: the second one; None is the background
+    :param bodies: of the space by name
     :param background: the engine's own
     """
+    a, b = bodies[joint.a], bodies.get(joint.b)
     seat, make = joint.seat, KINDS[joint.kind]
     at_b = (seat.bx, seat.by) if b is None else (seat.bx - b.offset[0], seat.by - b.offset[1])
     stop = _stop_of(joint)
@@ -267,17 +344,30 @@ def build_joint(
         b=background if b is None else b.pm_body,
         at_a=(seat.ax - a.offset[0], seat.ay - a.offset[1]),
         at_b=at_b,
+        guides=tuple(_engine_guide(guide, bodies, background) for guide in joint.guides),
     )
-    if not (a.body.dynamic or (b is not None and b.body.dynamic)):
+    if not any(name != WORLD and bodies[name].body.dynamic for name in joint.bodies):
         return EngineJoint(joint, ends, ())
     built = EngineJoint(joint, ends, make(joint, ends))
     for part in built.parts:
         # With the background, which is the walls of `bounds` too, a body always collides.
         part.constraint.collide_bodies = joint.collide or b is None
-        # That of a motor is its greatest torque.
-        if joint.properties.max_force is not None and part.kind not in _MOTORS:
+        # Motors have their own.
+        if joint.properties.max_force is not None and not isinstance(
+            part.constraint, pymunk.SimpleMotor
+        ):
             part.constraint.max_force = joint.properties.max_force
     return built
+
+
+def _engine_guide(
+    guide: Guide, bodies: Mapping[str, RigidBody], background: pymunk.Body
+) -> EngineGuide:
+    body, anchor = background, (guide.x, guide.y)
+    if guide.body != WORLD:
+        rigid = bodies[guide.body]
+        body, anchor = rigid.pm_body, (guide.x - rigid.offset[0], guide.y - rigid.offset[1])
+    return EngineGuide(body, anchor, *guide[3:])
 
 
 def _stop_of(joint: Joint) -> float | None:

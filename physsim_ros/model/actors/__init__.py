@@ -14,7 +14,6 @@ from __future__ import annotations
 from physsim_ros.model.actors.actor import (
     Actor,
     Path,
-    REPEATS,
     Start,
 )
 from physsim_ros.model.actors.pedestrians import Orca, Pedestrian, SocialForce
@@ -37,7 +36,6 @@ actor_from = OfKind(
 
 __all__ = [
     'ACTORS',
-    'REPEATS',
     'Actor',
     'Orca',
     'Path',

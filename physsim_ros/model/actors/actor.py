@@ -37,7 +37,7 @@ MOST_POINTS = 1000
 # the times of all other points increase.
 _SAME_PLACE, _SAME_YAW = 1e-12, 1e-9
 # In the order of `ONCE`, `LOOP`, `TO_AND_FRO` of `engine/core/core.h`.
-REPEATS = ('once', 'loop', 'to_and_fro')
+_REPEATS = ('once', 'loop', 'to_and_fro')
 PACE = Within(1e-3, FASTEST, 'm/s')
 
 # x, y [m] of a point, and where a path turns its body, yaw [rad].
@@ -138,7 +138,7 @@ class Actor(Checked, ABC):
     ]
     repeat: Annotated[
         str,
-        OneOf(REPEATS),
+        OneOf(_REPEATS),
         'after the last point: `once` it stays, `loop` goes on to the first one, `to_and_fro` '
         'goes back',
     ] = 'once'

@@ -11,7 +11,13 @@ from typing import Annotated, Any
 from physsim_ros.model.checks import check_point, OfClass, shown, text
 from physsim_ros.model.declarations import Checked, without_unset
 from physsim_ros.model.errors import BadProperty, BadSize, Malformed
-from physsim_ros.model.joints import joined_from, JointKind, JointProperties, kind_from
+from physsim_ros.model.joints import (
+    joined_from,
+    JointKind,
+    JointProperties,
+    kind_from,
+    MOST_STOPS,
+)
 from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests.bodies import ChangeBody, Spawn
@@ -23,6 +29,7 @@ from physsim_ros.model.requests.request import (
     texts,
     UNSET,
 )
+from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point
 
 
@@ -58,7 +65,9 @@ class Join(Request):
     name: Annotated[str, check_name, 'of the joint']
     kind: Annotated[JointKind, lambda value, name: kind_from(text(value, name)), 'of joint']
     points: Annotated[
-        tuple[Point, ...], _points, 'anchor points, one or two as the kind requires [m]'
+        tuple[Point, ...],
+        _points,
+        'anchor points, one or two as the kind requires; a rope may have others between them [m]',
     ]
     frame: Annotated[str, text, "of the points: '' for the world, or a body's name"] = ''
     a: Annotated[str, text, "name of a body; '' is the topmost one at the first point"] = ''
@@ -76,15 +85,26 @@ class Join(Request):
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
         count = self.kind.points
-        if len(self.points) != count:
+        passes = self.kind.schema.passes
+        if len(self.points) < count or (len(self.points) > count and not passes):
             raise Malformed(
-                f'{self.kind.phrase} has {count} point{"s" * (count - 1)}, not {len(self.points)}',
+                f'{self.kind.phrase} has {count} point{"s" * (count - 1)}'
+                f'{" or more" * passes}, not {len(self.points)}',
                 field='points',
+            )
+        if len(self.points) > MOST_STOPS:
+            raise BadProperty(f'a rope has at most {MOST_STOPS} points', field='points')
+        over = self.properties.over
+        if over is not None and len(over) != len(self.points) - count:
+            raise BadProperty(
+                f'over names {counted(len(over), "body")}; the {self.kind} has '
+                f'{counted(len(self.points) - count, "point")} between its ends',
+                field='over',
             )
         _check_ends(self.a, self.b)
         self.properties.check_kind(self.kind, self.unset)
         least = self.kind.schema.least_distance
-        if least and math.dist(*self.points) < least:
+        if least and math.dist(*self.points[:2]) < least:
             raise BadSize(
                 f'the points of a {self.kind} must be at least {least:g} m apart', field='points'
             )

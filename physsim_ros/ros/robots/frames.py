@@ -106,7 +106,7 @@ class RobotFrames:
 
         :param body: name of the robot's body
         """
-        rows = snapshot.scene.rows
+        rows = snapshot.scene.row_of
         transforms = []
         for link in robot.links:
             above = robot.joint_above(link.name).b

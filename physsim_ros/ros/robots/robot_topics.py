@@ -177,7 +177,9 @@ class RobotTopics:
 
     def describe(self, body: Body, scene: Scene) -> None:
         """Publish how the robot looks, if that is new."""
-        rows = {link: scene.rows.get(part_name(body.name, link.name)) for link in self.robot.links}
+        rows = {
+            link: scene.row_of.get(part_name(body.name, link.name)) for link in self.robot.links
+        }
         parts = [(link, scene.bodies[row]) for link, row in rows.items() if row is not None]
         bodies = body, *(part for _, part in parts)
         looks = [(each.shape, each.color, each.total_mass) for each in bodies]

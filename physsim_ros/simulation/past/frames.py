@@ -20,6 +20,7 @@ from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
+from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.simulation.past.budget import frame_size
 from physsim_ros.simulation.past.node import CachedFrame, Keyframe
@@ -88,6 +89,16 @@ class FrameCache:
         """Return the cached frames after a step, up to another one, in the order of time."""
         first, last = bisect_right(self._steps, step), bisect_right(self._steps, end)
         return [self._frames[each].copy() for each in self._steps[first:last]]
+
+    def state_of_run(self) -> WorldState:
+        """Return the state after the last request of the line, as far as that is kept."""
+        tree = self._tree
+        moment = max((tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
+        # The replay that is under way begins anew.
+        self._segment = None
+        self._replay.resume(tree.keyframe_before(*moment))
+        self._replay.replay_to(moment)
+        return self._world.save()
 
     def add_frame(self, frame: CachedFrame) -> None:
         """Add a frame that has just been shown; to a past without length none is added."""

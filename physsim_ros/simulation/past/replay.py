@@ -58,6 +58,10 @@ class Replay:
         """Replay up to a step of the line, with the requests with which it was shown."""
         finish(self._replay_to(step, self._tree.serial_shown_at(step)))
 
+    def replay_to(self, moment: Moment) -> None:
+        """Replay up to a moment of the line, no earlier than now."""
+        finish(self._replay_to(*moment))
+
     def _replay_to(self, step: int, serial: int) -> Iterator[None]:
         """Replay up to a moment of the line, no earlier than now; yield after each part."""
         world = self._world

@@ -164,7 +164,7 @@ class Capacity:
         joints = self._space.joints
         if joint.name not in joints.by_name:
             check_limit('max_joints', len(joints.by_name) + 1, self._space.settings)
-        for body in (joint.a, joint.b):
+        for body in joint.bodies:
             _check_on_body(joints.count_on(body, joint), body)
 
     def check_hand(self, hand: str) -> None:
@@ -191,7 +191,7 @@ class Capacity:
         check_limit('max_joints', len(state.joints), state.settings)
         _check_topics(each.body for each in state.bodies)
         check_attraction((each.body for each in state.bodies), state.settings)
-        ends = Counter(end for joint in state.joints for end in (joint.a, joint.b))
+        ends = Counter(end for joint in state.joints for end in joint.bodies)
         for body, count in ends.items():
             _check_on_body(count, body)
         most = state.settings.max_overlaps

@@ -12,6 +12,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
+from itertools import starmap
 import math
 
 from physsim_ros.engine.space import Space
@@ -19,7 +21,9 @@ from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import names_in, WORLD
 from physsim_ros.model.requests import Axle, CommandMotors, Join, Pin, Rejoin, Unjoin, UnjoinAll
-from physsim_ros.model.scene import Joint, Seat
+from physsim_ros.model.rope_path import arc, side, spans
+from physsim_ros.model.scene import Guide, Joint, Seat
+from physsim_ros.model.shapes import Disc
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import (
@@ -47,20 +51,38 @@ def join(live: LiveSpace, request: Join) -> Answer:
     points = points_in_world(space, request.points, request.frame)
     old = space.joints.by_name.get(request.name)
     a, b, points = _members(space, request, points)
-    _check_members(space, request.kind, a, b)
     kept = old.joint if old is not None and old.joint.kind is request.kind else None
-    properties = request.properties
+    properties, passed = request.properties, points[1:-1] if request.kind.schema.passes else ()
     if kept is not None:
         changes = dict.fromkeys(request.unset) | properties.explicit()
         properties = replace(kept.properties, **changes)
-    if kept is not None and (kept.a, kept.b) == (a, b) and _is_at(space, kept, points):
-        seat = kept.seat
+    if passed:
+        names = _passed_bodies(space, properties.over, passed)
+        properties = replace(properties, over=names)
+        points = (points[0], *map(partial(_center, space), names, passed), points[-1])
+    _check_members(space, request.kind, (a, *(properties.over or ()), b))
+    if (
+        kept is not None
+        and (kept.a, kept.b, kept.properties.over) == (a, b, properties.over)
+        and _is_at(space, kept, points)
+    ):
+        seat, guides = kept.seat, kept.guides
         if not {'phase', 'ratio'}.isdisjoint((*request.properties.explicit(), *request.unset)):
             seat = seat._replace(phase=_phase(space, a, b, properties))
     else:
         phase = _phase(space, a, b, properties)
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
-    joint = Joint(name=request.name, kind=request.kind, a=a, b=b, seat=seat, properties=properties)
+        guides, length = _rope(space, properties.over or (), points)
+        seat = seat._replace(length=length) if guides else seat
+    joint = Joint(
+        name=request.name,
+        kind=request.kind,
+        a=a,
+        b=b,
+        seat=seat,
+        properties=properties,
+        guides=guides,
+    )
     if old is None or old.joint != joint:
         live.capacity.check_joint(joint)
         # Only if it differs: a joint that is built anew has no cached impulses to warm start from.
@@ -195,14 +217,74 @@ def _members(
     return a, b, points
 
 
-def _check_members(space: Space, kind: JointKind, a: str, b: str) -> None:
-    """Refuse a joint of two bodies that are not dynamic."""
-    bodies = [space.bodies.by_name[name].body for name in (a, b) if name != WORLD]
+def _passed_bodies(
+    space: Space, names: tuple[str, ...] | None, points: tuple[Point, ...]
+) -> tuple[str, ...]:
+    """
+    Return the bodies that a rope passes at points of the world [m].
+
+    :param names: those that are named
+    :raises UnknownBody: there is no body of a name
+    """
+    if names is None or len(names) != len(points):
+        return tuple(next(iter(space.bodies.at(point)), WORLD) for point in points)
+    for name in names:
+        if name != WORLD:
+            body_of_name(space, name, 'over', others=(WORLD,))
+    return names
+
+
+def _wheel(space: Space, name: str) -> float:
+    """Return the radius of a body that is a wheel for ropes [m], else 0."""
+    shape = None if name == WORLD else space.bodies.by_name[name].body.shape
+    return shape.radius if isinstance(shape, Disc) else 0.0
+
+
+def _center(space: Space, name: str, point: Point) -> Point:
+    """Return the centre of a wheel, or a ring at a point of the world [m]."""
+    return _pose(space, name)[:2] if _wheel(space, name) else point
+
+
+def _rope(
+    space: Space, names: tuple[str, ...], points: tuple[Point, ...]
+) -> tuple[tuple[Guide, ...], float]:
+    """
+    Return what a rope passes, and its length as it is drawn [m].
+
+    :param names: of the bodies at its points between the ends
+    :param points: of the world [m]
+    """
+    sides = starmap(side, zip(points, points[1:], points[2:], strict=False))
+    wheels = [turn * _wheel(space, name) for name, turn in zip(names, sides, strict=False)]
+    radii = (0.0, *wheels, 0.0)
+    passed = spans(points, radii) if names else []
+    guides = tuple(
+        Guide(
+            name,
+            *world_to_local(point, _pose(space, name)),
+            radius,
+            _pose(space, name)[2],
+            before.heading,
+            after.heading,
+            before.length,
+        )
+        for name, point, radius, before, after in zip(
+            names, points[1:], wheels, passed, passed[1:], strict=False
+        )
+    )
+    return guides, sum(each.length for each in passed) + sum(
+        arc(guide.radius, guide.heading_in, guide.heading_out) for guide in guides
+    )
+
+
+def _check_members(space: Space, kind: JointKind, names: tuple[str, ...]) -> None:
+    """Refuse a joint none of whose bodies is dynamic."""
+    bodies = [space.bodies.by_name[name].body for name in dict.fromkeys(names) if name != WORLD]
     if not any(body.dynamic for body in bodies):
         immovable = ' and '.join(
             f'{body.name} is {"anchored" if body.anchored else "kinematic"}' for body in bodies
         )
-        other = '' if len(bodies) == 2 else ', and so is the background'
+        other = ', and so is the background' if WORLD in names else ''
         message = f'{immovable}{other}; there is nothing for the {kind} to hold'
         raise Anchored(message, field='a', body=bodies[0].name if bodies else '')
 
@@ -252,7 +334,7 @@ def _is_at(space: Space, joint: Joint, points: tuple[Point, ...]) -> bool:
 
 
 def _drawn(space: Space, joint: Joint) -> tuple[Point, ...]:
-    return joint.drawn_points({name: _pose(space, name) for name in (joint.a, joint.b)})
+    return joint.drawn_points({name: _pose(space, name) for name in joint.bodies})
 
 
 def _pose(space: Space, name: str) -> Pose:

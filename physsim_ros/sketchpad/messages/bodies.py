@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import pair, Within
+from physsim_ros.model.checks import flag, pair, Within
 from physsim_ros.model.declarations import without_unset
 from physsim_ros.model.errors import BadProperty, no_joint
 from physsim_ros.model.joints import JointProperties
@@ -32,7 +32,7 @@ from physsim_ros.model.requests import (
 from physsim_ros.model.snapshot import request_count
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import Point, Pose, REST, Twist
-from physsim_ros.sketchpad.message import message, Origin
+from physsim_ros.sketchpad.message import message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
@@ -122,11 +122,15 @@ def delete(page: PageSession, origin: Origin, names: tuple[str, ...]) -> None:
     page.submit(origin, (DeleteBodies(names=names),))
 
 
-@message('watch', 'page', Right.LOOK, name=fields.text)
-def watch(page: PageSession, origin: Origin, name: str) -> None:
-    """Send the page motion and forces of a body in this course, also beyond now; '' is none."""
+@message('watch', 'page', Right.LOOK, name=fields.text, forces=Optional(flag))
+def watch(page: PageSession, origin: Origin, name: str, *, forces: bool = False) -> None:
+    """
+    Send the page the motion of a body in this course, also beyond now; '' is no body.
+
+    :param forces: whether the forces on it are sent, too
+    """
     page.shared.pasts.ask(page.number, name, origin.request)
-    if name:
+    if name and forces:
         page.shared.past_contacts.ask_forces(page.number, name)
 
 

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from physsim_ros.files import check_world_name, text_of
+from physsim_ros.files import check_world_name, load_mapping, state_from, text_of
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
@@ -39,6 +39,8 @@ ACTIONS = (
 )
 # Length of a world that a page may have as text [characters].
 MOST_SHARED = 2**20
+# Length of a world that a page may send as text [characters]; a message has up to 1 MiB.
+MOST_SENT = 2**19
 
 
 def _action(value: object, name: str) -> str:
@@ -57,6 +59,13 @@ def _world_name(value: object, name: str) -> str:
     if not checked:
         raise BadProperty('a world has a name', field=name)
     return checked
+
+
+def _world_text(value: object, name: str) -> dict[str, Any]:
+    """Return the mapping of the text of a world file, on the server's thread."""
+    if not isinstance(value, str) or len(value) > MOST_SENT:
+        raise BadProperty(f'{name} must be text of at most {MOST_SENT} characters', field=name)
+    return load_mapping(value, field=name)
 
 
 # Time
@@ -174,15 +183,31 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
     page.perform(origin, manage)
 
 
-@message('share', '~/save_world', Right.DRAW)
-def share(page: PageSession, origin: Origin) -> None:
-    """Send this page the world as the text of a world file."""
+@message('open_text', '~/load_world', Right.TEACH, world=_world_text)
+def open_text(page: PageSession, origin: Origin, world: dict[str, Any]) -> None:
+    """Begin with the world of a text, as that of a run, at time 0, which undo reverts."""
+
+    def begin() -> str:
+        simulation = page.world.simulation
+        state = state_from(world, simulation.settings, simulation.physics_rate)
+        return simulation.open_world(state)
+
+    page.perform(origin, begin, Wait.FOR_SEEK)
+
+
+@message('share', '~/save_world', Right.DRAW, run=Optional(flag))
+def share(page: PageSession, origin: Origin, *, run: bool = False) -> None:
+    """
+    Send this page the world as the text of a world file.
+
+    :param run: whether as this run began, after the last change, so that it can be replayed
+    """
 
     def send_text() -> list[Answer]:
         boundary, simulation = page.world.boundary, page.world.simulation
         try:
             with boundary.message(origin.topic):
-                state = simulation.save()
+                state = simulation.state_of_run() if run else simulation.save()
         except Failed as failed:
             page.refuse(origin, failed)
         else:

@@ -196,7 +196,7 @@ Object.assign(window, {physsim: {
   /** Impacts that were heard. */
   get heard() { return app.sound.heard; },
   /** Lengths of arrows [px] to a newton and to a metre a second. */
-  get scales() { return {newton: app.arrows.newtons.length(1), speed: app.arrows.speeds.length(1)}; },
+  get scales() { return {newton: app.arrows.scales.N.length(1), speed: app.arrows.scales['m/s'].length(1)}; },
   /** Numbers of samples of the bodies that are recorded, and of the course that was left. */
   get records() {
     return Object.fromEntries([...app.records.bodies].map(([name, {samples, left}]) => [name, [samples.length, left.length]]));

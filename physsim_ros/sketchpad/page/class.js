@@ -16,6 +16,7 @@ import {language, t} from './strings.js';
 import {WorldState} from './world_state.js';
 
 /** @import {Classmate} from './types.js' */
+/** @import {Together} from './ui/together.js' */
 
 const KEY = 'physsim-seat'; // of this browser
 const PERIOD = 3000; // ms between two looks at who is where
@@ -111,6 +112,16 @@ class Card {
     arrangeSoon();
   }
 
+  /** Have all other worlds begin as this run began, and play: they do the same to the bit. */
+  async #showRun() {
+    dialog.close();
+    const {ok, values} = await this.connection.ask('share', {run: true});
+    for (const {connection} of ok ? cards.filter((card) => card !== this) : []) {
+      connection.send('open_text', {world: values.yaml});
+      connection.send('service', {name: 'play'});
+    }
+  }
+
   /** Show what a teacher may do for this pupil alone. */
   showMore() {
     const {connection, frozen, person} = this;
@@ -121,6 +132,7 @@ class Card {
     dialog.show(worldOf(person), ...person ? [sayForm((text) => done('say', {text}), t('Message to {name}', {name: person}))] : [], inRow(
       textButton(frozen ? t('Let them draw again') : t('Freeze'), () => done('freeze', {frozen: !frozen})),
       textButton(t('Pause'), () => done('service', {name: 'pause'})),
+      textButton(t('Show this run to all'), () => this.#showRun()),
       ...this.seated ? [textButton(t('Free this seat'), async () => {
         await fetch('/free', {method: 'POST', body: JSON.stringify({seat: cards.indexOf(this)})});
         dialog.close();
@@ -136,6 +148,8 @@ const form = elementOf('join', HTMLFormElement), name = elementOf('name', HTMLIn
 const teacher = elementOf('teacher'), gone = elementOf('gone'), dialog = new Dialog();
 /** @type {Card[]} */
 const cards = [];
+/** @type {Together | undefined} */
+let together;
 
 /** Put hands first, in the order in which they were raised, then people by their names, then free seats; and count. */
 function arrange() {
@@ -222,6 +236,11 @@ function begin(count, pupils) {
     textButton(t('Freeze all'), () => toAll('freeze', {frozen: true})),
     textButton(t('Let them draw again'), () => toAll('freeze', {frozen: false})),
     textButton(t('Clear all worlds'), () => confirm(t('Delete all bodies of all worlds?')) && toAll('service', {name: 'clear'}), 'danger'),
+    textButton(t('All runs in one picture'), async () => {
+      const {Together} = await import('./ui/together.js');
+      together ??= new Together(dialog, cards);
+      together.show();
+    }),
     textButton(t('Results'), () => showResults(dialog, listed, () => toAll('forget_results', {}))),
     sayForm((text) => toAll('say', {text})));
 }

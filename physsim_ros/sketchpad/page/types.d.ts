@@ -92,6 +92,8 @@ export interface Joint {
   points: Point[];
   axis: Point;
   rest_length: number;
+  /** What a rope passes between its points: row of a body, place in it [m], radius of a wheel. */
+  guides?: [number, number, number, number][];
   lower?: number;
   upper?: number;
   rate?: number;
@@ -100,6 +102,7 @@ export interface Joint {
   damping?: number;
   length?: number;
   ratio?: number;
+  max_force?: number;
   break_force?: number;
 }
 

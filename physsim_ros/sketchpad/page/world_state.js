@@ -178,11 +178,12 @@ export class WorldState {
    * @returns {string} the name of the joint there; '' where there is none
    */
   jointAt(point, reach, onBody) {
-    const near = this.scene.joints.filter(({kind, a, b, points}) => {
+    const near = this.scene.joints.filter(({kind, a, b, points, guides}) => {
       const p = this.place(a, points[0]);
       if (['axle', 'motor', 'pin'].includes(kind)) return distance(p, point) <= reach;
       if (onBody || kind === 'gear') return false;
-      return distanceTo([p, this.place(b, points[1])], ...point) <= reach;
+      const passed = (guides ?? []).map(([row, x, y]) => this.place(row, [x, y]));
+      return distanceTo([p, ...passed, this.place(b, points[1])], ...point) <= reach;
     });
     return near.at(-1)?.name ?? '';
   }

@@ -40,6 +40,7 @@ BY_DIFFICULTY = (
     'car',
     'catapult',
     'gear_train',
+    'crane',
     'bridge',
 )
 

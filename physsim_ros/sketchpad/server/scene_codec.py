@@ -10,6 +10,7 @@ body costs one text.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 import json
 from typing import Any
 
@@ -60,10 +61,7 @@ class SceneCodec:
             texts[body.name] = kept if kept and known else (body, compact(body_entry(body)))
         self._texts = texts
         settings = scene.settings
-        joints = [
-            joint_entry(joint, rows)
-            for joint, rows in zip(scene.joints, scene.joint_rows.tolist(), strict=True)
-        ]
+        joints = [joint_entry(joint, scene.row_of) for joint in scene.joints]
         rest = compact(
             {
                 'type': kind,
@@ -126,22 +124,27 @@ def robot_entry(body: str, robot: Robot) -> dict[str, Any]:
     return entry
 
 
-def joint_entry(joint: Joint, rows: list[int]) -> dict[str, Any]:
+def joint_entry(joint: Joint, rows: Mapping[str, int]) -> dict[str, Any]:
     """
     Return a joint.
 
-    :param rows: of its bodies a and b in the scene; -1 is the background
+    :param rows: of bodies in the scene by name; -1 is the background
     """
     seat = joint.seat
     return {
         'name': joint.name,
         'kind': str(joint.kind),
-        'a': rows[0],
-        'b': rows[1],
+        'a': rows[joint.a],
+        'b': rows[joint.b],
         'points': [[seat.ax, seat.ay], [seat.bx, seat.by]],
         'axis': [seat.ux, seat.uy],
         'rest_length': joint.rest_length,
-        **joint.properties.explicit(),
+        **(
+            {'guides': [[rows[each.body], each.x, each.y, each.radius] for each in joint.guides]}
+            if joint.guides
+            else {}
+        ),
+        **joint.properties.entry(),
     }
 
 

@@ -28,7 +28,13 @@ int call_mixed_lcp(int body_count, const double *inverses, int row_count, const 
                    const double *jacobians, const double *wanted, const double *lower, const double *upper,
                    const double *softness, double *impulses, double *changes) {
     Arena arena = {0};
-    System system = system_of(&arena, body_count, (const Inverse *)inverses, row_count, (const Ends *)ends, groups);
+    // No row has further links.
+    int *further = TAKE(&arena, int, row_count + 1);
+    for (int row = 0; row <= row_count; row++) {
+        further[row] = row_count;
+    }
+    System system =
+        system_of(&arena, body_count, (const Inverse *)inverses, row_count, (const Ends *)ends, further, groups);
     Problem problem = {(const Jacobian *)jacobians, wanted, lower, upper, softness, NULL, NULL};
     Solution solution = solution_for(&system, &arena);
     solve_problem(&system, &problem, &solution, &arena);

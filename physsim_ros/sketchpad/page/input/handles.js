@@ -105,7 +105,7 @@ export class Handles extends Gesture {
     };
     const yaw = world.frame.yaw[row], [vx, vy] = velocities ? [velocities.x[row], velocities.y[row]] : [0, 0];
     return {center, reach, turn: at(yaw + Math.PI / 2, reach + TURN_GAP), scale: at(yaw - Math.PI / 4, reach + SCALE_GAP),
-      velocity: velocities && !body.anchored ? at(Math.atan2(vy, vx), Math.hypot(vx, vy) * arrows.speeds.length(1) + TIP_GAP) : null};
+      velocity: velocities && !body.anchored ? at(Math.atan2(vy, vx), Math.hypot(vx, vy) * arrows.scales['m/s'].length(1) + TIP_GAP) : null};
   }
 
   /** @returns {boolean} */
@@ -133,7 +133,7 @@ export class Handles extends Gesture {
     const places = this.places();
     if (!places) return null;
     const [x, y] = places.center, length = distance(ring, places.center);
-    const share = Math.max(length - TIP_GAP, 0) / (length || 1) / this.app.arrows.speeds.length(1);
+    const share = Math.max(length - TIP_GAP, 0) / (length || 1) / this.app.arrows.scales['m/s'].length(1);
     return [(ring[0] - x) * share, (y - ring[1]) * share];
   }
 

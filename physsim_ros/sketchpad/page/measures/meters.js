@@ -71,10 +71,11 @@ export class Meters {
  * @param {Point} place above which it stands [m]
  * @param {string} text
  */
-function drawMeter({ctx, camera, palette}, place, text) {
-  const [x, y] = camera.toPage(...place);
+function drawMeter({ctx, camera, palette, insets}, place, text) {
   ctx.font = '600 13px system-ui, sans-serif';
-  const half = ctx.measureText(text).width / 2 + PADDING;
+  const half = ctx.measureText(text).width / 2 + PADDING, [atX, atY] = camera.toPage(...place);
+  // What is in sight has its meter in sight.
+  const x = Math.min(Math.max(atX, insets.left + half), camera.width - insets.right - half), y = Math.max(atY, insets.top + ABOVE + HALF);
   ctx.fillStyle = palette.paper;
   ctx.strokeStyle = palette.faint;
   ctx.lineWidth = 1;

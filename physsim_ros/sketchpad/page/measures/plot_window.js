@@ -65,7 +65,9 @@ export class PlotWindow {
       this.predicted = [];
       this.#draw();
     });
-    const rest = inRow(this.#adder(), this.#summer(), this.#subtracter(), this.#predicter(), textButton(t('Copy table'), () => this.#copyTable()));
+    const rest = inRow(this.#adder(), this.#switch('sums', t('Sum'), t('Momentum or energy of all bodies of the plot together')),
+      this.#switch('differs', t('Difference'), t('This run less the last one, at the same times')),
+      this.#switch('predicts', t('Predict the curve'), t('Draw the curve that you expect, then play')), textButton(t('Copy table'), () => this.#copyTable()));
     rest.classList.add('rest');
     const more = foldButton(t('Bodies, sum, table'), () => {
       more.setAttribute('aria-expanded', String(!this.element.classList.toggle('folded')));
@@ -95,34 +97,18 @@ export class PlotWindow {
     this.app.room.fit();
   }
 
-  /** @returns {HTMLElement} the switch of the sum over the bodies, of what can be summed */
-  #summer() {
-    const button = toggling(textButton(t('Sum'), () => {}), () => this.sums, () => {
-      this.sums = !this.sums;
+  /**
+   * @param {'sums' | 'differs' | 'predicts'} what is switched
+   * @param {string} label
+   * @param {string} title
+   */
+  #switch(what, label, title) {
+    const button = toggling(textButton(label, () => {}), () => this[what], () => {
+      this[what] = !this[what];
+      if (!this.predicts) this.predicted = [];
       this.#draw();
     });
-    button.title = t('Momentum or energy of all bodies of the plot together');
-    return button;
-  }
-
-  /** @returns {HTMLElement} the switch of the difference between this run and the last one */
-  #subtracter() {
-    const button = toggling(textButton(t('Difference'), () => {}), () => this.differs, () => {
-      this.differs = !this.differs;
-      this.#draw();
-    });
-    button.title = t('This run less the last one, at the same times');
-    return button;
-  }
-
-  /** @returns {HTMLElement} the switch of the pen for the curve that is expected */
-  #predicter() {
-    const button = toggling(textButton(t('Predict the curve'), () => {}), () => this.predicts, () => {
-      this.predicts = !this.predicts;
-      this.predicted = [];
-      this.#draw();
-    });
-    button.title = t('Draw the curve that you expect, then play');
+    button.title = title;
     return button;
   }
 

@@ -70,7 +70,7 @@ export class Records {
   /** Ask for one past after the other: of several the server sends the last. */
   #ask() {
     const [name] = this.asking;
-    if (name) this.app.connection.send('watch', {name});
+    if (name) this.app.connection.send('watch', {name, forces: true});
   }
 
   /** @param {Record<string, any>} body with the columns of its past */
@@ -235,7 +235,7 @@ export class Trail {
     const {x, y, yaw, vx, vy, ax = 0, ay = 0} = sample, [nowX, nowY] = world.place(row, world.scene.bodies[row].centroid);
     view.outline(row, palette.faint, [x - nowX, y - nowY], {turn: yaw - world.frame.yaw[row], scale: 1});
     if (!hasArrows) return;
-    const from = camera.toPage(x, y), pixels = arrows.speeds.length(1);
+    const from = camera.toPage(x, y), pixels = arrows.scales['m/s'].length(1);
     drawArrow(view, from, vx * pixels, vy * pixels, palette.accent);
     drawArrow(view, from, ax * pixels * ACCELERATION, ay * pixels * ACCELERATION, palette.weight);
   }

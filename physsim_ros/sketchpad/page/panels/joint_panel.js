@@ -17,7 +17,7 @@ import {capital, isDrawn, thingWord} from '../words.js';
 const CONSTANTS = {
   spring: [['stiffness', t('Spring constant [N/m]'), 500, 1, 100], ['rest_length', t('Rest length [m]'), 5, 0.01, 0],
     ['damping', t('Damping [N s/m]'), 20, 0.1, 0]],
-  rope: [['length', t('Length [m]'), 10, 0.01, 0]],
+  rope: [['length', t('Length [m]'), 10, 0.01, 0], ['rate', t('Rate of a winch [m/s]'), 2, 0.05, 0]],
   motor: [['rate', t('Rate [rad/s]'), 20, 0.1, 1], ['max_torque', t('Greatest torque [N m]'), 1000, 1, 1000]],
   gear: [['ratio', t('Ratio'), 5, 0.1, 1]],
 };
@@ -34,8 +34,9 @@ export function jointContent({world, connection, selection, meters}, [name]) {
   if (!joint) return null;
   const change = (/** @type {Record<string, ?number>} */ properties) => connection.send('change_joint', {name, properties});
   const unit = joint.kind === 'slider' ? 'm' : 'rad', force = createElement('p');
-  /** @type {['lower' | 'upper' | 'break_force', string][]} */
+  /** @type {['lower' | 'upper' | 'max_force' | 'break_force', string][]} */
   const limits = [['break_force', t('Breaks at [N]')]];
+  if (joint.kind === 'rope') limits.unshift(['max_force', t('Greatest force [N]')]);
   if (LIMITED.includes(joint.kind)) limits.unshift(['lower', t('Least [{unit}]', {unit})], ['upper', t('Greatest [{unit}]', {unit})]);
   return {title: capital(thingWord(joint.kind)), name: isDrawn(name) || world.scene.lesson ? '' : name, first: [force], rest: [
     ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
@@ -61,9 +62,9 @@ export function jointContent({world, connection, selection, meters}, [name]) {
  * @returns {string[]} its force, how long it is, and the energy of a spring
  */
 export function jointTexts(world, joint) {
-  const {kind, a, b, points: [p, q], rest_length: rest, stiffness = 100} = joint;
+  const {kind, a, b, points: [p, q], rest_length: rest, stiffness = 100, guides} = joint;
   const force = `${threeDigits(world.frame.forces?.[world.scene.joints.indexOf(joint)] ?? 0)} N`;
-  if (!MEASURED.includes(kind)) return [force];
+  if (!MEASURED.includes(kind) || guides) return [force];
   const length = distance(world.place(a, p), world.place(b, q)), texts = [force, t('length {length} m', {length: threeDigits(length)})];
   return kind === 'spring' ? [...texts, t('energy {energy} J', {energy: threeDigits(stiffness * (length - rest) ** 2 / 2)})] : texts;
 }

@@ -5,6 +5,7 @@
  * follows the pointer.
  */
 
+import {Gesture} from './gesture.js';
 import {degrees, threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance, isTap, onGrid, polar} from '../vectors.js';
@@ -17,25 +18,24 @@ const CLOSE = 12; // px around the first corner of a polygon
 const NEWTONS = 10; // N: of an arrow of 1 m, as in `drawing/tools.py`
 const STEP = Math.PI / 12; // rad between the directions of angled lines
 
-export class ClickTool {
+export class ClickTool extends Gesture {
   /**
    * @param {App} app
    * @param {string} id of the tool
    * @param {ClickUse} use
    */
   constructor(app, id, use) {
-    this.app = app;
+    super(app);
     this.id = id;
     this.use = use;
     this.clicks = use.clicks;
     this.aims = use.aims;
     this.atServer = true;
-    /** @type {Touch[]} */
+    /** @type {Touch[]} that were clicked */
     this.points = [];
-    /** @type {?Touch} */
-    this.start = null;
-    /** @type {?Touch} */
-    this.last = null;
+    /** Where the pointer is, pressed or not. @type {?Touch} */
+    this.pointed = null;
+    this.begun = false; // whether the first point was clicked where the pointer was pressed
     app.connection.on('answer', ({request, ok}) => {
       if (!ok && request && request === this.request) this.points = [];
     });
@@ -47,41 +47,38 @@ export class ClickTool {
 
   /** @param {Touch} raw */
   down(raw) {
-    const touch = this.#onGrid(raw);
-    this.start = this.last = touch;
-    this.pressed = true;
-    if (!this.points.length && this.clicks > 1) this.#click(touch);
-    else this.waits = true;
-  }
-
-  /** @param {Touch} touch */
-  move(touch) {
-    this.last = this.#onGrid(touch);
+    const touch = this.pointed = this.#onGrid(raw);
+    super.down(touch);
+    this.begun = !this.open && this.clicks > 1;
+    if (this.begun) this.#click(touch);
   }
 
   /** @param {Touch} raw */
-  up(raw) {
-    const touch = this.#onGrid(raw), dragged = !isTap(this.start ?? touch, touch), upright = this.#isUpright(touch);
-    this.pressed = false;
-    if (upright) this.#click({...touch, at: [touch.at[0], this.points[0].at[1]]});
-    if (this.waits || dragged) this.#click(touch);
-    this.waits = false;
+  move(raw) {
+    this.pointed = this.#onGrid(raw);
+    super.move(this.pointed);
+  }
+
+  /** @param {Touch} raw */
+  end(raw) {
+    const touch = this.#onGrid(raw);
+    if (this.#isUpright(touch)) this.#click({...touch, at: [touch.at[0], this.points[0].at[1]]});
+    if (!this.begun || !isTap(this.path[0], touch)) this.#click(touch);
   }
 
   cancel() {
-    if (this.points.length) this.app.connection.send('drop');
-    this.pressed = false;
+    if (this.open) this.app.connection.send('drop');
     this.points = [];
-    this.waits = false;
+    super.cancel();
   }
 
   /**
-   * Close an open polygon.
+   * Close an open polygon, or end a rope.
    * @returns {boolean} whether there was one
    */
   finish() {
-    const open = this.id === 'polygon' && this.points.length > 2;
-    if (open) this.#click(this.points[0]);
+    const polygon = this.id === 'polygon', open = this.clicks === Infinity && this.points.length > (polygon ? 2 : 1);
+    if (open) this.#click(this.points[polygon ? 0 : this.points.length - 1]);
     return open;
   }
 
@@ -114,15 +111,16 @@ export class ClickTool {
    */
   #isUpright({page: [px, py]}) {
     const [x, y] = this.start?.page ?? [px, py];
-    return this.id === 'rectangle' && this.points.length === 1 && this.pressed === true && Math.min(Math.abs(px - x), Math.abs(py - y)) > DRAG;
+    return this.id === 'rectangle' && this.points.length === 1 && this.path.length > 0 && Math.min(Math.abs(px - x), Math.abs(py - y)) > DRAG;
   }
 
   /** @param {Touch} touch */
   #click(touch) {
-    const {app, points} = this, closing = this.id === 'polygon' && points.length > 2 &&
-      distance(touch.page, points[0].page) < CLOSE;
+    const {app, points} = this, end = points[this.id === 'polygon' ? 0 : points.length - 1];
+    const closing = this.clicks === Infinity && points.length > (this.id === 'polygon' ? 2 : 1) &&
+      distance(touch.page, end.page) < CLOSE;
     this.request = app.connection.send('click',
-      {tool: this.id, point: closing ? points[0].at : this.#meant(touch)});
+      {tool: this.id, point: closing && this.id === 'polygon' ? end.at : this.#meant(closing ? end : touch)});
     if (this.request) points.push(touch);
     else this.points = [];
     if (closing || touch === points[0] && points.length > 1 || points.length >= this.clicks) {
@@ -142,9 +140,9 @@ export class ClickTool {
 
   /** @param {SceneView} view */
   draw(view) {
-    if (!this.points.length || !this.last) return;
-    const color = view.palette.accent, points = [...this.points.map(({at}) => at), this.last.at];
-    if (this.#isUpright(this.last)) points.splice(1, 0, [points[1][0], points[0][1]]);
+    if (!this.open || !this.pointed) return;
+    const color = view.palette.accent, points = [...this.points.map(({at}) => at), this.pointed.at];
+    if (this.#isUpright(this.pointed)) points.splice(1, 0, [points[1][0], points[0][1]]);
     const [p, q, r] = points;
     const length = distance(p, q);
     if (this.id === 'circle') view.ring(p, length * view.camera.scale, color);
@@ -159,7 +157,7 @@ export class ClickTool {
     // A finger that is lifted leaves nothing else.
     for (const {at} of this.points) view.ring(at, MARK, color);
     if (this.id === 'polygon') view.ring(p, CLOSE, color);
-    view.tell(this.#sizeOf(points), this.last);
+    view.tell(this.#sizeOf(points), this.pointed);
   }
 
   /**

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The results of lessons, as the server keeps them: a table of people by lessons, and the same as a file. */
 
-import {createElement, download, inRow, textButton} from '../dom.js';
+import {choice, createElement, download, inRow, textButton} from '../dom.js';
 import {csvOf} from '../csv.js';
+import {digits, numberOf, roundUp} from '../rounding.js';
 import {language, t} from '../strings.js';
 import {personWord} from './classroom.js';
 
@@ -10,6 +11,8 @@ import {personWord} from './classroom.js';
 /** @import {Dialog} from './dialog.js' */
 
 /** @typedef {{number: number, title: string}} Listed lesson */
+
+const BINS = 8, FENCE = 1.5; // of the histogram; quartiles apart
 
 /**
  * @param {Dialog} dialog
@@ -28,7 +31,7 @@ export async function showResults(dialog, lessons, forget) {
     forget();
     dialog.close();
   };
-  dialog.show(title, ...results.length ? [createElement('div', {className: 'results'}, table.element()),
+  dialog.show(title, ...results.length ? [createElement('div', {className: 'results'}, table.element()), ...table.histograms(),
     inRow(textButton(t('Save table (CSV)'), () => download('results.csv', new Blob(['\ufeff', table.csv()], {type: 'text/csv'}))),
       textButton(t('Forget all results'), remove, 'danger'))] :
     [createElement('p', {}, t('Nobody has answered a lesson yet.'))]);
@@ -74,6 +77,14 @@ class ResultTable {
     return createElement('table', {}, createElement('thead', {}, head), createElement('tbody', {}, ...rows), createElement('tfoot', {}, right));
   }
 
+  /** @returns {HTMLElement[]} how often which figure was answered, of the lesson that is chosen */
+  histograms() {
+    const bars = createElement('ul', {className: 'histogram'});
+    const show = (/** @type {string} */ title) => bars.replaceChildren(...histogramOf([...this.people.values()].flatMap((lessons) => lessons.get(title) ?? [])));
+    show(this.titles[0]);
+    return [inRow(choice(t('Answers to'), this.titles.map((title) => [title, this.heading(title)]), this.titles[0], show)), bars];
+  }
+
   /** @returns {string} with the columns of each lesson beside each other */
   csv() {
     const {names, titles, people} = this;
@@ -84,6 +95,28 @@ class ResultTable {
     })]);
     return csvOf([[t('Name'), ...head], ...rows]);
   }
+}
+
+/**
+ * @param {Result[]} results of a lesson
+ * @returns {HTMLElement[]} a bar of each range of figures; what lies far out (Tukey's fences) counts to the last one of its side
+ */
+function histogramOf(results) {
+  const answers = results.map(({answer, right}) => ({figure: numberOf(answer), right})).filter(({figure}) => Number.isFinite(figure));
+  const sorted = answers.map(({figure}) => figure).sort((a, b) => a - b), quartile = (/** @type {number} */ share) => sorted[Math.floor(share * (sorted.length - 1))];
+  if (!sorted.length) return [];
+  const [lower, upper] = [quartile(0.25), quartile(0.75)], fence = FENCE * (upper - lower || Math.abs(upper) || 1);
+  const least = Math.max(sorted[0], lower - fence), most = Math.min(sorted[sorted.length - 1], upper + fence);
+  const step = roundUp((most - least) / BINS || 1), first = Math.floor(least / step), last = Math.floor(most / step);
+  return Array.from({length: last - first + 1}, (_, i) => {
+    const there = answers.filter(({figure}) => Math.min(Math.max(Math.floor(figure / step), first), last) === first + i);
+    const bars = [true, false].map((isRight) => {
+      const bar = createElement('i', {className: isRight ? 'right' : ''});
+      bar.style.width = `${100 * there.filter(({right}) => right === isRight).length / answers.length}%`;
+      return bar;
+    });
+    return createElement('li', {}, `${digits((first + i) * step, 4)} … ${digits((first + i + 1) * step, 4)}`, createElement('span', {}, ...bars), String(there.length || ''));
+  });
 }
 
 /** @param {Result | undefined} result */

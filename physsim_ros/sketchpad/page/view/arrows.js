@@ -78,11 +78,8 @@ export class Arrows {
     this.off = new Set();
     /** @type {Set<string>} kinds of forces that have occurred in this world */
     this.kinds = new Set();
-    this.newtons = new ArrowScale();
-    this.speeds = new ArrowScale();
-    this.impulses = new ArrowScale(); // of momenta
-    this.torques = new ArrowScale();
-    this.turns = new ArrowScale(); // of angular momenta
+    /** By their units. */
+    this.scales = {'m/s': new ArrowScale(), 'N s': new ArrowScale(), 'N m s': new ArrowScale(), N: new ArrowScale(), 'N m': new ArrowScale()};
     this.frozen = false; // the scale of velocities, while one is dragged
     /** @type {{name: string, kind: string, force: Point, size: string, from: Point, to: Point}[]} */
     this.drawn = []; // forces, as they are drawn
@@ -156,8 +153,7 @@ export class Arrows {
     this.hint.textContent = '';
     if (!this.forces) drawApplied(this.app, view);
     else if (world.count) this.#drawForces(view, room);
-    for (const [unit, scale] of /** @type {[string, ArrowScale][]} */ ([['m/s', this.speeds], ['N s', this.impulses],
-      ['N m s', this.turns], ['N', this.newtons], ['N m', this.torques]])) {
+    for (const [unit, scale] of Object.entries(this.scales)) {
       if (this.bars[unit]) showText(this.bars[unit], `${digits(scale.unit, 2)} ${unit}`);
     }
   }
@@ -175,9 +171,9 @@ export class Arrows {
         mostTurn = Math.max(mostTurn, Math.abs(moment * velocities.spin[row]) || 0);
       }
     });
-    this.speeds.fit(most, room, world.paused);
-    this.impulses.fit(mostImpulse, room, world.paused);
-    this.turns.fit(mostTurn, ARC, world.paused);
+    this.scales['m/s'].fit(most, room, world.paused);
+    this.scales['N s'].fit(mostImpulse, room, world.paused);
+    this.scales['N m s'].fit(mostTurn, ARC, world.paused);
   }
 
   /**
@@ -191,11 +187,11 @@ export class Arrows {
       if (anchored) continue;
       const from = camera.toPage(...world.place(row, centroid)), speed = Math.hypot(x, y);
       if (this.momenta) {
-        this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.impulses, color: momentum,
+        this.#arrow(view, room, {from, x: mass * x, y: mass * y, scale: this.scales['N s'], color: momentum,
           text: `${threeDigits(mass * speed)} N s`, width: WIDE});
-        this.#roundArrow(view, from, moment * velocities.spin[row], {scale: this.turns, radius: INNER, color: momentum, unit: 'N m s'});
+        this.#roundArrow(view, from, moment * velocities.spin[row], {unit: 'N m s', radius: INNER, color: momentum});
       }
-      const velocity = {from, x, y, scale: this.speeds, color: accent, text: `${threeDigits(speed)} m/s`, unit: 'm/s'};
+      const velocity = {from, x, y, scale: this.scales['m/s'], color: accent, text: `${threeDigits(speed)} m/s`, unit: 'm/s'};
       // The arrow of the selected body can be dragged (input/handles.js).
       if (name !== panel.name) this.#arrow(view, room, velocity);
       else if (this.components) this.#components(view, room, velocity);
@@ -220,13 +216,13 @@ export class Arrows {
     const shown = some ? forces : bearing(forces, world.scene.gravity);
     const below = camera.height - view.insets.bottom;
     // The tip of a weight on the floor lies above the bar of time.
-    this.newtons.fit(Math.max(...shown.map(({at, x, y}) =>
+    this.scales.N.fit(Math.max(...shown.map(({at, x, y}) =>
       Math.max(Math.hypot(x, y), -y * room / Math.max(below - camera.toPage(...at)[1], BAR / 2))), 0), room, world.paused);
     for (const force of shown) {
       const {kind, row, at, x, y} = force, named = some && isSelected(force), color = colorOf(kind, view.palette);
       const size = `${threeDigits(Math.hypot(x, y))} N`, from = camera.toPage(...at), text = named ? `${NAMES[kind]} ${size}` : size;
       const width = some && !named ? NARROW : kind === 'sum' ? WIDE : USUAL;
-      const to = this.#arrow(view, room, {from, x, y, scale: this.newtons, color, text, width, unit: named || !some ? 'N' : '', named});
+      const to = this.#arrow(view, room, {from, x, y, scale: this.scales.N, color, text, width, unit: named || !some ? 'N' : '', named});
       // A number is told, whether or not its arrow is long enough to be drawn.
       if (!to && named) view.number({text, color, tip: kind === 'sum' ? [from[0], from[1] - BAR / 2] : from, along: [0, -1], named});
       this.drawn.push({name: bodies[row].name, kind, force: [x, y], size, from, to: to ?? from});
@@ -244,19 +240,19 @@ export class Arrows {
     const {centroid, moment, anchored} = world.scene.bodies[row], torque = moment * sample.spinning;
     if (anchored || this.off.has('torque') || !(Math.abs(torque) > NO_TURN)) return;
     this.kinds.add('torque');
-    this.torques.fit(Math.abs(torque), ARC, world.paused);
+    this.scales['N m'].fit(Math.abs(torque), ARC, world.paused);
     this.#roundArrow(view, camera.toPage(...world.place(row, centroid)), torque,
-      {scale: this.torques, radius: ROUND, color: view.palette.ink, unit: 'N m', name: NAMES.torque});
+      {unit: 'N m', radius: ROUND, color: view.palette.ink, name: NAMES.torque});
   }
 
   /**
    * @param {SceneView} view
    * @param {Point} center [px]
    * @param {number} value counter-clockwise where it is positive [unit]
-   * @param {{scale: ArrowScale, radius: number, color: string, unit: string, name?: string}} how
+   * @param {{unit: 'N m' | 'N m s', radius: number, color: string, name?: string}} how
    */
-  #roundArrow(view, center, value, {scale, radius, color, unit, name = ''}) {
-    const length = Math.min(scale.length(Math.abs(value)), ARC);
+  #roundArrow(view, center, value, {unit, radius, color, name = ''}) {
+    const length = Math.min(this.scales[unit].length(Math.abs(value)), ARC);
     if (!(Math.abs(value) > NO_TURN && length >= LEAST)) return;
     const end = view.roundArrow(center, radius, Math.sign(value) * length / radius, color);
     view.number({text: `${name} ${threeDigits(Math.abs(value))} ${unit}`.trim(), color, ...end, named: name !== ''});

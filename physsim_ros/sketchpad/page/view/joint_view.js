@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Joints as what they are: coil, rod, rope, axle, motor, rail, toothed wheels. */
 
+import {ropeHeadings, ropeStops} from '../rope_path.js';
 import {distance, rotated} from '../vectors.js';
 
 /** @import {Joint, Point, SceneView} from '../types.js' */
@@ -68,7 +69,9 @@ export class JointView {
         this.#ends(p, q, ground);
         break;
       case 'rope':
-        this.#rope(p, q, joint.rest_length * this.camera.scale);
+        if (joint.guides) this.#path(joint);
+        // What a winch has wound in is not slack.
+        else this.#rope(p, q, joint.rate ? 0 : joint.rest_length * this.camera.scale);
         this.#ends(p, q, ground);
         break;
       case 'slider':
@@ -171,6 +174,20 @@ export class JointView {
     this.ctx.moveTo(...p);
     this.ctx.quadraticCurveTo((p[0] + q[0]) / 2, (p[1] + q[1]) / 2 + 2 * depth, ...q);
     this.ctx.stroke();
+  }
+
+  /** @param {Joint} joint a rope past its guides */
+  #path(joint) {
+    const {ctx, world} = this, stops = ropeStops(world, joint), headings = ropeHeadings(stops);
+    ctx.beginPath();
+    stops.forEach(({at, radius}, number) => {
+      const [x, y] = this.#page(at), r = Math.abs(radius) * this.camera.scale, side = Math.sign(radius);
+      if (!r) ctx.lineTo(x, y);
+      // The centre of a wheel that the rope runs around counter-clockwise is on its left.
+      else ctx.arc(x, y, r, side * Math.PI / 2 - headings[number - 1], side * Math.PI / 2 - headings[number], side > 0);
+    });
+    ctx.stroke();
+    for (const {at, radius} of stops.slice(1, -1)) if (!radius) this.#circle(this.#page(at), this.size / 2);
   }
 
   /**
