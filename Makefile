@@ -37,6 +37,8 @@ TOOLS := $(VENV)/.with-tools
 # Of the C library, which clang-tidy wants and a machine without a compiler has not.
 HEADER := /usr/include/stdlib.h
 CHECKED := $(CORE) $(wildcard tools/sanitize/*.c)
+# When clang-tidy found nothing in a file.
+TIDY := $(patsubst %,$(VENV)/.tidy/%,$(filter %.c,$(CHECKED)))
 STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core -DCORE_SOURCES='""'
 
 # TypeScript's checker, for the types in the comments of the page.
@@ -94,9 +96,13 @@ lint-core:
 	else echo 'clang-format is not installed: the layout of the core is not checked.'; fi
 	@if [ ! -x $(BIN)/clang-tidy ]; then echo 'clang-tidy is not installed: the core is not checked by it.'; \
 	elif [ ! -e $(HEADER) ]; then echo 'There is no $(HEADER): clang-tidy does not check the core.'; \
-	else $(BIN)/clang-tidy --quiet $(filter %.c,$(CHECKED)) -- $(STRICT); fi
+	else $(MAKE) --no-print-directory --keep-going $(TIDY); fi
 	@if command -v gcc >/dev/null; then gcc -fsyntax-only -O2 $(STRICT) $(filter %.c,$(CHECKED)); \
 	else echo 'gcc is not installed: the core is not checked for what it warns of.'; fi
+# clang-tidy takes seconds a file: it looks at those that have changed, and at all where a header has.
+$(TIDY): $(VENV)/.tidy/%: % $(filter %.h,$(CHECKED)) .clang-tidy
+	$(BIN)/clang-tidy --quiet $< -- $(STRICT)
+	@mkdir -p $(@D) && touch $@
 lint-page:
 	@if $(TSC) --version >/dev/null 2>&1; then $(TSC) -p physsim_ros/sketchpad/page; \
 	else echo 'Node or TypeScript is not there: the types of the page are not checked.'; fi

@@ -35,6 +35,10 @@ class BodyPool:
         self._scene: Scene | None = None
         self._row = 0
 
+    def is_complete(self, scene: Scene) -> bool:
+        """Return whether all bodies of a scene are made, and those of the retired space used."""
+        return self._scene is scene and self._row == len(scene.bodies)
+
     def build_bodies(self, scene: Scene, count: int) -> None:
         """Make up to a number of further bodies of a scene."""
         while count and self._retired is not None and self._retired.bodies.by_name:

@@ -131,6 +131,18 @@ class BodyTable:
         own = self.records['state'][:-1]
         return np.where(own['fresh'][:, None], np.nan, own['field'])
 
+    def field_forces(self, dt: float) -> Floats:
+        """
+        Return the forces of fields in the last sub-step.
+
+        :param dt: length of a sub-step [s]
+        :return: (n, 2) float64: [N]; none where there are no fields
+        """
+        if not self.has_fields:
+            return np.empty((0, 2))
+        leads: Floats = self.records['state']['field'][:-1, :2]
+        return leads * (2.0 / dt) * self.scene.inertia[:, :1]
+
     def lost(self) -> list[str]:
         """Return the names of the bodies whose state is not finite, or too large."""
         names = []

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -51,9 +52,12 @@ class CoreWorld:
 
     :cvar left_out: stages that new worlds leave out, a sum of `STAGE_...` of
         `engine/core/core.h`; to measure what fails without them
+    :cvar longest_call: time after which a call of the core ends, within a step too, in new
+        worlds [s]: no signal ends a call, and a person hardly notices so long
     """
 
     left_out = 0
+    longest_call = 0.05
 
     def __init__(self, pm_space: pymunk.Space, dt: float) -> None:
         # A massive body outside the space, whose angle stays 0 and within the limits.
@@ -68,6 +72,7 @@ class CoreWorld:
         )
         self._world = ffi.gc(lib.core_new(*pointers), lib.core_free)
         self._world.stages = lib.STAGE_ALL & ~self.left_out
+        self._world.longest_call = self.longest_call
         # Kept while the core uses them: what it calls, and its tables.
         self._pm_space = pm_space
         self._tables: dict[str, tuple[Table, ...]] = {}
@@ -144,13 +149,19 @@ class CoreWorld:
         :param age: count of steps since the space was built; stages that act every n steps count
             by it, so that a space restored from a checkpoint goes on alike
         :param drag_force: greatest force of a hand, in weights of the body
-        :return: count of the steps that were made: fewer where a joint breaks or a body is lost
+        :return: count of the steps that were made: fewer where a joint breaks, a body is lost, or
+            the time of a call is over
         """
         world = self._world
         world.step, world.age, world.drag_force = number, age, drag_force
         world.reports_contacts = reports_contacts
         made: int = lib.core_step(world, count)
         return made
+
+    @property
+    def is_within_step(self) -> bool:
+        """Return whether a step is begun and not ended, which the next call goes on with."""
+        return bool(self._world.within_step)
 
     @property
     def has_lost(self) -> bool:
@@ -259,6 +270,7 @@ class CoreWorld:
         return int(self._world.body_count) - 1
 
 
+@cache
 def _chipmunk() -> Any:
     """Return the functions of Chipmunk that the core calls, in Pymunk's own library."""
     functions = ffi.new('Chipmunk *')

@@ -13,11 +13,18 @@ from physsim_ros.engine.core import dtype_of
 from physsim_ros.engine.core_world import Table
 from physsim_ros.model.snapshot import Grip
 
+_GRIP = dtype_of('Grip')
+
 
 class GripSet:
-    """The grips of hands, one a hand, in the order in which they were made."""
+    """
+    The grips of hands, one a hand, in the order in which they were made.
+
+    :ivar is_told: whether the core has them as they are, for the bodies of now
+    """
 
     def __init__(self) -> None:
+        self.is_told = False
         self._by_hand: dict[str, Grip] = {}
 
     def __iter__(self) -> Iterator[Grip]:
@@ -32,14 +39,17 @@ class GripSet:
 
     def put(self, grip: Grip) -> None:
         """Add a grip; it replaces that of the same hand in its place."""
+        self.is_told = False
         self._by_hand[grip.hand] = grip
 
     def remove(self, hand: str) -> None:
         """Remove the grip of a hand."""
+        self.is_told = False
         del self._by_hand[hand]
 
     def remove_from(self, body: str) -> None:
         """Remove all grips on a body."""
+        self.is_told = False
         self._by_hand = {hand: grip for hand, grip in self._by_hand.items() if grip.body != body}
 
     def records(self, rigids: Mapping[str, RigidBody]) -> Table:
@@ -48,7 +58,7 @@ class GripSet:
 
         :param rigids: bodies by name
         """
-        records = np.zeros(len(self), dtype_of('Grip'))
+        records = np.zeros(len(self), _GRIP)
         for record, grip in zip(records, self, strict=True):
             rigid = rigids[grip.body]
             (x, y), offset = grip.anchor, rigid.offset

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import lru_cache
 import math
 from typing import NamedTuple
@@ -75,6 +76,17 @@ def check_columns(body: Body, settings: WorldSettings, dt: float) -> None:
     has_medium = body.medium is not None or settings.air.acts
     if roles != (None, None) or body.forces or has_medium or settings.floor_friction:
         _make_columns(Scene(bodies=(body,), settings=settings), dt)
+
+
+def check_floor(scene: Scene, settings: WorldSettings, dt: float) -> None:
+    """
+    Make the columns of a scene on another floor, so that an error in them refuses the request.
+
+    :param settings: with that floor
+    :param dt: of a sub-step [s]
+    """
+    if settings.floor_friction not in (0.0, scene.settings.floor_friction):
+        _make_columns(replace(scene, settings=settings), dt)
 
 
 # A world is often built anew from the scene that it has, and then another one follows it.

@@ -24,7 +24,7 @@ from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.grip_set import GripSet
 from physsim_ros.engine.joints.joint_set import JointSet
-from physsim_ros.engine.scene_columns import check_columns, columns_of
+from physsim_ros.engine.scene_columns import check_columns, check_floor, columns_of
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
@@ -131,6 +131,7 @@ class Space:
         )
         self._core.use_fields(self._settings, act=table.has_fields)
         self._background = len(rigids)
+        self.grips.is_told = False
         for row, rigid in enumerate(rigids):
             rigid.row = row
         self.lay_out_joints()
@@ -165,6 +166,7 @@ class Space:
 
     def configure(self, settings: WorldSettings) -> None:
         """Replace the settings: gravity, damping, iterations, and the walls of `bounds`."""
+        check_floor(self._scene, settings, self.dt)
         self._drop_table()
         old, self._settings = self._settings, settings
         self.changes += old != settings
@@ -209,6 +211,7 @@ class Space:
         self._take_out(old)
         self._insert(rigid, pose, twist)
         self.joints.attach(body.name)
+        self.joints.check(self.joints.names_on(body.name))
         if not body.dynamic:
             self.grips.remove_from(body.name)
         rigid.driven, rigid.acting = states_after(old, body)
@@ -360,6 +363,7 @@ class Space:
         self._drop_table()
         self.changes += 1
         self.joints.add(joint)
+        self.joints.check([joint.name])
 
     def unjoin(self, name: str) -> None:
         """Remove a joint."""
@@ -379,14 +383,16 @@ class Space:
         :param count: of the steps to make
         :param reports_contacts: whether contacts are reported
         :return: count of the steps that were made: fewer where something has to be done between
-            two of them; and bodies that left the range of numbers, and were removed
+            two of them, or where they take long; and bodies that left the range of numbers, and
+            were removed
         """
-        for rigid in list(self._wrenched.values()):
-            if rigid.wrench_until is not None and rigid.wrench_until <= number:
-                self.set_wrench(rigid, NO_WRENCH, None)
+        if self._wrenched:
+            self._end_wrenches(number)
         table, core, made = self.table, self.core, self._steps_until_event(number, count)
         if table.columns.moving:
-            core.use(grips=self.grips.records(self.bodies.by_name))
+            if not self.grips.is_told:
+                core.use(grips=self.grips.records(self.bodies.by_name))
+                self.grips.is_told = True
             table.make_noise(number, made)
             made = core.step(
                 made,
@@ -397,6 +403,8 @@ class Space:
             )
         self._age += made
         self.bodies.note_moved()
+        if core.is_within_step:
+            return made, []
         if core.has_broken:
             for name, force in self.joints.broken():
                 self.unjoin(name)
@@ -408,8 +416,21 @@ class Space:
             self.remove(name)
         return made, lost
 
+    @property
+    def is_within_step(self) -> bool:
+        """Return whether a step is begun and not ended; nothing is read or changed until then."""
+        return self._core.is_within_step
+
+    def _end_wrenches(self, number: int) -> None:
+        """End the wrenches that act up to a step."""
+        for rigid in list(self._wrenched.values()):
+            if rigid.wrench_until is not None and rigid.wrench_until <= number:
+                self.set_wrench(rigid, NO_WRENCH, None)
+
     def _steps_until_event(self, number: int, count: int) -> int:
         """Return how many of some steps follow each other without anything between them."""
+        if not (self._wrenched or self.table.columns.expiries):
+            return count
         ends = (rigid.wrench_until for rigid in self._wrenched.values())
         events = (*self.table.columns.expiries, *(end for end in ends if end is not None))
         return min([count, *(event - number for event in events if event > number)])

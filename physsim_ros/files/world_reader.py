@@ -37,7 +37,7 @@ from physsim_ros.model.declarations import check_key
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.requests import Spawn
-from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.settings import OF_WORLD, WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import steps_in
@@ -80,7 +80,10 @@ def state_from(
         raise BadProperty(f'format must be {FORMAT}', field='format')
     changes = {key: content[key] for key in SETTINGS if key in content}
     changes |= {key: None for key in ('bounds', 'datum') if changes.get(key) == []}
-    settings = replace(settings, **changes)
+    own = {
+        name: each.default for name, each in WorldSettings.FIELDS.items() if OF_WORLD in each.notes
+    }
+    settings = replace(settings, **(own | changes))
     lesson = _lesson(content['lesson']) if 'lesson' in content else None
     entries = entries_of(content.get('bodies'), 'bodies')
     bodies, unmoved, parts = _body_states(entries, settings, physics_rate)

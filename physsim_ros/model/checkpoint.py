@@ -84,6 +84,8 @@ class WorldState:
     :param commands: of motors, with the step of each, which counts from now
     :param memory: impulse cache; None in a file written by hand
     :param lesson: the task that belongs to the world; None is none
+    :param world: the same for states that `replace` makes of one another, as a reset with another
+        seed does
     """
 
     settings: WorldSettings
@@ -92,6 +94,7 @@ class WorldState:
     commands: Commands = ()
     lesson: Lesson | None = None
     memory: ImpulseCache | None = field(default=None, compare=False)
+    world: object = field(default_factory=object, compare=False, repr=False)
 
 
 # The pushes of a world without a floor, and the leads of one without fields, in memory once.

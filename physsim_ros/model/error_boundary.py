@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from itertools import count
 import traceback
 
@@ -85,15 +85,16 @@ class ErrorBoundary:
         except Exception as error:
             raise self.failed(name, error) from error
 
-    @contextmanager
-    def output(self, name: str) -> Iterator[None]:
+    def output(self, name: str) -> AbstractContextManager[None, bool]:
         """Make an output in the block; an unexpected error ends the block, and is an event."""
-        try:
-            yield
-        except Exception as error:  # noqa: BLE001 - the boundary
-            number, is_new = self._note(name, error)
-            if is_new:
-                self._events.append(Answer.refused(_failed(number), topic=name))
+        # A dozen a frame: a generator takes five times as long.
+        return _Output(self, name)
+
+    def note_output(self, name: str, error: Exception) -> None:
+        """Note an unexpected error in an output."""
+        number, is_new = self._note(name, error)
+        if is_new:
+            self._events.append(Answer.refused(_failed(number), topic=name))
 
     def failed(self, name: str, error: BaseException) -> Failed:
         """Note an unexpected error, and return the refusal of its message."""
@@ -124,6 +125,32 @@ class ErrorBoundary:
             self._log(f'failure {number}, {name}:\n{shown}')
         self.on_error(error)
         return number, number == current
+
+
+class _Output:
+    """
+    The block of an output.
+
+    :param boundary: of it
+    :param name: by which an error is told
+    """
+
+    __slots__ = ('_boundary', '_name')
+
+    def __init__(self, boundary: ErrorBoundary, name: str) -> None:
+        self._boundary = boundary
+        self._name = name
+
+    def __enter__(self) -> None:
+        pass
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, _: object
+    ) -> bool:
+        if not isinstance(error, Exception):
+            return False
+        self._boundary.note_output(self._name, error)
+        return True
 
 
 def _failed(number: int) -> Failed:

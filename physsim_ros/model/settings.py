@@ -29,6 +29,8 @@ MOST_HANDS = 64
 MOST_ROBOT_TOPICS = 4000
 # A note of a setting that protects the node, and that no world file changes.
 LIMIT = 'limit'
+# A note of a setting that is of a world alone: a world file without it has its default.
+OF_WORLD = 'of world'
 # Greatest number of samples of a stroke: a minute of a pen at 160 Hz.
 MOST_SAMPLES = 10_000
 
@@ -96,41 +98,54 @@ class WorldSettings(Checked):
         FLUID_DENSITY,
         'of the air, which fills the world where no body has a `medium`; it buoys bodies up, and '
         'resists them by v²',
+        OF_WORLD,
     ] = field(default=0.0, repr=False)
     air_viscosity: Annotated[
-        float, VISCOSITY, 'of the air, which resists bodies by v as well (Stokes)'
+        float,
+        VISCOSITY,
+        'of the air, which resists bodies by v as well (Stokes)',
+        OF_WORLD,
     ] = field(default=0.0, repr=False)
-    air_drag: Annotated[float, DRAG, 'coefficient of the drag by v²'] = field(
+    air_drag: Annotated[float, DRAG, 'coefficient of the drag by v²', OF_WORLD] = field(
         default=1.0, repr=False
     )
-    wind: Annotated[Point, VELOCITY, 'velocity of the air'] = field(default=(0.0, 0.0), repr=False)
+    wind: Annotated[Point, VELOCITY, 'velocity of the air', OF_WORLD] = field(
+        default=(0.0, 0.0), repr=False
+    )
     gusts: Annotated[
-        float, GUSTS, 'root mean square of the gusts of the wind, in x and in y; by `seed`'
+        float,
+        GUSTS,
+        'root mean square of the gusts of the wind, in x and in y; by `seed`',
+        OF_WORLD,
     ] = field(default=0.0, repr=False)
-    gust_time: Annotated[float, GUST_TIME, 'typical time from one gust to the next'] = field(
-        default=2.0, repr=False
+    gust_time: Annotated[float, GUST_TIME, 'typical time from one gust to the next', OF_WORLD] = (
+        field(default=2.0, repr=False)
     )
     gravitation: Annotated[
         float,
         Within(0.0, HEAVIEST, 'N m²/kg²'),
         'G of the attraction G m m / r² between all bodies but sensors; the unit follows '
         '`attraction_power`',
+        OF_WORLD,
     ] = field(default=0.0, repr=False)
     coulomb: Annotated[
         float,
         Within(0.0, HEAVIEST, 'N m²/C²'),
         'k of the force k q q / r² between bodies with a `charge`; the unit follows '
         '`attraction_power`',
+        OF_WORLD,
     ] = field(default=0.0, repr=False)
     attraction_power: Annotated[
         float,
         Within(-1.0, 4.0),
         'power p of the distance, in 1 / r^p, of both: 2 as on earth, 1 in a flat world',
+        OF_WORLD,
     ] = field(default=2.0, repr=False)
     softening: Annotated[
         float,
         Within(0.0, 1000.0, 'm'),
         'length ε that bounds both where two bodies pass each other: r² is r² + ε²',
+        OF_WORLD,
     ] = field(default=0.001, repr=False)
     datum: Annotated[
         Point | None,

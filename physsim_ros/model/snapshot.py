@@ -9,7 +9,7 @@ Law: all values are immutable or fresh arrays; none is an object of the engine.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import NamedTuple
 
@@ -70,6 +70,8 @@ class Springs(NamedTuple):
         return force * (elastic / 2 + (extension - elastic)), force
 
 
+# (0, 2) float64: forces that are unknown.
+NO_VECTORS = np.empty((0, 2))
 NO_SPRINGS = Springs(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0))
 
 
@@ -91,6 +93,8 @@ class Snapshot:
     :param grips: of hands on bodies
     :param pulls: (j, 2) float64: force of each joint on its body b in the last step, world axes
         [N]; empty if contacts were not requested
+    :param fields: (n, 2) float64: force of media and attraction on each body in the last sub-step,
+        world axes [N]; empty if there are none, or contacts were not requested
     :param robots: (r,) `ROBOT_STATE`: states of the robots, in the order of `scene.robot_rows`
     """
 
@@ -103,7 +107,8 @@ class Snapshot:
     compressed: Flags = field(default_factory=lambda: np.empty(0, dtype=bool))
     springs: Springs = NO_SPRINGS
     grips: tuple[Grip, ...] = ()
-    pulls: Floats = field(default_factory=lambda: np.empty((0, 2)))
+    pulls: Floats = field(default_factory=lambda: NO_VECTORS)
+    fields: Floats = field(default_factory=lambda: NO_VECTORS)
     robots: Records = field(default_factory=lambda: NO_ROBOTS)
 
     def row(self, name: str) -> int:
@@ -117,10 +122,18 @@ class Snapshot:
             raise no_body(name, names, '')
         return names.index(name)
 
+    def copy(self) -> Snapshot:
+        """Return a copy without cached properties, ten times as fast as `replace`."""
+        copy, state = Snapshot.__new__(Snapshot), vars(self)
+        if len(state) > len(_FIELDS):
+            state = {name: state[name] for name in _FIELDS}
+        vars(copy).update(state)
+        return copy
+
     @property
     def nbytes(self) -> int:
         """Memory of its arrays [bytes], without cached properties."""
-        size = self.poses.nbytes + self.twists.nbytes + self.robots.nbytes
+        size = self.poses.nbytes + self.twists.nbytes + self.robots.nbytes + self.fields.nbytes
         if len(self.forces):
             arrays = self.forces, self.compressed, self.pulls, *self.springs
             size += sum(array.nbytes for array in arrays)
@@ -175,6 +188,9 @@ class Snapshot:
         """Linear momentum of all dynamic bodies [kg m/s]."""
         x, y = ((self.scene.inertia[:, :1] * self.twists[:, :2]).sum(axis=0) + 0.0).tolist()
         return x, y
+
+
+_FIELDS = tuple(each.name for each in fields(Snapshot))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

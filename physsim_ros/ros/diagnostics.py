@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.model.snapshot import Answer, run_state, Snapshot
+from physsim_ros.model.snapshot import Answer, Frame, run_state, Snapshot
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.simulation.simulation import Simulation
@@ -87,7 +87,12 @@ class Diagnostics:
             events = *outputs.viewer.poll(), *self._new_namesakes(), *boundary.take_events()
             outputs.report_answers(events)
             if outputs.frame is not None and self._publisher.get_subscription_count():
-                self._publisher.publish(self._report(outputs.frame.snapshot))
+                self._publisher.publish(self._report(self._snapshot(outputs.frame)))
+
+    def _snapshot(self, frame: Frame) -> Snapshot:
+        """Return the snapshot of now, or of the last frame where the world is not there."""
+        simulation = self._simulation
+        return simulation.world.snapshot() if simulation.playback.is_there else frame.snapshot
 
     def _report(self, snapshot: Snapshot) -> DiagnosticArray:
         """Return the message of the last second, and begin the next."""

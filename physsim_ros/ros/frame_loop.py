@@ -75,6 +75,7 @@ class FrameLoop:
         began = time.perf_counter_ns()
         self._take_commands()
         frames: tuple[Frame, ...] = ()
+        step = self._simulation.step
         request_time = _RequestTime(self._rest_ns)
         # In a rewind commands are ignored, and no controller is awaited.
         if self._simulation.speed < 0.0 or not self._fleet.is_waiting:
@@ -82,12 +83,13 @@ class FrameLoop:
             self.finish_short_seek()
             frames = self._simulation.advance(
                 now_ns,
-                is_overdue=lambda: self._fleet.in_lockstep or _is_overdue(began),
+                is_overdue=lambda: _is_overdue(began),
                 is_spent=request_time.is_spent,
                 # Controllers answer whole frames.
+                ends_frame=lambda: self._fleet.in_lockstep or _is_overdue(began),
                 by_steps=self._rest_ns > MOST_TICK_NS and not self._fleet.in_lockstep,
             )
-        elif self._simulation.playback.changed:
+        elif self._simulation.is_changed:
             # By a service, as a reset, after which a robot may be gone, or its scan.
             frames = (self._simulation.frame,)
         stepped = time.perf_counter_ns()
@@ -95,28 +97,43 @@ class FrameLoop:
             self._outputs.show(frame)
         if not frames:
             self._report_answers()
-            self._outputs.show_late()
-            return
+            if self._simulation.step == step:
+                self._outputs.show_late()
+                return
         self._rest_ns = time.perf_counter_ns() - request_time.ended
-        statistics, last = self._outputs.statistics, frames[-1]
-        if last.moved:
-            statistics.add(
-                now_ns=now_ns,
-                stamp=last.snapshot.stamp,
-                step_ns=stepped - began,
-                frame_ns=time.perf_counter_ns() - began,
-            )
-        else:
+        statistics = self._outputs.statistics
+        if frames and not frames[-1].moved:
             statistics.reset_pace()
+            return
+        statistics.add(
+            now_ns=now_ns,
+            stamp=self._simulation.stamp,
+            step_ns=stepped - began,
+            frame_ns=time.perf_counter_ns() - began,
+        )
 
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""
         self._take_commands()
         self._outputs.show(self._simulation.advance_frame())
 
+    def pass_frames(self, count: int) -> int:
+        """
+        Advance the world by publish periods if nobody reads their frames.
+
+        :return: count of the periods; 0 where somebody reads
+        """
+        self._take_commands()
+        if not count or self._simulation.is_read:
+            return 0
+        frame = self._simulation.pass_frames(count)
+        if frame is not None:
+            self._outputs.show(frame)
+        return count
+
     def apply_requests(self) -> tuple[Answer, ...]:
         """Apply the waiting requests without advancing time; show and return the answers."""
-        self._note_contacts()
+        self._note_readers()
         frame = self._simulation.apply_requests()
         if frame is not None:
             self._outputs.show(frame)
@@ -159,18 +176,18 @@ class FrameLoop:
 
     def _take_commands(self) -> None:
         """Take the messages of pages, and what robots were told; nothing while in the past."""
-        self._note_contacts()
+        self._note_readers()
         if self._outputs.sketchpad is not None:
             self._outputs.sketchpad.handle_messages()
-        shown = self._outputs.frame
         self._fleet.submit_commands(
-            in_past=self._simulation.speed < 0.0 or (shown is not None and shown.past)
+            in_past=self._simulation.speed < 0.0 or self._simulation.is_past
         )
 
-    def _note_contacts(self) -> None:
-        """Record contacts while there is a subscriber, a viewer or a page that shows them."""
-        wanted = self._outputs.wants_contacts or self._fleet.wants_contacts
-        self._simulation.reports_contacts = wanted
+    def _note_readers(self) -> None:
+        """Make frames, and record contacts, while somebody reads them."""
+        outputs, fleet = self._outputs, self._fleet
+        self._simulation.is_read = outputs.is_read or fleet.is_read
+        self._simulation.reports_contacts = outputs.wants_contacts or fleet.wants_contacts
 
     def _report_answers(self) -> tuple[Answer, ...]:
         """Publish and log the answers that no frame carries, and return them."""

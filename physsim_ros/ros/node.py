@@ -141,7 +141,7 @@ class PhysSimNode(NodeWithoutQosEvents):
         self._live = LiveParameters(self, values, simulation, self._session, boundary)
         self.outputs.all.insert(0, self._live)
         self.outputs.all.append(self.fleet)
-        self.outputs.topics.timeline.publish(may_wait=False)
+        self.outputs.topics.timeline.publish()
         self.loop = FrameLoop(simulation, self.outputs, self.fleet)
 
     def _create_doors(self) -> None:
@@ -242,6 +242,14 @@ class PhysSimNode(NodeWithoutQosEvents):
     def advance_frame(self) -> None:
         """Advance the world by one publish period, at any time, and show the frame."""
         self.loop.advance_frame()
+
+    def pass_frames(self, count: int) -> int:
+        """
+        Advance the world by publish periods if nobody reads their frames.
+
+        :return: count of the periods; 0 where somebody reads
+        """
+        return self.loop.pass_frames(count)
 
     def apply_requests(self) -> tuple[Answer, ...]:
         """Apply the waiting requests without advancing time; show and return the answers."""

@@ -71,7 +71,7 @@ class NodeControl:
         self._files = world_files
         self._live = live
         # The world whose bodies are locked: the one that was loaded last when they were.
-        self._locked_in = simulation.loaded
+        self._locked_in = simulation.loaded.world
         self.services = {
             'play': Service(lambda: self._run_at(1.0)),
             'pause': Service(lambda: self._run_at(0.0)),
@@ -117,13 +117,13 @@ class NodeControl:
     @property
     def locked_bodies(self) -> tuple[str, ...]:
         """Return patterns of the names of bodies that pupils do not change, in this world."""
-        if self._locked_in is not self.simulation.loaded:
+        if self._locked_in is not self.simulation.loaded.world:
             return ()
         return parameters.listed_names(self.values['sketchpad_locked'])
 
     def note_locked(self) -> None:
         """Note that `sketchpad_locked` is about the world of now."""
-        self._locked_in = self.simulation.loaded
+        self._locked_in = self.simulation.loaded.world
 
     def set_parameter(self, name: str, value: Any) -> None:
         """

@@ -75,6 +75,12 @@ class Outputs:
         self._boundary = boundary
 
     @property
+    def is_read(self) -> bool:
+        """Whether a subscriber, the viewer, a recording or a page reads each frame."""
+        is_shown = self.sketchpad is not None and self.sketchpad.is_read
+        return is_shown or self.viewer.is_read or self.topics.is_read
+
+    @property
     def wants_contacts(self) -> bool:
         """Whether a test, a subscriber, the viewer or a page reads contacts."""
         return (

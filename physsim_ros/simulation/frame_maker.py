@@ -6,7 +6,8 @@ Frames of a world: requests and steady time go in, frames come out.
 
 Laws: requests are applied in the order of their arrival and only between frames, in a paused world
 too. Every request is answered, with the first frame after it; a frame without a step shows what
-requests have changed. While a seek or an amendment is under way, no frame is made.
+requests have changed. While a seek or an amendment is under way, no frame is made. A frame that
+nobody reads is not made; the past has what is asked for later.
 """
 
 from __future__ import annotations
@@ -17,9 +18,9 @@ import math
 from physsim_ros.model.checks import number
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.requests import DriveRobot
-from physsim_ros.model.snapshot import Frame
+from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.sensing import View
-from physsim_ros.simulation.past import finish, Past
+from physsim_ros.simulation.past import Past
 from physsim_ros.simulation.playback import Playback
 from physsim_ros.simulation.request_queue import RequestQueue
 from physsim_ros.simulation.world import World
@@ -27,6 +28,8 @@ from physsim_ros.simulation.world.robot_requests import is_driving
 
 # Frames in one call: the one that is due, and one to make up for a late one.
 _FRAMES_A_CALL = 2
+# Publish periods after which a frame is made even if nobody reads them: one second at 60 Hz.
+UNREAD_PERIODS = 60
 
 
 class FrameMaker:
@@ -42,6 +45,8 @@ class FrameMaker:
     :ivar playback: the moment that is shown
     :ivar requests: queue of the requests that wait for the next frame, and what applies them
     :ivar driving: the commands with which robots drive on, by the names of their bodies
+    :ivar is_read: whether somebody reads each frame of `advance`; else one is made where something
+        but the time has changed, and every `UNREAD_PERIODS`
     """
 
     def __init__(self, past: Past, speed: float) -> None:
@@ -51,7 +56,12 @@ class FrameMaker:
         self.playback = Playback(past, speed=speed)
         self.requests = RequestQueue(past, self.playback)
         self.driving: dict[str, DriveRobot] = {}
+        self.is_read = True
         self._view: View | None = None
+        # The last state before the next frame, where no frame of it was made.
+        self._passed: Snapshot | None = None
+        # Whether steps are under way after which a frame may be made.
+        self._is_unfinished = False
 
     @property
     def world(self) -> World:
@@ -62,6 +72,16 @@ class FrameMaker:
     def step(self) -> int:
         """Return the step that is shown."""
         return self.playback.step
+
+    @property
+    def stamp(self) -> int:
+        """Return the simulation time that is shown [ns]."""
+        return round(self.step * 1e9 / self.physics_rate)
+
+    @property
+    def is_past(self) -> bool:
+        """Whether the moment that is shown lies before the newest step of its course."""
+        return self.step < self.past.tree.head
 
     @property
     def speed(self) -> float:
@@ -87,9 +107,9 @@ class FrameMaker:
         A frame is made when it is first read after steps or requests, so that steps whose frame
         nobody reads make none.
         """
-        if self._view is None or self.playback.changed:
-            shown = self._view and self._view.snapshot.step
-            self._observe_frame(moved=shown != self.step)
+        view = self._view
+        if view is None or self.is_changed:
+            self._observe_frame(moved=view is None or view.snapshot.step != self.step)
         assert self._view is not None  # noqa: S101 - `_observe_frame` makes it
         return self._view
 
@@ -97,6 +117,12 @@ class FrameMaker:
     def frame(self) -> Frame:
         """Return the frame of now, which is made when it is first read."""
         return self.view.frame
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether the frame of now differs from the last one that was made."""
+        view, playback = self._view, self.playback
+        return playback.changed or view is None or view.snapshot.step != playback.step
 
     def at_shown_moment(self) -> Past:
         """
@@ -141,12 +167,24 @@ class FrameMaker:
     def apply_requests(self) -> Frame | None:
         """Apply the requests that wait, without a step; return a frame if anything changed."""
         self.requests.apply_waiting()
-        return self._observe_frame(moved=False) if self.playback.changed else None
+        return self._observe_frame(moved=False) if self.is_changed else None
 
     def advance_frame(self) -> Frame:
         """Apply the requests that wait, and advance by one publish period, at any speed."""
-        self._advance_period()
+        self._run_periods(1)
         return self._observe_frame(moved=True)
+
+    def pass_frames(self, count: int) -> Frame | None:
+        """
+        Advance by publish periods whose frames nobody reads, as `advance` does.
+
+        :return: the last frame where one is due all the same
+        """
+        self._run_periods(count)
+        if self._is_frame_due:
+            return self._observe_frame(moved=True)
+        self._begin_frame(is_read=True)
+        return None
 
     def run(self, seconds: float) -> None:
         """
@@ -161,16 +199,19 @@ class FrameMaker:
         periods = seconds * self.physics_rate / self.frame_steps
         if not 0.0 <= periods < math.inf:
             raise BadProperty(f'seconds must be finite and >= 0, not {seconds:g}', field='seconds')
-        for _ in range(round(periods)):
-            self._advance_period()
+        self._run_periods(round(periods))
 
-    def _advance_period(self) -> None:
-        """Apply the requests that wait, and advance by one publish period."""
-        self._drive_on()
-        self.at_shown_moment()
-        self.requests.release_grips()
-        self.playback.clock.restart()
-        finish(self.playback.play(self.playback.steps_to_period))
+    def _run_periods(self, count: int) -> None:
+        """Apply the requests that wait, and advance by a number of publish periods."""
+        while count > 0:
+            # Robots that drive on are told so in each period.
+            some = 1 if self.driving else count
+            self._drive_on()
+            self.at_shown_moment()
+            self.requests.release_grips()
+            self.playback.clock.restart()
+            self.playback.run(self.playback.steps_to_period + (some - 1) * self.frame_steps)
+            count -= some
 
     def advance(
         self,
@@ -178,6 +219,7 @@ class FrameMaker:
         *,
         is_overdue: Callable[[], bool] = lambda: False,
         is_spent: Callable[[], bool] = lambda: False,
+        ends_frame: Callable[[], bool] | None = None,
         by_steps: bool = False,
     ) -> tuple[Frame, ...]:
         """
@@ -187,9 +229,11 @@ class FrameMaker:
         bodies, time stands until a later call has applied the rest of the gesture.
 
         :param now_ns: steady time, never going back [ns]
-        :param is_overdue: whether the call has taken too long; a frame that advances then ends at
-            the next publish period, however many steps are due, so that requests do not wait
+        :param is_overdue: whether the call has taken too long; a later one goes on with its work,
+            be it within a step
         :param is_spent: whether there is no time for a further request in this call
+        :param ends_frame: whether a frame ends at a publish period, however many steps are due, so
+            that requests do not wait; None is `is_overdue`
         :param by_steps: whether a frame that takes too long ends after any step, not at a publish
             period only; a later call makes the other steps
         :return: the frames, in the order in which they are shown; empty where nothing is due and
@@ -200,6 +244,8 @@ class FrameMaker:
             playback.seek_shown()
         if not self.finish_seek(is_overdue):
             return ()
+        if frame := self._finished_frame():
+            return (frame,)
         if playback.speed > 0.0:
             self._drive_on()
         self.requests.apply_up_to_seek(is_spent)
@@ -214,29 +260,70 @@ class FrameMaker:
         self.requests.hands.note_time(now_ns, paused=playback.speed == 0)
         if playback.speed > 0:
             self.requests.release_grips()
-        frames = tuple(self._due_frames(now_ns, is_overdue, by_steps=by_steps))
-        if not frames and playback.changed:
+        ends_frame = is_overdue if ends_frame is None else ends_frame
+        due = self._due_frames(now_ns, is_overdue, ends_frame, by_steps=by_steps)
+        frames = tuple(due)
+        if not frames and playback.changed and not self._is_unfinished:
             return (self._observe_frame(moved=False),)
         return frames
 
     def _due_frames(
-        self, now_ns: int, is_overdue: Callable[[], bool], *, by_steps: bool
+        self,
+        now_ns: int,
+        is_overdue: Callable[[], bool],
+        ends_frame: Callable[[], bool],
+        *,
+        by_steps: bool,
     ) -> Iterator[Frame]:
-        """Yield the frames that are due at a steady time [ns], and make them."""
+        """Make the steps that are due at a steady time [ns], and yield frames that are due."""
         playback = self.playback
         for _ in range(_FRAMES_A_CALL):
             steps = playback.clock.due(now_ns, playback.step)
             if steps == 0:
                 return
             if steps > 0:
-                _carry_out(playback.play(steps, by_steps=by_steps), is_overdue)
-                yield self._observe_frame(moved=True)
+                self._begin_frame(is_read=self.is_read)
+                parts = playback.play(steps, by_steps=by_steps)
+                if any(ends_frame() if ends else is_overdue() for ends in parts):
+                    self._is_unfinished = not playback.is_there
+                if self._is_unfinished:
+                    playback.clock.restart()
+                    return
+                if self._is_frame_due:
+                    yield self._observe_frame(moved=True)
             elif frame := self._rewind_frame(-steps, is_overdue):
                 yield frame
             else:
                 return
-            if playback.speed == 0 or is_overdue():
+            if playback.speed == 0 or ends_frame():
                 return
+
+    def _finished_frame(self) -> Frame | None:
+        """Return the frame of steps that have ended in this call, if they began in another one."""
+        was_unfinished, self._is_unfinished = self._is_unfinished, False
+        return self._observe_frame(moved=True) if was_unfinished and self._is_frame_due else None
+
+    @property
+    def _is_frame_due(self) -> bool:
+        """Whether a frame of now is to be made, after steps."""
+        view = self._view
+        told = self.playback.changed or self.requests.answers or self.past.reports
+        if self.is_read or told or view is None:
+            return True
+        most = UNREAD_PERIODS * self.frame_steps * max(1.0, abs(self.speed))
+        passed = abs(self.step - view.snapshot.step)
+        return passed >= most or self.world.scene is not view.snapshot.scene
+
+    def _begin_frame(self, *, is_read: bool) -> None:
+        """
+        Begin the contacts of the next frame, where no frame of now was made.
+
+        :param is_read: whether somebody reads it, for whom the state before it is kept
+        """
+        if self._view is not None and self._view.snapshot.step != self.step:
+            self.world.clear_contacts()
+            if is_read:
+                self._passed = self.world.snapshot()
 
     def _drive_on(self) -> None:
         """Have robots drive on as `Robot.drive` told them, unless they do up to the next frame."""
@@ -258,24 +345,26 @@ class FrameMaker:
 
     def _observe_frame(self, *, moved: bool) -> Frame:
         """Return the frame that is shown, with all answers; fit the past into its budget."""
-        snapshot, contacts = self.playback.observe_frame(moved=moved)
-        self.past.fit_memory(self.playback.moment)
-        self.requests.answers += self.past.reports
-        self.past.reports.clear()
-        self.playback.changed = False
+        past, playback, requests = self.past, self.playback, self.requests
+        snapshot, contacts = playback.observe_frame(moved=moved)
+        past.fit_memory(playback.moment)
+        if past.reports:
+            requests.answers += past.reports
+            past.reports.clear()
+        playback.changed = False
         frame = Frame(
             snapshot=snapshot,
-            contacts=contacts if self.past.reports_contacts else None,
-            answers=self.requests.take_answers(),
-            speed=self.playback.speed,
+            contacts=contacts if past.reports_contacts else None,
+            answers=requests.take_answers() if requests.answers else (),
+            speed=playback.speed,
             moved=moved,
-            past=snapshot.step < self.past.tree.head,
-            course=self.past.tree.course,
+            past=snapshot.step < past.tree.head,
+            course=past.tree.course,
         )
-        before, last = None, self._view
-        if last is not None:
+        before, last = self._passed, self._view
+        if last is not None and (before is None or before.step == snapshot.step):
             before = last.snapshot if last.snapshot.step != snapshot.step else last.before
-        self._view = View(frame, before)
+        self._passed, self._view = None, View(frame, before)
         return frame
 
 

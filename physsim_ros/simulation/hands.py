@@ -91,10 +91,12 @@ class Hands:
     def release_grips(self) -> list[Answer]:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
         cursor = self._past.cursor
-        if self._playback.is_frame_cached or not cursor.world.grips or not cursor.is_newest:
+        if self._playback.is_frame_cached or not (grips := cursor.world.grips):
+            return []
+        if not cursor.is_newest:
             return []
         events = []
-        for grip in cursor.world.grips:
+        for grip in grips:
             if grip.hand not in self:
                 self._past.apply_unasked(LetGo(hand=grip.hand))
                 message = f'released {grip.body}: no message from {grip.hand}'

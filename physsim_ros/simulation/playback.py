@@ -210,7 +210,7 @@ class Playback:
 
     def parts_of_work(self) -> Iterator[None]:
         """
-        Carry out a seek or an amendment that is under way; yield after each part but the last.
+        Carry out the work that is under way; yield after each part but the last.
 
         Nothing is done while a cached frame is shown in place of the goal.
         """
@@ -240,21 +240,34 @@ class Playback:
         self.frames_due += 1
         return round(step * 1e9 / self._past.physics_rate)
 
-    def play(self, steps: int, *, by_steps: bool = False) -> Iterator[None]:
-        """
-        Advance by steps; yield at each multiple of the publish period, and at the end.
+    def run(self, steps: int) -> None:
+        """Advance by steps, however long they take."""
+        self.seek_shown()
+        self._lacks_contacts = False
+        cursor = self._past.cursor
+        cursor.advance(steps)
+        cursor.build_ahead(steps)
 
-        :param by_steps: whether to yield after each step, as of a world whose steps take long
+    def play(self, steps: int, *, by_steps: bool = False) -> Iterator[bool]:
+        """
+        Advance by steps; yield where a frame may be shown, and where steps take long.
+
+        :param by_steps: whether a frame may be shown after each step, as of a world whose steps
+            take long; else at each multiple of the publish period, and at the end
+        :return: whether a frame may be shown; else the rest of the steps up to the next one is
+            work under way
         """
         self.seek_shown()
-        self._lacks_contacts, self.changed = False, True
+        self._lacks_contacts = False
         cursor = self._past.cursor
         while steps > 0:
             some = 1 if by_steps else min(steps, self.steps_to_period)
-            cursor.advance(some)
+            cursor.begin_advance(some)
             cursor.build_ahead(some)
+            while cursor.continue_work():
+                yield False
             steps -= some
-            yield
+            yield True
 
     def rewind(self, steps: int) -> Iterator[None]:
         """

@@ -221,7 +221,8 @@ class RequestQueue:
 
     def apply_waiting(self) -> None:
         """Apply all entries, and finish the seeks and amendments that others wait for."""
-        self.apply_up_to_seek()
+        if self._waiting:
+            self.apply_up_to_seek()
         while self._waiting and not self._is_applying:
             self._playback.seek_shown()
             self._past.cursor.finish_work()
@@ -345,12 +346,12 @@ class RequestQueue:
 
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless their release lies ahead."""
-        self.answers += self.hands.release_grips()
+        if events := self.hands.release_grips():
+            self.answers += events
 
     def take_answers(self) -> tuple[Answer, ...]:
         """Return the answers that wait, and drop them."""
-        answers = tuple(self.answers)
-        self.answers.clear()
+        answers, self.answers = tuple(self.answers), []
         return answers
 
     def report_oldest(self, more: str = '') -> None:

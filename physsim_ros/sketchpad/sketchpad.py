@@ -101,6 +101,11 @@ class Sketchpad:
         return self._server.url(role)
 
     @property
+    def is_read(self) -> bool:
+        """Whether a page is open."""
+        return bool(self._sessions)
+
+    @property
     def wants_contacts(self) -> bool:
         """Whether a page shows contacts, or follows bodies."""
         return self._server.wants_contacts or any(

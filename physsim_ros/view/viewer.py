@@ -86,6 +86,11 @@ class Viewer:
         return any(output.is_open for output in self._outputs)
 
     @property
+    def is_read(self) -> bool:
+        """Whether frames are logged now, or may be later by an output that failed."""
+        return not all(output.has_ended for output in self._outputs)
+
+    @property
     def reads_contacts(self) -> bool:
         """Whether frames are logged, or will be, by one that is silent."""
         return any(output.reads_contacts for output in self._outputs)
@@ -155,9 +160,11 @@ class Viewer:
         for output in outputs:
             output.end()
         ended = [output.join() for output in outputs]
-        if not all(ended) and 'rerun' in sys.modules:
-            # At exit Rerun (0.41) waits for its recordings, without end where a viewer is frozen.
-            sys.modules['rerun'].unregister_shutdown()
+        unregister = getattr(sys.modules.get('rerun'), 'unregister_shutdown', None)
+        if not all(ended) and unregister is not None:
+            # At exit Rerun (0.41) waits for its recordings, without end where a viewer is frozen;
+            # one that is still being imported has none.
+            unregister()
 
     def _open_wanted(self) -> None:
         """Open the viewer that waits and the file that has failed, once the last has closed."""

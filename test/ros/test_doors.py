@@ -211,7 +211,7 @@ OUTPUTS: dict[str, tuple[object, str]] = {
     '/physsim/preview': (PreviewEncoder, 'encode'),
     '~/events': (status_publishers, 'encode_event'),
     '/physsim/poses': (PosesEncoder, 'encode'),
-    '~/timeline': (TimelinePublisher, 'publish'),
+    '~/timeline': (TimelinePublisher, 'show'),
     '~/drag/update': (interactive_markers.InteractiveMarkers, 'show'),
     'viewer': (Viewer, 'show'),
     'robots': (RobotTopics, 'publish'),

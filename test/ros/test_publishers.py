@@ -95,7 +95,7 @@ def test_where_nobody_listens_nothing_is_built_but_a_rare_picture(
     physsim: PhysSim, encoded: list[str]
 ) -> None:
     # The fixture itself hears the clock.
-    physsim.step(2 * LATCH_PERIOD)
+    physsim.run(2 * LATCH_PERIOD)
     assert [each for each in encoded if each != 'clock'] == ['markers'] * 2
 
 

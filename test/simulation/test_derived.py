@@ -6,12 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 import itertools
 import math
 from typing import Any
 
 from physsim_ros import Simulation
 from physsim_ros.engine import scene_columns
+from physsim_ros.engine.joints import joint_table
 from physsim_ros.model.actors import actor_from, ACTORS
 from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
@@ -19,7 +21,8 @@ from physsim_ros.model.checks import Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Failed, Refusal
-from physsim_ros.model.requests import ChangeBody, Configure, Delete, Request, Spawn
+from physsim_ros.model.joints import JointKind
+from physsim_ros.model.requests import ChangeBody, Configure, Delete, Join, Request, Spawn
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.robots.drives import DRIVES
 from physsim_ros.model.shapes import Disc
@@ -98,6 +101,10 @@ def test_a_body_that_is_accepted_can_be_stepped():
     assert accepted > 500
 
 
+def fail(*_: object) -> None:
+    raise ZeroDivisionError
+
+
 @pytest.mark.parametrize('change', ['actor', 'robot', 'forces'])
 def test_an_error_in_what_steps_need_refuses_the_request(change, monkeypatch):
     properties = {
@@ -110,9 +117,6 @@ def test_an_error_in_what_steps_need_refuses_the_request(change, monkeypatch):
     before = world.past.cursor.world.digest()
     records = {'actor': '_actor_records', 'robot': '_robot_records', 'forces': '_force_records'}
 
-    def fail(*_: object) -> None:
-        raise ZeroDivisionError
-
     monkeypatch.setattr(scene_columns, records[change], fail)
     for request in (
         ChangeBody(name='b/0', properties=properties),
@@ -120,6 +124,39 @@ def test_an_error_in_what_steps_need_refuses_the_request(change, monkeypatch):
     ):
         with pytest.raises(Failed):
             world.perform(request)
+    monkeypatch.undo()
+    assert world.past.cursor.world.digest() == before
+    world.advance_frame()
+
+
+def test_an_error_in_what_steps_need_of_joints_refuses_their_requests(monkeypatch):
+    world = Simulation(boundary=ErrorBoundary(log=lambda _: None))
+    world.perform(Spawn(name='b/0', shape=DISC, pose=(0.0, 5.0, 0.0)))
+    rod = Join(
+        name='rod/0', kind=JointKind.ROD, points=((0.0, 5.0), (0.0, 9.0)), a='b/0', b='world'
+    )
+    world.perform(rod)
+    rows_of, calls = joint_table._rows_of, iter(())  # noqa: SLF001
+
+    def fail_once(*args: Any) -> Any:
+        return fail() if next(calls, False) else rows_of(*args)
+
+    monkeypatch.setattr(joint_table, '_rows_of', fail_once)
+    for request in (replace(rod, name='rod/1'), ChangeBody(name='b/0', shape=Disc(radius=0.2))):
+        before, calls = world.past.cursor.world.digest(), iter((True,))
+        with pytest.raises(Failed):
+            world.perform(request)
+        assert world.past.cursor.world.digest() == before
+        world.advance_frame()
+
+
+def test_an_error_in_what_steps_need_on_a_floor_refuses_that_floor(monkeypatch):
+    world = Simulation(boundary=ErrorBoundary(log=lambda _: None))
+    world.perform(Spawn(name='b/0', shape=DISC, pose=(0.0, 5.0, 0.0)))
+    before = world.past.cursor.world.digest()
+    monkeypatch.setattr(scene_columns, 'lever_of', fail)
+    with pytest.raises(Failed):
+        world.perform(Configure(changes={'floor_friction': 0.3}))
     monkeypatch.undo()
     assert world.past.cursor.world.digest() == before
     world.advance_frame()

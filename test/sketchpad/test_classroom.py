@@ -226,6 +226,10 @@ def test_a_lock_belongs_to_its_world(browser: Browser) -> None:
         assert boss.ask('service', name='undo')['ok']
     boss.until(lambda: locked() == ['drawn/*'])
     assert pupil.ask('delete', names=['drawn/0'])['code'] == 'frozen'
+    # The world is the same, with other noise.
+    browser.physsim.node.simulation.reset(seed=3)
+    browser.physsim.step()
+    assert browser.physsim.node.control.locked_bodies == ('drawn/*',)
 
 
 @pytest.mark.parametrize('role', [Role.DRAW, Role.VIEW])

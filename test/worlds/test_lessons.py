@@ -100,6 +100,29 @@ def spring_energy() -> float:
     return film.twist('block/0')[:, 0].max()
 
 
+def floating() -> float:
+    film = Film(simulation('floating'), 12.0)
+    assert film.twist('block/0')[-1] == pytest.approx(0.0, abs=1e-3)
+    return 0.4 - film.pose('block/0')[-1, 1]
+
+
+def terminal_speed() -> float:
+    film = Film(simulation('terminal_speed'), 4.0)
+    return -film.twist('ball/0')[-1, 1]
+
+
+def orbit() -> float:
+    film = Film(simulation('orbit'), 17.0)
+    times = []
+    for name, sign in (('planet/0', 1.0), ('comet/0', -1.0)):
+        y = sign * film.pose(name)[:, 1]
+        turns = np.flatnonzero((y[:-1] < 0) & (y[1:] >= 0))
+        moments = (turns + y[turns] / (y[turns] - y[turns + 1])) * FRAME
+        times.append(moments[1] - moments[0])
+    assert times[0] == pytest.approx(times[1], abs=0.01)
+    return times[0]
+
+
 # The law of each lesson, and how its figure is measured.
 LAWS = {
     'free_fall': (sqrt(2 * 5 / G), free_fall),
@@ -111,6 +134,9 @@ LAWS = {
     'elastic_collision': (2 * 1 / (1 + 3) * 4, elastic_collision),
     'inelastic_collision': (2 * 4.5**2 / 2 - 3 * (2 * 4.5 / 3) ** 2 / 2, inelastic_collision),
     'pendulum': (2 * pi * sqrt(2.5 / G), pendulum),
+    'floating': (0.8 * 6.5 / 10, floating),
+    'terminal_speed': (sqrt(0.5 * G / 0.1), terminal_speed),
+    'orbit': (2 * pi * sqrt(4**3 / 40), orbit),
     'spring_energy': (0.5 * sqrt(100 / 1), spring_energy),
 }
 
@@ -162,6 +188,9 @@ def test_no_setting_of_the_world_before_reaches_into_a_lesson(name):
         friction=3.0,
         elasticity=1.0,
         floor_friction=0.6,
+        air_density=3.0,
+        wind=(9.0, 0.0),
+        gravitation=2.0,
     )
     path = shipped_lessons() / f'{name}.yaml'
 

@@ -18,6 +18,7 @@ A frame is 4 steps, a 60th of a second of simulation. ARGS='name' chooses the ta
 # The modules that print a table each.
 _TABLES = (
     *('frames', 'engine', 'fixture', 'outside', 'resting', 'capacity', 'crowd', 'joints'),
+    'accuracy',
     *('learning', 'sensors', 'robots', 'rewinding'),
     *('pages', 'classroom', 'browser', 'picture', 'startup'),
 )

@@ -88,6 +88,9 @@ class Bare:
     The bodies of a world in a space that nothing of ours is in: `Space.step` alone.
 
     :param world: whose bodies are copied, as they are now
+
+    :ivar space: with the copies
+    :ivar bodies: the copies, in spawn order
     """
 
     def __init__(self, world: World) -> None:
@@ -101,6 +104,8 @@ class Bare:
             twin.position, twin.angle = body.position, body.angle
             twin.velocity, twin.angular_velocity = body.velocity, body.angular_velocity
             self.space.add(twin, *(_twin(shape, twin) for shape in body.shapes))
+        rigids = world.space.bodies.by_name.values()
+        self.bodies = [twins[rigid.pm_body] for rigid in rigids]
         walls = ours.static_body.shapes
         self.space.add(*(_twin(wall, self.space.static_body) for wall in walls))
         for held in world.space.joints.by_name.values():

@@ -20,8 +20,8 @@ from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
 from PIL import Image
 
-from .car_story import car_story
 from .page import draw_page
+from .stories import car_story, crash_story
 
 DOCS = Path(__file__).parents[2] / 'docs'
 # Window of the pictures [pixels]: the world in it is 16 : 9.
@@ -112,19 +112,35 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
 
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
     """Draw the whole window, and the animation of the world."""
-    recording = Recording(directory / 'car.rrd')
-    times = [record(recording, [frame]) for frame in car_story()]
-    recording.close()
-    viewer.open_recording(recording.path)
+    times = show_story(viewer, directory, car_story())
     window = viewer.picture(times[-1], view='')
     window.crop((0, TITLE, *window.size)).save(DOCS / 'demo.png', optimize=True)
+    animate(viewer, times, DOCS / 'demo.webp')
+
+
+def draw_crash(viewer: HeadlessViewer, directory: Path) -> None:
+    """Draw the animation of a crash that is gone back from."""
+    animate(viewer, show_story(viewer, directory, crash_story()), DOCS / 'crash.webp')
+
+
+def show_story(viewer: HeadlessViewer, directory: Path, frames: list[Frame]) -> list[int]:
+    """Show frames; return the time of each on the timeline of the picture [ns]."""
+    recording = Recording(directory / 'story.rrd')
+    times = [record(recording, [frame]) for frame in frames]
+    recording.close()
+    viewer.open_recording(recording.path)
+    return times
+
+
+def animate(viewer: HeadlessViewer, times: list[int], path: Path) -> None:
+    """Write the animation of the world at some times, of 60 a second."""
     pictures = [viewer.picture(time) for time in times[:: 60 // RATE]]
     size = (NARROW, round(NARROW * pictures[0].height / pictures[0].width))
     small = [picture.resize(size, Image.Resampling.LANCZOS) for picture in pictures]
     durations = [1000 // RATE] * len(small)
     durations[-1] = REST
     small[0].save(
-        DOCS / 'demo.webp',
+        path,
         save_all=True,
         append_images=small[1:],
         duration=durations,
@@ -139,6 +155,7 @@ def main(chosen: list[str]) -> None:
     pictures: dict[str, Callable[[HeadlessViewer, Path], None]] = {
         'drawing': draw_drawing,
         'window': draw_window,
+        'crash': draw_crash,
     }
     if not chosen or 'page' in chosen:
         draw_page(DOCS / 'page.webp', DOCS / 'time.png')

@@ -31,7 +31,7 @@ from physsim_ros.model.transform import cross, norms
 _STRAIGHT = 0.95
 # The greatest straightness of a rope; an arc as high as a seventh of its chord has 0.95.
 _SAGGING = 0.95
-# The least number of bends, to alternate sides, of a spring. Of round teeth: the least height, in
+# The least number of bends, on alternate sides, of a spring. Of round teeth: the least height, in
 # shares of the size, that no hand trembles by; the least straightness of their advance.
 _FEWEST_TEETH, _HIGH, _STEADY = 3, 0.06, 0.9
 # Factor on the density of a body by each line of its hatching.
@@ -75,7 +75,7 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     # A line beside a body that ends on no other is a wall.
     at_ends = context.scene.bodies_at(start) + context.scene.bodies_at(end)
     joins = between or (ends is not None and ends[0].body in at_ends)
-    if between and _is_toothed(context.features, sides):
+    if between and _is_toothed(context.features, points):
         return JointKind.SPRING, BETWEEN
     if joins and math.dist(start, end) < _SAGGING * _cubic_length(drawn):
         return JointKind.ROPE, BETWEEN
@@ -83,14 +83,15 @@ def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     return JointKind.ROD, BETWEEN if joins and straight else 0.0
 
 
-def _is_toothed(features: Features, sides: Floats) -> bool:
+def _is_toothed(features: Features, points: Floats) -> bool:
     """
     Return whether a line goes to and fro across its way: sharp teeth, or round ones.
 
-    :param sides: between its bends
+    :param points: its ends and bends
     """
-    turns = np.sign(cross(sides[:-1], sides[1:]))
-    if len(turns) >= _FEWEST_TEETH and bool((turns[1:] == -turns[:-1]).all()):
+    # Bends of a brace are all on one side of the straight line between its ends.
+    side = np.sign(cross(points[-1] - points[0], points[1:-1] - points[0]))
+    if len(side) >= _FEWEST_TEETH and bool((side[1:] == -side[:-1]).all()):
         return True
     swings = features.swings
     high = swings.height > _HIGH * features.stroke.size

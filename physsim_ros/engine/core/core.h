@@ -402,8 +402,9 @@ typedef struct World {
     double drag_force;     // greatest force of a hand, in weights of the body
     // Of attraction (`attraction.c`): G [N m^p/kg²], k [N m^p/C²], p and ε [m].
     double gravitation, coulomb, attraction_power, softening;
-    int64_t step; // count of steps that the world has made
-    int64_t age;  // count of steps since the space was built
+    int64_t step;        // count of steps that the world has made
+    int64_t age;         // count of steps since the space was built
+    double longest_call; // time after which a call of `core_step` makes no further sub-step [s]
     // The bodies with the background, the others as they are in the world.
     Body *bodies;
     Joint *joints;
@@ -420,9 +421,10 @@ typedef struct World {
     int32_t body_count, joint_count, part_count, row_count, guide_count, motor_count, grip_count, force_count,
         region_count, attractor_count, robot_count, actor_count;
     // These fields are results of the last steps.
-    uint8_t has_broken; // a joint
-    uint8_t has_lost;   // a body has left the range of numbers
-    int64_t swept;      // pairs of bodies whose time of impact has been looked for since the world was made
+    uint8_t within_step; // a step is begun and not ended
+    uint8_t has_broken;  // a joint
+    uint8_t has_lost;    // a body has left the range of numbers
+    int64_t swept;       // pairs of bodies whose time of impact has been looked for since the world was made
     int32_t contact_count, begun_count, frame_steps;
     Contact *contacts; // of the frame, by place
     Begun *begun;
@@ -444,7 +446,9 @@ void core_use_bodies(World *world, Body *bodies, int32_t count, const int32_t *f
 void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
                      int32_t row_count, Guide *guides, int32_t guide_count);
 
-// Make a number of steps, and return how many were made: fewer where a joint breaks or a body is lost.
+// Make a number of steps, and return how many were ended: fewer where a joint breaks, a body is lost, or the call has
+// taken long. The next call goes on with a step that is begun, before which nothing of the world may be read or
+// changed.
 int32_t core_step(World *world, int32_t count);
 
 // The state that the next step begins with, after all requests until now, (body_count - 1): motions, whether each body

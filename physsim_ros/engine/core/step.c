@@ -4,6 +4,7 @@
 // The pipeline: one step of a world, stage by stage. `stages.h` says what each does, and its file why and how.
 
 #include "stages.h"
+#include <time.h>
 
 // A body beyond this position or speed is removed [m, m/s, rad, rad/s]; a double resolves 0.1 mm there.
 static const double lost = 1e12;
@@ -91,26 +92,50 @@ static void step(World *world) {
     take_out_impacts(world);
 }
 
+// Time since some moment [s].
+static double wall_clock(void) {
+    struct timespec now;
+    timespec_get(&now, TIME_UTC);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+static void begin_step(World *world) {
+    arena_reset(&world->own->arena);
+    damp_resting(world);
+    begin_totals(world);
+    find_gaps(world);
+    move_actors(world);
+    world->frame_steps += world->reports_contacts;
+}
+
+static void end_step(World *world) {
+    find_broken(world);
+    find_lost(world);
+    world->step++;
+    world->age++;
+}
+
+// Nothing in a step asks for the time: where a call ends decides when the next sub-step is made, and never its bits.
 int32_t core_step(World *world, int32_t count) {
-    world->own->kept = pow(world->space->damping, world->dt);
-    for (int number = 0; number < count; number++) {
-        world->own->call_step = number;
-        arena_reset(&world->own->arena);
-        damp_resting(world);
-        begin_totals(world);
-        find_gaps(world);
-        move_actors(world);
-        world->frame_steps += world->reports_contacts;
-        for (world->own->sub_step = 0; world->own->sub_step < SUB_STEPS; world->own->sub_step++) {
-            step(world);
+    Private *own = world->own;
+    double began = wall_clock(), took = 0.0;
+    int32_t made = 0;
+    own->kept = pow(world->space->damping, world->dt);
+    world->has_broken = world->has_lost = false;
+    do {
+        own->call_step = made;
+        if (own->sub_step == 0) {
+            begin_step(world);
         }
-        find_broken(world);
-        find_lost(world);
-        world->step++;
-        world->age++;
-        if (world->has_broken || world->has_lost) {
-            return number + 1;
+        step(world);
+        own->sub_step = (own->sub_step + 1) % SUB_STEPS;
+        world->within_step = own->sub_step > 0;
+        if (!world->within_step) {
+            end_step(world);
+            made++;
         }
-    }
-    return count;
+        took = wall_clock() - began;
+        // A clock that is set back ends the call, too.
+    } while (made < count && took >= 0.0 && took <= world->longest_call && !world->has_broken && !world->has_lost);
+    return made;
 }

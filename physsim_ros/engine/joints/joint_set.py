@@ -22,7 +22,7 @@ from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
 from physsim_ros.engine.joints import stiffness
-from physsim_ros.engine.joints.joint_table import JointTable
+from physsim_ros.engine.joints.joint_table import check_joint, JointTable
 from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.joints import JointKind
@@ -129,6 +129,14 @@ class JointSet:
         self.by_name.clear()
         self._on.clear()
         self._serials.clear()
+
+    def check(self, names: Iterable[str]) -> None:
+        """Make what steps need of joints, so that an error in it refuses the request for them."""
+        for name in names:
+            joint = self.by_name[name].joint
+            ends = [end for end in (joint.a, joint.b) if end in self._bodies]
+            bodies = {end: self._bodies[end].body for end in ends}
+            check_joint(self.by_name[name], bodies, self._dt)
 
     def detach(self, body: str) -> None:
         """Remove the joints of a body from the engine, before its engine objects are replaced."""

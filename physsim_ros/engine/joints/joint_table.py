@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.engine.core import dtype_of, lib
 from physsim_ros.engine.joints.kinds import EngineGuide, EngineJoint
+from physsim_ros.engine.joints.stiffness import dampings_of
 from physsim_ros.engine.layout import address_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.motor_command import MODES, MotorCommand
-from physsim_ros.model.scene import Joint
+from physsim_ros.model.scene import Body, Joint
 import pymunk
 
 _JOINT, _PART, _ROW, _GUIDE = map(dtype_of, ('Joint', 'Part', 'Row', 'Guide'))
@@ -164,6 +165,19 @@ class JointTable:
     def unstepped(self) -> set[str]:
         """Return the names of the joints whose first step is to come."""
         return {self.names[number] for number in np.flatnonzero(self.joints['unstepped'])}
+
+
+def check_joint(each: EngineJoint, bodies: Mapping[str, Body], dt: float) -> None:
+    """
+    Make the records of a joint, so that an error in them refuses its request, and ends no step.
+
+    :param bodies: by name
+    :param dt: of a sub-step [s]
+    """
+    is_spring = each.joint.kind is JointKind.SPRING
+    damping = dampings_of([each.joint], bodies, dt)[0] if is_spring else 0.0
+    _rows_of(each, 0, damping, dt)
+    _joint_fields(each, dt, unstepped=True)
 
 
 def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[object, ...]:

@@ -68,11 +68,16 @@ class InteractiveMarkers:
         self._told: Frame | None = None
         self._wait = 0
 
+    @property
+    def is_read(self) -> bool:
+        """Whether somebody has asked, and listens."""
+        return self._told is not None and self._publisher.get_subscription_count() > 0
+
     def show(self, frame: Frame) -> None:
         """Publish what has changed, if somebody listens; of running time, not every pose."""
         self._frame = frame
         told = self._told
-        if told is None or not self._publisher.get_subscription_count():
+        if told is None or not self.is_read:
             return
         self._wait -= 1
         same = told.snapshot.scene is frame.snapshot.scene

@@ -8,7 +8,7 @@ Law: a stream without subscribers is not encoded, and a late subscriber receives
 
 The exception is a latched stream: DDS keeps its last message for late subscribers (transient
 local). It is published without subscribers too, when the scene has changed and every
-`LATCH_PERIOD` frames.
+`LATCH_PERIOD` of time.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from physsim_ros.ros.publishers.interactive_markers import InteractiveMarkers
 from physsim_ros.ros.publishers.status_publishers import (
     EventPublisher,
     EVENTS_DEPTH,
+    is_later,
     TimelinePublisher,
 )
 from physsim_ros.ros.robots.frames import TF_DEPTH, tf_message_type
@@ -46,8 +47,8 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import MultiDOFJointState
 from visualization_msgs.msg import MarkerArray
 
-# Frames between messages on `~/markers` without subscribers: one second of them at 60 Hz.
-LATCH_PERIOD = 60
+# Time from one message on `~/markers` without subscribers to the next at speed 1 [s].
+LATCH_PERIOD = 1.0
 
 
 class Output(Protocol):
@@ -118,14 +119,21 @@ class Publishers:
             node.create_publisher(DiagnosticStatus, '~/events', EVENTS_DEPTH)
         )
         self.timeline = TimelinePublisher(latched(DiagnosticStatus, '~/timeline'), status)
-        markers = InteractiveMarkers(node, frame_id)
+        self._markers = InteractiveMarkers(node, frame_id)
         self.outputs: tuple[Output, ...] = (
             self.events,
             *self.streams,
             self.contacts,
-            markers,
+            self._markers,
             self.timeline,
         )
+
+    @property
+    def is_read(self) -> bool:
+        """Whether a topic of frames has subscribers."""
+        streams = (*self.streams, self.contacts)
+        others = self._markers.is_read or self.timeline.is_read
+        return others or any(each.subscriptions for each in streams)
 
 
 class Encoder(Protocol):
@@ -206,15 +214,19 @@ class LatchedStream(Stream):
     def __init__(self, publisher: Publisher, encoder: Encoder) -> None:
         super().__init__(publisher, encoder)
         self._latched: Frame | None = None
-        self._age = 0
 
     def show(self, frame: Frame) -> None:
         """Publish a new frame; without subscribers only if the latched one is outdated."""
         super().show(frame)
-        self._age += 1
-        changed = self._latched is None or self._latched.snapshot.scene is not frame.snapshot.scene
-        if changed or self._age >= LATCH_PERIOD:
+        if self._is_outdated(frame):
             self._send(frame)
+
+    def _is_outdated(self, frame: Frame) -> bool:
+        """Return whether the latched frame has other bodies than a new one, or is old."""
+        last = self._latched
+        if last is None or last.snapshot.scene is not frame.snapshot.scene:
+            return True
+        return is_later(frame, last, LATCH_PERIOD)
 
     def show_late(self, frame: Frame) -> None:
         """Publish the last frame again if it is not the latched one, or for new subscriptions."""
@@ -225,4 +237,4 @@ class LatchedStream(Stream):
 
     def _send(self, frame: Frame) -> None:
         super()._send(frame)
-        self._latched, self._age = frame, 0
+        self._latched = frame

@@ -5,8 +5,8 @@
 Publishers of `~/events` and `~/timeline`, both diagnostic_msgs/DiagnosticStatus.
 
 Laws: no answer is lost to a subscriber that keeps up, and none waits for one that has stopped. The
-last message of `~/timeline` is that of the last frame; while time runs, its times may be 15 frames
-old.
+last message of `~/timeline` is that of the last frame; while time runs, its times may be a quarter
+of a second old.
 """
 
 from __future__ import annotations
@@ -35,9 +35,10 @@ STOPPED_PERIOD, STOPPED_ANSWERS = 0.05, EVENTS_DEPTH // 2
 # Answers that wait for acknowledgements [1], of some 300 bytes each: 15 MB.
 MOST_WAITING = 50_000
 
-# Frames from one `~/timeline` to the next while nothing but time changes: 4 Hz at 60 Hz.
-TIMELINE_PERIOD = 15
-_BUT_TIMES = attrgetter('state', 'speed', 'course', 'undo', 'redo', 'courses')
+# Time from one `~/timeline` to the next at speed 1 while nothing but time changes [s].
+TIMELINE_PERIOD = 0.25
+# Of a frame, all by which its status may differ from the last one but for times and answers.
+_BUT_TIMES = attrgetter('speed', 'course', 'past')
 
 
 class EventPublisher:
@@ -157,27 +158,43 @@ class TimelinePublisher:
         self._publisher = publisher
         self._status = status
         self._last: TimelineStatus | None = None
-        # Frames since the last message.
-        self._age = 0
+        # The last frame whose status was looked up.
+        self._frame: Frame | None = None
+
+    @property
+    def is_read(self) -> bool:
+        """Whether the topic has subscribers."""
+        return self._publisher.get_subscription_count() > 0
 
     def show(self, frame: Frame) -> None:
         """Publish the status of the timeline at a frame, if it has changed."""
-        self.publish(may_wait=frame.passing)
+        last = self._frame
+        if last is None or not self._waits(frame, last):
+            self._frame = frame
+            self.publish()
 
-    def publish(self, *, may_wait: bool) -> None:
-        """
-        Publish the status if it has changed.
+    def _waits(self, frame: Frame, last: Frame) -> bool:
+        """Return whether times alone have changed since a frame, and not by much."""
+        same = frame.passing and not frame.answers and _BUT_TIMES(frame) == _BUT_TIMES(last)
+        return same and not is_later(frame, last, TIMELINE_PERIOD)
 
-        :param may_wait: whether a change of times alone may wait, as time goes on, or back
-        """
-        self._age += 1
-        status, last = self._status(), self._last
-        # A change of times alone waits.
-        waits = last is not None and may_wait and self._age < TIMELINE_PERIOD
-        if _BUT_TIMES(status) == _BUT_TIMES(last) if waits else status == last:
-            return
-        self._last, self._age = status, 0
-        self._publisher.publish(_message(status))
+    def publish(self) -> None:
+        """Publish the status if it has changed."""
+        status = self._status()
+        if status != self._last:
+            self._last = status
+            self._publisher.publish(_message(status))
+
+
+def is_later(frame: Frame, other: Frame, seconds: float) -> bool:
+    """
+    Return whether a frame comes some time after another one, or before it in a rewind.
+
+    :param seconds: the time [s] at speed 1 and below; of faster time it is as many times as long
+    """
+    apart = abs(frame.snapshot.stamp - other.snapshot.stamp) * 1e-9
+    # Stamps are rounded.
+    return apart > seconds * max(1.0, abs(frame.speed)) - 1e-6
 
 
 def _message(status: TimelineStatus) -> DiagnosticStatus:

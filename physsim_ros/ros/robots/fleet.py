@@ -81,6 +81,11 @@ class Fleet:
         self._has_told_timeout = False
 
     @property
+    def is_read(self) -> bool:
+        """Whether there are robots, whose sensors compare each frame with the one before."""
+        return bool(self.robots)
+
+    @property
     def wants_contacts(self) -> bool:
         """Whether a bumper has subscribers."""
         return any(robot.wants_contacts for robot in self.robots.values())

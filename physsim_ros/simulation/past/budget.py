@@ -95,6 +95,7 @@ class Budget:
     :raises BadProperty: it is out of range
     :raises Malformed: it is not a finite number
 
+    :ivar size: the budget [bytes]
     :ivar used: memory of the past at the last count [bytes]
     :ivar told: whether users know that the past was shortened
     """
@@ -106,19 +107,15 @@ class Budget:
     @property
     def megabytes(self) -> float:
         """Return the budget [MB]."""
-        return self._megabytes
+        return self.size / MEGABYTE
 
     @megabytes.setter
     def megabytes(self, megabytes: float) -> None:
-        self._megabytes = Within(LEAST_MEMORY, MOST_MEMORY, 'MB')(megabytes, 'history_memory')
+        megabytes = Within(LEAST_MEMORY, MOST_MEMORY, 'MB')(megabytes, 'history_memory')
+        self.size = round(megabytes * MEGABYTE)
         self.told = False
-
-    @property
-    def size(self) -> int:
-        """Return the budget [bytes]."""
-        return round(self._megabytes * MEGABYTE)
 
     @property
     def in_megabytes(self) -> tuple[float, float]:
         """Return the memory of the past at the last count, and the budget [MB]."""
-        return self.used / MEGABYTE, self._megabytes
+        return self.used / MEGABYTE, self.megabytes

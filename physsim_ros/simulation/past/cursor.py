@@ -5,14 +5,16 @@
 The cursor: a world at a moment of the line of events in force.
 
 Laws: a world that continues from a moment of the past makes the same bits as before, until a
-request changes its course. Long work, a seek or an amendment of the past, is made in parts.
-Meanwhile `moment` and the settings are those of the goal, and reading `world` finishes the work.
-Another seek replaces a seek; an amendment is finished first.
+request changes its course. Long work, a seek, an amendment of the past or steps, is made in parts.
+Meanwhile `moment` and the settings are those of the goal, of steps those that are made, and
+reading `world` finishes the work. A seek replaces another one, and steps; an amendment is finished
+first.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from enum import Enum
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -21,7 +23,7 @@ from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
 from physsim_ros.simulation.past.node import Moment, Node
-from physsim_ros.simulation.past.replay import finish, Replay
+from physsim_ros.simulation.past.replay import Replay
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -30,17 +32,27 @@ from physsim_ros.simulation.world import World
 _AHEAD = 0.75
 
 
+class _Kind(Enum):
+    """The kinds of long work."""
+
+    SEEK = 'seek'
+    AMENDMENT = 'amendment'
+    STEPS = 'steps'
+
+
 class _Work(NamedTuple):
     """
-    A seek or an amendment that is under way.
+    A seek, an amendment or steps that are under way.
 
-    :ivar goal: the moment to which a seek leads; None is an amendment, which leads to the end of
-        the line in force
+    :ivar kind: of it
     :ivar parts: of the work
+    :ivar goal: the moment to which a seek leads; an amendment leads to the end of the line in
+        force
     """
 
-    goal: Moment | None
+    kind: _Kind
     parts: Iterator[None]
+    goal: Moment | None = None
 
 
 class Cursor(Replay):
@@ -55,13 +67,16 @@ class Cursor(Replay):
     def __init__(self, world: World, tree: Tree, reports: list[Answer]) -> None:
         super().__init__(world, tree, reports)
         self._work: _Work | None = None
+        # A tip, and the step up to which it needs neither a request nor a checkpoint.
+        self._stretch: tuple[Node | None, int] = (None, 0)
 
     # The moment
 
     @property
     def world(self) -> World:
         """Return the world, at this moment."""
-        self.finish_work()
+        if self._work is not None:
+            self.finish_work()
         return self._world
 
     @property
@@ -72,7 +87,7 @@ class Cursor(Replay):
     @property
     def moment(self) -> Moment:
         """Return step and serial, those to which work leads that is under way."""
-        if self._work is None:
+        if self._work is None or self._work.kind is _Kind.STEPS:
             return self._here
         return self._work.goal or self._tree.end
 
@@ -83,21 +98,30 @@ class Cursor(Replay):
 
     @property
     def is_working(self) -> bool:
-        """Whether a seek or an amendment is under way."""
+        """Whether a seek, an amendment or steps are under way."""
         return self._work is not None
+
+    @property
+    def is_stepping(self) -> bool:
+        """Whether steps are under way."""
+        return self._work is not None and self._work.kind is _Kind.STEPS
 
     @property
     def is_amending(self) -> bool:
         """Whether an amendment is under way."""
-        return self._work is not None and self._work.goal is None
+        return self._work is not None and self._work.kind is _Kind.AMENDMENT
 
     def work(self, parts: Iterator[None]) -> None:
         """Have an amendment be carried out part by part, from now on."""
         self.finish_work()
-        self._work = _Work(None, parts)
+        self._work = _Work(_Kind.AMENDMENT, parts)
 
     def continue_work(self) -> bool:
-        """Carry out a part, a frame or a request; return whether work is still under way."""
+        """
+        Carry out a part, a frame or a request, and return whether work is still under way.
+
+        Of a frame that takes long, a part is as many sub-steps as a call of the core makes.
+        """
         # Within a part, the world is where it is.
         work, self._work = self._work, None
         # An amendment that is refused ends with a seek back.
@@ -179,9 +203,11 @@ class Cursor(Replay):
         first = start if self._world.reports_contacts else goal
         keyframe = tree.keyframe_before(*first)
         # A seek that this one replaces has also come to a moment of the line.
-        if elsewhere or not keyframe.moment <= self._here <= first:
+        is_within_step = self._world.is_within_step
+        if elsewhere or is_within_step or not keyframe.moment <= self._here <= first:
             self.resume(keyframe)
-        self._work = _Work(goal, self._parts_of_seek(start, goal, with_contacts=with_contacts))
+        parts = self._parts_of_seek(start, goal, with_contacts=with_contacts)
+        self._work = _Work(_Kind.SEEK, parts, goal)
 
     def _parts_of_seek(
         self, start: Moment, goal: Moment, *, with_contacts: bool
@@ -251,16 +277,28 @@ class Cursor(Replay):
 
     def advance(self, steps: int) -> None:
         """Advance by a number of steps: by replay up to the head, then by new steps."""
-        world, tree = self.world, self._tree
-        end = world.step_count + steps
-        while world.step_count < end:
-            if world.step_count < tree.head:
-                finish(self._replay_to_stop(min(end, tree.head)))
-            else:
-                finish(self._apply_logged(tree.serial_at(world.step_count)))
+        self.begin_advance(steps)
+        self.finish_work()
+
+    def begin_advance(self, steps: int) -> None:
+        """Have the world advance by a number of steps, part by part from now on."""
+        end = self.world.step_count + steps
+        self._work = _Work(_Kind.STEPS, self._parts_of_advance(end))
+
+    def _parts_of_advance(self, end: int) -> Iterator[None]:
+        """Advance to a step; yield where steps take long."""
+        world, tree = self._world, self._tree
+        while (step := world.step_count) < end:
+            if step < tree.head:
+                yield from self._replay_to_stop(min(end, tree.head))
+                continue
+            tip, until = self._stretch
+            if tip is not tree.tip or self.serial != tip.serial or step >= until:
+                yield from self._apply_logged(tree.serial_at(step))
                 self._make_checkpoint()
-                self._make_steps(end)
-                tree.note_step(world.step_count)
+                until = tree.next_stop(step, step + tree.spacing)
+                self._stretch = tree.tip, until
+            yield from self._make_steps(min(end, until), is_new=True)
 
     # Checkpoints
 
@@ -285,5 +323,6 @@ class Cursor(Replay):
 
     def build_ahead(self, steps: int) -> None:
         """Build the share of the bodies for the next checkpoint that is due in some steps."""
-        bodies, spacing = len(self.world), self._tree.spacing
-        self._world.build_bodies(-(-bodies * steps // max(1, int(spacing * _AHEAD))))
+        world, spacing = self._world, self._tree.spacing
+        if not world.is_built_ahead:
+            world.build_bodies(-(-len(world) * steps // max(1, int(spacing * _AHEAD))))

@@ -33,6 +33,8 @@ from physsim_ros.simulation.world import World
 _SHARE = 1 / 4
 # Greatest memory of a body in a frame, on average of all frames [bytes]: a pose.
 _BODY = 24
+# Share of its limit that the cache has after it has dropped frames [1], which it does seldom so.
+_KEPT = 15 / 16
 
 
 class _Segment(NamedTuple):
@@ -223,6 +225,8 @@ class FrameCache:
 
     def _drop(self, begin: int, end: int) -> list[CachedFrame]:
         """Drop and return the frames from one place to another in the order of time."""
+        if begin == end:
+            return []
         dropped = [self._frames.pop(step) for step in self._steps[begin:end]]
         del self._steps[begin:end]
         self.size -= sum(frame_size(*frame) for frame in dropped)
@@ -235,26 +239,26 @@ class FrameCache:
         self._drop(0, bisect_left(self._steps, tree.keyframes[0].step))
         poses = tree.length // frame * self._bodies
         limit = min(tree.budget.size * _SHARE, poses * _BODY)
-        while self.size > limit and self.drop_oldest():
-            pass
+        if self.size > limit:
+            self.shrink(limit * _KEPT)
 
-    def drop_oldest(self) -> bool:
+    def shrink(self, size: float) -> None:
         """
-        Drop a frame: the last one, if it lies after the segment that is shown, else the first.
+        Drop frames: the last ones that lie after the segment that is shown, then the first ones.
 
         A rewind shows the frames before the step; playback adds those after it again. The frames
         of the segment that is shown, and of the one that a rewind shows next, are kept.
 
-        :return: whether there was one
+        :param size: memory that the others may take [bytes]
         """
-        _, end = self._tree.segment(self._shown)
-        if self._steps and self._steps[-1] > end:
-            self._drop(len(self._steps) - 1, len(self._steps))
-        elif self._steps and self._steps[0] < self._begin_of_segments(self._shown):
-            self._drop(0, 1)
-        else:
-            return False
-        return True
+        begin, (_, end) = self._begin_of_segments(self._shown), self._tree.segment(self._shown)
+        while self.size > size and self._steps:
+            if self._steps[-1] > end:
+                self._drop(len(self._steps) - 1, len(self._steps))
+            elif self._steps[0] < begin:
+                self._drop(0, 1)
+            else:
+                return
 
 
 def _same(one: Snapshot, other: Snapshot) -> bool:

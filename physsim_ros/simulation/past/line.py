@@ -6,6 +6,8 @@ The line of events in force, flat: what was asked and kept, by step and by seria
 
 Laws: a moment is a step and the number of requests up to it, the serial of the last one; requests
 are counted from the beginning of the world, and a serial never changes.
+
+Time mostly goes on at the end of the line: there, nothing is searched for.
 """
 
 from __future__ import annotations
@@ -77,6 +79,8 @@ class LineInForce:
 
     def serial_at(self, step: int) -> int:
         """Return the serial of the last request before or at a step."""
+        if self.nodes[-1].step <= step:
+            return self.nodes[-1].serial
         place = bisect_right(self.nodes, step, key=lambda each: each.step)
         return self._first + max(0, place - 1)
 
@@ -94,11 +98,15 @@ class LineInForce:
 
     def keyframe_at(self, step: int, serial: int) -> Keyframe | None:
         """Return the keyframe at a moment, if there is one."""
+        if self.keyframes[-1].step < step:
+            return None
         keyframe = self.keyframe_before(step, serial)
         return keyframe if keyframe.moment == (step, serial) else None
 
     def segment(self, step: int) -> tuple[Keyframe, int]:
         """Return the keyframe before a step, and the step of the next one or the last step."""
+        if self.keyframes[-1].step < step:
+            return self.keyframes[-1], max(step, self.head)
         place = bisect_left(self.keyframes, step, key=lambda each: each.step)
         first = self.keyframes[max(0, place - 1)]
         end = self.head
@@ -108,14 +116,16 @@ class LineInForce:
 
     def next_stop(self, step: int, end: int) -> int:
         """Return the next step with a request or a checkpoint, or the end."""
-        place = bisect_right(self.keyframes, step, key=lambda each: each.step)
-        if place < len(self.keyframes):
+        if self.keyframes[-1].step > step:
+            place = bisect_right(self.keyframes, step, key=lambda each: each.step)
             end = min(end, self.keyframes[place].step)
         elif (due := self.keyframes[-1].step + self.spacing) > step:
             # A checkpoint comes at the same step, however many steps are made in a call.
             end = min(end, due)
-        place = bisect_right(self.nodes, step, key=lambda each: each.step)
-        return min(end, self.nodes[place].step) if place < len(self.nodes) else end
+        if self.nodes[-1].step > step:
+            place = bisect_right(self.nodes, step, key=lambda each: each.step)
+            end = min(end, self.nodes[place].step)
+        return end
 
     # Gestures
 

@@ -54,7 +54,7 @@ persistence. Editors know such a tree as an undo tree.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
@@ -102,7 +102,7 @@ class CachedFrame(NamedTuple):
 
     def copy(self) -> CachedFrame:
         """Return a copy whose snapshot has no cached properties."""
-        return self._replace(snapshot=replace(self.snapshot))
+        return CachedFrame(self.snapshot.copy(), self.contacts)
 
 
 class Loaded(NamedTuple):

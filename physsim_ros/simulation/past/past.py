@@ -138,18 +138,22 @@ class Past:
         tree.shown = shown
         tree.drop_lost()
         self._count_memory()
-        budget.told &= budget.used > _RELIEF * budget.size
-        is_lost = False
+        if budget.told and budget.used <= _RELIEF * budget.size:
+            budget.told = False
+        if budget.used <= budget.size:
+            return
         # Frames come back by a replay, and are no loss.
+        frames.shrink(budget.size - tree.size)
+        self._count_memory()
+        is_lost = False
         for drop in (
-            frames.drop_oldest,
             tree.drop_oldest_ghost,
             tree.drop_oldest_line,
             tree.drop_oldest_checkpoint,
         ):
             while budget.used > budget.size and drop():
                 self._count_memory()
-                is_lost |= drop != frames.drop_oldest
+                is_lost = True
         if is_lost and not budget.told:
             budget.told = True
             oldest = tree.oldest / self.physics_rate

@@ -75,15 +75,25 @@ class Replay:
         tree, world = self._tree, self._world
         yield from self._apply_logged(tree.serial_at(world.step_count))
         self.enter_checkpoint()
-        self._make_steps(end)
+        stop = tree.next_stop(world.step_count, end)
+        yield from self._make_steps(stop, is_new=stop > tree.head)
         yield from self._apply_logged(tree.serial_shown_at(world.step_count))
 
-    def _make_steps(self, end: int) -> None:
-        step = self._world.step_count
-        stop = self._tree.next_stop(step, end)
-        lost, broken = self._world.step(stop - step), self._world.take_broken()
-        # In a replay, events were reported the first time.
-        if stop > self._tree.head:
+    def _make_steps(self, end: int, *, is_new: bool) -> Iterator[None]:
+        """
+        Make the steps up to one with a request or a checkpoint; yield where they take long.
+
+        :param is_new: whether the line has not reached them before; else their events were
+            reported the first time
+        """
+        world, tree = self._world, self._tree
+        for _ in world.parts_of_steps(end - world.step_count):
+            if is_new:
+                tree.note_step(world.step_count)
+            yield
+        lost, broken = world.take_lost(), world.take_broken()
+        if is_new:
+            tree.note_step(end)
             for name in lost:
                 self._report(
                     'divergence', f'{name} left the range of numbers and was removed', name

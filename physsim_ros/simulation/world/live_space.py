@@ -105,6 +105,11 @@ class LiveSpace:
         self._replace(space, BodyPool(), _Fresh(checkpoint, space, space.changes))
         self.step_count = step
 
+    @property
+    def is_built_ahead(self) -> bool:
+        """Return whether all bodies for the next `renew` are built, of the scene of now."""
+        return self._pool.is_complete(self.space.table.scene)
+
     def build_bodies(self, count: int) -> None:
         """Build a number of bodies for the next `renew`."""
         self._pool.build_bodies(self.space.table.scene, count)

@@ -11,13 +11,12 @@ bits, in another process too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 import hashlib
 from operator import gt
 from typing import Any
 
-import numpy as np
 from physsim_ros.engine.checkpoint import saved_state
 from physsim_ros.engine.contacts import take_contacts
 from physsim_ros.model import requests
@@ -26,7 +25,7 @@ from physsim_ros.model.errors import StepFailed
 from physsim_ros.model.requests import Configure, Request, Restore
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.model.snapshot import Answer, Contacts, Grip, Snapshot
+from physsim_ros.model.snapshot import Answer, Contacts, Grip, NO_VECTORS, Snapshot
 from physsim_ros.model.texts import counted
 from physsim_ros.simulation.world import (
     body_requests,
@@ -128,6 +127,7 @@ class World(LiveSpace):
         self.frame_steps = frame_steps
         self.reports_contacts = False
         self.changed = self.has_grown = False
+        self._lost: list[str] = []
 
     # Reading
 
@@ -151,6 +151,9 @@ class World(LiveSpace):
         """Return the snapshot of this step."""
         poses, twists = self.space.core.observe()
         forces, pulls, pressing = self.space.joints.report()
+        fields = NO_VECTORS
+        if self.reports_contacts:
+            fields = self.space.table.field_forces(self.space.dt)
         return Snapshot(
             step=self.step_count,
             stamp=self.stamp,
@@ -162,7 +165,8 @@ class World(LiveSpace):
             springs=self.space.joints.springs(),
             grips=self.grips,
             robots=self.space.table.robot_states,
-            pulls=pulls if self.reports_contacts else np.empty((0, 2)),
+            pulls=pulls if self.reports_contacts else NO_VECTORS,
+            fields=fields,
         )
 
     def contacts(self, snapshot: Snapshot) -> Contacts:
@@ -195,7 +199,7 @@ class World(LiveSpace):
     @property
     def grips(self) -> tuple[Grip, ...]:
         """Return the grips of hands on bodies."""
-        return tuple(self.space.grips)
+        return tuple(self.space.grips) if self.space.grips else ()
 
     def save(self) -> WorldState:
         """Return the saved state of the world."""
@@ -234,8 +238,22 @@ class World(LiveSpace):
         finally:
             self.capacity.checking = True
 
+    @property
+    def is_within_step(self) -> bool:
+        """Return whether a step is begun and not ended."""
+        return self.space.is_within_step
+
+    def take_lost(self) -> list[str]:
+        """Return the bodies removed since the last call, as they left the range of numbers."""
+        if not self._lost:
+            return []
+        lost, self._lost = self._lost, []
+        return lost
+
     def take_broken(self) -> list[tuple[str, float]]:
         """Return the joints that broke since the last call, and the force of each then [N]."""
+        if not self.space.broken:
+            return []
         broken, self.space.broken = self.space.broken, []
         return broken
 
@@ -246,7 +264,18 @@ class World(LiveSpace):
         :return: bodies that left the range of numbers and were removed
         :raises StepFailed: in place of any error
         """
-        lost: list[str] = []
+        for _ in self.parts_of_steps(count):
+            pass
+        return tuple(self.take_lost())
+
+    def parts_of_steps(self, count: int) -> Iterator[None]:
+        """
+        Make a number of steps; yield where they take long, within a step too.
+
+        Nothing of the world is read or changed before the last of them has ended.
+
+        :raises StepFailed: in place of any error
+        """
         end = self.step_count + count
         while self.step_count < end:
             try:
@@ -258,5 +287,6 @@ class World(LiveSpace):
             except Exception as error:
                 raise StepFailed(f'step {self.step_count + 1} failed: {error}') from error
             self.step_count += made
-            lost += gone
-        return tuple(lost)
+            self._lost += gone
+            if self.step_count < end:
+                yield

@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 from physsim_ros.files import spawn_from, with_shipped_robot
 from physsim_ros.model.body_properties import Properties
-from physsim_ros.model.checks import flag, pair, Within
+from physsim_ros.model.checks import flag, HEAVIEST, pair, VELOCITY, Within
 from physsim_ros.model.declarations import without_unset
 from physsim_ros.model.errors import BadProperty, no_joint
 from physsim_ros.model.joints import JointProperties
+from physsim_ros.model.media import FLUID_DENSITY, GUSTS, VISCOSITY
 from physsim_ros.model.requests import (
     ChangeBody,
     Command,
@@ -190,7 +191,17 @@ def gravity(page: PageSession, origin: Origin, gravity: Point) -> None:
     page.submit(origin, (Configure(changes={'gravity': gravity}),))
 
 
-@message('air', '~/set_parameters', damping=Within(0.0, 1.0))
-def air(page: PageSession, origin: Origin, damping: float) -> None:
-    """Set the share of velocity that bodies lose to the air each second."""
-    page.submit(origin, (Configure(changes={'damping': damping}),))
+@message(
+    'air',
+    '~/set_parameters',
+    damping=Optional(Within(0.0, 1.0)),
+    air_density=Optional(FLUID_DENSITY),
+    air_viscosity=Optional(VISCOSITY),
+    wind=Optional(VELOCITY),
+    gusts=Optional(GUSTS),
+    gravitation=Optional(Within(0.0, HEAVIEST)),
+    coulomb=Optional(Within(0.0, HEAVIEST)),
+)
+def air(page: PageSession, origin: Origin, **changes: Any) -> None:
+    """Set the air and the attraction of the world, by the names of its settings."""
+    page.submit(origin, (Configure(changes=changes),))

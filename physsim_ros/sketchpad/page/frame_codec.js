@@ -5,7 +5,7 @@
 
 const HEADER = 24; // bytes of a frame
 const VERSION = 2;
-const VELOCITIES = 1, CONTACTS = 2, FORCES = 4, HANDS = 8, GHOST = 16, PULLS = 32, SCAN = 64; // flags of its parts
+const VELOCITIES = 1, CONTACTS = 2, FORCES = 4, HANDS = 8, GHOST = 16, PULLS = 32, SCAN = 64, FIELDS = 128; // flags of its parts
 
 /**
  * @param {ArrayBuffer} buffer
@@ -56,6 +56,10 @@ export function decodeFrame(buffer) {
   if (flags & SCAN) {
     readCount();
     frame.scan = {x: column(), y: column(), hit: column()};
+  }
+  if (flags & FIELDS) {
+    count = frame.x.length;
+    frame.fields = {x: column(), y: column()};
   }
   return frame;
 }

@@ -51,6 +51,22 @@ export interface Body {
   robot?: Robot;
   forces?: AppliedForce[];
   actor?: Actor;
+  medium?: Medium;
+  /** [C] */
+  charge?: number;
+}
+
+/** What fills the region of a body, as world files have it. */
+export interface Medium {
+  /** [kg/m²] */
+  density: number;
+  /** [N s/m²] */
+  viscosity: number;
+  drag: number;
+  /** In the frame of the body [m/s]. */
+  flow: Point;
+  /** [m/s] */
+  gusts: number;
 }
 
 /** What moves a body on its own, as world files have it. */
@@ -116,6 +132,14 @@ export interface Scene {
   density: number;
   friction: number;
   elasticity: number;
+  /** Of the air [kg/m²], [N s/m²], [m/s]. */
+  air_density: number;
+  air_viscosity: number;
+  wind: Point;
+  gusts: number;
+  /** Of attraction, by masses and by charges. */
+  gravitation: number;
+  coulomb: number;
   lesson?: Lesson | null;
 }
 
@@ -151,6 +175,8 @@ export interface Frame {
   hands?: {x: Float32Array, y: Float32Array, toX: Float32Array, toY: Float32Array};
   /** Of each joint on its body b [N]. */
   pulls?: {x: Float32Array, y: Float32Array};
+  /** Of media and attraction on each body [N]. */
+  fields?: {x: Float32Array, y: Float32Array};
   /** Of the selected robot: its laser, then the ends of its beams; hit: 1 where they hit something. */
   scan?: {x: Float32Array, y: Float32Array, hit: Float32Array};
 }

@@ -11,7 +11,8 @@ export class WorldState {
   constructor(connection) {
     /** @type {Scene} */
     this.scene = {epoch: -1, bodies: [], joints: [], gravity: [0, -9.81], bounds: [], damping: 0,
-      density: 1, friction: 0.5, elasticity: 0.5};
+      density: 1, friction: 0.5, elasticity: 0.5,
+      air_density: 0, air_viscosity: 0, wind: [0, 0], gusts: 0, gravitation: 0, coulomb: 0};
     /** @type {Frame} */
     this.frame = {epoch: -1, time: 0, speed: 0, ghost: false,
       x: new Float32Array(), y: new Float32Array(), yaw: new Float32Array()};

@@ -17,6 +17,7 @@ Little endian, each column on a multiple of four bytes::
     PULLS       u32 j, f32 fx[j] [N], fy[j] [N]                            of each joint on body b
     SCAN        u32 k, f32 x[k] [m], y[k] [m], hit[k]                      of a laser, see below
     HANDS       u32 h, f32 x[h] [m], y[h] [m], hand x[h] [m], hand y[h] [m]   of each grip
+    FIELDS      f32 fx[n] [N], fy[n] [N]                     of media and attraction, on each body
 
 The first point of a scan is the laser; the others are the ends of its beams, 1 where they hit.
 
@@ -41,9 +42,9 @@ class Show(IntFlag):
     """
     The parts of a frame besides the poses.
 
-    A frame has velocities, contacts and forces where a page asks for them, pulls with contacts,
-    hands while they drag, and a scan where the page shows a robot's laser. A ghost is a frame of
-    a course of events that was left.
+    A frame has velocities, contacts and forces where a page asks for them, pulls and fields with
+    contacts, hands while they drag, and a scan where the page shows a robot's laser. A ghost is a
+    frame of a course of events that was left.
     """
 
     POSES = 0
@@ -54,6 +55,7 @@ class Show(IntFlag):
     GHOST = 16
     PULLS = 32
     SCAN = 64
+    FIELDS = 128
 
 
 def encode_frame(frame: Frame, *, epoch: int, show: Show, scan: Floats | None = None) -> bytes:
@@ -86,6 +88,9 @@ def encode_frame(frame: Frame, *, epoch: int, show: Show, scan: Floats | None = 
     if scan is not None:
         flags |= Show.SCAN
         parts += [_COUNT.pack(len(scan)), _columns(scan)]
+    if Show.CONTACTS in flags and len(snapshot.fields):
+        flags |= Show.FIELDS
+        parts.append(_columns(snapshot.fields))
     header = _HEADER.pack(
         VERSION, flags, 0, epoch, snapshot.stamp * 1e-9, frame.speed, len(snapshot.poses)
     )

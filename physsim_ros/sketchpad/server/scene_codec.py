@@ -73,6 +73,12 @@ class SceneCodec:
                 'density': settings.density,
                 'friction': settings.friction,
                 'elasticity': settings.elasticity,
+                'air_density': settings.air_density,
+                'air_viscosity': settings.air_viscosity,
+                'wind': settings.wind,
+                'gusts': settings.gusts,
+                'gravitation': settings.gravitation,
+                'coulomb': settings.coulomb,
                 'lesson': None if scene.lesson is None else scene.lesson.entry(),
             }
         )
@@ -105,6 +111,8 @@ def body_entry(body: Body) -> dict[str, Any]:
         'label': body.label,
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
         **({} if body.actor is None else {'actor': body.actor.entry()}),
+        **({} if body.medium is None else {'medium': body.medium.entry()}),
+        **({'charge': body.charge} if body.charge else {}),
         **({'forces': [each.entry() for each in body.forces]} if body.forces else {}),
     }
 

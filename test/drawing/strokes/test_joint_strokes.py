@@ -61,6 +61,11 @@ LINES: dict[str, tuple[Sequence[Spawn], Way | Floats, str, tuple[str, str]]] = {
         )
         for teeth in (4, 5, 6)
     },
+    # Its bends turn to alternate sides, too, but all lie on one side of it.
+    'a brace': (
+        BESIDE, [(0, 0), (0.4, 1), (1.5, 1), (2, 2), (2.5, 1), (3.6, 1), (4, 0)],
+        'rope', ('a/0', 'b/0'),
+    ),
     'a dense zigzag': (
         NEAR, [(0.0, -0.1), *map(tuple, DENSE), (0.0, 2.1)], 'spring', ('b/0', 'a/0'),
     ),

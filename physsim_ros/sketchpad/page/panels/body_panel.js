@@ -3,6 +3,7 @@
 
 import {checkField, createElement, inRow, textButton, textField, textOf} from '../dom.js';
 import {actorLines, drawWay} from './driving.js';
+import {mediumFields} from './field_fields.js';
 import {forceFields} from './force_fields.js';
 import {sizeOf} from '../view/label_view.js';
 import {t} from '../strings.js';
@@ -45,6 +46,7 @@ export function bodyContent(app, [name]) {
       ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})),
         checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
       ...forceFields(app, body, change),
+      ...body.robot ? [] : mediumFields(app, body, change),
       inRow(
         textButton(t('Copy'), () => copy(app, name)),
         textButton(t('Delete body'), () => app.selection.deleteSelected(), 'danger')),

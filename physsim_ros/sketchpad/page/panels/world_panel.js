@@ -2,6 +2,7 @@
 /** What the panel shows of the world: the material of the next drawings, gravity, air, sound; and the fields of a material. */
 
 import {checkField, createElement, inRow, range, textButton} from '../dom.js';
+import {airFields} from './field_fields.js';
 import {t} from '../strings.js';
 import {DEGREE} from '../vectors.js';
 
@@ -66,7 +67,7 @@ export function worldContent(app) {
       turn = degrees;
       pull();
     }),
-    range(t('Air drag [of the speed, each second]'), 0, 0.95, 0.05, scene.damping, (damping) => app.connection.send('air', {damping})),
+    ...airFields(app),
     checkField(t('Sound of impacts'), app.sound.on, () => {
       app.sound.toggle();
       app.askForParts();

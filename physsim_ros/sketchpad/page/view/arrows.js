@@ -31,7 +31,7 @@ const ROUND = 30, INNER = 22, ARC = 130; // px: radius of the arrow of a torque,
 const NO_TURN = 1e-3; // N m, N m s: below that, rounding of what does not turn
 /** Kinds of forces, and what they are called. @type {Record<Force['kind'] | 'torque', string>} */
 const NAMES = {weight: t('weight'), normal: t('normal force'), friction: t('friction'), joint: t('joint'),
-  applied: t('applied force'), air: t('air'), sum: t('sum'), torque: t('torque')};
+  applied: t('applied force'), air: t('air, water, attraction'), sum: t('sum'), torque: t('torque')};
 
 /**
  * @typedef {{from: Point, x: number, y: number, scale: ArrowScale, color: string, text: string, width?: number, unit?: string,

@@ -15,6 +15,7 @@ import {pathOf, reachOf} from './body_path.js';
 const SMALL = 4, MARKED = 8, MEDIUM = 11;
 const RIM = 1.2, MARK = 1.8; // px
 const SHEER = 0.35; // opacity of a sensor
+const FLOW_GAP = 90, MOST_ARROWS = 12; // px between the arrows of a flow, and how many of them on each side of the middle
 
 export class BodyView {
   /** @param {SceneView} view */
@@ -115,7 +116,8 @@ export class BodyView {
     } else {
       if (size < MEDIUM && appearance.plain) this.#drawMedium(body, appearance, 1 - RIM / size);
       else this.#drawLarge(body, appearance, pixel);
-      if (body.anchored) this.#drawRim(body, appearance, pixel);
+      if (body.medium) this.#drawFlow(body.medium, appearance, pixel);
+      else if (body.anchored) this.#drawRim(body, appearance, pixel);
       else if (size >= MARKED) this.#drawMark(body, appearance, pixel);
     }
   }
@@ -153,6 +155,37 @@ export class BodyView {
     ctx.globalAlpha = sensor ? SHEER : 1;
     ctx.fill(path, 'nonzero');
     ctx.globalAlpha = 1;
+  }
+
+  /**
+   * Arrows along the flow of a medium, which lie on a grid of the page; none in still water.
+   * @param {import('../types.js').Medium} medium
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawFlow({flow: [vx, vy]}, {path, line, reach}, pixel) {
+    if (!Math.hypot(vx, vy)) return;
+    const {ctx} = this, gap = Math.max(FLOW_GAP * pixel, reach / MOST_ARROWS);
+    ctx.save();
+    ctx.clip(path);
+    ctx.strokeStyle = line;
+    ctx.globalAlpha = SHEER;
+    ctx.lineWidth = 2 * pixel;
+    ctx.beginPath();
+    const along = Math.atan2(vy, vx), half = gap / 5;
+    for (let x = -Math.ceil(reach / gap) * gap; x <= reach; x += gap) {
+      for (let y = -Math.ceil(reach / gap) * gap; y <= reach; y += gap) {
+        const at = (/** @type {number} */ ahead, /** @type {number} */ aside) => /** @type {[number, number]} */ (
+          [x + Math.cos(along) * ahead - Math.sin(along) * aside, y + Math.sin(along) * ahead + Math.cos(along) * aside]);
+        ctx.moveTo(...at(-half, 0));
+        ctx.lineTo(...at(half, 0));
+        ctx.moveTo(...at(half / 3, half / 2));
+        ctx.lineTo(...at(half, 0));
+        ctx.lineTo(...at(half / 3, -half / 2));
+      }
+    }
+    ctx.stroke();
+    ctx.restore();
   }
 
   /**

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The forces on bodies in newtons: weight, constant forces, normal force and friction of contacts, joints, air, and
- * their sum.
+ * The forces on bodies in newtons: weight, constant forces, normal force and friction of contacts, joints, air
+ * and other fields, and their sum.
  *
  * A contact's impulse is divided by the simulated time that it was summed over, so that a force does not
  * depend on how fast the world plays. Hands and commanded wrenches are not among them.
@@ -18,7 +18,7 @@ const LEAST = 1e-3; // N: below that, rounding of what does not act
  * @returns {Force[]} on the bodies that forces move
  */
 export function forcesOf(world) {
-  const {frame: {contacts, pulls, velocities}, scene: {bodies, joints, gravity: [gx, gy], damping}} = world;
+  const {frame: {contacts, pulls, velocities}, scene: {bodies, joints, gravity: [gx, gy], damping}} = world, {fields} = world.frame;
   /** @type {Force[]} */
   const forces = [];
   const moves = (/** @type {number} */ row) => row >= 0 && !bodies[row].anchored && !bodies[row].kinematic;
@@ -37,6 +37,7 @@ export function forcesOf(world) {
     const {mass, centroid} = bodies[row], at = world.place(row, centroid);
     add('weight', row, at, mass * gx, mass * gy);
     for (const {at: point, force: [x, y]} of appliedTo(world, row)) add('applied', row, point, x, y);
+    if (fields) add('air', row, at, fields.x[row], fields.y[row]);
     if (!velocities || !(damping > 0 && damping < 1)) continue;
     const rate = mass * Math.log(1 - damping);
     add('air', row, at, rate * velocities.x[row], rate * velocities.y[row]);

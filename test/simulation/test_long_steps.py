@@ -1,0 +1,135 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A step that takes long is made in several calls, and where it is cut changes no bit."""
+
+from collections.abc import Callable
+
+from physsim_ros.engine.core import lib
+from physsim_ros.engine.core_world import CoreWorld
+from physsim_ros.files import find_world, load_world
+from physsim_ros.model.requests import Configure
+from physsim_ros.model.snapshot import Frame
+from physsim_ros.simulation.simulation import Simulation
+import pytest
+from tools.bench.scenes import FREE, MACHINES, Scene
+
+from .driven import SECOND
+from ..building import DISC, spawning
+
+SCENES = {**FREE, **MACHINES}
+# A call of the core makes one sub-step, as of a world where that takes long.
+SUB_STEPS = 4 * lib.SUB_STEPS
+
+
+@pytest.fixture
+def in_sub_steps(monkeypatch: pytest.MonkeyPatch) -> Callable[[Scene], Simulation]:
+    """Return a function that begins a scene whose calls of the core make a sub-step each."""
+
+    def begun(scene: Scene) -> Simulation:
+        with monkeypatch.context() as patch:
+            patch.setattr(CoreWorld, 'longest_call', 0.0)
+            simulation = Simulation(checkpoints=100.0)
+            scene(simulation)
+            simulation.checkpoint()
+        return simulation
+
+    return begun
+
+
+def ticks_to_frames(simulation: Simulation, count: int, ticks: int) -> list[tuple[int, Frame]]:
+    """Return frames with the tick of each, where each tick is overdue at once."""
+    made = []
+    for tick in range(ticks):
+        frames = simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        made += [(tick, frame) for frame in frames]
+        if len(made) == count:
+            return made
+    pytest.fail(f'{len(made)} frames in {ticks} ticks')
+
+
+def whole(scene: Scene) -> Simulation:
+    simulation = Simulation(checkpoints=100.0)
+    scene(simulation)
+    simulation.checkpoint()
+    return simulation
+
+
+@pytest.mark.parametrize('name', SCENES)
+def test_a_step_that_is_cut_anywhere_has_the_same_bits(in_sub_steps, name):
+    one, other = whole(SCENES[name]), in_sub_steps(SCENES[name])
+    one.run(0.5)
+    other.run(0.5)
+    assert one.world.digest() == other.world.digest()
+
+
+def test_a_frame_takes_as_many_ticks_as_it_has_sub_steps(in_sub_steps):
+    simulation = in_sub_steps(FREE['stack of ten'])
+    (first, _), (second, frame) = ticks_to_frames(simulation, 2, 100)[-2:]
+    assert second - first >= SUB_STEPS - 1
+    assert frame.snapshot.step % simulation.frame_steps == 0
+
+
+def test_what_reads_the_world_meanwhile_finds_whole_steps(in_sub_steps):
+    one, other = whole(FREE['stack of ten']), in_sub_steps(FREE['stack of ten'])
+    one.run(1 / 60)
+    other.advance(0, is_overdue=lambda: True)
+    other.advance(SECOND // 60, is_overdue=lambda: True)
+    assert other.past.cursor.is_stepping
+    assert other.world.digest() == one.world.digest()
+    assert not other.past.cursor.is_stepping
+
+
+def test_requests_wait_for_the_end_of_the_frame(in_sub_steps):
+    simulation = in_sub_steps(FREE['stack of ten'])
+    simulation.advance(0, is_overdue=lambda: True)
+    simulation.advance(SECOND // 60, is_overdue=lambda: True)
+    assert simulation.past.cursor.is_stepping
+    simulation.requests.submit(spawning('late/0', DISC, (9.0, 1.0, 0.0)), topic='~/spawn')
+    simulation.apply_up_to_seek()
+    assert 'late/0' not in simulation.world
+    frames = [frame for _, frame in ticks_to_frames(simulation, 3, 200)]
+    assert 'late/0' in frames[-1].snapshot.scene.names
+
+
+def test_the_log_of_a_world_that_was_cut_replays_to_the_same_bits(in_sub_steps):
+    simulation = in_sub_steps(FREE['ten fall and roll'])
+    for tick in range(400):
+        simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        if tick % 37 == 0:
+            change = Configure(changes={'gravity': (0.1 * (tick % 5), -9.81)})
+            simulation.requests.submit(change, topic='~/gravity')
+    step, digest = simulation.step, simulation.world.digest()
+    step = simulation.step
+    simulation.past.frames.drop_from(0)
+    simulation.seek(SECOND // 10)
+    simulation.world.digest()
+    simulation.seek(round(step * SECOND / 240))
+    assert simulation.world.digest() == digest
+    assert 'divergence' not in [answer.code for answer in simulation.frame.answers]
+
+
+def test_a_seek_in_the_middle_of_a_step_goes_to_its_goal(in_sub_steps):
+    simulation, other = in_sub_steps(FREE['stack of ten']), whole(FREE['stack of ten'])
+    simulation.run(0.5)
+    at_half, step = simulation.world.digest(), simulation.step
+    for tick in range(3):
+        simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+    assert simulation.past.cursor.is_stepping
+    simulation.past.frames.drop_from(0)
+    simulation.speed = 0.0
+    simulation.playback.seek(round(step * SECOND / 240))
+    assert simulation.world.digest() == at_half
+    other.run(0.5)
+    assert other.world.digest() == at_half
+
+
+@pytest.mark.parametrize('name', ['burger', 'line', 'people', 'soccer'])
+def test_robots_and_actors_do_the_same_in_a_step_that_is_cut(in_sub_steps, name):
+    def scene(simulation: Simulation) -> None:
+        simulation.begin(load_world(find_world(name)))
+
+    one, other = whole(scene), in_sub_steps(scene)
+    one.run(0.5)
+    other.run(0.5)
+    assert one.world.digest() == other.world.digest()
