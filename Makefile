@@ -36,7 +36,7 @@ BUILT := $(VENV)/.core-is-built
 TOOLS := $(VENV)/.with-tools
 # Of the C library, which clang-tidy wants and a machine without a compiler has not.
 HEADER := /usr/include/stdlib.h
-CHECKED := $(CORE) $(wildcard tools/sanitize/*.c)
+CHECKED := $(CORE) $(wildcard tools/sanitize/*.c test/engine/core/*.[ch])
 # When clang-tidy found nothing in a file.
 TIDY := $(patsubst %,$(VENV)/.tidy/%,$(filter %.c,$(CHECKED)))
 STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core -DCORE_SOURCES='""'

@@ -16,7 +16,7 @@ from physsim_ros.model.errors import WorldFull
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 
-# Greatest number of bodies that attract each other [1]: 500 take 2 ms a step.
+# Greatest number of bodies that attract each other [1]: 500 take 4 ms a step.
 MOST_ATTRACTING = 500
 
 

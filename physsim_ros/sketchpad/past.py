@@ -34,6 +34,8 @@ from physsim_ros.sketchpad.message import Content
 TIMELINE_PERIOD = 0.1
 # Time of a replay in a period of publishing [s]: a quarter of one of 60 Hz.
 REPLAY_TIME = 0.004
+# Kinds of the forces of a past, as pages call them; air is media and attraction.
+PAST_KINDS = ('normal', 'friction', 'joint', 'air')
 # Greatest number of looks at the contacts of the past that a page may ask for at once.
 MOST_SEARCHES = 32
 # Greatest number of frames of a past: a minute at 60 Hz.
@@ -221,6 +223,9 @@ def past_forces(frames: Sequence[CachedFrame], name: str, rate: float) -> dict[s
         row = _row_of(name, snapshot.scene, row)
         if row < 0 or contacts is None or not contacts.steps:
             continue
+        # The force of a hand is not known.
+        if any(grip.body == name for grip in snapshot.grips):
+            continue
         # 1 for what acts on b, -1 on a, 0 on other bodies.
         sides = _sides(contacts.pairs, row)
         acting = contacts.impulses * sides[:, None] * (rate / contacts.steps)
@@ -229,9 +234,11 @@ def past_forces(frames: Sequence[CachedFrame], name: str, rate: float) -> dict[s
         if len(snapshot.pulls) == len(snapshot.scene.joints):
             pulls = snapshot.pulls * _sides(snapshot.scene.joint_rows, row)[:, None]
         times.append(snapshot.stamp * 1e-9)
-        rows.append(np.concatenate([each.sum(axis=0) for each in (along, acting - along, pulls)]))
-    columns = np.array(rows).reshape(-1, 6)
-    kinds = {'normal': columns[:, :2], 'friction': columns[:, 2:4], 'joint': columns[:, 4:]}
+        fields = snapshot.fields[row : row + 1] if len(snapshot.fields) else np.zeros((1, 2))
+        forces = along, acting - along, pulls, fields
+        rows.append(np.concatenate([each.sum(axis=0) for each in forces]))
+    columns = np.array(rows).reshape(-1, 8)
+    kinds = dict(zip(PAST_KINDS, np.hsplit(columns, 4), strict=True))
     return {'time': times, **{kind: forces.tolist() for kind, forces in kinds.items()}}
 
 

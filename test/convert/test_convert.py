@@ -47,6 +47,7 @@ bodies:
 joints:
   - {type: revolute, name: hinge,
      bodies: [{name: frame, anchor: [0.1, 0]}, {name: leaf, anchor: [0, 0]}]}
+plugins: [{type: Tween, name: swing, body: leaf}]
 """
 ROOM = """
 type: line_segments
@@ -162,6 +163,8 @@ def test_a_world_of_flatland_has_walls_a_robot_and_a_door(tmp_path, capsys):
     (hinge,) = world.joints
     assert (hinge.a, hinge.b) == ('door_frame/0', 'door_leaf/0')
     assert 'left out: plugin ModelTfPublisher\n' in printed
+    assert printed.count('of a model that is no robot') == 1
+    assert 'left out: plugin Tween of a model that is no robot\n' in printed
     assert 'a drive has the default track, wheels and limits: set them' in printed
 
 

@@ -10,7 +10,7 @@ from physsim_ros.model.requests import ChangeBody, Command, Configure, Delete
 from physsim_ros.model.shapes import Box, Chain, Disc, hull_of, Triangles
 import pytest
 
-from ..laws.scenes import floor, run, simulation, spawn
+from ..laws.scenes import floor, G, run, simulation, spawn
 
 WATER = {'density': 10.0, 'viscosity': 1.0}
 
@@ -165,3 +165,14 @@ def test_the_hull_of_discs_is_as_wide_as_they_are():
     hull = hull_of(form) + form.centroid
 
     assert np.ptp(hull, axis=0) == pytest.approx((1.4, 1.4), rel=0.003)
+
+
+def test_a_snapshot_has_the_buoyancy_of_what_floats():
+    sim = simulation()
+    pool(sim, 0.0)
+    spawn(sim, 'raft/0', Box(width=1.0, height=0.4), (0.0, 0.1, 0.0), density=2.5)
+    assert sim.world.snapshot().fields.shape == (0, 2)
+    sim.world.reports_contacts = True
+    run(sim, 10.0)
+
+    assert sim.world.snapshot().fields == pytest.approx(np.array([[0.0, 0.0], [0.0, G]]), abs=1e-6)

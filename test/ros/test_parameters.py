@@ -108,7 +108,7 @@ def test_every_parameter_is_described_over_ros_with_its_unit_and_range(client: C
         if isinstance(spec.default, bool | str):
             continue
         limited = descriptor.floating_point_range or descriptor.integer_range
-        assert limited or name in ('gravity', 'bounds', 'datum', 'draw_velocity'), name
+        assert limited or name in ('gravity', 'wind', 'bounds', 'datum', 'draw_velocity'), name
         if name in RANGES:
             span = RANGES[name]
             assert (limited[0].from_value, limited[0].to_value) == (span.low, span.high), name

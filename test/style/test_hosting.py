@@ -1,10 +1,9 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""Container, devcontainer and workflow name what there is."""
+"""Container and workflow name what there is."""
 
 import json
-from pathlib import Path
 import re
 import shutil
 import subprocess
@@ -66,35 +65,6 @@ def test_the_container_has_a_python_that_the_package_takes():
     (asked,) = re.findall(r"python_requires='>=3\.(\d+)'", (ROOT / 'setup.py').read_text('utf-8'))
 
     assert int(found) >= int(asked)
-
-
-def _is_left_out(path):
-    """Return whether .dockerignore names a path or a folder above it."""
-    for pattern in (ROOT / '.dockerignore').read_text('utf-8').splitlines():
-        for each in (path, *path.parents):
-            # A pattern that begins with **/ holds at any depth, every other one at the top.
-            if each.match(pattern[3:]) if pattern.startswith('**/') else str(each) == pattern:
-                return True
-    return False
-
-
-def test_the_container_gets_what_builds_the_package_and_nothing_that_was_built():
-    core = Path('physsim_ros/engine/core')
-    builds = ['pyproject.toml', 'setup.py', 'tools/build/backend.py', core / 'core.h']
-    made = ('_core.abi3.so', '_declarations.py', '__pycache__/sources.pyc')
-    built = ['build/temp/step.o', *(core / name for name in made)]
-
-    assert [path for path in builds if _is_left_out(Path(path))] == []
-    assert [path for path in built if not _is_left_out(Path(path))] == []
-
-
-def test_the_devcontainer_asks_make_for_what_it_makes():
-    settings = json.loads((ROOT / '.devcontainer/devcontainer.json').read_text(encoding='utf-8'))
-
-    asked = _asked(settings['postCreateCommand'])
-
-    assert asked
-    assert asked <= _targets()
 
 
 @pytest.mark.parametrize('path', WORKFLOWS, ids=lambda path: path.name)

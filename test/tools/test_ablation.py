@@ -33,6 +33,8 @@ def test_every_stage_can_be_switched_off(stage):
         ('slide on a floor (37)', 'floor'),
         ('robot on an arc (38)', 'floor'),
         ('thin wall (25)', 'continuous collision'),
+        ('disc on a corner (6)', 'contact at impact'),
+        ('between walls (46)', 'rest of the step'),
         ('seams of tiles', 'internal edges'),
         ('flat fall (8)', 'block solver'),
         ('elastic rows, 2 of 5 (36)', 'impact propagation'),

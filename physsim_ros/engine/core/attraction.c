@@ -9,7 +9,7 @@
 //   1911) bounds it where two bodies pass each other. Forces are those of the poses after the move, in each sub-step:
 //   with the leads of `fields.c` the steps are symplectic, and an orbit stays closed.
 // Scope: forces act at centres of mass; the plane's extent of a body does not count.
-// Cost: 4 ns for each pair and sub-step, so that Python allows some hundreds of bodies.
+// Cost: 8 ns for each pair and sub-step, so that Python allows some hundreds of bodies.
 // Without it law 72 fails: planets fly straight on.
 
 #include "attraction.h"

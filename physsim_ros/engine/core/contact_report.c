@@ -111,7 +111,7 @@ static double first_touch(World *world, Body *a, Body *b) {
     if (a->sensor || b->sensor) {
         return crossing_time(world, a, b);
     }
-    return 1.0 - least(a->scratch.since + a->scratch.left, b->scratch.since + b->scratch.left) / world->dt;
+    return 1.0 - time_left(a, b) / world->dt;
 }
 
 static void add_begun(World *world, Report *report, Begun added) {

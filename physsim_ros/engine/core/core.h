@@ -51,6 +51,8 @@ typedef struct BodyScratch {
     double left;     // of the step after continuous collision has stopped it [s]
     Twist carried;   // way with what has stopped it, in that time [m, rad]
     double since;    // time from its first impact to the end of its motion [s]
+    Twist rest;      // way that it has still to go after its impact [m, rad]
+    uint8_t rests;   // that way has been found
     uint8_t parts;   // its impact throws it off, so gravity acts on the new velocity
     double idle;     // for which it has been at rest as the step begins; < 0 while it sleeps [s]
     Twist field;     // half of what fields change its velocity by in this step

@@ -13,6 +13,7 @@
 
 #include "joint_islands.h"
 #include "joint_parts.h"
+#include "stages.h"
 #include <stdlib.h>
 
 // Points of a body that is touched, at most, for all of them to be rows: what bears more, as a platform full of boxes,
@@ -47,6 +48,8 @@ static int compare_touches(const void *one, const void *other) {
 
 static void add_bearings(World *world, Touches *touches, const cpArbiter *arbiter) {
     Vec tangent = perpendicular(arbiter->n);
+    bool begins = arbiter->state == ARBITER_FIRST_COLLISION;
+    double left = begins ? time_left(body_of(arbiter->body_a), body_of(arbiter->body_b)) : 0.0;
     for (int number = 0; number < arbiter->count; number++) {
         cpContact *point = arbiter->contacts + number;
         touches->list[touches->count++] = (Bearing){.point = point,
@@ -58,7 +61,8 @@ static void add_bearings(World *world, Touches *touches, const cpArbiter *arbite
                                                     .arm_b = point->r2,
                                                     .normal = arbiter->n,
                                                     .friction = arbiter->u,
-                                                    .slide = dot(arbiter->surface_vr, tangent)};
+                                                    .slide = dot(arbiter->surface_vr, tangent),
+                                                    .left = left};
     }
 }
 

@@ -16,6 +16,7 @@ typedef struct Bearing {
     double friction;
     double slop;  // overlap that stays [m]
     double slide; // velocity across the normal of the surfaces against their bodies [m/s]
+    double left;  // of the step after the impact; 0 for a contact that does not begin [s]
 } Bearing;
 
 // The rows of an island: those of joints, then normals of contacts, then tangents.
@@ -42,6 +43,7 @@ typedef struct Island {
 typedef struct Islands {
     int count;
     Island *islands;
+    struct Solve *solves; // (count)
 } Islands;
 
 // Return the islands of jointed bodies and of what they touch, between Chipmunk's narrow phase and its solver.

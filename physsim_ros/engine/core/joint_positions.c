@@ -47,6 +47,7 @@ typedef struct Displacement {
     double *apart;        // (touch_count): distance by which contacts may approach at the start [m]
     double *distances;    // (touch_count): the same now, < 0 where they overlap
     double *impulses;     // (row_count): λ [kg m, kg m²]
+    double *guess;        // (row_count): numbers of the signs of λ; first the impulses of velocities
     double sum, widest;   // of gaps and overlaps: sum, and the greatest [m, rad]
 } Displacement;
 
@@ -106,7 +107,8 @@ static Displacement begin_displacement(Solve *solve) {
                          .left = TAKE(arena, double, island->joint_row_count),
                          .apart = TAKE(arena, double, island->touch_count),
                          .distances = TAKE(arena, double, island->touch_count),
-                         .impulses = TAKE(arena, double, island->row_count)};
+                         .impulses = TAKE(arena, double, island->row_count),
+                         .guess = TAKE(arena, double, island->row_count)};
     memcpy(move.start, solve->poses, (size_t)island->body_count * sizeof(Pose));
     take_pushes(solve);
     memcpy(move.pushed, solve->poses, (size_t)island->body_count * sizeof(Pose));
@@ -125,6 +127,7 @@ static Displacement begin_displacement(Solve *solve) {
         Vec a = add(move.start[ends.a].p, touch->arm_a), b = add(move.start[ends.b].p, touch->arm_b);
         double apart = dot(sub(b, a), touch->normal) + touch->slop;
         move.apart[number] = apart - least(apart, 0.0) * stays;
+        move.guess[island->joint_row_count + number] = touch->point->jnAcc;
     }
     return move;
 }
@@ -176,7 +179,7 @@ static Solution newton_step(Solve *solve, const Displacement *move) {
             wanted[row] = -move->distances[row - normal];
             upper[row] = INFINITY;
         }
-        solution.sides[row] = side_by_guess(move->impulses[row], lower[row], upper[row]);
+        solution.sides[row] = side_by_guess(move->guess[row], lower[row], upper[row]);
     }
     Problem problem = {move->jacobians, wanted, lower, upper, soft, NULL, NULL};
     solve_problem(&solve->system, &problem, &solution, arena);
@@ -269,6 +272,7 @@ void solve_positions(Solve *solve) {
         }
         for (int row = 0; row < island->row_count; row++) {
             move.impulses[row] += solution.impulses[row] * share;
+            move.guess[row] = move.impulses[row];
         }
         arena_release(solve->arena, step);
         read_rows(island, solve->poses, move.excess, move.jacobians);

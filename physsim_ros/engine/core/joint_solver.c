@@ -41,12 +41,13 @@ static void move_bounds(World *world, const Solve *solve) {
     }
 }
 
-static void solve_island(World *world, const Island *island) {
-    size_t mark = arena_mark(&world->own->arena);
-    Solve solve = joint_solve(world, island);
-    solve_velocities(&solve);
-    solve_positions(&solve);
-    move_bounds(world, &solve);
+static void close_island(World *world, Solve *solve) {
+    const Island *island = solve->island;
+    for (int body = 0; body < island->body_count; body++) {
+        island->poses[body] = pose_of(island->engine[body]);
+    }
+    solve_positions(solve);
+    move_bounds(world, solve);
     bool may_sleep = of_springs(island);
     for (int body = 0; body < island->body_count; body++) {
         if (island->inverses[body].mass > 0.0) {
@@ -55,7 +56,6 @@ static void solve_island(World *world, const Island *island) {
             island->engine[body]->idle_time = may_sleep ? island->engine[body]->idle_time : 0.0;
         }
     }
-    arena_release(&world->own->arena, mark);
 }
 
 void find_joint_islands(World *world) {
@@ -69,8 +69,16 @@ void solve_joints(World *world) {
     if (!has_stage(world, STAGE_JOINTS)) {
         return;
     }
-    const Islands *found = world->own->joint_islands;
+    Islands *found = world->own->joint_islands;
+    found->solves = TAKE(&world->own->arena, Solve, found->count);
     for (int number = 0; number < found->count; number++) {
-        solve_island(world, found->islands + number);
+        found->solves[number] = joint_solve(world, found->islands + number);
+        solve_velocities(found->solves + number);
+    }
+}
+
+void close_joints(World *world) {
+    for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->joint_islands->count; number++) {
+        close_island(world, world->own->joint_islands->solves + number);
     }
 }

@@ -26,6 +26,7 @@
 
 #include "joint_velocities.h"
 #include "mixed_lcp.h"
+#include "stages.h"
 #include <string.h>
 
 // E, as a share of `softness_unit`. Of joints it keeps the impulses of those that contradict each other from being of
@@ -358,6 +359,31 @@ static void bend(Solve *solve, Solution *solution, Twist *velocities) {
     }
 }
 
+// Find the ways of the rest of the step since impacts (`rest_of_step.c`). The rows of an impact get the difference of
+// velocities that their bodies have by it; what holds beside them holds on these ways, too.
+static void find_rest_of_step(Solve *solve, const VelocityRows *rows, const Solution *solution,
+                              const Twist *velocities) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    double *wanted = TAKE(solve->arena, double, island->row_count);
+    bool late = false;
+    for (int number = 0; number < island->touch_count; number++) {
+        double left = island->touches[number].left;
+        Ends ends = island->ends[normal + number];
+        Twist ways[] = {way_gained(body_of(island->engine[ends.a]), velocities[ends.a], left, solve->dt),
+                        way_gained(body_of(island->engine[ends.b]), velocities[ends.b], left, solve->dt)};
+        wanted[normal + number] = rate(rows->jacobians[normal + number], (Ends){0, 1}, ways);
+        wanted[tangent + number] = rate(rows->jacobians[tangent + number], (Ends){0, 1}, ways);
+        late = late || left > 0.0;
+    }
+    if (late) {
+        Change gained = changed_by(solve, solution, wanted);
+        for (int number = 0; number < island->body_count; number++) {
+            add_rest(body_of(island->engine[number]), gained.twists[number]);
+        }
+    }
+}
+
 static void write_impulses(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
@@ -394,6 +420,7 @@ void solve_velocities(Solve *solve) {
     VelocityRows rows = velocity_rows(solve, velocities);
     Solution solution = solve_bounces(solve, &rows);
     bend(solve, &solution, velocities);
+    find_rest_of_step(solve, &rows, &solution, velocities);
     for (int body = 0; body < island->body_count; body++) {
         velocities[body].v = sub(velocities[body].v, solve->velocities[body].v);
         velocities[body].w -= solve->velocities[body].w;

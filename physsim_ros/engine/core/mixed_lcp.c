@@ -23,13 +23,10 @@ static double unit_of(const System *system, const Problem *problem, int row) {
     return row_softness_unit(system, problem->jacobians, row);
 }
 
-static void factor_sides(System *system, const Problem *problem, const int8_t *sides) {
-    for (int row = 0; row < system->row_count; row++) {
-        double unit = sides[row] == 0 ? unit_of(system, problem, row) : 0.0;
-        set_row(system, row, sides[row] == 0 ? problem->jacobians : NULL,
-                unit > 0.0 ? problem->softness[row] * unit : 1.0);
-    }
-    ldl_factor(&system->factors);
+// Put a row into the matrix where it has to reach its target, else take it out.
+static void use_row(System *system, const Problem *problem, int row, bool active) {
+    double unit = active ? unit_of(system, problem, row) : 0.0;
+    set_row(system, row, active ? problem->jacobians : NULL, unit > 0.0 ? problem->softness[row] * unit : 1.0);
 }
 
 // Find the rows on the wrong side, the furthest one among them, and their count; `sides` gets what each ought to be on.
@@ -59,17 +56,19 @@ static void find_wrong(const System *system, const Problem *problem, Solution *s
     }
 }
 
-// Exchange rows that are on the wrong side, all or the furthest alone; return whether that changes which are at a
-// bound.
-static bool exchange_sides(const System *system, Solution *solution, const int8_t *right, bool all, int furthest) {
-    bool changed = false;
+// Exchange rows that are on the wrong side, all or the furthest alone.
+static void exchange_sides(System *system, const Problem *problem, Solution *solution, const int8_t *right, bool all,
+                           int furthest) {
     for (int row = 0; row < system->row_count; row++) {
         if (all ? solution->wrong[row] : row == furthest) {
-            changed = changed || (solution->sides[row] == 0) != (right[row] == 0);
+            bool active = right[row] == 0;
+            if ((solution->sides[row] == 0) != active) {
+                use_row(system, problem, row, active);
+            }
             solution->sides[row] = right[row];
         }
     }
-    return changed;
+    ldl_factor(&system->factors);
 }
 
 // Solve the rows for their sides.
@@ -114,16 +113,17 @@ void solve_again(System *system, const Problem *problem, Solution *solution, Are
             break;
         }
         bool fewer = solution->wrong_count < fewest;
-        if (exchange_sides(system, solution, right, fewer, furthest)) {
-            factor_sides(system, problem, solution->sides);
-        }
+        exchange_sides(system, problem, solution, right, fewer, furthest);
         fewest = fewer ? solution->wrong_count : fewest;
     }
     arena_release(arena, mark);
 }
 
 void solve_problem(System *system, const Problem *problem, Solution *solution, Arena *arena) {
-    factor_sides(system, problem, solution->sides);
+    for (int row = 0; row < system->row_count; row++) {
+        use_row(system, problem, row, solution->sides[row] == 0);
+    }
+    ldl_factor(&system->factors);
     solve_again(system, problem, solution, arena);
 }
 

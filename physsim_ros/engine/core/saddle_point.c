@@ -233,11 +233,13 @@ double row_softness_unit(const System *system, const Jacobian *jacobians, int ro
     return unit;
 }
 
-static void set_link(System *system, int link, Jacobian jacobian) {
+static void set_link(System *system, int row, int link, Jacobian jacobian) {
     double entries[6] = {jacobian.a.v.x, jacobian.a.v.y, jacobian.a.w, jacobian.b.v.x, jacobian.b.v.y, jacobian.b.w};
+    int column = 0, line = 0;
     for (int number = 0; number < 6; number++) {
-        if (system->places[link][number] != NO_UNKNOWN) {
+        if (entry_at(system, row, link, number, &column, &line)) {
             system->factors.values[system->places[link][number]] = entries[number];
+            system->factors.changed[column] = true;
         }
     }
 }
@@ -245,9 +247,10 @@ static void set_link(System *system, int link, Jacobian jacobian) {
 void set_row(System *system, int row, const Jacobian *jacobians, double stiffness) {
     Jacobian none = {0};
     system->factors.diagonal[system->row_unknowns[row]] = -stiffness;
-    set_link(system, row, jacobians == NULL ? none : jacobians[row]);
+    system->factors.changed[system->row_unknowns[row]] = true;
+    set_link(system, row, row, jacobians == NULL ? none : jacobians[row]);
     for (int link = system->further[row]; link < system->further[row + 1]; link++) {
-        set_link(system, link, jacobians == NULL ? none : jacobians[link]);
+        set_link(system, row, link, jacobians == NULL ? none : jacobians[link]);
     }
 }
 

@@ -15,9 +15,9 @@ static void begin_bodies(World *world) {
         assert(body_of(body->engine) == body);
         body->scratch.begin = pose_of(body->engine);
         body->scratch.twist = twist_of(body->engine);
-        body->scratch.carried = (Twist){0};
+        body->scratch.carried = body->scratch.rest = (Twist){0};
         body->scratch.left = body->scratch.since = 0.0;
-        body->scratch.parts = false;
+        body->scratch.parts = body->scratch.rests = false;
         body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
     }
 }
@@ -79,8 +79,9 @@ static void step(World *world) {
     find_leads(world);
     forgive_trembling(world);
     solve_joints(world);
-    add_totals(world);
     finish_moves(world);
+    close_joints(world);
+    add_totals(world);
     find_pushes(world);
     if (world->reports_contacts) {
         report_contacts(world);

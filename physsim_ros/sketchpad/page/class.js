@@ -136,10 +136,6 @@ class Card {
       ...this.seated ? [textButton(t('Free this seat'), async () => {
         await fetch('/free', {method: 'POST', body: JSON.stringify({seat: cards.indexOf(this)})});
         dialog.close();
-      })] : [],
-      ...this.raisedAt ? [textButton(t('Lower the hand'), () => {
-        this.lowerHand();
-        dialog.close();
       })] : []));
   }
 }

@@ -22,27 +22,22 @@ export class Plots {
     this.canvases = SHOWN.map((key) => createElement('canvas', {role: 'img', 'aria-label': QUANTITIES[key].label}));
     this.element = createElement('section', {className: 'plots', 'aria-label': t('Plots')}, ...this.canvases,
       createElement('p', {}, t('Broad: free flight by its formula. Dashed: the earlier course.')),
-      inRow(textButton(t('Large plot'), () => app.plot((plot) => plot.open([this.name]))),
-        textButton(t('Table (CSV)'), () => app.plot((plot) => plot.saveTable([this.name])))));
+      inRow(textButton(t('Large plot'), () => app.plot((plot) => plot.open([app.panel.name]))),
+        textButton(t('Table (CSV)'), () => app.plot((plot) => plot.saveTable([app.panel.name])))));
     const drawSoon = soon(() => this.#draw(), EVERY);
     app.connection.on('frame', drawSoon);
     app.connection.on('body', drawSoon);
   }
 
-  /** @returns {string} name of the body; '' for none */
-  get name() {
-    return this.app.panel.name;
-  }
-
   #draw() {
-    const {world, view, records} = this.app, row = world.row(this.name), samples = records.samples(this.name);
+    const {world, view, records, panel: {name}} = this.app, row = world.row(name), samples = records.samples(name);
     if (row < 0 || !samples.length) return;
     const body = world.scene.bodies[row], {gravity, damping} = world.scene, now = world.frame.time;
     const last = samples[samples.length - 1].time;
     const end = Math.max(Math.min(last, now + WINDOW / 2), samples[0].time + 1) + AHEAD;
     const start = Math.max(end - WINDOW, samples[0].time);
     const within = (/** @type {Sample} */ {time}) => time >= start && time <= end;
-    const shown = samples.filter(within), left = records.bodies.get(this.name)?.left.filter(within) ?? [];
+    const shown = samples.filter(within), left = records.bodies.get(name)?.left.filter(within) ?? [];
     const flights = damping ? [] : flightsOf(shown, gravity, end);
     SHOWN.forEach((key, i) => {
       const {label, of} = QUANTITIES[key];

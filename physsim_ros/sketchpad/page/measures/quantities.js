@@ -124,7 +124,7 @@ export const QUANTITIES = {
   motion: {label: t('Kinetic energy [J]'), sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[0]},
   height: {label: t('Potential energy [J]'), sums: true, of: (sample, body, gravity) => energiesOf(body, sample, gravity)[1]},
   ...Object.fromEntries(Object.entries(FORCES).map(([kind, name]) =>
-    [kind, /** @type {Quantity} */ ({label: `${name} [N]`, of: ({forces}) => forces?.[kind] ?? NaN})])),
+    [kind, /** @type {Quantity} */ ({label: `${name} [N]`, of: ({forces}) => forces ? forces[kind] ?? (kind === 'sum' ? NaN : 0) : NaN})])),
 };
 
 /**

@@ -89,14 +89,14 @@ export class Records {
     record.samples.forEach((sample, i, all) => accelerate(sample, all[i - 1]));
   }
 
-  /** @param {{name: string, time: number[], normal: Point[], friction: Point[], joint: Point[]}} columns of its past */
-  #addForces({name, time, normal, friction, joint}) {
+  /** @param {{name: string, time: number[]} & Record<string, Point[]>} columns of its past, with a column of each kind of force */
+  #addForces({name, time, type, ...kinds}) {
     const {world} = this.app, body = world.body(name), samples = this.bodies.get(name)?.samples;
     if (!body || !samples || body.anchored || body.kinematic) return;
     const byTime = new Map(samples.map((sample) => [sample.time, sample]));
     time.forEach((at, i) => {
       const sample = byTime.get(at);
-      if (sample) sample.forces ??= sizesOf(pastForcesOf(world, body, sample, {normal: normal[i], friction: friction[i], joint: joint[i]}));
+      if (sample) sample.forces ??= sizesOf(pastForcesOf(world, body, sample, Object.entries(kinds).map(([kind, column]) => [kind, ...column[i]])));
     });
   }
 
@@ -106,16 +106,17 @@ export class Records {
     this.opened = false;
     if (!velocities) return;
     const forces = this.records && world.frame.contacts ? forcesOf(world) : null, all = forces && [...forces, ...sumsOf(world, forces)];
+    const held = Boolean(world.frame.hands?.x.length);
     for (const [name, {samples}] of this.bodies) {
       const row = world.row(name), known = samples.findLast((sample) => sample.time <= time);
       // A replay of the same course gives the same samples: those that were recorded stay, and get the forces of what is shown.
-      if (all && known?.time === time) known.forces = sizesOf(all.filter((force) => force.row === row));
+      if (all && known?.time === time) known.forces = sizesOf(all.filter((force) => force.row === row), held);
       if (row < 0 || time <= (samples.at(-1)?.time ?? -Infinity)) continue;
       const [x, y] = world.place(row, world.scene.bodies[row].centroid);
       /** @type {Sample} */
       const sample = {time, x, y, yaw: yaw[row], vx: velocities.x[row], vy: velocities.y[row], spin: velocities.spin[row]};
       accelerate(sample, samples.at(-1));
-      if (all) sample.forces = sizesOf(all.filter((force) => force.row === row));
+      if (all) sample.forces = sizesOf(all.filter((force) => force.row === row), held);
       samples.push(sample);
       if (samples.length > MOST) samples.shift();
     }
@@ -148,14 +149,15 @@ function accelerate(sample, before) {
 
 /**
  * @param {{kind: Force['kind'], x: number, y: number}[]} forces on a body
+ * @param {boolean} held whether a hand may draw, whose force is not known
  * @returns {Record<string, number>} the size of the sum of each kind [N]
  */
-function sizesOf(forces) {
+function sizesOf(forces, held = false) {
+  const size = (/** @type {typeof forces} */ some) => Math.hypot(some.reduce((sum, {x}) => sum + x, 0), some.reduce((sum, {y}) => sum + y, 0));
   const kinds = [...new Set(forces.map(({kind}) => kind))];
-  return Object.fromEntries(kinds.map((kind) => {
-    const those = forces.filter((force) => force.kind === kind);
-    return [kind, Math.hypot(those.reduce((sum, {x}) => sum + x, 0), those.reduce((sum, {y}) => sum + y, 0))];
-  }));
+  const sizes = Object.fromEntries(kinds.map((kind) => [kind, size(forces.filter((force) => force.kind === kind))]));
+  // Of fewer than two forces no sum is told beside them.
+  return forces.length < 2 && !held ? {...sizes, sum: size(forces)} : sizes;
 }
 
 const FLASH = 0.1; // s from flash to flash

@@ -106,11 +106,8 @@ export class Arrows {
       this.bars[unit] = createElement('output');
       return createElement('span', {className: `scale ${kind}`}, this.bars[unit]);
     };
-    const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) => {
-      return toggling(textButton(name, () => {}, kind), isOn, () => {
-        change();
-      });
-    };
+    const part = (/** @type {string} */ name, /** @type {string} */ kind, /** @type {() => boolean} */ isOn, /** @type {() => void} */ change) =>
+      toggling(textButton(name, () => {}, kind), isOn, change);
     const {legend, off} = this, folded = !isRoomy() && !this.unfolded;
     legend.hidden = !this.velocities && !this.forces;
     legend.classList.toggle('folded', folded);

@@ -9,7 +9,7 @@
 
 import {rotated} from '../vectors.js';
 
-/** @import {Body, Force, Point, Sample, WorldState} from '../types.js' */
+/** @import {Body, Force, Point, Sample, Scene, WorldState} from '../types.js' */
 
 const LEAST = 1e-3; // N: below that, rounding of what does not act
 
@@ -18,7 +18,7 @@ const LEAST = 1e-3; // N: below that, rounding of what does not act
  * @returns {Force[]} on the bodies that forces move
  */
 export function forcesOf(world) {
-  const {frame: {contacts, pulls, velocities}, scene: {bodies, joints, gravity: [gx, gy], damping}} = world, {fields} = world.frame;
+  const {frame: {contacts, pulls, velocities, fields, yaw}, scene} = world, {bodies, joints} = scene;
   /** @type {Force[]} */
   const forces = [];
   const moves = (/** @type {number} */ row) => row >= 0 && !bodies[row].anchored && !bodies[row].kinematic;
@@ -34,13 +34,9 @@ export function forcesOf(world) {
     if (moves(row) && Math.hypot(x, y) > LEAST) forces.push({kind, row, at, x, y, mutual: moves(by)});
   };
   for (let row = 0; row < world.count; row++) {
-    const {mass, centroid} = bodies[row], at = world.place(row, centroid);
-    add('weight', row, at, mass * gx, mass * gy);
-    for (const {at: point, force: [x, y]} of appliedTo(world, row)) add('applied', row, point, x, y);
-    if (fields) add('air', row, at, fields.x[row], fields.y[row]);
-    if (!velocities || !(damping > 0 && damping < 1)) continue;
-    const rate = mass * Math.log(1 - damping);
-    add('air', row, at, rate * velocities.x[row], rate * velocities.y[row]);
+    const motion = {yaw: yaw[row], vx: velocities?.x[row] ?? 0, vy: velocities?.y[row] ?? 0};
+    for (const {kind, at, x, y} of ownForces(scene, bodies[row], motion)) add(kind, row, world.place(row, at), x, y);
+    if (fields) add('air', row, world.place(row, bodies[row].centroid), fields.x[row], fields.y[row]);
   }
   for (let i = 0; contacts && contacts.steps && i < contacts.x.length; i++) {
     const {a, b, nx, ny} = contacts, rate = world.physicsRate / contacts.steps;
@@ -67,26 +63,37 @@ export function forcesOf(world) {
  * @returns {{at: Point, force: Point}[]} its constant forces now, in world axes [m, N]
  */
 export function appliedTo(world, row) {
-  const {forces = [], centroid} = world.scene.bodies[row];
-  return forces.map(({force, at = centroid, axes}) => ({at: world.place(row, at),
-    force: axes === 'body' ? rotated(force, world.frame.yaw[row]) : force}));
+  return ownForces(world.scene, world.scene.bodies[row], {yaw: world.frame.yaw[row], vx: 0, vy: 0}).filter(({kind}) => kind === 'applied').map(({at, x, y}) => ({at: world.place(row, at), force: [x, y]}));
+}
+
+/**
+ * @param {Scene} scene
+ * @param {Body} body
+ * @param {{yaw: number, vx: number, vy: number}} motion [rad, m/s]
+ * @returns {{kind: Force['kind'], at: Point, x: number, y: number}[]} what acts on it without a contact or joint, in world axes [N];
+ *   at: in its frame [m]
+ */
+function ownForces({gravity: [gx, gy], damping}, {mass, centroid, forces = []}, {yaw, vx, vy}) {
+  const rate = damping > 0 && damping < 1 ? mass * Math.log(1 - damping) : 0;
+  return [{kind: 'weight', at: centroid, x: mass * gx, y: mass * gy}, {kind: 'air', at: centroid, x: rate * vx, y: rate * vy},
+    ...forces.map(({force, at = centroid, axes}) => {
+      const [x, y] = axes === 'body' ? rotated(force, yaw) : force;
+      return {kind: /** @type {const} */ ('applied'), at, x, y};
+    })];
 }
 
 /**
  * @param {WorldState} world
  * @param {Body} body
  * @param {Sample} motion of that body in the past
- * @param {Record<string, Point>} others sums of the forces of contacts and joints then, by their kind [N]
+ * @param {[kind: string, x: number, y: number][]} others sums of the other forces then [N]
  * @returns {{kind: Force['kind'], x: number, y: number}[]} all that acted on it [N], and their sum
  */
-export function pastForcesOf({scene: {gravity: [gx, gy], damping}}, {mass, forces = []}, {yaw, vx, vy}, others) {
-  const rate = damping > 0 && damping < 1 ? mass * Math.log(1 - damping) : 0;
-  const all = /** @type {[Force['kind'], number, number][]} */ ([['weight', mass * gx, mass * gy], ['air', rate * vx, rate * vy],
-    ...forces.map(({force, axes}) => ['applied', ...axes === 'body' ? rotated(force, yaw) : force]),
-    ...Object.entries(others).map(([kind, force]) => [kind, ...force])])
-    .filter(([, x, y]) => Math.hypot(x, y) > LEAST).map(([kind, x, y]) => ({kind, x, y}));
+export function pastForcesOf({scene}, body, motion, others) {
+  const given = others.map(([kind, x, y]) => ({kind: /** @type {Force['kind']} */ (kind), x, y}));
+  const all = [...ownForces(scene, body, motion), ...given].filter(({x, y}) => Math.hypot(x, y) > LEAST);
   const total = (/** @type {'x' | 'y'} */ axis) => all.reduce((sum, force) => sum + force[axis], 0);
-  return all.length > 1 ? [...all, {kind: 'sum', x: total('x'), y: total('y')}] : all;
+  return [...all, {kind: 'sum', x: total('x'), y: total('y')}];
 }
 
 /**
