@@ -95,6 +95,12 @@ class Properties(Checked):
         VELOCITY,
         'makes a sensor a conveyor: velocity of its surface in the axes of the body',
     ] = None
+    belt: Annotated[
+        float | None,
+        Within(-FASTEST, FASTEST, 'm/s'),
+        'velocity of its surface along its outline, counter-clockwise, as that of a belt seen '
+        'from the side',
+    ] = None
     robot: Annotated[
         Robot | None,
         Robot.from_value,

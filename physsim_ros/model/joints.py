@@ -149,8 +149,8 @@ class JointKind(StrEnum):
         'slider',
         Schema(
             2,
-            'lets `a` slide along a line fixed to `b`, without rotating',
-            own=('lower', 'upper', 'effort', 'max_speed', 'gain'),
+            'lets `a` slide along a line fixed to `b`, without rotating; with `rate` it is driven',
+            own=('lower', 'upper', 'rate', 'effort', 'max_speed', 'gain'),
             words=('prismatic', 'groove', 'rail', 'piston'),
             least_distance=SMALLEST,
             has_axis=True,
@@ -222,7 +222,8 @@ class JointProperties(Checked):
         float | None,
         Within(-FASTEST, FASTEST, 'rad/s or m/s'),
         'angular velocity of `a` relative to `b`, counter-clockwise; of a winch, that of its '
-        'length, which begins as `length` and stays within its limits',
+        'length, which begins as `length` and stays within its limits; of a slider, velocity of '
+        '`a` along its line',
         1.0,
     ] = None
     max_torque: Annotated[
@@ -281,7 +282,8 @@ class JointProperties(Checked):
     max_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
-        'greatest force of the joint; for torques, N m',
+        'greatest force of the joint, of a driven slider that of its drive, 1000 N unless it is '
+        'set; for torques, N m',
     ] = None
     break_force: Annotated[
         float | None,

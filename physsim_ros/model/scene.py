@@ -65,6 +65,7 @@ class Body:
     expires: int | None = None
     # Not part of the text, which every digest has, since few bodies have them.
     surface_velocity: Point = field(default=(0.0, 0.0), repr=False)
+    belt: float = field(default=0.0, repr=False)
     robot: Robot | None = field(default=None, repr=False)
     towed: Towed | None = field(default=None, repr=False)
     label: str = field(default='', repr=False)
@@ -191,6 +192,16 @@ class Joint:
     def stiffness(self) -> float:
         """Return the stiffness of a spring [N/m], 0 for other kinds."""
         return float(self.number('stiffness')) if self.kind is JointKind.SPRING else 0.0
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether it is a slider with a drive."""
+        return self.kind is JointKind.SLIDER and self.properties.rate is not None
+
+    @property
+    def holding_force(self) -> float | None:
+        """Return the greatest force with which it holds [N, N m]; None is no limit."""
+        return None if self.is_driven else self.properties.max_force
 
     @property
     def collide(self) -> bool:

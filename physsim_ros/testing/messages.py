@@ -45,6 +45,7 @@ class BodyProperties(TypedDict, total=False):
     group: int
     sensor: bool
     surface_velocity: Numbers
+    belt: float
     charge: float
     medium: Mapping[str, Any] | None
     robot: str | Mapping[str, Any]

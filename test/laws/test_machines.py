@@ -245,6 +245,20 @@ def test_a_weak_motor_stalls(report):
     report.check(22, 'motor with a fifth of the torque, height', level, -0.3, 0.1, 'm')
 
 
+def test_a_driven_slider_starts_by_its_force_and_goes_at_its_rate_to_its_limit(report):
+    sim = simulation()
+    spawn(sim, 'lift/0', Box(width=0.4, height=0.4), (0.0, 0.0, 0.0), mass=2.0)
+    said = {'rate': 0.5, 'max_force': 2.0 * (G + 1.0), 'upper': 0.8}
+    join(sim, 'lift/0', 'slider', [(0.0, 0.0), (0.0, 1.0)], a='lift/0', b='world', **said)
+    for number, now in enumerate(steps(sim, 360), 1):
+        # As it starts, the half-step lead of its free fall is a sub-step late.
+        within = G * DT / 4 if number < 125 else 1e-9
+        speed = min(number * DT, 0.5)
+        report.check(22, 'driven slider, speed', now.twists[0, 1], speed, within, 'm/s')
+    last = run(sim, 1.0)
+    report.check(22, 'driven slider, at its limit', last.poses[0, 1], 0.8, 2e-4, 'm')
+
+
 @pytest.mark.parametrize('ratio', [2.0, -2.0, 0.5])
 def test_gears_keep_their_ratio(report, ratio):
     sim = simulation()

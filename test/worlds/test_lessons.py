@@ -123,6 +123,21 @@ def orbit() -> float:
     return times[0]
 
 
+def pulley() -> float:
+    sim = simulation('pulley')
+    for _ in range(60):
+        sim.advance_frame()
+    return float(sim.world.snapshot().forces[0])
+
+
+def belt() -> float:
+    film = Film(simulation('belt'), 1.5)
+    assert film.twist('parcel/0')[-1, 0] == pytest.approx(3.0, abs=1e-6)
+    # Half of what the belt goes in the time is the way of the parcel: it is behind by as much.
+    seconds = (len(film.x('parcel/0')) - 1) * FRAME
+    return 3.0 * seconds - (film.x('parcel/0')[-1] - film.x('parcel/0')[0])
+
+
 # The law of each lesson, and how its figure is measured.
 LAWS = {
     'free_fall': (sqrt(2 * 5 / G), free_fall),
@@ -137,6 +152,8 @@ LAWS = {
     'floating': (0.8 * 6.5 / 10, floating),
     'terminal_speed': (sqrt(0.5 * G / 0.1), terminal_speed),
     'orbit': (2 * pi * sqrt(4**3 / 40), orbit),
+    'pulley': (40 * G / 4, pulley),
+    'belt': (3**2 / (2 * 0.5 * G), belt),
     'spring_energy': (0.5 * sqrt(100 / 1), spring_energy),
 }
 

@@ -88,6 +88,7 @@ typedef struct Body {
     Twist wrench;          // force [N] and torque [N m] that act on it
     double floor_friction; // coefficient of friction with the floor; 0 where none acts
     double lever;          // mean distance of the points that bear it on the floor [m]
+    double belt;           // velocity of its surface along its outline, counter-clockwise [m/s]
     cpVect surface;        // velocity of the surface of a conveyor, in the body's axes [m/s]
     BodyState state;
     BodyScratch scratch;

@@ -90,9 +90,9 @@ void prepare_parts(World *world) {
         Vec across = perpendicular(rotated(vec(joint->axis[0], joint->axis[1]), anchors.of_b));
         Vec beside = sub(add(anchors.arm_b, anchors.apart), scaled(across, across_arm));
         pin->anchorA = rotated_back(beside, anchors.of_b);
-        const Part *last = world->parts + joint->first_part + LIMIT_PART;
-        if (joint->part_count > LIMIT_PART && last->kind == PART_SLIDE) {
-            put_behind(joint, &anchors, (cpSlideJoint *)last->constraint);
+        const Part *limit = world->parts + joint->first_part + LIMIT_PART;
+        if (joint->part_count > LIMIT_PART && limit->kind == PART_SLIDE) {
+            put_behind(joint, &anchors, (cpSlideJoint *)limit->constraint);
         }
     }
 }

@@ -34,10 +34,11 @@ static bool is_slow(const Body *body) {
     return body->anchored || (body->dynamic && !body->state.thrown && point_speed(body) < fastest_error);
 }
 
-// Whether friction locks two bodies: they touch by a face, whose friction is inside the cone. At a first touch the
-// impulse is that of an impact.
+// Whether friction locks two bodies: they touch by a face, which is no belt, and friction is inside the cone. At a
+// first touch the impulse is that of an impact.
 static bool sticks(const cpArbiter *arbiter) {
-    if (arbiter->count != 2 || arbiter->state == ARBITER_FIRST_COLLISION) {
+    bool carried = arbiter->surface_vr.x != 0.0 || arbiter->surface_vr.y != 0.0;
+    if (arbiter->count != 2 || carried || arbiter->state == ARBITER_FIRST_COLLISION) {
         return false;
     }
     double along = fabs(arbiter->contacts[0].jnAcc + arbiter->contacts[1].jnAcc);

@@ -49,6 +49,7 @@ static void find_lost(World *world) {
 static void before_solving(cpConstraint *hook, cpSpace *space) {
     (void)space;
     World *world = hook->userData;
+    move_belts(world);
     correct_first_touches(world);
     order_points(world);
     bound_loads(world);

@@ -211,7 +211,7 @@ def _rows_of(
     :param first: number of its first part
     :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
     """
-    force = each.joint.properties.max_force
+    force = each.joint.holding_force
     rows: list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]] = []
     for number, part in enumerate(each.parts, first):
         if part.kind == lib.PART_SPRING:

@@ -32,6 +32,8 @@ _NO_BIAS = 1.0
 # With 1 Chipmunk takes a limit of an angle whose bias is 0 for one that is not reached: this
 # corrects a share of 4e-7 of an angle in a step of 1/240 s.
 _NEARLY_NO_BIAS = 1.0 - 1e-4
+# Greatest force of the drive of a slider [N], unless it is set: as the greatest torque of a motor.
+_DRIVE = 1000.0
 # How far behind its lower limit the point lies from which the way of a slider is measured [m]; any
 # distance will do.
 _BACK = 1.0
@@ -275,6 +277,16 @@ def _rope(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     return (Part(lib.PART_SLIDE, rope, (_winch(joint, row),)),)
 
 
+def _drives(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return the drive of a slider, if it has one."""
+    if not joint.is_driven:
+        return ()
+    force, rate = joint.properties.max_force, joint.number('rate')
+    most = _DRIVE if force is None else force
+    row = Row(lib.ROW_ALONG, law=lib.LAW_DRIVE, rate=rate, most=most)
+    return (_own(lib.PART_OWN, ends, row),)
+
+
 def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """
     Return an anchor on a line of another body, and bodies that do not turn against each other.
@@ -288,10 +300,11 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     pin = pymunk.PinJoint(ends.b, ends.a, ends.at_b, ends.at_a)
     pin.error_bias = _NO_BIAS
     parts = (Part(lib.PART_PIN, pin, (Row(lib.ROW_ACROSS),)), _turn(joint, ends))
+    drive = _drives(joint, ends)
     lower, upper = joint.properties.lower, joint.properties.upper
     motor = _commanded(joint, ends, lib.PART_WAY, lib.ROW_ALONG)
     if lower is None and upper is None:
-        return *parts, *motor
+        return *parts, *(motor or drive)
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
     # Distances from a point of the line that lies behind its lower limit.
     back = _BACK if lower is None else _BACK - lower
@@ -300,7 +313,7 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, nearest, back + most)
     limit.error_bias = _NO_BIAS
     row = Row(lib.ROW_ALONG, least, most, below=-1.0)
-    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *motor
+    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *(motor or drive)
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -353,10 +366,9 @@ def build_joint(
         # With the background, which is the walls of `bounds` too, a body always collides.
         part.constraint.collide_bodies = joint.collide or b is None
         # Motors have their own.
-        if joint.properties.max_force is not None and not isinstance(
-            part.constraint, pymunk.SimpleMotor
-        ):
-            part.constraint.max_force = joint.properties.max_force
+        is_motor = isinstance(part.constraint, pymunk.SimpleMotor)
+        if joint.holding_force is not None and not is_motor:
+            part.constraint.max_force = joint.holding_force
     return built
 
 

@@ -41,6 +41,8 @@ export interface Body {
   anchored: boolean;
   kinematic: boolean;
   sensor: boolean;
+  /** Velocity of its surface, counter-clockwise [m/s]. */
+  belt?: number;
   label: string;
   mass: number;
   moment: number;

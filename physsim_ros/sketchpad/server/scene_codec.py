@@ -109,6 +109,7 @@ def body_entry(body: Body) -> dict[str, Any]:
         'elasticity': body.elasticity,
         'group': body.group,
         'label': body.label,
+        **({'belt': body.belt} if body.belt else {}),
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
         **({} if body.actor is None else {'actor': body.actor.entry()}),
         **({} if body.medium is None else {'medium': body.medium.entry()}),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of a body: its numbers, its material, its forces, its trail and its plots. */
 
-import {checkField, createElement, inRow, textButton, textField, textOf} from '../dom.js';
+import {checkField, createElement, inRow, numberField, textButton, textField, textOf} from '../dom.js';
 import {actorLines, drawWay} from './driving.js';
 import {mediumFields} from './field_fields.js';
 import {forceFields} from './force_fields.js';
@@ -45,6 +45,7 @@ export function bodyContent(app, [name]) {
       // A robot is neither.
       ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})),
         checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
+      createElement('label', {}, t('Belt [m/s]'), numberField(body.belt ?? 0, (belt) => change({belt: belt ?? 0}))),
       ...forceFields(app, body, change),
       ...body.robot ? [] : mediumFields(app, body, change),
       inRow(

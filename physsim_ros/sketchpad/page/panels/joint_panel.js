@@ -18,6 +18,7 @@ const CONSTANTS = {
   spring: [['stiffness', t('Spring constant [N/m]'), 500, 1, 100], ['rest_length', t('Rest length [m]'), 5, 0.01, 0],
     ['damping', t('Damping [N s/m]'), 20, 0.1, 0]],
   rope: [['length', t('Length [m]'), 10, 0.01, 0], ['rate', t('Rate of a winch [m/s]'), 2, 0.05, 0]],
+  slider: [['rate', t('Rate of its drive [m/s]'), 2, 0.05, 0]],
   motor: [['rate', t('Rate [rad/s]'), 20, 0.1, 1], ['max_torque', t('Greatest torque [N m]'), 1000, 1, 1000]],
   gear: [['ratio', t('Ratio'), 5, 0.1, 1]],
 };
@@ -36,7 +37,7 @@ export function jointContent({world, connection, selection, meters}, [name]) {
   const unit = joint.kind === 'slider' ? 'm' : 'rad', force = createElement('p');
   /** @type {['lower' | 'upper' | 'max_force' | 'break_force', string][]} */
   const limits = [['break_force', t('Breaks at [N]')]];
-  if (joint.kind === 'rope') limits.unshift(['max_force', t('Greatest force [N]')]);
+  if (['rope', 'slider'].includes(joint.kind)) limits.unshift(['max_force', t('Greatest force [N]')]);
   if (LIMITED.includes(joint.kind)) limits.unshift(['lower', t('Least [{unit}]', {unit})], ['upper', t('Greatest [{unit}]', {unit})]);
   return {title: capital(thingWord(joint.kind)), name: isDrawn(name) || world.scene.lesson ? '' : name, first: [force], rest: [
     ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
