@@ -259,7 +259,7 @@ static void take_impulse(const World *world, Island *island, int row) {
     Part *part = world->parts + of_joint->part;
     island->impulses[row] = impulse_at(part, of_joint->component);
     island->last[row] = *island->impulses[row];
-    if (part->kind == PART_OWN || part->kind == PART_ROPE) {
+    if (part->kind == PART_OWN || part->kind == PART_WAY || part->kind == PART_ROPE) {
         // Chipmunk gives none.
         *island->impulses[row] = 0.0;
     }
