@@ -234,7 +234,7 @@ def past_forces(frames: Sequence[CachedFrame], name: str, rate: float) -> dict[s
         if len(snapshot.pulls) == len(snapshot.scene.joints):
             pulls = snapshot.pulls * _sides(snapshot.scene.joint_rows, row)[:, None]
         times.append(snapshot.stamp * 1e-9)
-        fields = snapshot.fields[row : row + 1] if len(snapshot.fields) else np.zeros((1, 2))
+        fields = snapshot.fields[[row]] if len(snapshot.fields) else np.zeros((1, 2))
         forces = along, acting - along, pulls, fields
         rows.append(np.concatenate([each.sum(axis=0) for each in forces]))
     columns = np.array(rows).reshape(-1, 8)

@@ -45,9 +45,9 @@ void tighten_boxes(World *world);
 void prepare_parts(World *world);
 void command_motors(World *world);
 
-// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that begin (`first_touch.c`), the first of two points (`contact_order.c`),
-// the greatest load (`impact_loads.c`), contacts next to an impact (`impact_propagation.c`), points that are hit at
-// once (`block_solver.c`).
+// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that begin
+// (`first_touch.c`), the first of two points (`contact_order.c`), the greatest load (`impact_loads.c`), contacts next
+// to an impact (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);
 void move_belts(World *world);
 void order_points(World *world);
