@@ -128,7 +128,7 @@ def _saved_joint(name: str, terms: Mapping[Any, Any], saved: object) -> Joint:
     check_name(name)
     kind, a, b, properties = joined_from(terms)
     properties.check_kind(kind)
-    seat, guides = _seat(saved, properties.over or ())
+    seat, guides = _seat(saved, properties.guides)
     return Joint(name=name, kind=kind, a=a, b=b, seat=seat, properties=properties, guides=guides)
 
 
@@ -150,20 +150,20 @@ def _is_unedited(
     return len(drawn) == len(points) and is_same(drawn, points)
 
 
-def _seat(value: object, over: tuple[str, ...]) -> tuple[Seat, tuple[Guide, ...]]:
+def _seat(value: object, names: tuple[str, ...]) -> tuple[Seat, tuple[Guide, ...]]:
     """
     Return the seat of a joint, and its guides.
 
     :param value: numbers of the seat, then those of each guide
-    :param over: names of the bodies of its guides
+    :param names: of the bodies of its guides
     """
     own, each = len(Seat._fields), len(Guide._fields) - 1
-    count = own + each * len(over)
+    count = own + each * len(names)
     if not isinstance(value, list) or len(value) != count:
         raise BadProperty(f'seat must be {count} numbers', field='seat')
     numbers = [_IN_SEAT(each, 'seat') for each in value]
     firsts = range(own, count, each)
-    guides = zip(over, firsts, strict=True)
+    guides = zip(names, firsts, strict=True)
     return Seat(*numbers[:own]), tuple(
         Guide(name, *numbers[first : first + each]) for name, first in guides
     )

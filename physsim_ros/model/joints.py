@@ -45,6 +45,12 @@ def _names(value: object, name: str) -> tuple[str, ...]:
     return tuple(value)
 
 
+def _body_name(value: object, name: str) -> str:
+    if not isinstance(value, str):
+        raise BadProperty(f'{name} must be the name of a body, not {shown(value)}', field=name)
+    return value
+
+
 def _ratio(value: object, name: str) -> float:
     ratio = Within(-MOST_RATIO, MOST_RATIO)(value, name)
     if abs(ratio) < 1.0 / MOST_RATIO:
@@ -161,8 +167,8 @@ class JointKind(StrEnum):
         Schema(
             1,
             'couples the rotations of `a` and `b`',
-            own=('ratio', 'phase'),
-            words=('cog', 'gears'),
+            own=('ratio', 'phase', 'carrier'),
+            words=('cog', 'gears', 'planetary', 'epicyclic'),
         ),
     )
 
@@ -279,6 +285,12 @@ class JointProperties(Checked):
         'angle of `b` times `ratio` minus angle of `a`',
         AS_DRAWN,
     ] = None
+    carrier: Annotated[
+        str | None,
+        _body_name,
+        'name of a third body against which the angles of a gear are measured, as the arm that '
+        'carries a planet; `world`, and unless it is set, they are absolute',
+    ] = None
     max_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
@@ -301,6 +313,13 @@ class JointProperties(Checked):
                 f'lower is {self.lower:g} and upper {self.upper:g}; lower must not be greater',
                 field='lower',
             )
+
+    @property
+    def guides(self) -> tuple[str, ...]:
+        """Return the names of the bodies that a joint has beside its two, as its guides."""
+        if self.carrier is None or self.carrier == WORLD:
+            return self.over or ()
+        return (self.carrier,)
 
     def check_kind(self, kind: JointKind, unset: tuple[str, ...] = ()) -> None:
         """
@@ -338,13 +357,6 @@ def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointP
     for key in mapping:
         check_key(key, JOINT_KEYS)
     properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
-    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    a, b = (_body_name(mapping.get(key, ''), key) for key in ('a', 'b'))
     kind = kind_from(mapping.get('kind'))
     return kind, a, WORLD if a and not b else b, JointProperties.from_mapping(properties)
-
-
-def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
-    name = mapping.get(key, '')
-    if not isinstance(name, str):
-        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
-    return name

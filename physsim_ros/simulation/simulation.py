@@ -192,7 +192,7 @@ class Simulation(FrameMaker):
         """Note that the world is another one, which nobody drags or drives."""
         self.requests.hands.clear()
         self.stop_driving()
-        self.playback.note_jump()
+        self.requests.note_jump()
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` returns; time goes on."""
@@ -347,4 +347,4 @@ class Simulation(FrameMaker):
         past = self.at_shown_moment()
         self.playback.frames_due = 0
         yield past
-        self.playback.note_jump()
+        self.requests.note_jump()

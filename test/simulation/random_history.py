@@ -288,6 +288,7 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
         'length': 2.0 * rng.random(),
         'ratio': rng.choice((-1.0, 0.5, 3.0)),
         'phase': rng.number(),
+        'carrier': rng.choice((*rng.names, 'world')),
         'max_force': rng.choice((0.0, 5.0, 500.0)),
         'break_force': 30.0,
         'collide': rng.random() < 0.5,

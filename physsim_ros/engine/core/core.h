@@ -279,9 +279,9 @@ typedef struct Motor {
     int64_t begun; // step at which the command began
 } Motor;
 
-// Kinds of constraints of Chipmunk. PART_OWN, PART_WAY and PART_ROPE are solved by the core alone: a motor without
-// torque keeps the impulse of their row. PART_WAY acts along the axis of its joint; PART_ROPE pulls the second body of
-// its joint along the last span of its path.
+// Kinds of constraints of Chipmunk. From PART_OWN on the core alone solves them: a motor without torque keeps the
+// impulse of their row. PART_ROPE pulls the second body of its joint along the last span of its path, PART_DRIVE along
+// the axis.
 enum {
     PART_PIVOT,
     PART_PIN,
@@ -291,8 +291,8 @@ enum {
     PART_MOTOR,
     PART_SPRING,
     PART_OWN,
-    PART_WAY,
-    PART_ROPE
+    PART_ROPE,
+    PART_DRIVE
 };
 
 // A constraint of a joint.

@@ -34,8 +34,8 @@ double *impulse_at(const Part *part, int component) {
         return &((cpRotaryLimitJoint *)part->constraint)->jAcc;
     case PART_MOTOR:
     case PART_OWN:
-    case PART_WAY:
     case PART_ROPE:
+    case PART_DRIVE:
         return &((cpSimpleMotor *)part->constraint)->jAcc;
     default:
         assert(part->kind == PART_SPRING);
@@ -135,7 +135,7 @@ static Vec between(const cpConstraint *constraint, Vec at_a, Vec at_b) {
 
 // The unit vector along which a constraint about an axis acts on the second body of its joint.
 //
-// Both constraints have the bodies of the joint the other way round, and their anchors are put anew in each step, so
+// Pin and limit have the bodies of the joint the other way round, and their anchors are put anew in each step, so
 // that their lines are taken from the axis. Chipmunk turns the normal of a limit round at the lower one.
 static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     const cpBody *a = world->bodies[joint->a].engine, *b = world->bodies[joint->b].engine;
@@ -143,7 +143,7 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     if (part->kind == PART_PIN) {
         return negated(perpendicular(axis));
     }
-    if (part->kind == PART_WAY) {
+    if (part->kind == PART_DRIVE) {
         return negated(axis);
     }
     const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
@@ -152,10 +152,10 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     return 2.0 * way < limit->min + limit->max ? axis : negated(axis);
 }
 
-// Whether a part acts along the line from one anchor to the other: that of a rod, a rope, a spring, a limit, a motor.
+// Whether a part acts along a line: that of a rod, a rope, a spring, a limit or a drive.
 static bool is_axial(const Part *part) {
-    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING || part->kind == PART_WAY ||
-           part->kind == PART_ROPE;
+    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING || part->kind == PART_ROPE ||
+           part->kind == PART_DRIVE;
 }
 
 // The unit vector along which a rope with guides comes to its second end.
@@ -237,8 +237,7 @@ static double place_of_row(const World *world, const Joint *joint, const Row *ro
     }
     Anchors anchors = anchors_at(joint, a, b);
     x += row_at(row, joint, &anchors, a, b, &jacobian);
-    return row->guide_count == 0 ? x
-                                 : x + carrier_at(joint, guide, pose_of(world->bodies[guide->body].engine), &jacobian);
+    return row->guide_count == 0 ? x : x + carrier_at(joint, pose_of(world->bodies[guide->body].engine), &jacobian);
 }
 
 // How far the row of a joint that is furthest out of its bounds is out of them [m, rad].

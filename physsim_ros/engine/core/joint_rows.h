@@ -40,7 +40,7 @@ static inline int further_count(const Row *row) {
 double span_at(const Row *row, const Guide *guides, int number, Pose a, Pose b, Jacobian *jacobian);
 
 // Return what a carrier adds to x of a gear that turns about it, and its Jacobian.
-double carrier_at(const Joint *joint, const Guide *guide, Pose carrier, Jacobian *jacobian);
+double carrier_at(const Joint *joint, Pose carrier, Jacobian *jacobian);
 
 // The Jacobian of direction . (p_a - p_b), for points that are `arm_a` and `arm_b` from the centres of mass.
 Jacobian along(Vec direction, Vec arm_a, Vec arm_b);

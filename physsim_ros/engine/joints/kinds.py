@@ -261,7 +261,8 @@ def _path(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 def _winch(joint: Joint, row: Row) -> Row:
     """Return the row of a rope whose upper bound has a rate."""
     lower, upper = joint.properties.lower, joint.properties.upper
-    reach = max(lower or 0.0, 0.0), math.inf if upper is None else upper
+    # A rope without a length has no direction in which it could pull.
+    reach = max(lower or 0.0, SMALLEST), math.inf if upper is None else upper
     return row._replace(rate=joint.properties.rate or 0.0, reach=reach)
 
 
@@ -284,7 +285,7 @@ def _drives(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     force, rate = joint.properties.max_force, joint.number('rate')
     most = _DRIVE if force is None else force
     row = Row(lib.ROW_ALONG, law=lib.LAW_DRIVE, rate=rate, most=most)
-    return (_own(lib.PART_OWN, ends, row),)
+    return (_own(lib.PART_DRIVE, ends, row),)
 
 
 def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -302,7 +303,7 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     parts = (Part(lib.PART_PIN, pin, (Row(lib.ROW_ACROSS),)), _turn(joint, ends))
     drive = _drives(joint, ends)
     lower, upper = joint.properties.lower, joint.properties.upper
-    motor = _commanded(joint, ends, lib.PART_WAY, lib.ROW_ALONG)
+    motor = _commanded(joint, ends, lib.PART_DRIVE, lib.ROW_ALONG)
     if lower is None and upper is None:
         return *parts, *(motor or drive)
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
@@ -317,8 +318,13 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
-    """Return a body whose turn is that of the other times a ratio, and a phase."""
-    return (_turn(joint, ends),)
+    """Return a body whose turn about a carrier is that of the other times a ratio, and a phase."""
+    turn = _turn(joint, ends)
+    if not ends.guides:
+        return (turn,)
+    # Chipmunk's gear would not load the carrier.
+    (row,) = turn.rows
+    return (_own(lib.PART_OWN, ends, row._replace(guides=ends.guides)),)
 
 
 KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {

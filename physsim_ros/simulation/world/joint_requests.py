@@ -60,10 +60,11 @@ def join(live: LiveSpace, request: Join) -> Answer:
         names = _passed_bodies(space, properties.over, passed)
         properties = replace(properties, over=names)
         points = (points[0], *map(partial(_center, space), names, passed), points[-1])
-    _check_members(space, request.kind, (a, *(properties.over or ()), b))
+    _check_carrier(space, (a, b), properties.carrier)
+    _check_members(space, request.kind, (a, *properties.guides, b))
     if (
         kept is not None
-        and (kept.a, kept.b, kept.properties.over) == (a, b, properties.over)
+        and (kept.a, kept.b, kept.properties.guides) == (a, b, properties.guides)
         and _is_at(space, kept, points)
     ):
         seat, guides = kept.seat, kept.guides
@@ -74,6 +75,7 @@ def join(live: LiveSpace, request: Join) -> Answer:
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
         guides, length = _rope(space, properties.over or (), points)
         seat = seat._replace(length=length) if guides else seat
+        guides = guides or tuple(Guide(name, 0.0, 0.0) for name in properties.guides)
     joint = Joint(
         name=request.name,
         kind=request.kind,
@@ -277,6 +279,22 @@ def _rope(
     )
 
 
+def _check_carrier(space: Space, ends: tuple[str, str], carrier: str | None) -> None:
+    """
+    Refuse a carrier of a gear that is no third body.
+
+    :raises UnknownBody: there is no body of that name
+    :raises BadProperty: it is one of the two
+    """
+    if carrier is None or carrier == WORLD:
+        return
+    body_of_name(space, carrier, 'carrier', others=(WORLD,))
+    if carrier in ends:
+        raise BadProperty(
+            f'{carrier} is a wheel of the gear, and not its carrier', field='carrier'
+        )
+
+
 def _check_members(space: Space, kind: JointKind, names: tuple[str, ...]) -> None:
     """Refuse a joint none of whose bodies is dynamic."""
     bodies = [space.bodies.by_name[name].body for name in dict.fromkeys(names) if name != WORLD]
@@ -314,6 +332,8 @@ def _phase(space: Space, a: str, b: str, properties: JointProperties) -> float:
     """
     ratio = 1.0 if properties.ratio is None else properties.ratio
     now = ratio * _pose(space, b)[2] - _pose(space, a)[2]
+    if properties.carrier is not None:
+        now += (1.0 - ratio) * _pose(space, properties.carrier)[2]
     if properties.phase is None:
         return now
     return properties.phase + math.tau * round((now - properties.phase) / math.tau)

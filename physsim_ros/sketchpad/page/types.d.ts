@@ -120,6 +120,8 @@ export interface Joint {
   damping?: number;
   length?: number;
   ratio?: number;
+  /** Name of the body about which the angles of a gear are measured. */
+  carrier?: string;
   max_force?: number;
   break_force?: number;
 }
