@@ -51,6 +51,13 @@ def _body_name(value: object, name: str) -> str:
     return value
 
 
+def _direction(value: object, name: str) -> float:
+    direction = Within(-1.0, 1.0)(value, name)
+    if abs(direction) < 1.0:
+        raise BadProperty(f'{name} is {direction:g}; it must be 1 or -1', field=name)
+    return direction
+
+
 def _ratio(value: object, name: str) -> float:
     ratio = Within(-MOST_RATIO, MOST_RATIO)(value, name)
     if abs(ratio) < 1.0 / MOST_RATIO:
@@ -105,9 +112,9 @@ class JointKind(StrEnum):
         'axle',
         Schema(
             1,
-            'lets them turn about the point; limits are angles',
-            own=('lower', 'upper', 'effort', 'max_speed', 'gain'),
-            words=('hinge', 'revolute', 'continuous', 'pivot', 'bolt'),
+            'lets them turn about the point, as a `ratchet` one way; limits are angles',
+            own=('lower', 'upper', 'ratchet', 'effort', 'max_speed', 'gain'),
+            words=('hinge', 'revolute', 'continuous', 'pivot', 'bolt', 'ratchet', 'freewheel'),
         ),
     )
     MOTOR = (
@@ -223,6 +230,11 @@ class JointProperties(Checked):
         float | None,
         Within(-LARGEST, LARGEST, 'rad or m'),
         'greatest angle, displacement or length',
+    ] = None
+    ratchet: Annotated[
+        float | None,
+        _direction,
+        '1: `a` turns against `b` only counter-clockwise; -1: only clockwise',
     ] = None
     rate: Annotated[
         float | None,

@@ -68,6 +68,7 @@ EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
     'over': ('via', 'through', 'wheels', 'pulleys', 'rings', 'sheaves'),
     'ratio': ('transmission', 'teeth'),
     'phase': ('angle', 'offset'),
+    'ratchet': ('freewheel', 'one_way', 'clutch'),
     'carrier': ('arm', 'planet_carrier', 'reference'),
     'max_force': ('force',),
     'break_force': ('breaks', 'breakable', 'breaking_force', 'fragile'),

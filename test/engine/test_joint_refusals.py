@@ -84,6 +84,9 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
         'carrier',
     ),
     'a wheel as its carrier': ({'kind': 'gear', 'carrier': 'a/0'}, 'bad_property', 'carrier'),
+    'a ratchet that goes neither way': ({'ratchet': 0.0}, 'bad_property', 'ratchet'),
+    'a ratchet that goes twice': ({'ratchet': 2.0}, 'bad_property', 'ratchet'),
+    'a ratchet of a word': ({'ratchet': 'left'}, 'bad_property', 'ratchet'),
     'a carrier of an axle': ({'carrier': 'fix/0'}, 'unknown_property', 'carrier'),
     'a negative stiffness': (
         {'kind': 'spring', 'points': [(0.4, 0.0), (1.0, 0.0)], 'stiffness': -1.0},

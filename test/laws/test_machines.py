@@ -276,6 +276,26 @@ def test_gears_keep_their_ratio(report, ratio):
     report.check(23, 'gears, ratio', turned, ratio, 0.01, '–', relative=True)
 
 
+@pytest.mark.parametrize('way', [1.0, -1.0])
+def test_a_pendulum_with_a_ratchet_stays_where_it_has_risen_to(report, way):
+    # One rises to the other side, as high as it was; one that would fall the other way is held.
+    sim = simulation()
+    for name, x, side in (('arm/0', 0.0, way), ('arm/1', 3.0, -way)):
+        yaw = -math.pi / 2 - side * math.pi / 3
+        pose = (x + 0.5 * math.cos(yaw), 0.5 * math.sin(yaw), yaw)
+        spawn(sim, name, Box(width=1.0, height=0.1), pose)
+        join(sim, f'axle:{name}', 'axle', [(x, 0.0)], a=name, b='world', ratchet=way)
+
+    last = run(sim, 5.0)
+
+    risen = last.poses[0, 2] + math.pi / 2
+    report.check(23, 'pendulum with a ratchet, angle', risen, way * math.pi / 3, 1e-4, 'rad')
+    report.check(23, 'the same, spin', last.twists[0, 2], 0.0, 1e-9, 'rad/s')
+    held = last.poses[1, 2] + math.pi / 2
+    # It falls in the first sub-step alone.
+    report.check(23, 'pendulum that a ratchet holds', held, way * math.pi / 3, 1e-5, 'rad')
+
+
 def planetary(sim, **said):
     """Add a sun and a planet of 0.2 m on an arm, which the joint `motor/0` turns."""
     spawn(sim, 'sun/0', Disc(radius=0.2), mass=2.0, group=1)

@@ -277,6 +277,7 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
     said = {
         'lower': -rng.random(),
         'upper': rng.random(),
+        'ratchet': rng.choice((-1.0, 1.0)),
         'rate': rng.number(20.0),
         'max_torque': rng.choice((0.0, 1.0, 1000.0)),
         'effort': rng.choice((1.0, 100.0)),

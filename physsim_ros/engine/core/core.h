@@ -230,8 +230,9 @@ enum {
 };
 
 // Laws of constraint rows: lower <= x <= upper, both the same for an equality; the force of a spring and its damper,
-// without which x is `lower`; x changes at `rate`, with a force of any size up to `most`.
-enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE };
+// without which x is `lower`; x changes at `rate`, with a force of any size up to `most`; x does not rise, as in a
+// ratchet, or does not fall.
+enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE, LAW_FALLS, LAW_RISES };
 
 // What a rope passes, in the order of its way: the bodies at its ends, rings, and wheels. Of a gear it is the carrier.
 typedef struct Guide {

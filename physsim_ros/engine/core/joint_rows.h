@@ -21,6 +21,11 @@ static inline bool is_equality(const Row *row) {
     return row->law == LAW_BOUNDS && row->lower == row->upper;
 }
 
+// Whether a row is about the rate of x, wherever x is.
+static inline bool is_of_rate(const Row *row) {
+    return row->law == LAW_DRIVE || row->law == LAW_FALLS || row->law == LAW_RISES;
+}
+
 // Return x of a row, and its Jacobian.
 double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a, Pose b, Jacobian *jacobian);
 

@@ -164,11 +164,17 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """
     Return two anchors that coincide; the turn of one body against the other may have limits.
 
+    A ratchet has teeth of any fineness: an angle that is reached is not given back.
+
     `lower` and `upper` are turns of a against b from where they were, rows have the turn of b
     against a, from zero.
     """
     lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
-    parts = _pivot(ends), *_commanded(joint, ends, lib.PART_OWN, lib.ROW_ANGLE)
+    ratchet = joint.properties.ratchet
+    parts: tuple[Part, ...] = (_pivot(ends), *_commanded(joint, ends, lib.PART_OWN, lib.ROW_ANGLE))
+    if ratchet is not None:
+        law = lib.LAW_FALLS if ratchet > 0.0 else lib.LAW_RISES
+        parts = (*parts, _own(lib.PART_OWN, ends, Row(lib.ROW_ANGLE, law=law)))
     if lower is None and upper is None:
         return parts
     least = -math.inf if upper is None else phase - upper

@@ -44,6 +44,7 @@ export function jointContent({world, connection, selection, meters, words}, [nam
       const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
       return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
     }),
+    ...joint.kind === 'axle' ? [ratchetField(joint, (ratchet) => change({ratchet}))] : [],
     ...joint.kind === 'gear' ? [carrierField(joint, world, words, (carrier) => change({carrier}))] : [],
     ...limits.map(([key, label]) =>
       createElement('label', {}, label, numberField(joint[key] ?? null, (value) => change({[key]: value}), {placeholder: t('none')}))),
@@ -56,6 +57,17 @@ export function jointContent({world, connection, selection, meters, words}, [nam
     view.ring(world.place(now.a, now.points[0]), RING, view.palette.accent);
     if (now.points[1] && now.kind !== 'slider') view.ring(world.place(now.b, now.points[1]), RING, view.palette.accent);
   }};
+}
+
+/**
+ * @param {Joint} axle
+ * @param {(way: ?number) => void} change
+ * @returns {HTMLElement} a choice of the way that an axle turns
+ */
+function ratchetField(axle, change) {
+  /** @type {[string, string][]} */
+  const ways = [['', t('both ways')], ['1', t('counter-clockwise')], ['-1', t('clockwise')]], label = t('Turns');
+  return createElement('label', {}, label, choice(label, ways, String(axle.ratchet ?? ''), (way) => change(Number(way) || null)));
 }
 
 /**
