@@ -113,7 +113,7 @@ class JointKind(StrEnum):
         Schema(
             1,
             'lets them turn about the point, as a `ratchet` one way; limits are angles',
-            own=('lower', 'upper', 'ratchet'),
+            own=('lower', 'upper', 'ratchet', 'effort', 'max_speed', 'gain'),
             words=('hinge', 'revolute', 'continuous', 'pivot', 'bolt', 'ratchet', 'freewheel'),
         ),
     )
@@ -163,7 +163,7 @@ class JointKind(StrEnum):
         Schema(
             2,
             'lets `a` slide along a line fixed to `b`, without rotating; with `rate` it is driven',
-            own=('lower', 'upper', 'rate'),
+            own=('lower', 'upper', 'rate', 'effort', 'max_speed', 'gain'),
             words=('prismatic', 'groove', 'rail', 'piston'),
             least_distance=SMALLEST,
             has_axis=True,
@@ -246,6 +246,24 @@ class JointProperties(Checked):
     ] = None
     max_torque: Annotated[
         float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', 1000.0
+    ] = None
+    effort: Annotated[
+        float | None,
+        Within(0.0, HEAVIEST, 'N m or N'),
+        'greatest torque or force of its motor, which holds until it is commanded; without it '
+        'there is none',
+    ] = None
+    max_speed: Annotated[
+        float | None,
+        Within(0.0, FASTEST, 'rad/s or m/s'),
+        'greatest rate at which that motor obeys commands',
+        1.0,
+    ] = None
+    gain: Annotated[
+        float | None,
+        Within(0.0, 200.0, '1/s'),
+        'rate at which that motor closes the way to a commanded position, by that way',
+        20.0,
     ] = None
     stiffness: Annotated[float | None, Within(0.0, HEAVIEST, 'N/m'), 'force per strain', 100.0] = (
         None

@@ -16,7 +16,7 @@ typedef struct Anchors {
 
 Anchors anchors_at(const Joint *joint, Pose a, Pose b);
 
-// Whether a row holds x where it is, rather than by a force.
+// Whether a row holds x where it is.
 static inline bool is_equality(const Row *row) {
     return row->law == LAW_BOUNDS && row->lower == row->upper;
 }

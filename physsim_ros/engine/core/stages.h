@@ -41,8 +41,9 @@ void clamp_moves(World *world);
 void finish_moves(World *world);
 void tighten_boxes(World *world);
 
-// Constraints are put where the step needs them (`joint_parts.c`).
+// Constraints are put where the step needs them (`joint_parts.c`), and motors get their rates (`joint_motors.c`).
 void prepare_parts(World *world);
+void command_motors(World *world);
 
 // Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that begin
 // (`first_touch.c`), the first of two points (`contact_order.c`), the greatest load (`impact_loads.c`), contacts next

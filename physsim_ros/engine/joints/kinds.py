@@ -171,7 +171,7 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """
     lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
     ratchet = joint.properties.ratchet
-    parts: tuple[Part, ...] = (_pivot(ends),)
+    parts: tuple[Part, ...] = (_pivot(ends), *_commanded(joint, ends, lib.PART_OWN, lib.ROW_ANGLE))
     if ratchet is not None:
         law = lib.LAW_FALLS if ratchet > 0.0 else lib.LAW_RISES
         parts = (*parts, _own(lib.PART_OWN, ends, Row(lib.ROW_ANGLE, law=law)))
@@ -183,6 +183,18 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     limit.error_bias = _NEARLY_NO_BIAS
     row = Row(lib.ROW_ANGLE, least, most)
     return *parts, Part(lib.PART_ROTARY_LIMIT, limit, (row,))
+
+
+def _commanded(joint: Joint, ends: Ends, part: int, row: int) -> tuple[Part, ...]:
+    """
+    Return the motor of an axle or slider, if it has one, whose rate and force the core sets.
+
+    :param part: kind of its part
+    :param row: kind of its row
+    """
+    if not joint.properties.effort:
+        return ()
+    return (_own(part, ends, Row(row, law=lib.LAW_DRIVE, most=joint.properties.effort)),)
 
 
 def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -296,8 +308,9 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     parts = (Part(lib.PART_PIN, pin, (Row(lib.ROW_ACROSS),)), _turn(joint, ends))
     drive = _drives(joint, ends)
     lower, upper = joint.properties.lower, joint.properties.upper
+    motor = _commanded(joint, ends, lib.PART_DRIVE, lib.ROW_ALONG)
     if lower is None and upper is None:
-        return *parts, *drive
+        return *parts, *(motor or drive)
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
     # Distances from a point of the line that lies behind its lower limit.
     back = _BACK if lower is None else _BACK - lower
@@ -306,7 +319,7 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, nearest, back + most)
     limit.error_bias = _NO_BIAS
     row = Row(lib.ROW_ALONG, least, most, below=-1.0)
-    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *drive
+    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *(motor or drive)
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:

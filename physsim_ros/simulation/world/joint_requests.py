@@ -20,7 +20,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import names_in, WORLD
-from physsim_ros.model.requests import Axle, Join, Pin, Rejoin, Unjoin, UnjoinAll
+from physsim_ros.model.requests import Axle, CommandMotors, Join, Pin, Rejoin, Unjoin, UnjoinAll
 from physsim_ros.model.rope_path import arc, side, spans
 from physsim_ros.model.scene import Guide, Joint, Seat
 from physsim_ros.model.shapes import Disc
@@ -134,6 +134,28 @@ def unjoin(live: LiveSpace, request: Unjoin) -> Answer:
     check_names(live.space, (request.name,), 'name')
     live.space.unjoin(request.name)
     return Answer(subject=request.name, message=f'deleted joint {request.name}')
+
+
+def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
+    """
+    Have motors of joints obey commands.
+
+    :raises UnknownJoint: there is no joint of a name
+    :raises BadProperty: a joint has no motor
+    """
+    names = [command.joint for command in request.commands]
+    check_names(live.space, names, 'joint')
+    for name in names:
+        joint = live.space.joints.by_name[name].joint
+        if not joint.properties.effort:
+            raise BadProperty(
+                f'{name} has no motor: an axle or a slider with the property effort has one',
+                field='joint',
+            )
+    for command in request.commands:
+        live.space.command_motor(command, live.step_count)
+    subject = names[0] if len(names) == 1 else ''
+    return Answer(subject=subject, message=f'commanded {counted(len(names), "motor")}')
 
 
 def check_names(space: Space, names: Iterable[str], field: str) -> None:
