@@ -3,12 +3,13 @@
 
 """Every world that comes with the package loads, is saved, and is shown."""
 
+from math import inf
 from pathlib import Path
 
 from physsim_ros.files import load_world, save_world, shipped_worlds
 from physsim_ros.model.requests import Restore
 from physsim_ros.model.settings import WorldSettings
-from physsim_ros.simulation.world import Worldfrom math import inf
+from physsim_ros.simulation.world import World
 
 import pytest
 
