@@ -10,7 +10,6 @@ from physsim_ros.files import load_world, save_world, shipped_worlds
 from physsim_ros.model.requests import Restore
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
-
 import pytest
 
 from .film import RATE, simulation, state_of
