@@ -117,6 +117,13 @@ class RigidBody:
         self.pm_body.position = local_to_world(self.offset, pose)
         index_at_rest(self.pm_body)
 
+    def pose_after(self, seconds: float) -> Pose:
+        """Return the body's origin after a time at its present velocity [m, rad]."""
+        (x, y), (vx, vy) = self.pm_body.position, self.pm_body.velocity
+        yaw = self.pm_body.angle + self.pm_body.angular_velocity * seconds
+        offset_x, offset_y = rotated(self.offset, yaw)
+        return x + vx * seconds - offset_x, y + vy * seconds - offset_y, yaw
+
     def covers(self, point: Point) -> bool:
         """Return whether a point of the world lies in the body where it is now, edge included."""
         form, local = self.body.shape.form, world_to_local(point, self.pose)

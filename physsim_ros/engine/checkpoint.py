@@ -22,7 +22,14 @@ from physsim_ros.engine.body import engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
-from physsim_ros.model.checkpoint import BodyState, Checkpoint, ImpulseCache, Motion, WorldState
+from physsim_ros.model.checkpoint import (
+    BodyState,
+    Checkpoint,
+    Commands,
+    ImpulseCache,
+    Motion,
+    WorldState,
+)
 from physsim_ros.model.garbage_collection import suspended_collection
 from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.states import (
@@ -71,6 +78,7 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         field_leads=table.field_leads,
         grips=tuple(space.grips),
         unstepped=space.joints.unstepped(),
+        commands=tuple(space.joints.commands.values()),
         bounds=space.joints.bounds(),
         robots=table.robot_states,
         actors=table.actor_states,
@@ -115,6 +123,7 @@ def saved_state(space: Space, step: int) -> WorldState:
         settings=checkpoint.scene.settings,
         bodies=tuple(bodies),
         joints=space.joints.drawn_now(),
+        commands=_shifted(checkpoint.commands, -step),
         lesson=checkpoint.scene.lesson,
         memory=memory,
     )
@@ -153,6 +162,7 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
         ),
         memory=state.memory or _no_impulses(state),
         unstepped=frozenset(joint.name for joint in state.joints),
+        commands=_shifted(state.commands, step),
         robots=np.array(
             [
                 (saved.driven or SPAWNED).shifted(step)
@@ -170,6 +180,11 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
             ACTOR_STATE,
         ),
     )
+
+
+def _shifted(commands: Commands, steps: int) -> Commands:
+    """Return commands in a world that counts its steps from so many earlier."""
+    return tuple((command, begun + steps) for command, begun in commands)
 
 
 def _leads_of(checkpoint: Checkpoint) -> list[Twist | None]:
@@ -238,6 +253,8 @@ def restore_checkpoint(
     space.core.write_state(checkpoint.state)
     for joint in scene.joints:
         space.joints.add(joint)
+    for command, begun in checkpoint.commands:
+        space.joints.command(command, begun)
     space.joints.set_unstepped(checkpoint.unstepped)
     space.joints.set_bounds(checkpoint.bounds)
     space.lay_out_joints()

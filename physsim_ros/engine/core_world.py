@@ -33,6 +33,7 @@ _FUNCTIONS = {
 _STRUCTS = {
     'grips': 'Grip',
     'forces': 'AppliedForce',
+    'motors': 'Motor',
     'regions': 'Region',
     'attractors': 'Attractor',
     'robots': 'Robot',
@@ -105,14 +106,15 @@ class CoreWorld:
         if 'joints' not in self._tables:
             return
         lib.core_use_joints(self._world, *(ffi.NULL, 0) * 4)
+        self._world.motor_count = 0
         del self._tables['joints']
 
     def use(self, **tables: Table) -> None:
         """
         Have the core use tables, each in place of the one of its name.
 
-        :param tables: `grips`, and in the order of their bodies `forces`, `regions`,
-            `attractors`, `robots` and `actors`; of the structs of `_STRUCTS`
+        :param tables: `grips`, `motors` in the order of their joints, and in that of their bodies
+            `forces`, `regions`, `attractors`, `robots` and `actors`; of the structs of `_STRUCTS`
         """
         for name, table in tables.items():
             setattr(self._world, name, pointer(table, _STRUCTS[name]))

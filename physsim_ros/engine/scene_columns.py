@@ -151,8 +151,9 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     own['state']['lead'][:] = own['steady_lead']
     own['floor_friction'] = scene.floor_friction
     for row in np.flatnonzero(own['floor_friction']).tolist():
-        robot = bodies[row].robot
-        own[row]['lever'] = lever_of(forms[row]) if robot is None else robot.drive.lever
+        wheels = bodies[row].wheels
+        own[row]['lever'] = lever_of(forms[row]) if wheels is None else wheels.lever
+    own['towed'] = [body.towed is not None for body in bodies]
     own['belt'] = [body.belt for body in bodies]
     own['surface'][:] = [body.surface_velocity for body in bodies] or np.empty((0, 2))
     # The background has no inner radius: what meets its walls counts alone.
@@ -280,12 +281,14 @@ def _robot_records(scene: Scene) -> Table:
     for number, (row, body) in enumerate(found):
         robot, record = body.robot, records[number]
         assert robot is not None  # noqa: S101 - by the list above
+        record['body'], record['center'] = row, body.shape.form.centroid
+        if robot.drive is None:
+            continue
         rims = np.array([*robot.drive.wheels.values()], np.float64).reshape(-1, 3)
-        record['body'], record['wheel_count'] = row, len(rims)
+        record['wheel_count'] = len(rims)
         record['wheels'][: len(rims)] = rims
         record['acceleration'] = robot.drive.acceleration
         record['curvature'] = robot.drive.most_curved
-        record['center'] = body.shape.form.centroid
         record['slip'] = robot.odometry.slip
     return records
 
@@ -310,8 +313,7 @@ def _actor_records(
         record[actor.KIND] = actor.parameters
         if isinstance(actor, Pedestrian):
             record['pace'] = actor.pace
-        if body.robot is not None:
-            drive = body.robot.drive
+        if body.robot is not None and (drive := body.robot.drive) is not None:
             record['holonomic'] = drive.holonomic
             record['ahead'] = 0.0 if drive.holonomic else body.shape.form.outer
             record['most'] = drive.max_speed, 0.0, drive.max_turn

@@ -11,6 +11,7 @@ a wrench changes.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 import math
 
 import numpy as np
@@ -27,6 +28,8 @@ from physsim_ros.engine.scene_columns import check_columns, check_floor, columns
 from physsim_ros.engine.settings import make_space
 from physsim_ros.engine.warm_start import scale_impulses, ShapeIds
 from physsim_ros.model.lesson import Lesson
+from physsim_ros.model.motor_command import CommandPoint, MotorCommand
+from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
@@ -277,13 +280,37 @@ class Space:
         """Return the bodies on which a wrench acts, in spawn order."""
         return sorted(self._wrenched.values(), key=lambda rigid: rigid.serial)
 
-    # Robots
+    # Motors and robots
+
+    def command_motor(self, command: MotorCommand, step: int) -> None:
+        """
+        Have the motor of a joint obey a command; a trajectory begins where the joint is.
+
+        :param step: count of steps that the world has made
+        """
+        joint = self.joints.by_name[command.joint].joint
+        first = command.points[0]
+        if command.mode == 'position' and first.time > 0.0:
+            now, then = (self._position_after(joint, time) for time in (0.0, self.dt))
+            rate = math.nan if math.isnan(first.rate) else (then - now) / self.dt
+            start = CommandPoint(0.0, now, rate)
+            command = replace(command, points=(start, *command.points))
+        self.changes += self.joints.commands.get(command.joint) != (command, step)
+        self.joints.command(command, step)
+        for end in (joint.a, joint.b):
+            if end != WORLD:
+                self.bodies.by_name[end].pm_body.activate()
+
+    def _position_after(self, joint: Joint, seconds: float) -> float:
+        ends = (end for end in (joint.a, joint.b) if end != WORLD)
+        return joint.position({end: self.bodies.by_name[end].pose_after(seconds) for end in ends})
 
     def drive(self, rigid: RigidBody, velocity: Twist, until: int) -> None:
         """Have a robot drive at a velocity as seen from it [m/s, rad/s], up to a step."""
         robot = rigid.body.robot
-        assert robot is not None  # noqa: S101 - its caller refuses other bodies
-        aim, record = robot.drive.aim(velocity), self._robot_record(rigid)
+        drive = None if robot is None else robot.drive
+        assert drive is not None  # noqa: S101 - its caller refuses other bodies
+        aim, record = drive.aim(velocity), self._robot_record(rigid)
         self.changes += self.drive_of(rigid) != (aim, until)
         record['aim'], record['until'] = aim, until
         rigid.pm_body.activate()

@@ -8,19 +8,19 @@ Laws: joints are made by requests to a world, so that files obey the rules of me
 seat is kept to the bit where nobody has edited the joint or moved its bodies.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 import math
-from typing import Any
+from typing import Annotated, Any
 
 from physsim_ros.engine.body_table import LOST
 from physsim_ros.files.world_schema import is_same, naming, OWN_JOINT_KEYS, ROUNDING
-from physsim_ros.model.checkpoint import WorldState
-from physsim_ros.model.checks import point_list, Within
+from physsim_ros.model.checkpoint import Commands, WorldState
+from physsim_ros.model.checks import LONGEST, point_list, text, Within
+from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import joined_from, MOST_RATIO
+from physsim_ros.model.motor_command import CommandPoint, MotorCommand, points_from
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests import join_from, Restore
 from physsim_ros.model.scene import Guide, Joint, Seat
@@ -79,12 +79,56 @@ def joints_from(
     return tuple(joint or made[name] for name, joint in joints.items())
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Command(Checked):
+    """The command of a motor, as of `MotorCommand`."""
+
+    mode: Annotated[str, text, 'of the values']
+    points: Annotated[tuple[CommandPoint, ...], points_from, 'of a trajectory']
+    seconds: Annotated[float, Within(0.0, LONGEST, 's'), 'since it began'] = 0.0
+
+
+def commands_from(
+    entries: list[dict[Any, Any]], joints: tuple[Joint, ...], physics_rate: float
+) -> Commands:
+    """
+    Return the commands of the motors of a file, whose steps count from now.
+
+    :param entries: of the joints
+    :param joints: of these entries
+    :param physics_rate: [Hz]
+    :raises BadWorldFile: a command is refused
+    """
+    commands = []
+    for count, (entry, joint) in enumerate(zip(entries, joints, strict=True), 1):
+        if 'command' in entry:
+            with naming(entry, 'joint', count):
+                saved = _Command.from_value(entry['command'], 'command')
+                if not joint.properties.effort:
+                    raise BadProperty(f'{joint.name} has no motor', field='command')
+                command = MotorCommand(joint=joint.name, mode=saved.mode, points=saved.points)
+                commands.append((command, -round(saved.seconds * physics_rate)))
+    return tuple(commands)
+
+
+def command_entry(command: MotorCommand, begun: int, physics_rate: float) -> dict[str, object]:
+    """
+    Return the entry of a command that `commands_from` makes it of.
+
+    :param begun: step at which it began, which counts from now
+    """
+    points = [
+        [each.time, each.value] + [each.rate] * math.isfinite(each.rate) for each in command.points
+    ]
+    return {'mode': command.mode, 'points': points, 'seconds': -begun / physics_rate}
+
+
 def _saved_joint(name: str, terms: Mapping[Any, Any], saved: object) -> Joint:
     """Return a joint with its saved seat, which no request might be able to draw."""
     check_name(name)
     kind, a, b, properties = joined_from(terms)
     properties.check_kind(kind)
-    seat, guides = _seat(saved, properties.over or ())
+    seat, guides = _seat(saved, properties.guides)
     return Joint(name=name, kind=kind, a=a, b=b, seat=seat, properties=properties, guides=guides)
 
 
@@ -106,20 +150,20 @@ def _is_unedited(
     return len(drawn) == len(points) and is_same(drawn, points)
 
 
-def _seat(value: object, over: tuple[str, ...]) -> tuple[Seat, tuple[Guide, ...]]:
+def _seat(value: object, names: tuple[str, ...]) -> tuple[Seat, tuple[Guide, ...]]:
     """
     Return the seat of a joint, and its guides.
 
     :param value: numbers of the seat, then those of each guide
-    :param over: names of the bodies of its guides
+    :param names: of the bodies of its guides
     """
     own, each = len(Seat._fields), len(Guide._fields) - 1
-    count = own + each * len(over)
+    count = own + each * len(names)
     if not isinstance(value, list) or len(value) != count:
         raise BadProperty(f'seat must be {count} numbers', field='seat')
     numbers = [_IN_SEAT(each, 'seat') for each in value]
-    firsts = range(own, count, each)
-    guides = zip(over, firsts, strict=True)
+    firsts, ends = range(own, count, each), range(own + each, count + 1, each)
+    guides = zip(names, firsts, ends, strict=True)
     return Seat(*numbers[:own]), tuple(
-        Guide(name, *numbers[first : first + each]) for name, first in guides
+        Guide(name, *numbers[first:end]) for name, first, end in guides
     )

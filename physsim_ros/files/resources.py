@@ -164,8 +164,8 @@ def _merged(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> dict[Any, Any]:
     result = dict(old)
     for key, value in new.items():
         former = old.get(key)
-        if key == 'sensors' and isinstance(value, dict):
-            result[key] = _with_changed_sensors(former or [], value)
+        if key in _BY_NAME and isinstance(value, dict):
+            result[key] = _changed_by_name(_BY_NAME[key], former or [], value)
         elif isinstance(value, dict) and isinstance(former, dict):
             same_kind = value.get('kind', former.get('kind')) == former.get('kind')
             result[key] = _merged(former, value) if same_kind else value
@@ -174,29 +174,34 @@ def _merged(old: Mapping[Any, Any], new: Mapping[Any, Any]) -> dict[Any, Any]:
     return result
 
 
-def _with_changed_sensors(
-    sensors: list[Mapping[Any, Any]], changes: Mapping[Any, Any]
+# Lists of a robot whose elements have names: what an element is.
+_BY_NAME = {'sensors': 'sensor', 'links': 'link', 'joints': 'joint'}
+
+
+def _changed_by_name(
+    noun: str, entries: list[Mapping[Any, Any]], changes: Mapping[Any, Any]
 ) -> list[Mapping[Any, Any]]:
     """
-    Return the sensors of a shipped robot with changes by their names.
+    Return the sensors, links or joints of a shipped robot with changes by their names.
 
-    :raises BadProperty: there is no such sensor, or its changes are no mapping
+    :param noun: for one of them
+    :raises BadProperty: there is none of a name, or its changes are no mapping
     """
-    names = [sensor['name'] for sensor in sensors]
+    names = [entry['name'] for entry in entries]
     for name, change in changes.items():
         if name not in names:
             there = ', '.join(names) or 'none'
             raise BadProperty(
-                f'there is no sensor {shown(name)}{nearest_name(str(name), names)}; there are '
+                f'there is no {noun} {shown(name)}{nearest_name(str(name), names)}; there are '
                 f'{there}',
-                field='sensors',
+                field=f'{noun}s',
             )
         if not isinstance(change, dict):
             raise BadProperty(
-                f'the changes of sensor {name} must be a mapping, not {shown(change)}',
-                field='sensors',
+                f'the changes of {noun} {name} must be a mapping, not {shown(change)}',
+                field=f'{noun}s',
             )
-    return [{**sensor, **changes.get(sensor['name'], {})} for sensor in sensors]
+    return [{**entry, **changes.get(entry['name'], {})} for entry in entries]
 
 
 # Greatest size of a drawing file [bytes]: 200 times that of the largest shipped one.

@@ -17,7 +17,7 @@ from typing import Any
 
 from physsim_ros.files.engine_state import is_where_saved, with_saved_motion, with_saved_state
 from physsim_ros.files.impulse_cache import cache_from
-from physsim_ros.files.joint_reader import joints_from
+from physsim_ros.files.joint_reader import commands_from, joints_from
 from physsim_ros.files.resources import with_shipped_robot
 from physsim_ros.files.world_schema import (
     BODY_KEYS,
@@ -32,7 +32,7 @@ from physsim_ros.files.world_schema import (
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.checks import number, pair
-from physsim_ros.model.colors import Color, color_from
+from physsim_ros.model.colors import color_value
 from physsim_ros.model.declarations import check_key
 from physsim_ros.model.errors import BadProperty, UnknownProperty
 from physsim_ros.model.lesson import Lesson
@@ -41,6 +41,7 @@ from physsim_ros.model.settings import OF_WORLD, WorldSettings
 from physsim_ros.model.shapes import Shape, SHAPES
 from physsim_ros.model.transform import Pose
 from physsim_ros.simulation.world import steps_in
+from physsim_ros.simulation.world.assembly import parts_of
 from physsim_ros.simulation.world.body_description import new_body
 from physsim_ros.simulation.world.capacity import check_limit
 from physsim_ros.simulation.world.live_space import check_start
@@ -85,16 +86,17 @@ def state_from(
     settings = replace(settings, **(own | changes))
     lesson = _lesson(content['lesson']) if 'lesson' in content else None
     entries = entries_of(content.get('bodies'), 'bodies')
-    bodies, unmoved = _body_states(entries, settings, physics_rate)
+    bodies, unmoved, parts = _body_states(entries, settings, physics_rate)
     check_namespaces(state.body for state in bodies)
     unjoined = WorldState(settings=settings, bodies=bodies, lesson=lesson)
     # One edited body, and the impulses of all contacts are outdated.
     if 'memory' in content and all(state.motion is not None for state in bodies):
         unjoined = replace(unjoined, memory=cache_from(content['memory'], unjoined))
-    joints = entries_of(content.get('joints'), 'joints')
-    if not joints:
+    entries = [*entries_of(content.get('joints'), 'joints'), *parts]
+    if not entries:
         return unjoined
-    return replace(unjoined, joints=joints_from(unjoined, joints, unmoved, physics_rate))
+    joints = joints_from(unjoined, entries, unmoved, physics_rate)
+    return replace(unjoined, joints=joints, commands=commands_from(entries, joints, physics_rate))
 
 
 def _lesson(value: object) -> Lesson:
@@ -109,29 +111,75 @@ def _lesson(value: object) -> Lesson:
 
 def _body_states(
     entries: list[dict[Any, Any]], settings: WorldSettings, physics_rate: float
-) -> tuple[tuple[BodyState, ...], set[str]]:
-    """Return the states of bodies, and the names of those whose poses are the saved ones."""
+) -> tuple[tuple[BodyState, ...], set[str], list[dict[Any, Any]]]:
+    """
+    Return the states of bodies.
+
+    Robots whose parts are not among them get their parts.
+
+    :return: states; names of the bodies whose poses are the saved ones; entries of the joints of
+        robots that got their parts
+    """
     check_limit('max_bodies', len(entries), settings)
     bodies: dict[str, BodyState] = {}
     unmoved: set[str] = set()
+    named = {name for entry in entries if isinstance(name := entry.get('name'), str)}
+    joints: list[dict[Any, Any]] = []
     pieces = 0
     for count, entry in enumerate(entries, 1):
         with naming(entry, 'body', count):
             state, is_unmoved = _body_state(entry, settings, physics_rate)
             if state.body.name in bodies:
                 raise BadProperty('the name appears twice', field='name')
-            bodies[state.body.name] = state
-            if is_unmoved:
-                unmoved.add(state.body.name)
+            links, of_links = _parts_of(state)
+            made = {state.body.name: state}
+            if named.isdisjoint(link.name for link in links):
+                for link in links:
+                    body, twist = new_body(link, settings, state.body.expires)
+                    made[link.name] = BodyState(body=body, pose=link.pose, twist=twist)
+                joints += of_links
+        bodies |= made
+        if is_unmoved:
+            unmoved.add(state.body.name)
         # As they are read: they take longer than their text, which aliases repeat in no time.
-        pieces += len(state.body.shape.form.pieces)
+        pieces += sum(len(each.body.shape.form.pieces) for each in made.values())
         check_limit('max_shapes', pieces, settings)
-    for count, (entry, state) in enumerate(zip(entries, bodies.values(), strict=True), 1):
+        check_limit('max_bodies', len(bodies), settings)
+    for count, entry in enumerate(entries, 1):
+        state = bodies[entry['name']]
         # Of a saved world, the body that an actor waits for may have been deleted.
         if state.acting is None:
             with naming(entry, 'body', count):
                 check_start(state.body, bodies)
-    return tuple(bodies.values()), unmoved
+    return tuple(bodies.values()), unmoved, joints
+
+
+def _parts_of(state: BodyState) -> tuple[list[Spawn], list[dict[Any, Any]]]:
+    """Return the requests for the links of a robot, and the entries of its joints."""
+    body = state.body
+    if body.robot is None or not body.robot.links:
+        return [], []
+    properties = Properties(robot=body.robot)
+    links, joints = parts_of(
+        Spawn(
+            name=body.name,
+            shape=body.shape,
+            pose=state.pose,
+            color=body.color,
+            properties=properties,
+        )
+    )
+    return links, [
+        {
+            'name': join.name,
+            'kind': str(join.kind),
+            'a': join.a,
+            'b': join.b,
+            'points': [list(point) for point in join.points],
+            **join.properties.explicit(),
+        }
+        for join in joints
+    ]
 
 
 def _body_state(
@@ -177,7 +225,7 @@ def spawn_from(entry: Mapping[Any, Any]) -> Spawn:
         name=name,
         shape=_shape(entry),
         pose=_pose(entry),
-        color=_color(entry['color']) if 'color' in entry else None,
+        color=color_value(entry['color'], 'color') if 'color' in entry else None,
         lifetime=number(entry.get('lifetime', 0.0), 'lifetime'),
         properties=Properties.from_mapping(
             {key: entry[key] for key in PROPERTIES if key in entry}
@@ -211,12 +259,3 @@ def _pose(entry: Mapping[Any, Any]) -> Pose:
     if not isinstance(at, list) or len(at) not in (2, 3):
         raise BadProperty('at must be [x, y] or [x, y, yaw]', field='at')
     return (*pair(at[:2], 'at'), number(at[2], 'at') if len(at) == 3 else 0.0)
-
-
-def _color(value: object) -> Color:
-    if isinstance(value, str):
-        return color_from(value)
-    if not isinstance(value, list) or len(value) != 4:
-        raise BadProperty('color must be a string or [r, g, b, a]', field='color')
-    red, green, blue, alpha = (number(each, 'color') for each in value)
-    return red, green, blue, alpha

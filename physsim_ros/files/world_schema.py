@@ -33,7 +33,7 @@ BODY_KEYS = [
     *('motion', 'field_lead', 'wrench', 'driven', 'acting'),
 ]
 # Keys of a joint that the text of a marker does not have.
-OWN_JOINT_KEYS = ['name', 'points', 'seat']
+OWN_JOINT_KEYS = ['name', 'points', 'seat', 'command']
 # Tolerance between a saved number and the same number recomputed [m, rad, relative]: more than
 # rounding means that somebody has edited the file.
 ROUNDING = 1e-9

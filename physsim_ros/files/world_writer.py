@@ -17,6 +17,7 @@ import re
 
 from physsim_ros.files.engine_state import state_entry
 from physsim_ros.files.impulse_cache import cache_entry
+from physsim_ros.files.joint_reader import command_entry
 from physsim_ros.files.world_schema import FORMAT, SETTINGS
 from physsim_ros.model.checkpoint import BodyState, WorldState
 from physsim_ros.model.colors import Color, color_from
@@ -62,9 +63,13 @@ def _lines(state: WorldState, physics_rate: float) -> Iterator[str]:
         yield f'  - {yaml_line(_entry(body, physics_rate))}\n'
     if state.joints:
         poses = {body.body.name: body.pose for body in state.bodies}
+        commands = {command.joint: (command, begun) for command, begun in state.commands}
         yield 'joints:\n'
         for joint in state.joints:
-            yield f'  - {yaml_line(_joint_entry(joint, poses))}\n'
+            entry = _joint_entry(joint, poses)
+            if joint.name in commands:
+                entry['command'] = command_entry(*commands[joint.name], physics_rate)
+            yield f'  - {yaml_line(entry)}\n'
     if state.memory is not None:
         yield '# What the engine remembers of contacts: not to be edited, but may be deleted.\n'
         yield f'memory: {yaml_line(cache_entry(state.memory))}\n'

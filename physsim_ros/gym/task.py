@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import LONGEST, Within
 from physsim_ros.model.declarations import Checked
+from physsim_ros.model.errors import BadProperty
 from physsim_ros.simulation.robot import Robot
 
 # Actions and observations of an agent: values of its spaces.
@@ -30,8 +31,11 @@ def drive(robot: Robot, action: NDArray[np.float32]) -> None:
     Drive at shares of the greatest speed and turn rate of the robot.
 
     :param action: (2,) float32: forward and counter-clockwise, each -1 .. 1
+    :raises BadProperty: the robot has no drive
     """
     limits = robot.description.drive
+    if limits is None:
+        raise BadProperty(f'{robot.name} has no drive', field='robot')
     speed, turn = np.clip(action, -1.0, 1.0).tolist()
     robot.drive(speed * limits.max_speed, turn * limits.max_turn)
 

@@ -24,7 +24,7 @@ from physsim_ros.model.checks import (
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.media import Medium
-from physsim_ros.model.robots import Robot
+from physsim_ros.model.robots import Robot, Towed
 from physsim_ros.model.texts import is_printable
 from physsim_ros.model.transform import Point
 
@@ -105,6 +105,11 @@ class Properties(Checked):
         Robot | None,
         Robot.from_value,
         'makes the body a robot: the name of a shipped robot, or a mapping',
+    ] = None
+    towed: Annotated[
+        Towed | None,
+        Towed.from_value,
+        'gives the body an axle without a motor, as of a trailer: a mapping',
     ] = None
     actor: Annotated[
         Actor | None,

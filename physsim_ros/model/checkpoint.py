@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from physsim_ros.model.arrays import Floats, Ints
 from physsim_ros.model.lesson import Lesson
+from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Grip
@@ -68,6 +69,10 @@ class BodyState:
     acting: ActorState | None = None
 
 
+# The last command of each motor, and the step at which it began.
+Commands = tuple[tuple[MotorCommand, int], ...]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorldState:
     """
@@ -76,6 +81,7 @@ class WorldState:
     :param settings: of the world
     :param bodies: in spawn order
     :param joints: in the order in which they were made
+    :param commands: of motors, with the step of each, which counts from now
     :param memory: impulse cache; None in a file written by hand
     :param lesson: the task that belongs to the world; None is none
     :param world: the same for states that `replace` makes of one another, as a reset with another
@@ -85,6 +91,7 @@ class WorldState:
     settings: WorldSettings
     bodies: tuple[BodyState, ...] = ()
     joints: tuple[Joint, ...] = ()
+    commands: Commands = ()
     lesson: Lesson | None = None
     memory: ImpulseCache | None = field(default=None, compare=False)
     world: object = field(default_factory=object, compare=False, repr=False)
@@ -146,6 +153,7 @@ class Checkpoint:
     :param memory: impulse cache
     :param grips: of hands on bodies
     :param unstepped: names of the joints whose first step is to come
+    :param commands: of motors, with the step of each
     :param bounds: `lower` and `upper` of the rows of joints of which one moves, by name
     :param robots: (r,) `ROBOT_STATE`: states of the robots, in the order of the scene
     :param actors: (a,) `ACTOR_STATE`: states of the actors, in the order of the scene
@@ -160,6 +168,7 @@ class Checkpoint:
     field_leads: Floats = field(default_factory=lambda: NO_FIELDS)
     grips: tuple[Grip, ...] = ()
     unstepped: frozenset[str] = frozenset()
+    commands: Commands = ()
     bounds: Mapping[str, NDArray[np.void]] = field(default_factory=dict)
     robots: Records = field(default_factory=lambda: NO_ROBOTS)
     actors: Records = field(default_factory=lambda: NO_ACTORS)

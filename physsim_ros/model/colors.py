@@ -14,7 +14,7 @@ import re
 from typing import Any
 import zlib
 
-from physsim_ros.model.checks import check_finite, shown
+from physsim_ros.model.checks import check_finite, number, shown
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.names import split_name
 
@@ -42,6 +42,20 @@ def color_from(text: str) -> Color:
         )
     red, green, blue, alpha = (each / 255 for each in (*bytes.fromhex(text[1:]), 255)[:4])
     return red, green, blue, alpha
+
+
+def color_value(value: object, name: str) -> Color:
+    """
+    Return the colour of '#rrggbb', '#rrggbbaa' or [r, g, b, a], each 0 .. 1.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: it is none of them
+    """
+    if isinstance(value, str):
+        return color_from(value)
+    if not isinstance(value, list | tuple) or len(value) != 4:
+        raise BadProperty(f'{name} must be a string or [r, g, b, a]', field=name)
+    return check_color(tuple(number(each, name) for each in value), name)
 
 
 def check_color(color: Any, name: str) -> Color:

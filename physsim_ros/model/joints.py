@@ -45,6 +45,19 @@ def _names(value: object, name: str) -> tuple[str, ...]:
     return tuple(value)
 
 
+def _body_name(value: object, name: str) -> str:
+    if not isinstance(value, str):
+        raise BadProperty(f'{name} must be the name of a body, not {shown(value)}', field=name)
+    return value
+
+
+def _direction(value: object, name: str) -> float:
+    direction = Within(-1.0, 1.0)(value, name)
+    if abs(direction) < 1.0:
+        raise BadProperty(f'{name} is {direction:g}; it must be 1 or -1', field=name)
+    return direction
+
+
 def _ratio(value: object, name: str) -> float:
     ratio = Within(-MOST_RATIO, MOST_RATIO)(value, name)
     if abs(ratio) < 1.0 / MOST_RATIO:
@@ -99,9 +112,9 @@ class JointKind(StrEnum):
         'axle',
         Schema(
             1,
-            'lets them turn about the point; limits are angles',
-            own=('lower', 'upper'),
-            words=('hinge', 'revolute', 'continuous', 'pivot', 'bolt'),
+            'lets them turn about the point, as a `ratchet` one way; limits are angles',
+            own=('lower', 'upper', 'ratchet', 'effort', 'max_speed', 'gain'),
+            words=('hinge', 'revolute', 'continuous', 'pivot', 'bolt', 'ratchet', 'freewheel'),
         ),
     )
     MOTOR = (
@@ -150,7 +163,7 @@ class JointKind(StrEnum):
         Schema(
             2,
             'lets `a` slide along a line fixed to `b`, without rotating; with `rate` it is driven',
-            own=('lower', 'upper', 'rate'),
+            own=('lower', 'upper', 'rate', 'effort', 'max_speed', 'gain'),
             words=('prismatic', 'groove', 'rail', 'piston'),
             least_distance=SMALLEST,
             has_axis=True,
@@ -161,8 +174,8 @@ class JointKind(StrEnum):
         Schema(
             1,
             'couples the rotations of `a` and `b`',
-            own=('ratio', 'phase'),
-            words=('cog', 'gears'),
+            own=('ratio', 'phase', 'carrier'),
+            words=('cog', 'gears', 'planetary', 'epicyclic'),
         ),
     )
 
@@ -218,6 +231,11 @@ class JointProperties(Checked):
         Within(-LARGEST, LARGEST, 'rad or m'),
         'greatest angle, displacement or length',
     ] = None
+    ratchet: Annotated[
+        float | None,
+        _direction,
+        '1: `a` turns against `b` only counter-clockwise; -1: only clockwise',
+    ] = None
     rate: Annotated[
         float | None,
         Within(-FASTEST, FASTEST, 'rad/s or m/s'),
@@ -228,6 +246,24 @@ class JointProperties(Checked):
     ] = None
     max_torque: Annotated[
         float | None, Within(0.0, HEAVIEST, 'N m'), 'greatest torque of a motor', 1000.0
+    ] = None
+    effort: Annotated[
+        float | None,
+        Within(0.0, HEAVIEST, 'N m or N'),
+        'greatest torque or force of its motor, which holds until it is commanded; without it '
+        'there is none',
+    ] = None
+    max_speed: Annotated[
+        float | None,
+        Within(0.0, FASTEST, 'rad/s or m/s'),
+        'greatest rate at which that motor obeys commands',
+        1.0,
+    ] = None
+    gain: Annotated[
+        float | None,
+        Within(0.0, 200.0, '1/s'),
+        'rate at which that motor closes the way to a commanded position, by that way',
+        20.0,
     ] = None
     stiffness: Annotated[float | None, Within(0.0, HEAVIEST, 'N/m'), 'force per strain', 100.0] = (
         None
@@ -261,6 +297,12 @@ class JointProperties(Checked):
         'angle of `b` times `ratio` minus angle of `a`',
         AS_DRAWN,
     ] = None
+    carrier: Annotated[
+        str | None,
+        _body_name,
+        'name of a third body against which the angles of a gear are measured, as the arm that '
+        'carries a planet; `world`, and unless it is set, they are absolute',
+    ] = None
     max_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
@@ -283,6 +325,13 @@ class JointProperties(Checked):
                 f'lower is {self.lower:g} and upper {self.upper:g}; lower must not be greater',
                 field='lower',
             )
+
+    @property
+    def guides(self) -> tuple[str, ...]:
+        """Return the names of the bodies that a joint has beside its two, as its guides."""
+        if self.carrier is None or self.carrier == WORLD:
+            return self.over or ()
+        return (self.carrier,)
 
     def check_kind(self, kind: JointKind, unset: tuple[str, ...] = ()) -> None:
         """
@@ -320,13 +369,6 @@ def joined_from(mapping: Mapping[Any, Any]) -> tuple[JointKind, str, str, JointP
     for key in mapping:
         check_key(key, JOINT_KEYS)
     properties = {key: mapping[key] for key in mapping if key not in {'kind', 'a', 'b'}}
-    a, b = _body_name(mapping, 'a'), _body_name(mapping, 'b')
+    a, b = (_body_name(mapping.get(key, ''), key) for key in ('a', 'b'))
     kind = kind_from(mapping.get('kind'))
     return kind, a, WORLD if a and not b else b, JointProperties.from_mapping(properties)
-
-
-def _body_name(mapping: Mapping[Any, Any], key: str) -> str:
-    name = mapping.get(key, '')
-    if not isinstance(name, str):
-        raise BadProperty(f'{key} must be the name of a body, not {shown(name)}', field=key)
-    return name

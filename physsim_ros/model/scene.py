@@ -25,10 +25,17 @@ from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointPropert
 from physsim_ros.model.lesson import Lesson
 from physsim_ros.model.media import Medium
 from physsim_ros.model.names import WORLD
-from physsim_ros.model.robots import Robot
+from physsim_ros.model.robots import Drive, part_name, Robot, Towed
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Shape
-from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, rotated
+from physsim_ros.model.transform import (
+    local_to_world,
+    ORIGIN,
+    Point,
+    Pose,
+    rotated,
+    world_to_local,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,6 +67,7 @@ class Body:
     surface_velocity: Point = field(default=(0.0, 0.0), repr=False)
     belt: float = field(default=0.0, repr=False)
     robot: Robot | None = field(default=None, repr=False)
+    towed: Towed | None = field(default=None, repr=False)
     label: str = field(default='', repr=False)
     actor: Actor | None = field(default=None, repr=False)
     forces: tuple[AppliedForce, ...] = field(default=(), repr=False)
@@ -75,6 +83,12 @@ class Body:
     def dynamic(self) -> bool:
         """Whether forces move it: it is neither anchored nor kinematic."""
         return not (self.anchored or self.kinematic)
+
+    @property
+    def wheels(self) -> Drive | Towed | None:
+        """Return the wheels that it stands on: of a robot's drive, or towed; None is none."""
+        drive = None if self.robot is None else self.robot.drive
+        return self.towed if drive is None else drive
 
     def entry(self) -> dict[str, Any]:
         """Return its properties, but those of any body, as the mapping that sets them."""
@@ -199,6 +213,19 @@ class Joint:
         value: float | None = getattr(self.properties, name)
         return DEFAULTS[name] if value is None else value
 
+    def position(self, poses: Mapping[str, Pose]) -> float:
+        """
+        Return how far it has turned [rad] or, of a slider, moved [m]: a against b, as its limits.
+
+        :param poses: of its bodies, by name
+        """
+        pose_a, pose_b = poses[self.a], ORIGIN if self.b == WORLD else poses[self.b]
+        seat = self.seat
+        if not self.kind.schema.has_axis:
+            return pose_a[2] - pose_b[2] + seat.phase
+        x, y = world_to_local(local_to_world((seat.ax, seat.ay), pose_a), pose_b)
+        return seat.ux * (x - seat.bx) + seat.uy * (y - seat.by)
+
     def drawn_points(self, poses: Mapping[str, Pose]) -> tuple[Point, ...]:
         """
         Return the points of the world with which it would be drawn now [m].
@@ -277,6 +304,17 @@ class Scene:
         return tuple(body.name for body in self.bodies)
 
     @cached_property
+    def owners(self) -> Ints:
+        """(n,) int64: row of the robot of which each body is a part, else its own."""
+        owners = np.arange(len(self.bodies))
+        for row, robot in zip(self.robot_rows.tolist(), self.robots, strict=True):
+            for link in robot.links:
+                name = part_name(self.names[row], link.name)
+                if name in self.row_of:
+                    owners[self.row_of[name]] = row
+        return owners
+
+    @cached_property
     def robot_rows(self) -> Ints:
         """(r,) int64: rows of the robots, in spawn order."""
         rows = [row for row, body in enumerate(self.bodies) if body.robot is not None]
@@ -301,8 +339,8 @@ class Scene:
         return np.array(rows, np.float64)
 
     def _friction_below(self, body: Body) -> float:
-        if body.robot is not None:
-            return body.robot.drive.traction
+        if body.wheels is not None:
+            return body.wheels.traction
         return self.settings.floor_friction if body.actor is None else body.actor.traction
 
     @cached_property

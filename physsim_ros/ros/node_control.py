@@ -220,14 +220,17 @@ class NodeControl:
         self.set_parameter('speed', speed)
         return f'speed {speed:g}'
 
-    def seek(self, stamp: int) -> str:
+    def submit_seek(self, stamp: int, *, topic: str, asker: str) -> None:
         """
-        Go to a simulation time [ns].
+        Go to a simulation time [ns], in place of a seek under way; its end is answered.
 
-        :raises Refusal: it is not in the history
+        :param topic: its source
+        :param asker: key of the message that asks, which the answer names
         """
         self._outputs.statistics.reset_pace()
-        return self.simulation.seek(stamp)
+        self.simulation.stop_driving()
+        self.simulation.requests.submit_seek(stamp, topic=topic, asker=asker)
+        self._loop.apply_up_to_seek()
 
     def _step(self) -> str:
         """

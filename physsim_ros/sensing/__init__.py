@@ -13,6 +13,7 @@ from physsim_ros.sensing.distance import read_laser, read_range, scan_points
 from physsim_ros.sensing.gps import Fix, fix_of, read_gps
 from physsim_ros.sensing.motion import (
     InertialReading,
+    joint_motion,
     OdometryReading,
     read_imu,
     read_odometry,
@@ -35,6 +36,7 @@ __all__ = [
     'fix_of',
     'is_bumped',
     'is_due',
+    'joint_motion',
     'read_bumper',
     'read_floor',
     'read_gps',

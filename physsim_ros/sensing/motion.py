@@ -12,15 +12,17 @@ included, in the axes that the sensor had in the middle of that time.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
+from physsim_ros.model.robots import part_name, Robot
 from physsim_ros.model.robots.sensors import Imu
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.model.transform import Point, Pose, rotated, Twist
-from physsim_ros.sensing.mounting import noise_of, placed
+from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, rotated, Twist
+from physsim_ros.sensing.mounting import mounted_row, noise_of, placed
 
 
 class OdometryReading(NamedTuple):
@@ -65,12 +67,13 @@ def true_motion(snapshot: Snapshot, row: int) -> OdometryReading:
 
 class WheelReading(NamedTuple):
     """
-    The wheels of a drive, then the axles and motors that hold other bodies.
+    The wheels of a drive, then the joints of a robot, then axles and motors with other bodies.
 
-    :ivar names: of their joints
-    :ivar positions: (w,) float64: turned since the robot was spawned [rad]; of an axle, angle of
-        the other body as seen from the robot
-    :ivar velocities: (w,) float64: of now [rad/s]
+    :ivar names: of the joints: of the robot's own as its file has them, of others in the world,
+        with `_` for `/`
+    :ivar positions: (w,) float64: wheels: turned since the robot was spawned [rad]; joints of the
+        robot: [rad, m], 0 as in its file; others: angle of the other body as seen from the robot
+    :ivar velocities: (w,) float64: of now [rad/s, m/s]
     """
 
     names: tuple[str, ...]
@@ -78,40 +81,87 @@ class WheelReading(NamedTuple):
     velocities: Floats
 
 
+# Position and velocity of a joint.
+_JointState = tuple[str, float, float]
+
+
 def read_wheels(snapshot: Snapshot, row: int) -> WheelReading:
     """
-    Return how far and how fast the wheels of a robot have turned, slipping or not, and its axles.
+    Return how far and how fast the wheels of a robot have turned, slipping or not, and its joints.
 
     :param snapshot: of the world
     :param row: of the robot's body in the scene
     """
     robot = snapshot.scene.bodies[row].robot
     assert robot is not None  # noqa: S101 - by the contract above
+    states = [*_read_wheels(snapshot, row, robot), *_read_joints(snapshot, row, robot)]
+    names, positions, velocities = zip(*states, strict=True) if states else ((), (), ())
+    return WheelReading(names, np.array(positions, float), np.array(velocities, float))
+
+
+def _read_wheels(snapshot: Snapshot, row: int, robot: Robot) -> Iterator[_JointState]:
+    if robot.drive is None:
+        return
     place = int(np.searchsorted(snapshot.scene.robot_rows, row))
     # The speed of each rim is the sum of these times the velocity of the drive.
     wheels = robot.drive.wheels
-    rims = np.array([*wheels.values()], float).reshape(-1, 3) / robot.drive.wheel_radius
+    rims = np.array([*wheels.values()], float) / robot.drive.wheel_radius
     states = snapshot.robots
-    names, angles, rates = _read_axles(snapshot, row)
-    return WheelReading(
-        (*wheels, *names),
-        np.append((rims * states['travel'][place]).sum(axis=1), angles),
-        np.append((rims * states['wheels'][place]).sum(axis=1), rates),
+    yield from zip(
+        wheels,
+        (rims * states['travel'][place]).sum(axis=1).tolist(),
+        (rims * states['wheels'][place]).sum(axis=1).tolist(),
+        strict=True,
     )
 
 
-def _read_axles(snapshot: Snapshot, row: int) -> tuple[list[str], Floats, Floats]:
-    """Return the names, angles [rad] and rates [rad/s] of the axles and motors on a body."""
+def _read_joints(snapshot: Snapshot, row: int, robot: Robot) -> Iterator[_JointState]:
     scene = snapshot.scene
-    # The background does not turn.
-    yaws, spins = np.append(snapshot.poses[:, 2], 0.0), np.append(snapshot.twists[:, 2], 0.0)
-    pairs = [
-        (joint.name.replace('/', '_'), a if b == row else b)
-        for joint, (a, b) in zip(scene.joints, scene.joint_rows.tolist(), strict=True)
-        if row in (a, b) and joint.kind in (JointKind.AXLE, JointKind.MOTOR)
-    ]
-    others = [other for _, other in pairs]
-    return [name for name, _ in pairs], yaws[others] - yaws[row], spins[others] - spins[row]
+    joints = {joint.name: number for number, joint in enumerate(scene.joints)}
+    own = {part_name(scene.names[row], each.name): each.name for each in robot.joints}
+    for name, local in own.items():
+        if name in joints and scene.joints[joints[name]].kind in _MOVING:
+            yield local, *joint_motion(snapshot, joints[name])
+    for number, (joint, (a, b)) in enumerate(
+        zip(scene.joints, scene.joint_rows.tolist(), strict=True)
+    ):
+        if joint.name not in own and row in (a, b) and joint.kind in _TURNING:
+            angle, rate = joint_motion(snapshot, number)
+            sign = 1.0 if b == row else -1.0
+            turned = angle - joint.seat.phase
+            yield joint.name.replace('/', '_'), sign * turned, sign * rate
+
+
+_TURNING = (JointKind.AXLE, JointKind.MOTOR)
+_MOVING = (*_TURNING, JointKind.SLIDER)
+
+
+def joint_motion(snapshot: Snapshot, number: int) -> tuple[float, float]:
+    """
+    Return position and velocity of an axle, a motor [rad, rad/s] or a slider [m, m/s].
+
+    They are those of its body a against b, from where they were joined.
+
+    :param snapshot: of the world
+    :param number: of the joint in the scene
+    """
+    joint, (a, b) = snapshot.scene.joints[number], snapshot.scene.joint_rows[number].tolist()
+    pose_b, spin_b = (ORIGIN, 0.0) if b < 0 else (_pose(snapshot, b), snapshot.twists[b, 2])
+    poses = {joint.a: _pose(snapshot, a), joint.b: pose_b}
+    position = joint.position(poses)
+    if not joint.kind.schema.has_axis:
+        return position, float(snapshot.twists[a, 2] - spin_b)
+    seat = joint.seat
+    point = local_to_world((seat.ax, seat.ay), poses[joint.a])
+    ux, uy = rotated((seat.ux, seat.uy), pose_b[2])
+    ahead, aside = _velocity_at(snapshot, a, point)
+    back, below = (0.0, 0.0) if b < 0 else _velocity_at(snapshot, b, point)
+    return position, ux * (ahead - back) + uy * (aside - below)
+
+
+def _pose(snapshot: Snapshot, row: int) -> Pose:
+    x, y, yaw = snapshot.poses[row].tolist()
+    return x, y, yaw
 
 
 class InertialReading(NamedTuple):
@@ -138,7 +188,7 @@ def read_imu(snapshot: Snapshot, before: Snapshot | None, row: int, imu: Imu) ->
     :param imu: on it
     """
     yaw = placed(snapshot, row, imu)[2]
-    turn_rate = float(snapshot.twists[row, 2])
+    turn_rate = _spin(snapshot, row, imu)
     change, seconds, turn = _velocity(snapshot, row, imu), 0.0, 0.0
     earlier = None if before is None else _row_before(snapshot, before, row)
     if before is not None and earlier is not None:
@@ -146,7 +196,7 @@ def read_imu(snapshot: Snapshot, before: Snapshot | None, row: int, imu: Imu) ->
         was = _velocity(before, earlier, imu)
         change = change[0] - was[0], change[1] - was[1]
         # Not that of the poses, which a command may have set.
-        turn = (turn_rate + float(before.twists[earlier, 2])) / 2.0 * seconds
+        turn = (turn_rate + _spin(before, earlier, imu)) / 2.0 * seconds
     share = 1.0 / seconds if seconds > 0.0 else 0.0
     gravity = snapshot.scene.settings.gravity
     felt = change[0] * share - gravity[0], change[1] * share - gravity[1]
@@ -171,7 +221,17 @@ def _row_before(snapshot: Snapshot, before: Snapshot, row: int) -> int | None:
 
 def _velocity(snapshot: Snapshot, row: int, imu: Imu) -> Point:
     """Return the velocity of the sensor's place in the world [m/s]."""
-    vx, vy, spin = snapshot.twists[row].tolist()
     x, y, _ = placed(snapshot, row, imu)
+    return _velocity_at(snapshot, mounted_row(snapshot, row, imu), (x, y))
+
+
+def _spin(snapshot: Snapshot, row: int, imu: Imu) -> float:
+    """Return the spin of the body that the sensor is on [rad/s]."""
+    return float(snapshot.twists[mounted_row(snapshot, row, imu), 2])
+
+
+def _velocity_at(snapshot: Snapshot, row: int, point: Point) -> Point:
+    """Return the velocity at a point of the world that is fixed to a body [m/s]."""
+    vx, vy, spin = snapshot.twists[row].tolist()
     center_x, center_y = snapshot.centers[row].tolist()
-    return vx - spin * (y - center_y), vy + spin * (x - center_x)
+    return vx - spin * (point[1] - center_y), vy + spin * (point[0] - center_x)

@@ -9,6 +9,7 @@ import zlib
 
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.noise import normals
+from physsim_ros.model.robots import BASE, part_name
 from physsim_ros.model.robots.sensors import Sensor
 from physsim_ros.model.snapshot import Snapshot
 from physsim_ros.model.transform import Pose, rotated
@@ -18,11 +19,23 @@ def placed(snapshot: Snapshot, row: int, sensor: Sensor) -> Pose:
     """
     Return the pose of a sensor in the world: x, y [m], yaw [rad].
 
-    :param row: of its body in the scene
+    :param row: of the robot's body in the scene
     """
-    x, y, yaw = snapshot.poses[row].tolist()
+    x, y, yaw = snapshot.poses[mounted_row(snapshot, row, sensor)].tolist()
     ahead, aside = rotated(sensor.at[:2], yaw)
     return x + ahead, y + aside, yaw + sensor.at[2]
+
+
+def mounted_row(snapshot: Snapshot, row: int, sensor: Sensor) -> int:
+    """
+    Return the row of the body that a sensor is on; that of the robot where its link is gone.
+
+    :param row: of the robot's body in the scene
+    """
+    if sensor.link == BASE:
+        return row
+    scene = snapshot.scene
+    return scene.row_of.get(part_name(scene.names[row], sensor.link), row)
 
 
 def noise_of(snapshot: Snapshot, row: int, sensor: Sensor, count: int) -> Floats:

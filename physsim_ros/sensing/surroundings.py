@@ -67,7 +67,7 @@ class Surroundings:
         :param origin: of all rays [m]
         :param directions: (k, 2) float64: their unit vectors, counter-clockwise within a turn
         :param reach: greatest distance [m]
-        :param row: of the body whose pieces are not met; -1 is none
+        :param row: of the robot whose pieces, those of its parts too, are not met; -1 is none
         """
         distances = np.empty(len(directions))
         lib.core_cast_rays(
@@ -104,6 +104,8 @@ def _outline_of_scene(scene: Scene) -> _Outline:
     pieces = np.concatenate((_NOTHING.pieces, *(part.pieces for _, part in parts)), dtype=_PIECE)
     edges = np.concatenate((_NOTHING.edges, *(part.edges for _, part in parts)), dtype=_EDGE)
     pieces['body'] = np.repeat([row for row, _ in parts], counts)
+    owners = [*scene.owners.tolist(), len(scene.bodies)]
+    pieces['owner'] = np.repeat([owners[row] for row, _ in parts], counts)
     pieces['first_edge'] = np.cumsum(pieces['edge_count']) - pieces['edge_count']
     return _Outline(pieces, edges)
 
@@ -165,7 +167,7 @@ def _outline(pieces: Iterator[tuple[tuple[Point, ...], _Disc]]) -> _Outline:
     edges = [side for corners, _ in listed for side in itertools.pairwise(corners)]
     return _Outline(
         np.array(
-            [(0, 0, max(len(corners) - 1, 0), *disc) for corners, disc in listed], dtype=_PIECE
+            [(0, 0, 0, max(len(corners) - 1, 0), *disc) for corners, disc in listed], dtype=_PIECE
         ),
         np.array([(begin, end, _normal(begin, end)) for begin, end in edges], dtype=_EDGE),
     )

@@ -20,7 +20,7 @@ from physsim_ros.model.robots.sensors import Bumper, FloorEye
 from physsim_ros.model.shapes import contains
 from physsim_ros.model.snapshot import Contacts, Snapshot
 from physsim_ros.model.transform import dots, rotated_each
-from physsim_ros.sensing.mounting import noise_of, placed
+from physsim_ros.sensing.mounting import mounted_row, noise_of, placed
 
 # A contact as far round as the end of the sector lies in it [rad], however it rounds.
 _ROUNDING = 1e-9
@@ -46,6 +46,8 @@ def read_bumper(snapshot: Snapshot, contacts: Contacts, row: int, bumper: Bumper
     """
     Return whether the body has touched another one, or a wall, within the sector.
 
+    Parts of the same robot do not count.
+
     :param snapshot: of the world
     :param contacts: since the frame before
     :param row: of the robot's body in the scene
@@ -53,12 +55,14 @@ def read_bumper(snapshot: Snapshot, contacts: Contacts, row: int, bumper: Bumper
     """
     bodies = snapshot.scene.bodies
     x, y, yaw = placed(snapshot, row, bumper)
-    touching = (contacts.pairs == row).any(axis=1)
+    owners = snapshot.scene.owners
+    on = mounted_row(snapshot, row, bumper)
+    touching = (contacts.pairs == on).any(axis=1)
     for pair, point in zip(
         contacts.pairs[touching].tolist(), contacts.points[touching].tolist(), strict=True
     ):
-        other = pair[1] if pair[0] == row else pair[0]
-        if other >= 0 and bodies[other].sensor:
+        other = pair[1] if pair[0] == on else pair[0]
+        if other >= 0 and (bodies[other].sensor or owners[other] == row):
             continue
         angle = math.atan2(point[1] - y, point[0] - x) - yaw
         if abs(math.remainder(angle, math.tau)) <= bumper.sector / 2 + _ROUNDING:

@@ -11,8 +11,8 @@ from enum import Enum
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
+from physsim_ros.model.sizes import request_size
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past import request_size
 
 # Memory of a marker as rclpy decodes it [bytes].
 _UNREAD = 2500

@@ -154,7 +154,9 @@ class FrameMaker:
         :param is_overdue: whether the work is to continue in another call
         :return: whether it is done
         """
-        return self._replay(self.playback.parts_of_work(), is_overdue)
+        is_done = self._replay(self.playback.parts_of_work(), is_overdue)
+        self.requests.note_arrival()
+        return is_done
 
     def _replay(self, parts: Iterator[None], is_overdue: Callable[[], bool]) -> bool:
         """Carry out a replay until time is up, and return whether it is done."""
@@ -347,6 +349,7 @@ class FrameMaker:
         """Return the frame that is shown, with all answers; fit the past into its budget."""
         past, playback, requests = self.past, self.playback, self.requests
         snapshot, contacts = playback.observe_frame(moved=moved)
+        requests.note_arrival()
         past.fit_memory(playback.moment)
         if past.reports:
             requests.answers += past.reports

@@ -82,18 +82,23 @@ class Playback:
         return self._shown is None and not self._past.cursor.is_working
 
     @property
+    def has_arrived(self) -> bool:
+        """Whether the moment that was sought last can be shown without a replay."""
+        return self._shown is not None or not self._past.cursor.is_seeking
+
+    @property
     def step(self) -> int:
         """Return the step that is shown."""
         if self._shown is not None:
             return self._shown.snapshot.step
-        return self._past.cursor.moment[0]
+        return self._past.cursor.moment.step
 
     @property
     def moment(self) -> Moment:
         """Return step and serial that are shown."""
         if self._shown is None:
             return self._past.cursor.moment
-        return self.step, self._past.tree.serial_shown_at(self.step)
+        return Moment(self.step, self._past.tree.serial_shown_at(self.step))
 
     @property
     def is_newest(self) -> bool:
@@ -128,7 +133,7 @@ class Playback:
             state=state,
             speed=self.speed,
             oldest=tree.oldest / rate,
-            now=shown[0] / rate,
+            now=shown.step / rate,
             newest=tree.head / rate,
             course=tree.course,
             undo=undo and f'undo {undo}',

@@ -6,10 +6,11 @@ The queue of requests: they wait for the next frame, and are applied there in th
 
 Laws: entries are applied in the order of their arrival, and each is answered once, but moves of
 hands and drives only if refused. A move of a hand replaces the waiting move of that hand, unless a
-request of another kind came between them; so does a seek the waiting seek. Requests that read or
-change the world wait for the end of a seek; all entries wait for the end of an amendment. Requests
-beyond a limit, in count and in memory, are refused; beyond twice that count, answers are dropped
-and only counted.
+request of another kind came between them; so does a seek the waiting seek. A seek is answered when
+its moment is reached, or when the world is sent elsewhere before. Requests that read or change the
+world wait for the end of a seek; all entries wait for the end of an amendment. Requests beyond a
+limit, in count and in memory, are refused; beyond twice that count, answers are dropped and only
+counted.
 """
 
 from __future__ import annotations
@@ -76,6 +77,8 @@ class RequestQueue:
         # waiting seek that no request has followed.
         self._moves: dict[str, Entry] = {}
         self._seek: Entry | None = None
+        # The answer to the seek under way.
+        self._arrival: Answer | None = None
         # Count of dropped answers that the last entry reports.
         self._untold = 0
 
@@ -129,20 +132,21 @@ class RequestQueue:
         if isinstance(request, MoveHand):
             self._moves[request.hand] = entry
 
-    def submit_seek(self, stamp: int, *, topic: str) -> None:
+    def submit_seek(self, stamp: int, *, topic: str, asker: str = '') -> None:
         """
         Add a seek to a simulation time [ns], in place of one that is the last entry.
 
         :param topic: its source
+        :param asker: key of the message that asks, which the answer names; '' for none
         """
         if busy := self._busy():
-            self.refuse(busy, topic=topic, subject='', joined=True)
+            self.refuse(busy, topic=topic, subject='', joined=True, asker=asker)
             return
-        if self._seek is not None:
+        if (waiting := self._seek) is not None:
             message = f'superseded by a seek to {stamp * 1e-9:.3f} s'
-            self._seek.request = Answer(topic=self._seek.topic, message=message)
+            waiting.request = Answer(topic=waiting.topic, message=message, asker=waiting.asker)
         self._moves.clear()
-        self._seek = Entry(Seek(stamp), topic, '', self.gesture)
+        self._seek = Entry(Seek(stamp), topic, '', self.gesture, asker=asker)
         self._waiting.append(self._seek)
 
     def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
@@ -228,6 +232,7 @@ class RequestQueue:
             self._past.cursor.finish_work()
             self.apply_up_to_seek()
         self._past.cursor.finish_amendment()
+        self.note_arrival()
 
     def apply_up_to_seek(self, is_spent: Callable[[], bool] = lambda: False) -> None:
         """
@@ -249,7 +254,10 @@ class RequestQueue:
                         self._playback.seek_shown()
                         self._past.cursor.work(self._amend(change, entry))
                     case Seek(stamp=stamp):
-                        self._answer(Answer(message=self.seek(stamp)), entry)
+                        message = self.seek(stamp)
+                        self._arrival = Answer(
+                            topic=entry.topic, message=message, asker=entry.asker
+                        )
                     case request:
                         self._playback.changed = True
                         if isinstance(request, Unread):
@@ -272,6 +280,7 @@ class RequestQueue:
         self._is_applying = True
         try:
             while self._waiting and self._is_ready(self._waiting[0]):
+                self.note_arrival()
                 entry = self._waiting.popleft()
                 self._size -= entry.size
                 request = entry.request
@@ -340,9 +349,36 @@ class RequestQueue:
 
         :raises OutOfHistory: the time is no longer kept, or in the future
         """
+        has_arrived = self._playback.has_arrived
         self._playback.seek(stamp)
         self.hands.clear()
+        if has_arrived:
+            self._tell_arrival()
+        else:
+            self._supersede('seek')
         return f'at {self._playback.time}'
+
+    def note_jump(self) -> None:
+        """Show the moment to which something else than a seek has sent the cursor."""
+        self._playback.note_jump()
+        self._supersede('jump')
+
+    def note_arrival(self) -> None:
+        """Collect the answer to the last seek, if its moment is reached."""
+        if self._playback.has_arrived:
+            self._tell_arrival()
+
+    def _supersede(self, by: str) -> None:
+        """Answer the seek that was under way, in whose place the cursor went elsewhere."""
+        if self._arrival is not None:
+            message = f'superseded by a {by} to {self._playback.time}'
+            self._arrival = replace(self._arrival, message=message)
+            self._tell_arrival()
+
+    def _tell_arrival(self) -> None:
+        if self._arrival is not None:
+            self.answers.append(self._arrival)
+            self._arrival = None
 
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless their release lies ahead."""

@@ -192,7 +192,7 @@ class Simulation(FrameMaker):
         """Note that the world is another one, which nobody drags or drives."""
         self.requests.hands.clear()
         self.stop_driving()
-        self.playback.note_jump()
+        self.requests.note_jump()
 
     def load(self, state: WorldState) -> str:
         """Replace the world by a state, to which `reset` returns; time goes on."""
@@ -219,11 +219,11 @@ class Simulation(FrameMaker):
 
     def forces_now(self, snapshot: Snapshot) -> tuple[Contacts, Snapshot] | None:
         """
-        Return the forces of contacts and joints of a world that has not stepped since a change.
+        Return the forces of a world that has not stepped since a change.
 
         :param snapshot: of the world that is shown
-        :return: contacts as of one step, and a snapshot with the joint forces; None where the
-            world is at another moment, or too large
+        :return: contacts as of one step, and a snapshot with the forces of joints, media and
+            attraction; None where the world is at another moment, or too large
         """
         world = self.world
         if world.step_count != snapshot.step or world.scene is not snapshot.scene:
@@ -347,4 +347,4 @@ class Simulation(FrameMaker):
         past = self.at_shown_moment()
         self.playback.frames_due = 0
         yield past
-        self.playback.note_jump()
+        self.requests.note_jump()

@@ -20,7 +20,8 @@ import numpy as np
 from physsim_ros.model.arrays import Flags, Ints
 from physsim_ros.model.snapshot import Contacts, Frame, NO_CONTACTS, Snapshot
 
-# The forces of a world as it is now: contacts as of one step, and a snapshot with joint forces.
+# The forces of a world as it is now: contacts as of one step, and a snapshot with those of joints,
+# media and attraction.
 Forces = tuple[Contacts, Snapshot]
 
 
@@ -65,8 +66,8 @@ class LastContacts:
         if self._solved is None:
             return frame
         contacts, loaded = self._solved[1]
-        joints = replace(snapshot, forces=loaded.forces, pulls=loaded.pulls)
-        return replace(frame, contacts=contacts, snapshot=joints)
+        known = replace(snapshot, forces=loaded.forces, pulls=loaded.pulls, fields=loaded.fields)
+        return replace(frame, contacts=contacts, snapshot=known)
 
 
 def _is_same(before: Snapshot, now: Snapshot) -> bool:

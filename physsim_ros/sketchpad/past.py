@@ -25,7 +25,7 @@ from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Frame, Snapshot
 from physsim_ros.model.timeline import CourseSpan, TimelineStatus
 from physsim_ros.model.transform import rotated_each
-from physsim_ros.simulation.past.node import CachedFrame
+from physsim_ros.simulation.past.line import CachedFrame
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.sketchpad.contacts import touches_content
 from physsim_ros.sketchpad.message import Content
@@ -90,7 +90,7 @@ class TimelineReport:
         course, seconds = self._beside, snapshot.stamp * 1e-9
         if course is None or not course.begins <= seconds <= course.ends:
             return None
-        return self._simulation.past.ghost(course.number, seconds)
+        return self._simulation.past.course_snapshot(course.number, seconds)
 
 
 def timeline_content(status: TimelineStatus) -> dict[str, Any]:
@@ -234,7 +234,7 @@ def past_forces(frames: Sequence[CachedFrame], name: str, rate: float) -> dict[s
         if len(snapshot.pulls) == len(snapshot.scene.joints):
             pulls = snapshot.pulls * _sides(snapshot.scene.joint_rows, row)[:, None]
         times.append(snapshot.stamp * 1e-9)
-        fields = snapshot.fields[row : row + 1] if len(snapshot.fields) else np.zeros((1, 2))
+        fields = snapshot.fields[[row]] if len(snapshot.fields) else np.zeros((1, 2))
         forces = along, acting - along, pulls, fields
         rows.append(np.concatenate([each.sum(axis=0) for each in forces]))
     columns = np.array(rows).reshape(-1, 8)

@@ -23,7 +23,7 @@ from physsim_ros.model.errors import BadProperty, Frozen, TeacherOnly, ViewOnly
 from physsim_ros.model.names import shown_name
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.node import Node
+from physsim_ros.simulation.past.line import Node
 from physsim_ros.sketchpad.world_control import WorldControl
 
 # Requests that concern every body of the world.
@@ -212,11 +212,12 @@ def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
             names = (a, *(properties.over or ('',) * (len(points) - 2)), b)
             # One point is that of both ends.
             places = points if len(points) > 1 else points * 2
-            return tuple(
+            joined = tuple(
                 each
                 for name, point in zip(names, places, strict=True)
                 for each in ((name,) if name else query.bodies_at(point)[:1])
             )
+            return joined if properties.carrier is None else (*joined, properties.carrier)
         case requests.Rejoin(a=a, b=b):
             return (a, b)
         case requests.Cut(pieces=pieces, joints=moved, severed=severed):

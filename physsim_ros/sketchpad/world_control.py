@@ -99,9 +99,10 @@ class WorldControl(Protocol):
         :raises Refusal: it is out of range
         """
 
-    def seek(self, stamp: int) -> str:
+    def submit_seek(self, stamp: int, *, topic: str, asker: str) -> None:
         """
-        Go to a simulation time [ns].
+        Go to a simulation time [ns], in place of a seek under way; its end is answered.
 
-        :raises Refusal: it is not in the history
+        :param topic: its source
+        :param asker: key of the message that asks, which the answer names
         """

@@ -256,8 +256,9 @@ class PhysSim(ChangedWorld):
         status = simulation.status
         for robot in self.node.fleet.robots.values():
             # The last command came too late for the test, and would be refused in the past.
-            with suppress(Refusal):
-                robot.commands.take()
+            for commands in robot.command_topics:
+                with suppress(Refusal):
+                    commands.take()
         simulation.seek(round(status.oldest * 1e9))
         self.node.apply_requests()
         self.node.outputs.viewer.record(path)

@@ -177,12 +177,14 @@ def sampling_period(count: int) -> int:
 def _appearance(body: Body) -> Hashable:
     """Return a key that is equal for bodies that share a mesh."""
     shape: Hashable = body.shape
+    # Arrows of a flow are not scaled with their region.
+    flow = None if body.medium is None else body.medium.flow
     match body.shape:
-        case Disc(radius=radius):
+        case Disc(radius=radius) if flow is None:
             shape = _size_class(radius)
-        case Box(width=width, height=height):
+        case Box(width=width, height=height) if flow is None:
             shape = _size_class(width), _size_class(height)
-    return shape, body.color, body.anchored, body.kinematic, body.sensor
+    return shape, body.color, body.anchored, body.kinematic, body.sensor, flow
 
 
 def _size_class(size: float) -> int:

@@ -5,7 +5,7 @@
 The mesh of a body: filled, with a darker outline and symbols of its properties.
 
 A free disc has a radius as its turning mark, an anchored body an anchor, a kinematic body a wide
-outline, and a sensor is translucent.
+outline, and a sensor is translucent. A region of a medium has arrows along its flow.
 """
 
 from __future__ import annotations
@@ -17,7 +17,17 @@ import math
 import numpy as np
 from physsim_ros.model.colors import Color, is_bright
 from physsim_ros.model.scene import Body
-from physsim_ros.model.shapes import Capsule, Circle, Convex, Disc, Piece, Polygon, Triangles
+from physsim_ros.model.shapes import (
+    Capsule,
+    Circle,
+    contains_each,
+    Convex,
+    Disc,
+    Form,
+    Piece,
+    Polygon,
+    Triangles,
+)
 from physsim_ros.model.transform import Point
 from physsim_ros.view.mesh import inset, Mesh, MeshBuilder
 
@@ -31,6 +41,9 @@ _DARKER = 0.6
 _MARK, _MARK_SHARE = 0.03, 0.05
 # Half the height of an anchor [units], and as a share of the inner half width at most.
 _ANCHOR, _ANCHOR_SHARE = 0.3, 0.75
+# Distance of arrows of a flow [units], and at least as a share of the extent of their region; half
+# the length of an arrow, as a share of their distance.
+_FLOW_GAP, _FLOW_SHARE, _FLOW_ARROW = 1.8, 1 / 12, 1 / 5
 # Opacity of a sensor.
 _TRANSLUCENT = 0.4
 _DARK, _LIGHT = (0.08, 0.08, 0.1, 1.0), (1.0, 1.0, 1.0, 1.0)
@@ -66,7 +79,10 @@ def body_mesh(body: Body, unit: float) -> Mesh:
             _add_piece(builder, piece, 0.0, edge)
         for piece in form.pieces:
             _add_piece(builder, piece, width, color)
-    if body.anchored:
+    if body.medium is not None:
+        if any(body.medium.flow):
+            _add_flow(builder, form, body.medium.flow, unit, edge)
+    elif body.anchored:
         middle = min(map(_middle, form.pieces), key=lambda at: math.dist(at, form.centroid))
         _add_anchor(builder, middle, min(_ANCHOR_SHARE * form.inner, _ANCHOR * unit), ink)
     elif isinstance(body.shape, Disc):
@@ -139,3 +155,20 @@ def _add_anchor(builder: MeshBuilder, at: Point, size: float, color: Color) -> N
         x, y = arms[-1] if side > 0 else arms[0]
         tip = (x + 0.04 * side, y + 0.28)
         line((x - 0.22 * side, y - 0.02), tip, (x + 0.12 * side, y - 0.12))
+
+
+def _add_flow(builder: MeshBuilder, form: Form, flow: Point, unit: float, color: Color) -> None:
+    """Add the arrows of a flow that lie within its region, on a square grid about its centroid."""
+    gap = max(_FLOW_GAP * unit, _FLOW_SHARE * form.outer)
+    half, count = _FLOW_ARROW * gap, math.ceil(form.outer / gap)
+    ahead = half * np.array(flow) / math.hypot(*flow)
+    aside = np.array((-ahead[1], ahead[0]))
+    barbs = ahead / 3 + aside / 2, ahead / 3 - aside / 2
+    steps = gap * np.arange(-count, count + 1)
+    centers = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2) + form.centroid
+    corners = np.stack([centers + each for each in (-ahead, ahead, *barbs)], axis=1)
+    inside = contains_each(form, *corners.reshape(-1, 2).T).reshape(-1, 4).all(axis=1)
+    for arrow in corners[inside].tolist():
+        tail, tip, left, right = map(tuple, arrow)
+        builder.add_line((tail, tip), _MARK * unit, color)
+        builder.add_line((left, tip, right), _MARK * unit, color)

@@ -17,8 +17,8 @@ import threading
 import time
 
 from physsim_ros.model.error_boundary import ErrorBoundary
+from physsim_ros.model.sizes import frame_size
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.past import frame_size
 from physsim_ros.view.endpoints import Endpoint
 from physsim_ros.view.stream import FrameContext
 

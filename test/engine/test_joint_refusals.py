@@ -13,6 +13,7 @@ import pytest
 from .jointed import pair
 from ..building import BOX, join, spawn
 
+ROPE = [(0.4, 0.0), (0.4, 3.0), (0.6, 0.0)]
 REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     'itself': ({'a': 'a/0', 'b': 'a/0'}, 'bad_property', 'b'),
     'the background first': ({'a': 'world', 'b': 'a/0'}, 'bad_property', 'a'),
@@ -35,6 +36,58 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     'a limit that is no number': ({'lower': math.inf}, 'malformed', 'lower'),
     'limits crossed': ({'lower': 2.0, 'upper': 1.0}, 'bad_property', 'lower'),
     'a ratio of nothing': ({'kind': 'gear', 'ratio': 0.0}, 'bad_property', 'ratio'),
+    'a rope over a number': (
+        {'kind': 'rope', 'points': ROPE, 'over': [3]},
+        'bad_property',
+        'over',
+    ),
+    'a rope over one name': (
+        {'kind': 'rope', 'points': ROPE, 'over': 'a/0'},
+        'bad_property',
+        'over',
+    ),
+    'a rope over what is not there': (
+        {'kind': 'rope', 'points': ROPE, 'over': ('wheel/7',)},
+        'unknown_body',
+        'over',
+    ),
+    'a rope over more than its points': (
+        {'kind': 'rope', 'points': ROPE, 'over': ('a/0', 'world')},
+        'bad_property',
+        'over',
+    ),
+    'a rope over less than its points': (
+        {'kind': 'rope', 'points': ROPE, 'over': ()},
+        'bad_property',
+        'over',
+    ),
+    'a rope of too many points': (
+        {'kind': 'rope', 'points': [(0.1 * number, 9.0) for number in range(65)], 'b': 'world'},
+        'bad_property',
+        'points',
+    ),
+    'a rope over a point that is none': (
+        {'kind': 'rope', 'points': [ROPE[0], (math.nan, 1.0), ROPE[2]]},
+        'malformed',
+        'points',
+    ),
+    'a rod over a wheel': ({'kind': 'rod', 'points': ROPE}, 'malformed', 'points'),
+    'a spring over a wheel': (
+        {'kind': 'spring', 'points': [ROPE[0], ROPE[2]], 'over': ()},
+        'unknown_property',
+        'over',
+    ),
+    'a carrier that is no name': ({'kind': 'gear', 'carrier': 3}, 'bad_property', 'carrier'),
+    'a carrier that is not there': (
+        {'kind': 'gear', 'carrier': 'arm/7'},
+        'unknown_body',
+        'carrier',
+    ),
+    'a wheel as its carrier': ({'kind': 'gear', 'carrier': 'a/0'}, 'bad_property', 'carrier'),
+    'a ratchet that goes neither way': ({'ratchet': 0.0}, 'bad_property', 'ratchet'),
+    'a ratchet that goes twice': ({'ratchet': 2.0}, 'bad_property', 'ratchet'),
+    'a ratchet of a word': ({'ratchet': 'left'}, 'bad_property', 'ratchet'),
+    'a carrier of an axle': ({'carrier': 'fix/0'}, 'unknown_property', 'carrier'),
     'a negative stiffness': (
         {'kind': 'spring', 'points': [(0.4, 0.0), (1.0, 0.0)], 'stiffness': -1.0},
         'bad_property',
@@ -43,6 +96,13 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     'a negative force': ({'break_force': -1.0}, 'bad_property', 'break_force'),
     'a word for a flag': ({'collide': 'yes'}, 'bad_property', 'collide'),
 }
+
+
+def test_a_rope_has_at_most_64_points():
+    world = pair()
+    points = [(0.4, 0.0), *((0.1 * number, 9.0) for number in range(62)), (0.6, 0.0)]
+    join(world, 'rope', points, a='a/0', b='world')
+    assert len(world.save().joints[0].guides) == 62
 
 
 @pytest.mark.parametrize(('said', 'code', 'field'), REFUSED.values(), ids=REFUSED.keys())

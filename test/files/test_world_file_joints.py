@@ -82,6 +82,29 @@ def test_a_winch_over_a_wheel_round_trips_to_the_bit_while_it_winds(folder: Path
     assert_round_trip(world, folder)
 
 
+PLANETARY = """format: 1
+bodies:
+  - {name: arm/0, box: {width: 1, height: 0.1}, at: [0, 0, 0.3]}
+  - {name: planet/0, circle: {radius: 0.2}, at: [0.4, 0, 1], spin: 3}
+joints:
+  - {name: joint/0, kind: motor, a: arm/0, b: world, points: [[0, 0]], rate: 2}
+  - {name: joint/1, kind: axle, a: planet/0, b: arm/0, points: [[0.4, 0]]}
+  - {name: joint/2, kind: gear, a: planet/0, b: world, carrier: arm/0, ratio: -1,
+     points: [[0.2, 0]]}
+"""
+
+
+def test_a_gear_about_a_carrier_round_trips_to_the_bit(folder: Path) -> None:
+    world = loaded(PLANETARY, folder)
+    gear = world.save().joints[2]
+    assert gear.bodies == ('planet/0', 'world', 'arm/0')
+    # Against the arm, the world is turned by -0.3 rad, and the planet by 0.7 rad.
+    assert gear.seat.phase == pytest.approx(0.3 - (1.0 - 0.3))
+    world.step(333)
+
+    assert_round_trip(world, folder)
+
+
 def test_a_joint_whose_points_somebody_edited_sits_at_the_new_ones(folder: Path) -> None:
     world = loaded(MACHINE, folder)
 

@@ -6,6 +6,8 @@
 import math
 
 import numpy as np
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.requests import ChangeBody
 from physsim_ros.model.shapes import Box, Disc
 import pytest
 
@@ -272,6 +274,67 @@ def test_gears_keep_their_ratio(report, ratio):
 
     turned = last.poses[0, 2] / last.poses[1, 2]
     report.check(23, 'gears, ratio', turned, ratio, 0.01, '–', relative=True)
+
+
+@pytest.mark.parametrize('way', [1.0, -1.0])
+def test_a_pendulum_with_a_ratchet_stays_where_it_has_risen_to(report, way):
+    # One rises to the other side, as high as it was; one that would fall the other way is held.
+    sim = simulation()
+    for name, x, side in (('arm/0', 0.0, way), ('arm/1', 3.0, -way)):
+        yaw = -math.pi / 2 - side * math.pi / 3
+        pose = (x + 0.5 * math.cos(yaw), 0.5 * math.sin(yaw), yaw)
+        spawn(sim, name, Box(width=1.0, height=0.1), pose)
+        join(sim, f'axle:{name}', 'axle', [(x, 0.0)], a=name, b='world', ratchet=way)
+
+    last = run(sim, 5.0)
+
+    risen = last.poses[0, 2] + math.pi / 2
+    report.check(23, 'pendulum with a ratchet, angle', risen, way * math.pi / 3, 1e-4, 'rad')
+    report.check(23, 'the same, spin', last.twists[0, 2], 0.0, 1e-9, 'rad/s')
+    held = last.poses[1, 2] + math.pi / 2
+    # It falls in the first sub-step alone.
+    report.check(23, 'pendulum that a ratchet holds', held, way * math.pi / 3, 1e-5, 'rad')
+
+
+def planetary(sim, **said):
+    """Add a sun and a planet of 0.2 m on an arm, which the joint `motor/0` turns."""
+    spawn(sim, 'sun/0', Disc(radius=0.2), mass=2.0, group=1)
+    spawn(sim, 'arm/0', Box(width=1.0, height=0.1), mass=3.0, group=1)
+    spawn(sim, 'planet/0', Disc(radius=0.2), (0.4, 0.0, 0.0), mass=1.0, group=1)
+    join(sim, 'axle/0', 'axle', [(0.0, 0.0)], a='sun/0', b='world')
+    join(sim, 'motor/0', 'motor', [(0.0, 0.0)], a='arm/0', b='world', **said)
+    join(sim, 'axle/1', 'axle', [(0.4, 0.0)], a='planet/0', b='arm/0')
+    gear = {'a': 'planet/0', 'b': 'sun/0', 'ratio': -1.0}
+    join(sim, 'gear/0', 'gear', [(0.2, 0.0)], **gear, carrier='arm/0')
+
+
+def test_a_planet_turns_about_its_carrier(report):
+    # Willis: (w_planet - w_arm) = -(w_sun - w_arm).
+    sim = simulation(gravity=(0.0, 0.0))
+    planetary(sim, rate=1.0)
+    sim.perform(ChangeBody(name='sun/0', properties=Properties(anchored=True)))
+
+    last = run(sim, 2.0)
+
+    report.check(23, 'planet around a sun that rests, spin', last.twists[2, 2], 2.0, 1e-9, 'rad/s')
+    report.check(23, 'the same, angle', last.poses[2, 2], 4.0, 5e-3, 'rad')
+
+
+def test_a_planetary_gear_shares_its_torque(report):
+    # Sun, arm and planet turn by w, c and 2 c - w. The motor loads c alone, so that Lagrange has
+    # I_s w' = I_p (2 c' - w') and (I_a + m d²) c' + 2 I_p (2 c' - w') = T.
+    sim = simulation(gravity=(0.0, 0.0))
+    planetary(sim, rate=100.0, max_torque=1.0)
+    sun, planet, arm = 2.0 * 0.04 / 2, 1.0 * 0.04 / 2, 3.0 * (1.0 + 0.01) / 12 + 0.4**2
+
+    last = run(sim, 0.5)
+
+    # w' = 2 c' I_p / (I_s + I_p)
+    shared = sun * planet / (sun + planet)
+    spin = 0.5 / (arm + 4.0 * shared)
+    report.check(23, 'planetary gear with a torque, arm', last.twists[1, 2], spin, 1e-6, 'rad/s')
+    turned = 2.0 * spin * planet / (sun + planet)
+    report.check(23, 'the same, sun', last.twists[0, 2], turned, 1e-6, 'rad/s')
 
 
 def test_a_slider_stays_between_its_limits(report):

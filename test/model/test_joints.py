@@ -37,7 +37,8 @@ def test_a_default_passes_its_own_check(name):
 @pytest.mark.parametrize('kind', JointKind)
 def test_a_property_of_another_kind_is_unknown(kind):
     for name in {*JointProperties.FIELDS} - {*kind.schema.properties}:
-        properties = JointProperties(**{name: ('wheel/0',) if name == 'over' else 1.0})
+        value = {'over': ('wheel/0',), 'carrier': 'arm/0'}.get(name, 1.0)
+        properties = JointProperties(**{name: value})
         with pytest.raises(UnknownProperty, match=f'{kind.phrase} has no {name}'):
             properties.check_kind(kind)
 

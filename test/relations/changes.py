@@ -51,6 +51,19 @@ def few_plain(state):
     return sorted(plain, key=lambda held: held.body.name in joined)[:FEW]
 
 
+def with_guides(joint, change):
+    """Return a joint with another guide for each."""
+    return replace(joint, guides=tuple(map(change, joint.guides)))
+
+
+def with_members(joint, names):
+    """Return a joint of other bodies, by the names of its own."""
+    joint = replace(joint, a=names[joint.a], b=names[joint.b])
+    joint = with_guides(joint, lambda guide: guide._replace(body=names[guide.body]))
+    over = tuple(names[name] for name in joint.properties.over or ())
+    return joint_properties(joint, over=over) if over else joint
+
+
 def joint_properties(joint, **changes):
     """Return a joint with changed properties."""
     return replace(joint, properties=replace(joint.properties, **changes))
@@ -112,7 +125,11 @@ def moved(state, by):
             )
         return replace(held, pose=(px + x, py + y, yaw), body=replace(held.body, actor=actor))
 
+    def guide(each):
+        return each._replace(x=each.x + x, y=each.y + y) if each.body == WORLD else each
+
     def joint(each):
+        each = with_guides(each, guide)
         if each.b != WORLD:
             return each
         seat = each.seat
@@ -150,7 +167,15 @@ def turned(state, angle, vector):
             body=replace(changed, forces=forces),
         )
 
+    def guide(each):
+        headings = {'heading_in': each.heading_in + angle, 'heading_out': each.heading_out + angle}
+        if each.body != WORLD:
+            return each._replace(yaw=each.yaw + angle, **headings)
+        x, y = vector((each.x, each.y))
+        return each._replace(x=x, y=y, **headings)
+
     def joint(each):
+        each = with_guides(each, guide)
         seat, ratio = each.seat, each.number('ratio')
         if each.b == WORLD:
             bx, by = vector((seat.bx, seat.by))
@@ -223,10 +248,14 @@ def mirrored(state):
             held, pose=(x, -y, -yaw), twist=(vx, -vy, -spin), body=changed, driven=driven
         )
 
+    def guide(each):
+        names = ('y', 'radius', 'yaw', 'heading_in', 'heading_out')
+        return each._replace(**{name: -getattr(each, name) for name in names})
+
     def joint(each):
         seat = each.seat
         seat = seat._replace(ay=-seat.ay, by=-seat.by, uy=-seat.uy, phase=-seat.phase)
-        each = replace(each, seat=seat)
+        each = with_guides(replace(each, seat=seat), guide)
         said = each.properties
         if each.kind is JointKind.AXLE:
             lower, upper = said.lower, said.upper
@@ -273,6 +302,8 @@ def carried(state, velocity):
     """
     vx, vy = velocity
 
+    names = {held.body.name: held.body.name for held in state.bodies} | {WORLD: 'carriage/0'}
+
     def body(held):
         x, y, spin = held.twist
         changed = held.body
@@ -281,7 +312,7 @@ def carried(state, velocity):
         return replace(held, twist=(x + vx, y + vy, spin), body=changed)
 
     def joint(each):
-        return replace(each, b='carriage/0') if each.b == WORLD else each
+        return with_members(each, names)
 
     wind = state.settings.wind
     settings = replace(state.settings, wind=(wind[0] + vx, wind[1] + vy))
@@ -360,15 +391,19 @@ def larger(state, size, time):
             twist=(speed * vx, speed * vy, spin / time),
         )
 
+    def guide(each):
+        names = ('x', 'y', 'radius', 'span')
+        return each._replace(**{name: size * getattr(each, name) for name in names})
+
     def joint(each):
         seat = each.seat
         points = {name: size * getattr(seat, name) for name in ('ax', 'ay', 'bx', 'by', 'length')}
         # Values as drawn in the units of before.
-        each = replace(explicit(each), seat=seat._replace(**points))
-        along = size if each.kind is JointKind.SLIDER else 1.0
+        each = with_guides(replace(explicit(each), seat=seat._replace(**points)), guide)
+        along = size if each.kind in {JointKind.SLIDER, JointKind.ROPE} else 1.0
         return scaled(
             each,
-            rate=1 / time,
+            rate=along / time,
             max_torque=speed**2,
             stiffness=1 / time**2,
             damping=1 / time,
@@ -651,7 +686,7 @@ def beside(state, other, by):
     )
     far = with_joints(
         far,
-        lambda each: replace(each, name=f'far/{each.name}', a=names[each.a], b=names[each.b]),
+        lambda each: with_members(replace(each, name=f'far/{each.name}'), names),
     )
     return replace(state, bodies=(*state.bodies, *far.bodies), joints=(*state.joints, *far.joints))
 
@@ -686,9 +721,7 @@ def renamed(state):
         return replace(held, body=changed)
 
     def joint(each):
-        return replace(
-            each, name=f'link/{each.name.replace("/", "_")}', a=names[each.a], b=names[each.b]
-        )
+        return with_members(replace(each, name=f'link/{each.name.replace("/", "_")}'), names)
 
     return with_joints(with_bodies(state, body), joint)
 

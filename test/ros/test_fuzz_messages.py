@@ -58,8 +58,8 @@ VALUES = ['0', '1', '-1', '0.5', '1e5', '1e-9', '1e12', '.nan', '.inf', 'true', 
 NAMES = ['a/0', 'a/1', 'b/0', 'body/0']
 KINDS = ['pin', 'axle', 'motor', 'spring', 'rod', 'rope', 'slider', 'gear']
 JOINT_KEYS = ['kind', 'a', 'b', 'lower', 'upper', 'rate', 'max_torque', 'stiffness', 'damping',
-              'rest_length', 'length', 'ratio', 'phase', 'max_force', 'break_force',
-              'collide']  # fmt: skip
+              'rest_length', 'length', 'ratio', 'phase', 'carrier', 'over', 'ratchet', 'max_force',
+              'break_force', 'collide']  # fmt: skip
 
 numbers = st.one_of(
     st.floats(-3.0, 3.0), st.integers(-3, 3).map(float), st.sampled_from(NASTY_FLOATS), st.floats()

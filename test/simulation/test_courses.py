@@ -140,13 +140,13 @@ def test_a_ghost_is_what_the_course_has_shown():
     branch(sim, 1.0, 5.0)
 
     for step in (244, 400, 480):
-        ghost = sim.past.ghost(1, step / 240)
+        ghost = sim.past.course_snapshot(1, step / 240)
         assert np.array_equal(ghost.poses, first[step])
-    assert sim.past.ghost(1, 0.5) is None
-    assert sim.past.ghost(7, 1.5) is None
+    assert sim.past.course_snapshot(1, 0.5) is None
+    assert sim.past.course_snapshot(7, 1.5) is None
     sim.return_to_course(1)
-    assert sim.past.ghost(1, 1.5) is None
-    assert sim.past.ghost(2, 1.5) is not None
+    assert sim.past.course_snapshot(1, 1.5) is None
+    assert sim.past.course_snapshot(2, 1.5) is not None
 
 
 def test_undo_and_redo_go_along_a_course():

@@ -12,7 +12,7 @@ import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed, OutOfHistory
 from physsim_ros.model.requests import Command, Configure, Spawn
 from physsim_ros.model.shapes import Box, Disc, Polygon, Shape
-from physsim_ros.simulation.past.budget import LEAST_MEMORY, MEGABYTE
+from physsim_ros.simulation.past.tree import LEAST_MEMORY, MEGABYTE
 from physsim_ros.simulation.simulation import Simulation
 import pytest
 
@@ -178,7 +178,7 @@ def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last():
         told(sim, 300)
     courses = len(sim.status.courses)
     assert courses == 3
-    assert sim.past.ghost(1, 2.0) is not None
+    assert sim.past.course_snapshot(1, 2.0) is not None
     without_frames = used(sim) - sim.past.frames.size
 
     # Frames are dropped for it, and nothing else.
@@ -190,7 +190,7 @@ def test_frames_go_first_then_ghosts_and_courses_and_the_course_in_force_last():
     sim.limit_memory(3.0)
     (message,) = told(sim, 1)
     assert 'history_memory' in message
-    assert sim.past.ghost(1, 2.0) is None
+    assert sim.past.course_snapshot(1, 2.0) is None
     assert sim.status.oldest == 0.0
 
     sim.limit_memory(LEAST_MEMORY)

@@ -177,6 +177,39 @@ def test_another_seek_takes_the_place_of_one_under_way(simulation, digests):
     assert simulation.world.digest() == digests[480]
 
 
+def told_of_seeks(simulation: Simulation) -> list[tuple[str, str]]:
+    """Return who was answered what, as a node tells it between frames."""
+    answers = simulation.requests.take_answers()
+    return [(each.asker, each.message) for each in answers if each.topic == '~/seek']
+
+
+@pytest.mark.parametrize('other', ['none', 'seek', 'undo', 'reset'])
+def test_a_seek_is_told_done_when_it_is_and_not_where_another_one_takes_its_place(
+    simulation, digests, other
+):
+    simulation.past.frames.drop_from(0)
+    simulation.requests.submit_seek(2 * SECOND, topic='~/seek', asker='1')
+    for tick in range(50):
+        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert not told_of_seeks(simulation)
+    match other:
+        case 'seek':
+            simulation.requests.submit_seek(SECOND, topic='~/seek', asker='2')
+            assert not simulation.apply_up_to_seek()
+            assert told_of_seeks(simulation) == [('1', 'superseded by a seek to 1.000 s')]
+        case 'undo':
+            simulation.undo()
+            assert told_of_seeks(simulation) == [('1', 'superseded by a jump to 0.000 s')]
+        case 'reset':
+            simulation.reset()
+            assert told_of_seeks(simulation) == [('1', 'superseded by a jump to 0.000 s')]
+    _, frame = ticks_to_a_frame(simulation, 2 * SECOND)
+    told = [(each.asker, each.message) for each in frame.answers if each.topic == '~/seek']
+    done = {'none': [('1', 'at 2.000 s')], 'seek': [('2', 'at 1.000 s')]}
+    assert told == done.get(other, [])
+    assert not told_of_seeks(simulation)
+
+
 def test_a_cached_frame_is_shown_at_once_and_the_world_follows_it(simulation, digests):
     cursor = simulation.past.cursor
     for number, step in enumerate((480, 240, 360)):

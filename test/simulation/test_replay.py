@@ -11,7 +11,7 @@ import numpy as np
 from physsim_ros.model.errors import OutOfHistory
 from physsim_ros.model.requests import Command, Configure, Delete, DeleteAll, UnjoinAll
 from physsim_ros.simulation.past import CachedFrame
-from physsim_ros.simulation.past.node import Node
+from physsim_ros.simulation.past.line import Node
 from physsim_ros.simulation.simulation import CHECKPOINTS, Simulation
 import pytest
 

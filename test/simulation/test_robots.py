@@ -45,7 +45,7 @@ def test_a_robot_is_not_anchored_by_a_click_and_may_have_joints():
     put(world, 'b/0', x=1.0)
     rod = joining('rod', [(0.0, 0.0), (1.0, 0.0)], a='a/0', b='b/0')
     world.apply(rod)
-    world.apply(changing('b/0', robot={'drive': {'kind': 'towed'}}))
+    world.apply(changing('b/0', towed={}))
     world.apply(DriveRobot(name='a/0', velocity=(0.2, 0.0, 0.0)))
     world.step(120)
 

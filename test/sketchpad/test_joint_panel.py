@@ -80,6 +80,15 @@ def test_a_spring_has_the_constant_that_is_typed(sheet: Sheet) -> None:
     panel.get_by_text('Force now: 9.81 N · length 3.49 m · energy 2.41 J').wait_for()
 
 
+def test_an_axle_becomes_a_ratchet(sheet: Sheet) -> None:
+    panel = tapped(sheet, 2.2, 5.0, 'Axle')
+    # Its weight would turn the beam clockwise.
+    panel.get_by_label('Turns', exact=True).last.select_option('counter-clockwise')
+    sheet.page.get_by_role('status').get_by_text('changed').wait_for()
+    sheet.play_until(1.0)
+    assert sheet.pose('beam/0')[2] == pytest.approx(0.0, abs=1e-4)
+
+
 def test_an_axle_has_limits_from_the_pose_in_which_it_was_made(sheet: Sheet) -> None:
     # The beam has turned before its limits are set.
     sheet.play_until(0.25)

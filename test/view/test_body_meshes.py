@@ -8,7 +8,18 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from physsim_ros.model.shapes import Box, Chain, Compound, contains_each, Disc, Polygon, Triangles
+from physsim_ros.model.media import Medium
+from physsim_ros.model.shapes import (
+    Box,
+    Chain,
+    Compound,
+    contains,
+    contains_each,
+    Disc,
+    Polygon,
+    Triangles,
+)
+from physsim_ros.view.body_mesh import body_mesh
 import pytest
 
 from .picture_file import BLUE, body, COLOR_TOLERANCE, frame, RED, scene, TOLERANCE, unpack
@@ -141,6 +152,46 @@ def test_the_anchor_of_a_concave_body_lies_on_the_body(recording):
     inked = drawn.corners[(drawn.colors[:, :3] > 0.99).all(axis=1)]
     assert len(inked)
     assert contains_each(horseshoe.form, *inked.T).all()
+
+
+def pool(flow, shape=None, **changes):
+    water = Medium(density=2.0, flow=flow)
+    shape = shape or Box(width=9.0, height=6.0)
+    return body('pool/0', shape, anchored=True, sensor=True, medium=water, **changes)
+
+
+def inked(drawn):
+    """Return the corners that have another colour than the body, (k, 2) [m]."""
+    return drawn.corners[np.abs(drawn.colors - RED).max(axis=1) > COLOR_TOLERANCE]
+
+
+def test_still_water_has_neither_arrows_nor_an_anchor(recording):
+    recording.draw(frame(scene(pool((0.0, 0.0))), [(0, 0, 0)]))
+
+    outline = {(x, y) for x in (-4.5, 4.5) for y in (-3.0, 3.0)}
+    assert {(x, y) for x, y in inked(recording.shape('world/bodies/pool/0')).tolist()} == outline
+
+
+@pytest.mark.parametrize('flow', [(2.0, 0.0), (0.0, -0.1), (-3.0, 4.0)])
+def test_water_has_arrows_along_its_flow_that_turn_with_it(recording, flow):
+    recording.draw(frame(scene(pool(flow)), [(5.0, 1.0, math.pi / 2)]))
+
+    corners = inked(recording.shape('world/bodies/pool/0')) - (5.0, 1.0)
+    # Outline and places of the arrows are symmetric; their barbs lie ahead.
+    x, y = corners.mean(axis=0) / np.hypot(*corners.mean(axis=0))
+    speed = math.hypot(*flow)
+    assert (x, y) == pytest.approx((-flow[1] / speed, flow[0] / speed), abs=1e-3)
+
+
+def test_the_arrows_of_a_flow_lie_in_its_region(recording):
+    river = Chain(points=((0, 0), (12, 0), (12, 9)), thickness=2.0)
+    recording.draw(frame(scene(pool((1.0, 1.0), river)), [(0, 0, 0)]))
+
+    corners = recording.shape('world/bodies/pool/0').corners
+    still = body_mesh(pool((0.0, 0.0), river), 1.0).vertices
+    assert len(corners) > len(still)
+    # Half the width of a line, and float32.
+    assert all(contains(river.form.pieces, x, y, slack=0.04) for x, y in corners.tolist())
 
 
 def test_a_sensor_is_translucent(recording):

@@ -10,7 +10,7 @@ import threading
 import weakref
 
 from physsim_ros.model.error_boundary import ErrorBoundary
-from physsim_ros.simulation.past import frame_size
+from physsim_ros.model.sizes import frame_size
 from physsim_ros.view import output as output_module
 from physsim_ros.view.endpoints import Endpoint
 from physsim_ros.view.file_endpoint import FileEndpoint

@@ -36,7 +36,8 @@ class Mutation:
 
     def applied(self, text: bytes) -> bytes:
         """Return the text of the file with this mutation."""
-        return text[: self.begin] + self.after.encode() + text[self.end :]
+        begin, end = self.begin, self.end
+        return text[:begin] + self.after.encode() + text[end:]
 
     def told(self, text: bytes) -> str:
         """Return the place, and its line before and after."""
@@ -74,7 +75,8 @@ def _in_python(text: str) -> Iterator[tuple[int, int, str]]:
 
     def between(left: ast.expr, right: ast.expr) -> Iterator[tuple[int, int, str]]:
         begin = place(left.end_lineno or 0, left.end_col_offset or 0)
-        operator = data[begin : place(right.lineno, right.col_offset)].decode()
+        end = place(right.lineno, right.col_offset)
+        operator = data[begin:end].decode()
         word = operator.strip(' ()\n')
         if word in _TURNED:
             first = begin + operator.index(word)

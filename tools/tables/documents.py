@@ -24,7 +24,7 @@ from physsim_ros.model.declarations import Checked, Declaration
 from physsim_ros.model.joints import AS_DRAWN, DEFAULTS, JointKind, JointProperties
 from physsim_ros.model.media import Medium
 from physsim_ros.model.requests import Request
-from physsim_ros.model.robots import DRIVES, Odometry, Robot
+from physsim_ros.model.robots import DRIVES, Link, LinkJoint, Odometry, Robot, Towed
 from physsim_ros.model.robots.sensors import SENSORS
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.ros.parameters import NodeSettings, Spec, SPECS
@@ -46,7 +46,7 @@ _YAML_HEAD = """\
 """
 _COLUMNS = ('key', 'default', 'range', 'meaning')
 # Keys that the text above the table of sensors explains.
-_OF_EVERY_SENSOR = {'name', 'rate', 'at'}
+_OF_EVERY_SENSOR = {'name', 'rate', 'at', 'link'}
 # The parts of the file of parameters.
 _GROUPS: Mapping[str, type[Checked]] = {
     'The node': NodeSettings,
@@ -65,6 +65,7 @@ def files() -> dict[Path, str]:
             'kinds of joints': _joint_kinds(),
             'properties of a joint': _table(JointProperties.FIELDS.values(), _joint_default),
             'keys of a robot': _robot_keys(),
+            'keys of parts': _part_keys(),
             'keys of a sensor': _sensor_keys(),
             'keys of an actor': _actor_keys(),
         },
@@ -149,6 +150,16 @@ def _robot_keys() -> str:
         _titled('**`robot`**', _COLUMNS, _fields_of(Robot)),
         _titled('**`drive`**', _COLUMNS, drive),
         _titled('**`odometry`**', _COLUMNS, _fields_of(Odometry)),
+    ]
+    return ''.join(parts) + '\n'
+
+
+def _part_keys() -> str:
+    joint = [_row(each) for each in LinkJoint.FIELDS.values() if each.name != 'properties']
+    parts = [
+        _titled('**a link**', _COLUMNS, _fields_of(Link)),
+        _titled('**a joint**', _COLUMNS, joint),
+        _titled('**`towed`**', _COLUMNS, _fields_of(Towed)),
     ]
     return ''.join(parts) + '\n'
 

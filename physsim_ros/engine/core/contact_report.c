@@ -63,9 +63,9 @@ void free_report(World *world) {
 // Where a pair is in the table, or belongs (Fibonacci hashing; Knuth, The Art of Computer Programming 3, 6.4).
 static Pair *slot_of(const Report *report, int a, int b) {
     uint64_t key = ((uint64_t)(uint32_t)a << 32U) | (uint32_t)b;
+    uint64_t slot = (key * 0x9E3779B97F4A7C15U) >> 20U, mask = (uint64_t)report->room - 1U;
     // A free slot ends the search.
-    assert(report->count < report->room && (report->room & (report->room - 1)) == 0);
-    uint64_t slot = (key * 0x9E3779B97F4A7C15U) >> 20U, mask = (uint64_t)report->room - 1;
+    assert(report->count < report->room && ((uint64_t)report->room & mask) == 0);
     for (slot &= mask; report->pairs[slot].counts; slot = (slot + 1) & mask) {
         if (report->pairs[slot].a == a && report->pairs[slot].b == b) {
             break;

@@ -70,6 +70,7 @@ typedef struct Body {
     uint8_t jointed;       // a joint with rows ends on it; the core sets it
     uint8_t sprung;        // in an island of joints that hangs by a spring from something fixed
     uint8_t on_spring;     // a spring pulls it, and forces move it
+    uint8_t towed;         // it rolls on an axle without a motor
     uint8_t expires;       // the steps of Python end with it
     cpVect offset;         // the engine's origin in the body's frame [m]
     double reach;          // greatest distance of a point of it from the centre of mass [m]
@@ -139,7 +140,7 @@ typedef struct Attractor {
 typedef struct Robot {
     // These fields are set by Python.
     int32_t body;
-    int32_t wheel_count; // that drive; without them it is towed
+    int32_t wheel_count; // that drive
     Twist wheels[4];     // speed of the rim of each wheel, by the velocity of the floor
     double acceleration; // greatest of the rim of a wheel [m/s²]
     double curvature;    // greatest of its way [1/m]
@@ -229,8 +230,9 @@ enum {
 };
 
 // Laws of constraint rows: lower <= x <= upper, both the same for an equality; the force of a spring and its damper,
-// without which x is `lower`; x changes at `rate`, with a force of any size up to `most`.
-enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE };
+// without which x is `lower`; x changes at `rate`, with a force of any size up to `most`; x does not rise, as in a
+// ratchet, or does not fall.
+enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE, LAW_FALLS, LAW_RISES };
 
 // What a rope passes, in the order of its way: the bodies at its ends, rings, and wheels. Of a gear it is the carrier.
 typedef struct Guide {
@@ -257,9 +259,42 @@ typedef struct Row {
     int32_t first_guide, guide_count;
 } Row;
 
-// Kinds of constraints of Chipmunk. PART_OWN and PART_ROPE are solved by the core alone: a motor without torque keeps
-// the impulse of their row. PART_ROPE pulls the second body of its joint along the last span of its path.
-enum { PART_PIVOT, PART_PIN, PART_SLIDE, PART_GEAR, PART_ROTARY_LIMIT, PART_MOTOR, PART_SPRING, PART_OWN, PART_ROPE };
+// A point of a command: when [s], which position, rate, or force or torque, and at which rate there; NAN is none.
+typedef struct CommandPoint {
+    double time, value, rate;
+} CommandPoint;
+
+// What the value of a command is, in the order of `model/motor_command.py`.
+enum { COMMAND_POSITION, COMMAND_VELOCITY, COMMAND_EFFORT };
+
+// A motor of an axle or a slider.
+typedef struct Motor {
+    int32_t joint, row; // numbers of them
+    double effort;      // greatest force [N] or torque [N m]
+    double speed;       // greatest rate [m/s, rad/s]
+    double gain;        // rate by the way that is left [1/s]
+    double zero;        // x of the row where the joint is at 0 [m, rad]
+    int32_t mode;       // of its command, as the two below; without points it holds
+    int32_t point_count;
+    const CommandPoint *points;
+    int64_t begun; // step at which the command began
+} Motor;
+
+// Kinds of constraints of Chipmunk. From PART_OWN on the core alone solves them: a motor without torque keeps the
+// impulse of their row. PART_ROPE pulls the second body of its joint along the last span of its path, PART_DRIVE along
+// the axis.
+enum {
+    PART_PIVOT,
+    PART_PIN,
+    PART_SLIDE,
+    PART_GEAR,
+    PART_ROTARY_LIMIT,
+    PART_MOTOR,
+    PART_SPRING,
+    PART_OWN,
+    PART_ROPE,
+    PART_DRIVE
+};
 
 // A constraint of a joint.
 typedef struct Part {
@@ -347,6 +382,7 @@ typedef struct Begun {
 // A wall is a polygon of one edge, with all that is behind it.
 typedef struct Piece {
     int32_t body;                   // its row in the scene
+    int32_t owner;                  // that of the robot of which the body is a part, else the same
     int32_t first_edge, edge_count; // no edges: a disc
     cpVect center;                  // of the disc, or of a circle around the polygon, in the frame of the body [m]
     double radius;                  // of the same [m]
@@ -378,6 +414,7 @@ typedef struct World {
     Joint *joints;
     Part *parts;
     Row *rows;
+    Motor *motors; // in the order of their joints
     Guide *guides; // of rows
     Grip *grips;
     AppliedForce *forces;  // in the order of their bodies
@@ -385,8 +422,8 @@ typedef struct World {
     Attractor *attractors; // in the order of their bodies
     Robot *robots;
     Actor *actors;
-    int32_t body_count, joint_count, part_count, row_count, guide_count, grip_count, force_count, region_count,
-        attractor_count, robot_count, actor_count;
+    int32_t body_count, joint_count, part_count, row_count, guide_count, motor_count, grip_count, force_count,
+        region_count, attractor_count, robot_count, actor_count;
     // These fields are results of the last steps.
     uint8_t within_step; // a step is begun and not ended
     uint8_t has_broken;  // a joint
@@ -441,8 +478,8 @@ void core_clear_contacts(World *world);
 void core_copy_contacts(World *world, const World *old);
 
 // Find how far it is from `origin` along each of some directions, counter-clockwise within a turn, to the nearest piece
-// of any body but `own` (-1 is none), by the poses of all bodies. A distance is INFINITY where nothing is within
-// `reach`; beyond it, it may also be true. All are 0 where the origin lies in a piece. [m]
+// of any body but those of `own` (-1 is none), by the poses of all bodies. A distance is INFINITY where nothing is
+// within `reach`; beyond it, it may also be true. All are 0 where the origin lies in a piece. [m]
 void core_cast_rays(const Piece *pieces, int32_t piece_count, const Edge *edges, const Pose *poses, int32_t own,
                     cpVect origin, double reach, const cpVect *directions, int32_t count, double *distances);
 

@@ -65,10 +65,6 @@ static Twist at_center(Twist velocity, Vec center, double yaw) {
 void roll_wheels(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
-        if (robot->wheel_count == 0) {
-            // Towed: its wheels turn as the floor goes by (`floor.c`).
-            continue;
-        }
         double yaw = world->bodies[robot->body].scratch.begin.yaw;
         Twist aim = world->step < robot->until ? robot->aim : (Twist){0}, after = robot->rolling;
         if (!is_same(robot->rolling, aim) || !is_same(aim, robot->aim)) {

@@ -145,23 +145,18 @@ static Twist conveyed(const Conveyors *conveyors, const Body *body) {
 
 // The velocity of the centre of mass next to one, by the kinetic energy, at which the axle of a towed body rolls: the
 // middle of the axle, at the origin of the body, does not move along it.
-static Twist rolling(const Robot *towed, const cpBody *engine, Twist twist, double yaw) {
+static Twist rolling(const Body *body, Twist twist, double yaw) {
+    const cpBody *engine = body->engine;
     Rotation by = rotation(yaw);
-    Vec arm = rotated(negated(towed->center), by), along = rotated(vec(0.0, 1.0), by);
+    Vec arm = rotated(negated(body->offset), by), along = rotated(vec(0.0, 1.0), by);
     double lever = cross(arm, along), inverse = engine->m_inv + engine->i_inv * lever * lever;
     double impulse = -dot(along, velocity_at(twist, arm)) / inverse;
     return (Twist){add(twist.v, scaled(along, impulse * engine->m_inv)), twist.w + impulse * engine->i_inv * lever};
 }
 
-// A velocity of the centre of mass as that of the origin, seen from the body.
-static Twist seen_from(const Robot *robot, Twist twist, double yaw) {
-    Rotation by = rotation(yaw);
-    return (Twist){rotated_back(velocity_at(twist, rotated(negated(robot->center), by)), by), twist.w};
-}
-
 // Bring a body to the velocity of the floor under it: its mean in the step, and that at its end. Below a towed body
 // these are the velocities at which its axle rolls.
-static void drag(World *world, Body *body, Robot *towed, Twist mean, Twist end) {
+static void drag(World *world, Body *body, Twist mean, Twist end) {
     cpBody *engine = body->engine;
     double dt = world->dt, kept = world->own->kept;
     double linear = engine->m_inv * dt, angular = engine->i_inv * dt;
@@ -177,13 +172,11 @@ static void drag(World *world, Body *body, Robot *towed, Twist mean, Twist end) 
     double size = greatest(sqrt(square(expected, surface)) / most_expected, 1.0);
     expected = (Twist){scaled(expected.v, 1.0 / size), expected.w / size};
     Twist next = twist_sum(after, expected, 1.0);
-    if (towed != NULL) {
+    if (body->towed) {
         double yaw = body->scratch.begin.yaw, turn = next.w * dt;
-        end = rolling(towed, engine, next, yaw + turn);
+        end = rolling(body, next, yaw + turn);
         Twist sum = twist_sum(before, end, 1.0);
-        mean = rolling(towed, engine, (Twist){scaled(sum.v, 0.5), sum.w / 2.0}, yaw + turn / 2.0);
-        towed->rolling = seen_from(towed, end, yaw + turn);
-        towed->mean = seen_from(towed, mean, yaw + turn / 2.0);
+        mean = rolling(body, (Twist){scaled(sum.v, 0.5), sum.w / 2.0}, yaw + turn / 2.0);
     }
     Twist slip = twist_sum(next, end, -1.0);
     body->scratch.slides = square(slip, surface) > 1.0;
@@ -203,23 +196,17 @@ static void drag(World *world, Body *body, Robot *towed, Twist mean, Twist end) 
     }
 }
 
-// What drives a body along on the floor: the velocity that its wheels or feet have, mean and at the end; or it is
-// towed.
+// What drives a body along on the floor: the velocity that its wheels or feet have, mean and at the end.
 typedef struct Driving {
     Twist mean, end;
-    Robot *towed;
 } Driving;
 
 // The driving of a body. Robots and actors are listed in the order of the bodies; those of the body are passed.
-static Driving driving_of(const World *world, int place, Robot **robot, const Actor **actor) {
+static Driving driving_of(const World *world, int place, const Robot **robot, const Actor **actor) {
     Driving driving = {0};
     if (*robot < world->robots + world->robot_count && (*robot)->body == place) {
-        if ((*robot)->wheel_count == 0) {
-            driving.towed = *robot;
-        } else {
-            driving.mean = (*robot)->under;
-            driving.end = (*robot)->end;
-        }
+        driving.mean = (*robot)->under;
+        driving.end = (*robot)->end;
         ++*robot;
     }
     if (*actor < world->actors + world->actor_count && (*actor)->body == place) {
@@ -237,7 +224,7 @@ void pull_by_floor(World *world) {
     }
     roll_wheels(world);
     Conveyors conveyors = conveyors_of(world);
-    Robot *robot = world->robots;
+    const Robot *robot = world->robots;
     const Actor *actor = world->actors;
     for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
@@ -245,7 +232,7 @@ void pull_by_floor(World *world) {
         if (body->floor_friction > 0.0) {
             Twist belt = conveyors.count > 0 ? conveyed(&conveyors, body) : (Twist){0};
             Twist mean = twist_sum(driving.mean, belt, 1.0), end = twist_sum(driving.end, belt, 1.0);
-            drag(world, body, driving.towed, mean, end);
+            drag(world, body, mean, end);
         }
     }
     assert(robot == world->robots + world->robot_count && actor == world->actors + world->actor_count);

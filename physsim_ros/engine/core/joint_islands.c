@@ -215,7 +215,6 @@ static Islands split(World *world, Touches touches) {
 // Return the number of a body in an island, to which it is added if it is not there yet. `numbers` are 0 for such.
 static int number_in(const World *world, Island *island, int *numbers, int *places, int body) {
     if (numbers[body] == 0) {
-        assert(island->body_count < 2 * (island->joint_count + island->touch_count));
         places[island->body_count] = body;
         numbers[body] = ++island->body_count;
         cpBody *engine = world->bodies[body].engine;
@@ -259,7 +258,7 @@ static void take_impulse(const World *world, Island *island, int row) {
     Part *part = world->parts + of_joint->part;
     island->impulses[row] = impulse_at(part, of_joint->component);
     island->last[row] = *island->impulses[row];
-    if (part->kind == PART_OWN || part->kind == PART_ROPE) {
+    if (part->kind >= PART_OWN) {
         // Chipmunk gives none.
         *island->impulses[row] = 0.0;
     }
@@ -312,7 +311,7 @@ static void lay_out(World *world, Island *island, int *numbers) {
         }
     }
     island->further[row] = link;
-    assert(row == island->row_count);
+    assert(row == island->row_count && island->body_count <= most);
     for (int number = 0; number < island->body_count; number++) {
         numbers[places[number]] = 0;
     }

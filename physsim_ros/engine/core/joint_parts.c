@@ -35,6 +35,7 @@ double *impulse_at(const Part *part, int component) {
     case PART_MOTOR:
     case PART_OWN:
     case PART_ROPE:
+    case PART_DRIVE:
         return &((cpSimpleMotor *)part->constraint)->jAcc;
     default:
         assert(part->kind == PART_SPRING);
@@ -134,7 +135,7 @@ static Vec between(const cpConstraint *constraint, Vec at_a, Vec at_b) {
 
 // The unit vector along which a constraint about an axis acts on the second body of its joint.
 //
-// Both constraints have the bodies of the joint the other way round, and their anchors are put anew in each step, so
+// Pin and limit have the bodies of the joint the other way round, and their anchors are put anew in each step, so
 // that their lines are taken from the axis. Chipmunk turns the normal of a limit round at the lower one.
 static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     const cpBody *a = world->bodies[joint->a].engine, *b = world->bodies[joint->b].engine;
@@ -142,15 +143,19 @@ static Vec by_axis(const World *world, const Joint *joint, const Part *part) {
     if (part->kind == PART_PIN) {
         return negated(perpendicular(axis));
     }
+    if (part->kind == PART_DRIVE) {
+        return negated(axis);
+    }
     const cpSlideJoint *limit = (cpSlideJoint *)part->constraint;
     Vec at_a = world_place(a, vec(joint->anchor_a[0], joint->anchor_a[1]));
     double way = length(sub(at_a, world_place(b, limit->anchorA)));
     return 2.0 * way < limit->min + limit->max ? axis : negated(axis);
 }
 
-// Whether a part acts along the line from one anchor to the other: that of a rod, a rope, a spring or a limit.
+// Whether a part acts along a line: that of a rod, a rope, a spring, a limit or a drive.
 static bool is_axial(const Part *part) {
-    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING || part->kind == PART_ROPE;
+    return part->kind == PART_PIN || part->kind == PART_SLIDE || part->kind == PART_SPRING || part->kind == PART_ROPE ||
+           part->kind == PART_DRIVE;
 }
 
 // The unit vector along which a rope with guides comes to its second end.
@@ -232,8 +237,7 @@ static double place_of_row(const World *world, const Joint *joint, const Row *ro
     }
     Anchors anchors = anchors_at(joint, a, b);
     x += row_at(row, joint, &anchors, a, b, &jacobian);
-    return row->guide_count == 0 ? x
-                                 : x + carrier_at(joint, guide, pose_of(world->bodies[guide->body].engine), &jacobian);
+    return row->guide_count == 0 ? x : x + carrier_at(joint, pose_of(world->bodies[guide->body].engine), &jacobian);
 }
 
 // How far the row of a joint that is furthest out of its bounds is out of them [m, rad].

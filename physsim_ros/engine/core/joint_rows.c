@@ -59,10 +59,10 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
     }
 }
 
-double carrier_at(const Joint *joint, const Guide *guide, Pose carrier, Jacobian *jacobian) {
+double carrier_at(const Joint *joint, Pose carrier, Jacobian *jacobian) {
     // ratio (yaw_b - yaw_c) - (yaw_a - yaw_c), of which `row_at` has the rest.
     *jacobian = (Jacobian){.a = {.w = 1.0 - joint->ratio}};
-    return (1.0 - joint->ratio) * (carrier.yaw - guide->yaw);
+    return (1.0 - joint->ratio) * carrier.yaw;
 }
 
 // The direction of a rope from one guide to the next, along their common tangent, and its length.

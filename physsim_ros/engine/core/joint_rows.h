@@ -16,9 +16,14 @@ typedef struct Anchors {
 
 Anchors anchors_at(const Joint *joint, Pose a, Pose b);
 
-// Whether a row holds x where it is, rather than by a force.
+// Whether a row holds x where it is.
 static inline bool is_equality(const Row *row) {
     return row->law == LAW_BOUNDS && row->lower == row->upper;
+}
+
+// Whether a row is about the rate of x, wherever x is.
+static inline bool is_of_rate(const Row *row) {
+    return row->law == LAW_DRIVE || row->law == LAW_FALLS || row->law == LAW_RISES;
 }
 
 // Return x of a row, and its Jacobian.
@@ -40,7 +45,7 @@ static inline int further_count(const Row *row) {
 double span_at(const Row *row, const Guide *guides, int number, Pose a, Pose b, Jacobian *jacobian);
 
 // Return what a carrier adds to x of a gear that turns about it, and its Jacobian.
-double carrier_at(const Joint *joint, const Guide *guide, Pose carrier, Jacobian *jacobian);
+double carrier_at(const Joint *joint, Pose carrier, Jacobian *jacobian);
 
 // The Jacobian of direction . (p_a - p_b), for points that are `arm_a` and `arm_b` from the centres of mass.
 Jacobian along(Vec direction, Vec arm_a, Vec arm_b);

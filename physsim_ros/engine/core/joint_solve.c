@@ -22,7 +22,7 @@ static double read_row(const Island *island, const Joint *joint, int row, const 
     Anchors anchors = anchors_at(joint, a, b);
     x += row_at(of_joint, joint, &anchors, a, b, jacobians + row);
     if (of_joint->guide_count > 0) {
-        x += carrier_at(joint, island->guides + of_joint->first_guide, poses[island->ends[first].a], jacobians + first);
+        x += carrier_at(joint, poses[island->ends[first].a], jacobians + first);
     }
     return x;
 }

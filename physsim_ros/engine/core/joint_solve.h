@@ -37,11 +37,13 @@ static inline double sign_of(const Row *row, double excess) {
 
 // Bounds of λ of a row of a joint, without its greatest force.
 static inline double lower_bound(const Row *row, bool holds, double excess) {
-    return holds && (row->law != LAW_BOUNDS || row->lower == row->upper || excess > 0.0) ? -INFINITY : 0.0;
+    bool pulls = row->law == LAW_BOUNDS ? row->lower == row->upper || excess > 0.0 : row->law != LAW_RISES;
+    return holds && pulls ? -INFINITY : 0.0;
 }
 
 static inline double upper_bound(const Row *row, bool holds, double excess) {
-    return holds && (row->law != LAW_BOUNDS || row->lower == row->upper || excess < 0.0) ? INFINITY : 0.0;
+    bool pushes = row->law == LAW_BOUNDS ? row->lower == row->upper || excess < 0.0 : row->law != LAW_FALLS;
+    return holds && pushes ? INFINITY : 0.0;
 }
 
 // The side of a row by a guess of λ.

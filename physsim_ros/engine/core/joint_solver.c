@@ -9,7 +9,7 @@
 // Method: all rows of an island are solved together (`mixed_lcp`), in velocities (`joint_velocities`) and then in
 // positions (`joint_positions`).
 // Cost: 5 µs a step for a pendulum, 150 µs for a chain of fifty axles.
-// Without it laws 14 to 16, 20, 22, 23, 33, 34 and 61 fail. Chipmunk's impulses are the first guess. Impulses of
+// Without it laws 14 to 16, 20, 22, 23, 33, 34, 61 and 62 fail. Chipmunk's impulses are the first guess. Impulses of
 // springs without dampers, and contacts between bodies without joints, stay Chipmunk's.
 
 #include "joint_positions.h"

@@ -343,7 +343,7 @@ static void bend(Solve *solve, Solution *solution, Twist *velocities) {
     for (int row = 0; row < island->joint_row_count; row++) {
         double bent = row_rate(&solve->system, solve->jacobians, row, velocities) -
                       row_rate(&solve->system, jacobians, row, velocities);
-        bool pressed_on = island->rows[row]->law != LAW_DRIVE && solve->excess[row] * bent < 0.0;
+        bool pressed_on = !is_of_rate(island->rows[row]) && solve->excess[row] * bent < 0.0;
         if (solution->sides[row] == 0 && (is_equality(island->rows[row]) || pressed_on)) {
             before[row] = bound_rate(island->rows[row]) - row_rate(&solve->system, solve->jacobians, row, begun);
             wanted[row] = bent;
@@ -402,7 +402,7 @@ static void find_yielded(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
     for (int row = 0; row < island->joint_row_count; row++) {
         const Row *of_joint = island->rows[row];
-        if (of_joint->law != LAW_DRIVE && fabs(solution->impulses[row]) >= of_joint->most) {
+        if (!is_of_rate(of_joint) && fabs(solution->impulses[row]) >= of_joint->most) {
             for (int other = 0; other < island->joint_row_count; other++) {
                 if (island->joint_of_row[other] == island->joint_of_row[row]) {
                     solve->holds[other] = false;

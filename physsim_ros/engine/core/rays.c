@@ -145,7 +145,7 @@ void core_cast_rays(const Piece *pieces, int32_t piece_count, const Edge *edges,
     bool outside = true;
     for (int number = 0; number < piece_count && outside; number++) {
         const Piece *piece = &pieces[number];
-        outside = piece->body == own || meet_piece(&fan, piece, edges, poses[piece->body]);
+        outside = piece->owner == own || meet_piece(&fan, piece, edges, poses[piece->body]);
     }
     for (int ray = 0; ray < count && !outside; ray++) {
         distances[ray] = 0.0;

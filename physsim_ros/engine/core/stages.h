@@ -41,12 +41,13 @@ void clamp_moves(World *world);
 void finish_moves(World *world);
 void tighten_boxes(World *world);
 
-// Constraints are put where the step needs them (`joint_parts.c`).
+// Constraints are put where the step needs them (`joint_parts.c`), and motors get their rates (`joint_motors.c`).
 void prepare_parts(World *world);
+void command_motors(World *world);
 
-// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that begin (`first_touch.c`), the first of two points (`contact_order.c`),
-// the greatest load (`impact_loads.c`), contacts next to an impact (`impact_propagation.c`), points that are hit at
-// once (`block_solver.c`).
+// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that begin
+// (`first_touch.c`), the first of two points (`contact_order.c`), the greatest load (`impact_loads.c`), contacts next
+// to an impact (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
 void correct_first_touches(World *world);
 void move_belts(World *world);
 void order_points(World *world);

@@ -71,6 +71,7 @@ static void step(World *world) {
     clamp_moves(world);
     tighten_boxes(world);
     prepare_parts(world);
+    command_motors(world);
     keep_twists(world);
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);

@@ -46,6 +46,18 @@ static Vec to_center(const Body *body) {
     return rotated(center, rotation(body->engine->a));
 }
 
+// What pedestrians see of a body that they walk around; `own` is its actor, or NULL.
+static Disc disc_of(const World *world, const Body *body, const Actor *own) {
+    const cpBody *engine = body->engine;
+    if (own == NULL) {
+        Vec arm = to_center(body);
+        return (Disc){body, add(engine->p, arm), velocity_at(twist_of(engine), arm), body->reach, false};
+    }
+    Vec arm = arm_of(world, own);
+    bool walks = own->kind != ACTOR_PATH && has_begun(world, own);
+    return (Disc){body, add(engine->p, arm), velocity_at(twist_of(engine), arm), body->reach + own->ahead, walks};
+}
+
 Surroundings look_around(World *world) {
     Arena *arena = &world->own->arena;
     int wall_count = 0;
@@ -63,21 +75,16 @@ Surroundings look_around(World *world) {
     const Actor *actor = world->actors, *last = actor + world->actor_count;
     for (int place = 0; place < world->body_count; place++) {
         const Body *body = world->bodies + place;
-        const cpBody *engine = body->engine;
         const Actor *own = actor < last && actor->body == place ? actor++ : NULL;
         // A pedestrian is no sensor (`simulation/world/body_description.py`), and is found here.
         if (body->sensor && own == NULL) {
             continue;
         }
         if (!body->anchored || is_anchored_disc(body)) {
-            Disc *disc = around.discs + around.disc_count++;
-            Vec arm = own != NULL ? arm_of(world, own) : to_center(body);
-            bool walks = own != NULL && own->kind != ACTOR_PATH && has_begun(world, own);
-            *disc = (Disc){body, add(engine->p, arm), velocity_at(twist_of(engine), arm),
-                           body->reach + (own != NULL ? own->ahead : 0.0), walks};
+            around.discs[around.disc_count++] = disc_of(world, body, own);
             continue;
         }
-        for (const cpShape *shape = engine->shapeList; shape != NULL; shape = shape->next) {
+        for (const cpShape *shape = body->engine->shapeList; shape != NULL; shape = shape->next) {
             around.walls[around.wall_count++] = shape;
         }
     }

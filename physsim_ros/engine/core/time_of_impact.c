@@ -161,7 +161,7 @@ static double advance(MovingShape *a, MovingShape *b, double radii, double skin,
         double distance = found.distance - radii;
         bool met = distance <= target + tolerance * skin;
         if (number == 0 && met) {
-            if (distance < -skin - depth * SAFE_DEPTHS) {
+            if (distance < -skin - depth * (double)SAFE_DEPTHS) {
                 return INFINITY;
             }
             target = distance - skin;

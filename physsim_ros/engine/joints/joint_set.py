@@ -26,6 +26,7 @@ from physsim_ros.engine.joints.joint_table import check_joint, JointTable
 from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.joints import JointKind
+from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.snapshot import Springs
 from physsim_ros.model.transform import Pose
@@ -68,6 +69,8 @@ class JointSet:
         self._unstepped: set[str] = set()
         # The impulses of each joint in the step before, by name, from the same table.
         self._totals: dict[str, Floats] = {}
+        # The last command of each motor, by the name of its joint, and its step.
+        self.commands: dict[str, tuple[MotorCommand, int]] = {}
         # The bounds of the rows of each joint that has one which moves, by name, likewise.
         self._bounds: dict[str, NDArray[np.void]] = {}
 
@@ -98,6 +101,7 @@ class JointSet:
             self._remove_constraints(old)
             if (old.joint.kind, old.joint.a, old.joint.b) != (joint.kind, joint.a, joint.b):
                 self._totals.pop(joint.name, None)
+                self.commands.pop(joint.name, None)
             if _reference(old.joint) != _reference(joint):
                 self._bounds.pop(joint.name, None)
         self._add_constraints(joint)
@@ -110,6 +114,7 @@ class JointSet:
         """Remove a joint for good."""
         self._remove_constraints(self.by_name[name])
         self._totals.pop(name, None)
+        self.commands.pop(name, None)
         self._bounds.pop(name, None)
         del self.by_name[name], self._serials[name]
 
@@ -118,6 +123,7 @@ class JointSet:
         self._take_out()
         self._drop_table()
         self._totals.clear()
+        self.commands.clear()
         self._bounds.clear()
         self.by_name.clear()
         self._on.clear()
@@ -169,9 +175,22 @@ class JointSet:
                 self._dt,
             )
             self._table.set_bounds(self._bounds)
+            for command, begun in self.commands.values():
+                self._table.command(command, begun)
         self._table.place_ends(places)
         table = self._table
         self._core.use_joints(table.joints, table.parts, table.rows, table.guides)
+        self._core.use(motors=table.motors)
+
+    def command(self, command: MotorCommand, begun: int) -> None:
+        """
+        Have the motor of a joint obey a command, in place of its last one.
+
+        :param begun: step at which the command began
+        """
+        self.commands[command.joint] = command, begun
+        if self._table is not None:
+            self._table.command(command, begun)
 
     def _soft_springs(self) -> dict[str, float]:
         """Return the dampings of the springs that Chipmunk does not solve, by name [N s/m]."""

@@ -16,10 +16,12 @@ from physsim_ros.engine.joints.stiffness import dampings_of
 from physsim_ros.engine.layout import address_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.scene import Body
+from physsim_ros.model.motor_command import MODES, MotorCommand
+from physsim_ros.model.scene import Body, Joint
 import pymunk
 
 _JOINT, _PART, _ROW, _GUIDE = map(dtype_of, ('Joint', 'Part', 'Row', 'Guide'))
+_MOTOR, _POINT = dtype_of('Motor'), dtype_of('CommandPoint')
 # Kinds whose part may push their bodies apart.
 _PRESSING = {JointKind.ROD, JointKind.SPRING}
 
@@ -37,6 +39,7 @@ class JointTable:
     :ivar joints: (j,) `Joint`
     :ivar parts: (p,) `Part`: the constraints, joint by joint
     :ivar rows: (r,) `Row`: joint by joint
+    :ivar motors: (m,) `Motor`: joint by joint
     :ivar guides: (g,) `Guide`: row by row
     """
 
@@ -81,6 +84,40 @@ class JointTable:
         self.rows['first_guide'] = np.cumsum(counts) - counts
         self.guides = np.zeros(len(self._guides), _GUIDE)
         _fill(self.guides, [(-1, *guide[1:6]) for guide in self._guides])
+        laws, motors = self.rows['law'].tolist(), []
+        for number, each in enumerate(joints):
+            if each.joint.properties.effort:
+                motors += [
+                    _motor_fields(each.joint, number, row)
+                    for row in self._rows_of(number)
+                    if laws[row] == lib.LAW_DRIVE
+                ]
+        self.motors = np.zeros(len(motors), _MOTOR)
+        _fill(self.motors, motors)
+        numbers = self.motors['joint'].tolist()
+        self._motor_of = {self.names[number]: place for place, number in enumerate(numbers)}
+        # The points of the last commands, which the records refer to.
+        self._points: dict[str, NDArray[np.void]] = {}
+
+    def _rows_of(self, number: int) -> range:
+        """Return the numbers of the rows of a joint."""
+        first, count = self.joints[number][['first_row', 'row_count']].tolist()
+        return range(first, first + count)
+
+    def command(self, command: MotorCommand, begun: int) -> None:
+        """
+        Have a motor obey a command; nothing happens where its joint has none.
+
+        :param begun: step at which the command began
+        """
+        place = self._motor_of.get(command.joint)
+        if place is None:
+            return
+        points = np.array([tuple(each) for each in command.points], _POINT)
+        self._points[command.joint] = points
+        record = self.motors[place]
+        record['mode'], record['begun'] = MODES.index(command.mode), begun
+        record['points'], record['point_count'] = points.ctypes.data, len(points)
 
     def place_ends(self, places: Mapping[pymunk.Body, int]) -> None:
         """Set the places of bodies in the table of bodies, the background among them."""
@@ -156,6 +193,13 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
         joint.kind in _PRESSING,
         unstepped,
     )
+
+
+def _motor_fields(joint: Joint, number: int, row: int) -> tuple[object, ...]:
+    """Return the first fields of a motor, in their order."""
+    zero = 0.0 if joint.kind.schema.has_axis else joint.seat.phase
+    numbers = joint.number('max_speed'), joint.number('gain'), zero
+    return number, row, joint.properties.effort, *numbers
 
 
 def _rows_of(

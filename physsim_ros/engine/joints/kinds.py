@@ -164,18 +164,37 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """
     Return two anchors that coincide; the turn of one body against the other may have limits.
 
+    A ratchet has teeth of any fineness: an angle that is reached is not given back.
+
     `lower` and `upper` are turns of a against b from where they were, rows have the turn of b
     against a, from zero.
     """
     lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
+    ratchet = joint.properties.ratchet
+    parts: tuple[Part, ...] = (_pivot(ends), *_commanded(joint, ends, lib.PART_OWN, lib.ROW_ANGLE))
+    if ratchet is not None:
+        law = lib.LAW_FALLS if ratchet > 0.0 else lib.LAW_RISES
+        parts = (*parts, _own(lib.PART_OWN, ends, Row(lib.ROW_ANGLE, law=law)))
     if lower is None and upper is None:
-        return (_pivot(ends),)
+        return parts
     least = -math.inf if upper is None else phase - upper
     most = math.inf if lower is None else phase - lower
     limit = pymunk.RotaryLimitJoint(ends.a, ends.b, least, most)
     limit.error_bias = _NEARLY_NO_BIAS
     row = Row(lib.ROW_ANGLE, least, most)
-    return _pivot(ends), Part(lib.PART_ROTARY_LIMIT, limit, (row,))
+    return *parts, Part(lib.PART_ROTARY_LIMIT, limit, (row,))
+
+
+def _commanded(joint: Joint, ends: Ends, part: int, row: int) -> tuple[Part, ...]:
+    """
+    Return the motor of an axle or slider, if it has one, whose rate and force the core sets.
+
+    :param part: kind of its part
+    :param row: kind of its row
+    """
+    if not joint.properties.effort:
+        return ()
+    return (_own(part, ends, Row(row, law=lib.LAW_DRIVE, most=joint.properties.effort)),)
 
 
 def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -228,12 +247,11 @@ def _path(joint: Joint, ends: Ends) -> tuple[Part, ...]:
         for number, stop in enumerate(stops)
         if stop.radius and stop.body.body_type == pymunk.Body.DYNAMIC
     ]
-    pieces = [
-        tuple(stops[first : last + 1])
-        for first, last in pairwise((0, *wheels, len(stops) - 1))
-        # What a wheel has wound up from a point of its rim neither moves nor stretches.
-        if len({stop.body for stop in stops[first : last + 1]}) > 1
+    spans = [
+        (*stops[first:last], stops[last]) for first, last in pairwise((0, *wheels, len(stops) - 1))
     ]
+    # What a wheel has wound up from a point of its rim neither moves nor stretches.
+    pieces = [span for span in spans if len({stop.body for stop in span}) > 1]
     rows = [
         Row(lib.ROW_PATH, 0.0, sum(stop.span for stop in piece[1:]), guides=piece)
         for piece in pieces
@@ -248,7 +266,8 @@ def _path(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 def _winch(joint: Joint, row: Row) -> Row:
     """Return the row of a rope whose upper bound has a rate."""
     lower, upper = joint.properties.lower, joint.properties.upper
-    reach = max(lower or 0.0, 0.0), math.inf if upper is None else upper
+    # A rope without a length has no direction in which it could pull.
+    reach = max(lower or 0.0, SMALLEST), math.inf if upper is None else upper
     return row._replace(rate=joint.properties.rate or 0.0, reach=reach)
 
 
@@ -271,7 +290,7 @@ def _drives(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     force, rate = joint.properties.max_force, joint.number('rate')
     most = _DRIVE if force is None else force
     row = Row(lib.ROW_ALONG, law=lib.LAW_DRIVE, rate=rate, most=most)
-    return (_own(lib.PART_OWN, ends, row),)
+    return (_own(lib.PART_DRIVE, ends, row),)
 
 
 def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -289,8 +308,9 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     parts = (Part(lib.PART_PIN, pin, (Row(lib.ROW_ACROSS),)), _turn(joint, ends))
     drive = _drives(joint, ends)
     lower, upper = joint.properties.lower, joint.properties.upper
+    motor = _commanded(joint, ends, lib.PART_DRIVE, lib.ROW_ALONG)
     if lower is None and upper is None:
-        return *parts, *drive
+        return *parts, *(motor or drive)
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
     # Distances from a point of the line that lies behind its lower limit.
     back = _BACK if lower is None else _BACK - lower
@@ -299,12 +319,17 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, nearest, back + most)
     limit.error_bias = _NO_BIAS
     row = Row(lib.ROW_ALONG, least, most, below=-1.0)
-    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *drive
+    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *(motor or drive)
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
-    """Return a body whose turn is that of the other times a ratio, and a phase."""
-    return (_turn(joint, ends),)
+    """Return a body whose turn about a carrier is that of the other times a ratio, and a phase."""
+    turn = _turn(joint, ends)
+    if not ends.guides:
+        return (turn,)
+    # Chipmunk's gear would not load the carrier.
+    (row,) = turn.rows
+    return (_own(lib.PART_OWN, ends, row._replace(guides=ends.guides)),)
 
 
 KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {

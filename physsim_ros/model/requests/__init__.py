@@ -33,6 +33,7 @@ from physsim_ros.model.requests.hands import (
 )
 from physsim_ros.model.requests.joints import (
     Axle,
+    CommandMotors,
     Cut,
     Join,
     join_from,
@@ -55,6 +56,7 @@ __all__ = [
     'Axle',
     'ChangeBody',
     'Command',
+    'CommandMotors',
     'Configure',
     'Cut',
     'Delete',

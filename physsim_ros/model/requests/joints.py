@@ -18,6 +18,7 @@ from physsim_ros.model.joints import (
     kind_from,
     MOST_STOPS,
 )
+from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.names import check_name, WORLD
 from physsim_ros.model.requests.bodies import ChangeBody, Spawn
 from physsim_ros.model.requests.request import (
@@ -138,6 +139,30 @@ class Rejoin(Request):
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
         _check_ends(self.a, self.b)
+
+
+def _commands(value: object, name: str) -> tuple[MotorCommand, ...]:
+    if not isinstance(value, list | tuple) or not value:
+        raise Malformed(f'{name} must be a list of commands, not {shown(value)}', field=name)
+    commands = tuple(MotorCommand.from_value(each, name) for each in value)
+    if len({each.joint for each in commands}) != len(commands):
+        raise Malformed(f'{name} has a joint twice', field=name)
+    return commands
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CommandMotors(Request):
+    """
+    Have motors of joints obey commands, each until its next one; if one is refused, none obeys.
+
+    :raises Malformed: no motor is named, one is named twice, or a number is not finite
+    :raises BadProperty: a value or a time is out of range
+    """
+
+    VERB = 'command'
+    OBJECT = 'motors'
+
+    commands: Annotated[tuple[MotorCommand, ...], _commands, 'of the motors, each once']
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -4,25 +4,33 @@
 """
 Robots: bodies that drive, by a mapping below the key `robot` of a body.
 
-A robot is a drive, odometry, sensors and the namespace of its topics; values only, checked as they
-are made. Shipped robots are files (`files.resources`), the floor that drives act on is a stage of
-the engine. Start with `robot`; a new drive is a class in `drives`, a new sensor one in `sensors`.
+A robot is a drive, odometry, sensors, parts and the namespace of its topics; values only, checked
+as they are made. Shipped robots are files (`files.resources`), the floor that drives act on is a
+stage of the engine. Start with `robot`, then `parts`; a new drive is a class in `drives`, a new
+sensor one in `sensors`.
 """
 
-from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni, Towed
+from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni
+from physsim_ros.model.robots.part_names import BASE, part_name
+from physsim_ros.model.robots.parts import Link, LinkJoint, Towed, TREE_KINDS
 from physsim_ros.model.robots.robot import check_namespace, Odometry, Robot
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
 __all__ = [
+    'BASE',
     'DRIVES',
+    'TREE_KINDS',
     'Car',
     'Differential',
     'Drive',
+    'Link',
+    'LinkJoint',
     'Odometry',
     'Omni',
     'Robot',
     'Sensor',
     'Towed',
     'check_namespace',
+    'part_name',
     'sensor_from',
 ]

@@ -19,7 +19,7 @@ from typing import Annotated, ClassVar
 from physsim_ros.model.checks import FASTEST, Within
 from physsim_ros.model.declarations import Checked, OfKind
 from physsim_ros.model.shapes import LARGEST, SMALLEST
-from physsim_ros.model.transform import Pose, REST, Twist
+from physsim_ros.model.transform import Pose, Twist
 
 # Greatest acceleration of wheels [m/s²]: 0.4 m/s in a step.
 _STRONGEST = 1e2
@@ -205,29 +205,8 @@ class Car(Drive):
         return speed, 0.0, within(turn, abs(speed) * self.most_curved)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Towed(Drive):
-    """An axle without a motor, as of a trailer: it rolls where it is drawn, and not sideways."""
-
-    KIND: ClassVar = 'towed'
-
-    @property
-    def wheels(self) -> dict[str, Pose]:
-        """Return the wheels that drive, by the name of their joint: none."""
-        return {}
-
-    @property
-    def lever(self) -> float:
-        """Return the mean distance of its wheels from their middle [m]."""
-        return self.track / 2
-
-    def aim(self, command: Twist) -> Twist:  # noqa: ARG002 - nothing moves it
-        """Return rest."""
-        return REST
-
-
 # By the word for it.
-DRIVES: dict[str, type[Drive]] = {each.KIND: each for each in (Differential, Omni, Car, Towed)}
+DRIVES: dict[str, type[Drive]] = {each.KIND: each for each in (Differential, Omni, Car)}
 
 
 # The check of a drive.
@@ -237,7 +216,6 @@ drive_from = OfKind(
     {
         'differential': ('diff', 'diff_drive', 'differential_drive', 'two_wheels', 'tank'),
         'omni': ('omnidirectional', 'holonomic', 'mecanum', 'kiwi'),
-        'towed': ('trailer', 'passive', 'free', 'cart', 'caster'),
         'car': ('ackermann', 'bicycle', 'steering', 'vehicle'),
     },
 )

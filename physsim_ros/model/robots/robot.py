@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-A robot: a drive, odometry, sensors, and the namespace of its topics.
+A robot: a drive, odometry, sensors, parts, and the namespace of its topics.
 
 Law: the topics of a robot have different names, which ROS allows.
 """
@@ -15,8 +15,10 @@ from physsim_ros.model.checks import ListOf, Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
+from physsim_ros.model.robots.part_names import BASE
+from physsim_ros.model.robots.parts import check_tree, Link, LinkJoint, TREE_KINDS
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
-from physsim_ros.model.transform import Point
+from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,10 +43,16 @@ class Odometry(Checked):
 
 # Names of topics that every robot has.
 OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
+# Those of a robot whose joints have motors.
+JOINT_TOPICS = (
+    'joint_command',
+    'joint_trajectory_controller/joint_trajectory',
+    *(f'{mode}_controller/commands' for mode in ('position', 'velocity', 'effort')),
+)
 # Names of its frames; that of a sensor is its name.
 _OWN_FRAMES = ('base_footprint', 'base_link')
-# Greatest number of sensors of a robot.
-MOST_SENSORS = 64
+# Greatest number of sensors of a robot, of its links, and of its joints.
+MOST_SENSORS = MOST_PARTS = 64
 # Characters of a namespace: topics of ROS have 255 at most.
 _LONGEST = 150
 # Tokens of ROS (https://design.ros2.org/articles/topic_and_service_names.html).
@@ -79,7 +87,11 @@ class Robot(Checked):
     :raises BadProperty: a value is of the wrong kind or out of range, or two topics have one name
     """
 
-    drive: Annotated[Drive, drive_from, 'how it moves: a mapping, see below']
+    drive: Annotated[
+        Drive | None,
+        drive_from,
+        'how it moves: a mapping, see below; by default it has no wheels, and may be anchored',
+    ] = None
     odometry: Annotated[
         Odometry, Odometry.from_value, 'rate and errors of `odom`: a mapping, see below'
     ] = field(default_factory=Odometry)
@@ -88,6 +100,17 @@ class Robot(Checked):
         ListOf(sensor_from, 'mappings', MOST_SENSORS),
         f'a list of mappings, at most {MOST_SENSORS}; each with its own topic',
     ] = ()
+    # Not part of the text, so that digests of worlds are those of ever: parts are bodies.
+    links: Annotated[
+        tuple[Link, ...],
+        ListOf(Link.from_value, 'mappings', MOST_PARTS),
+        f'a list of mappings, at most {MOST_PARTS}: further bodies, see below',
+    ] = field(default=(), repr=False)
+    joints: Annotated[
+        tuple[LinkJoint, ...],
+        ListOf(LinkJoint.from_value, 'mappings', MOST_PARTS),
+        f'a list of mappings, at most {MOST_PARTS}: what holds the links, see below',
+    ] = field(default=(), repr=False)
     namespace: Annotated[
         str | None,
         check_namespace,
@@ -98,17 +121,43 @@ class Robot(Checked):
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
-        topics = [*OWN_TOPICS, *(sensor.name for sensor in self.sensors)]
+        check_tree(self.links, self.joints)
+        links = [BASE, *(link.name for link in self.links)]
+        topics = [*self._topics]
+        for sensor in self.sensors:
+            if sensor.link not in links:
+                raise BadProperty(
+                    f'{sensor.name} is on a link {sensor.link}; there are {", ".join(links)}',
+                    field='link',
+                )
         for topic in topics:
-            if topic in _OWN_FRAMES:
-                raise BadProperty(f'{topic} is a frame of each robot', field='sensors')
+            if topic in (*_OWN_FRAMES, *links):
+                raise BadProperty(f'{topic} is a frame of the robot', field='sensors')
             if topics.count(topic) > 1:
                 raise BadProperty(f'a robot has two topics {topic}', field='sensors')
 
     @property
     def topics(self) -> int:
         """Return the number of its topics."""
-        return len(OWN_TOPICS) + len(self.sensors)
+        return len(self._topics)
+
+    @property
+    def motors(self) -> tuple[LinkJoint, ...]:
+        """Return its joints that have a motor which obeys commands, in their order."""
+        return tuple(each for each in self.joints if each.properties.effort)
+
+    def joint_above(self, link: str) -> LinkJoint:
+        """Return the joint that a link hangs on."""
+        return next(each for each in self.joints if each.a == link and each.kind in TREE_KINDS)
+
+    def place_of(self, link: str) -> Pose:
+        """Return the pose of a link in the frame of the robot's body, joints at 0."""
+        return next((each.at for each in self.links if each.name == link), ORIGIN)
+
+    @property
+    def _topics(self) -> tuple[str, ...]:
+        commands = JOINT_TOPICS if self.motors else ()
+        return *OWN_TOPICS, *commands, *(sensor.name for sensor in self.sensors)
 
     def namespace_of(self, body: str) -> str:
         """
@@ -124,5 +173,5 @@ class Robot(Checked):
 
         :param namespace: of its topics, without a slash at its beginning
         """
-        names = [*OWN_TOPICS, *_OWN_FRAMES, *(sensor.name for sensor in self.sensors)]
+        names = [*self._topics, *_OWN_FRAMES, *(link.name for link in self.links)]
         return [f'{namespace}/{name}' for name in names] if namespace else names

@@ -25,6 +25,7 @@ from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Car, Drive
 from physsim_ros.model.transform import REST
 from physsim_ros.model.transform import Twist as Velocity
+from physsim_ros.ros.robots.command_topic import CommandTopic
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -43,12 +44,9 @@ _DEPTH = 10
 # Silence of the type that is heard after which another one is, where there are both [s]: twice the
 # timeout of the shipped drives, in which a command is due.
 _SILENCE = 1.0
-# Commands in a row that are carried out before a refusal of a code that was told is told again:
-# some seconds at the usual 10 to 30 Hz, so that a publisher that errs now and then does not flood.
-_STEADY = 50
 
 
-class Commands:
+class Commands(CommandTopic):
     """
     The commands of a robot.
 
@@ -59,7 +57,6 @@ class Commands:
     :param refuse: reports what publishers cannot be heard; takes the refusal and the topic
     :param expected: type that is subscribed to while nobody publishes; None is none
 
-    :ivar topic: that commands come by
     :ivar velocity: of the last command [m/s, rad/s]
     :ivar awaited: stamp of the scan that no command has answered yet [ns]; None is none
     """
@@ -74,7 +71,7 @@ class Commands:
         *,
         expected: type | None = None,
     ) -> None:
-        self.topic = topic
+        super().__init__(topic)
         self.velocity: Velocity = REST
         self.awaited: int | None = None
         self._node = node
@@ -85,9 +82,6 @@ class Commands:
         if isinstance(drive, Car) and (ackermann := ackermann_type()) is not None:
             self._types[_ACKERMANN] = ackermann
         self._refuse = refuse
-        # Codes of refusals that were told, and number of commands carried out since the last one.
-        self._told: set[str] = set()
-        self._carried_out = 0
         # Why some publishers are not heard; '' where all are.
         self._deaf = ''
         # Whether the last command had a stamp of 0, which is none.
@@ -236,19 +230,6 @@ class Commands:
         # A bicycle: the angle is that of a front wheel in the middle.
         angle = max(-car.steering, min(angle, car.steering)) if math.isfinite(angle) else angle
         return speed, 0.0, speed * math.tan(angle) / car.wheelbase
-
-    def note_refused(self, code: str) -> bool:
-        """Note a refused command; return whether it is to be told: the first of its code."""
-        self._carried_out = 0
-        told = code in self._told
-        self._told.add(code)
-        return not told
-
-    def note_carried_out(self) -> None:
-        """Note a command that was carried out."""
-        self._carried_out += 1
-        if self._carried_out == _STEADY:
-            self._told.clear()
 
     def close(self) -> None:
         """Unsubscribe."""

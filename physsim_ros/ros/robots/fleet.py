@@ -19,10 +19,13 @@ from typing import Any
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import InPast, Refusal
+from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.snapshot import Answer, Frame
 from physsim_ros.model.transform import REST
+from physsim_ros.ros.robots.command_topic import CommandTopic
+from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.ros.robots.messages import StampedView
 from physsim_ros.ros.robots.robot_topics import RobotTopics
@@ -102,32 +105,42 @@ class Fleet:
             return
         self._look_at_graph()
         for body, robot in self.robots.items():
-            commands, topic = robot.commands, robot.commands.topic
-            try:
-                with self._boundary.message('cmd_vel'):
-                    request = commands.take()
-                if request is None:
-                    continue
-                if (timeout := self._values['drive_timeout']) >= 0.0:
-                    request = replace(request, timeout=timeout)
-                if in_past:
-                    raise InPast(_IN_PAST)
-            except Refusal as refusal:
-                if commands.note_refused(refusal.code):
-                    self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
-            else:
-                commands.note_carried_out()
-                # Undone together with what was asked before it: nobody undoes a tick.
-                self._requests.submit(request, topic=topic, joined=True)
+            for topic in robot.command_topics:
+                self._submit_command(body, topic, in_past=in_past)
+
+    def _submit_command(self, body: str, commands: CommandTopic, *, in_past: bool) -> None:
+        topic = commands.topic
+        try:
+            with self._boundary.message('cmd_vel'):
+                request = commands.take()
+            if request is None:
+                return
+            timeout = self._values['drive_timeout']
+            if isinstance(request, DriveRobot) and timeout >= 0.0:
+                request = replace(request, timeout=timeout)
+            if in_past:
+                raise InPast(_IN_PAST)
+        except Refusal as refusal:
+            if commands.note_refused(refusal.code):
+                self._requests.refuse(refusal, topic=topic, subject=body, joined=True)
+        else:
+            commands.note_carried_out()
+            # Undone together with what was asked before it: nobody undoes a tick.
+            self._requests.submit(request, topic=topic, joined=True)
+
+    @property
+    def _commands(self) -> list[Commands]:
+        """Return the commands of the robots that have a drive."""
+        return [each.commands for each in self.robots.values() if each.commands is not None]
 
     def match_publishers(self) -> bool:
         """Subscribe to commands as they are published now; return whether anything is new."""
-        new = [robot.commands.match_publishers() for robot in self.robots.values()]
+        new = [commands.match_publishers() for commands in self._commands]
         return any(new)
 
     def match_new_publishers(self) -> bool:
         """Do the same where the number of publishers has changed."""
-        new = [robot.commands.match_new_publishers() for robot in self.robots.values()]
+        new = [commands.match_new_publishers() for commands in self._commands]
         return any(new)
 
     def _look_at_graph(self) -> None:
@@ -154,7 +167,7 @@ class Fleet:
         the wall from the first time it is asked; then no answer to these scans is expected.
         """
         longest = self._values['lockstep']
-        if not longest or not any(each.commands.is_awaited for each in self.robots.values()):
+        if not longest or not any(commands.is_awaited for commands in self._commands):
             self._waiting_since = None
             return False
         now = time.monotonic()
@@ -168,8 +181,8 @@ class Fleet:
     def _expect_no_answers(self) -> None:
         """End the wait for commands that answer the scans up to now."""
         self._waiting_since = None
-        for robot in self.robots.values():
-            robot.commands.awaited = None
+        for commands in self._commands:
+            commands.awaited = None
 
     # Frames
 
@@ -194,7 +207,10 @@ class Fleet:
         for number, row in enumerate(snapshot.scene.robot_rows.tolist()):
             robot = self.robots.get(snapshot.scene.names[row])
             with self._boundary.output('robots'):
-                if robot is not None and robot.publish(view, row, number):
+                if robot is None:
+                    continue
+                scanned = robot.publish(view, row, number)
+                if scanned and robot.commands is not None:
                     robot.commands.expect_answer(snapshot.stamp)
             if robot is not None and not self._has_told_timeout and _has_stopped(view, number):
                 self._tell_timeout(robot)
@@ -202,7 +218,7 @@ class Fleet:
     def _tell_timeout(self, robot: RobotTopics) -> None:
         """Tell once that a robot has stopped as no command came: people expect it to drive on."""
         commands, drive = robot.commands, robot.robot.drive
-        if commands.velocity == REST:
+        if commands is None or drive is None or commands.velocity == REST:
             return
         self._has_told_timeout = True
         asked = self._values['drive_timeout']
@@ -228,7 +244,7 @@ class Fleet:
             with self._boundary.output('robots'):
                 topics = before.get(body.name) or self._make(body.name, robot)
                 self.robots[body.name] = topics
-                topics.describe(body)
+                topics.describe(body, scene)
 
     def _make(self, body: str, robot: Robot) -> RobotTopics:
         return RobotTopics(

@@ -18,10 +18,11 @@ from typing import Any, NamedTuple
 from builtin_interfaces.msg import Time
 from nav_msgs.msg import Odometry
 from physsim_ros.model.errors import BadProperty, Refusal
-from physsim_ros.model.robots import Robot, Sensor
+from physsim_ros.model.robots import part_name, Robot, Sensor
 from physsim_ros.model.robots.sensors import Bumper, Laser
-from physsim_ros.model.scene import Body
+from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.states import SPAWNED
+from physsim_ros.ros.robots.command_topic import CommandTopic
 from physsim_ros.ros.robots.commands import Commands
 from physsim_ros.ros.robots.frames import (
     BASE,
@@ -34,6 +35,7 @@ from physsim_ros.ros.robots.frames import (
     urdf_of,
 )
 from physsim_ros.ros.robots.messages import odometry_message, READINGS, StampedView
+from physsim_ros.ros.robots.motor_topics import motor_topics
 from physsim_ros.sensing import is_due, true_motion
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -78,7 +80,7 @@ class RobotTopics:
     :param refuse: reports a topic that cannot be; takes the refusal and the topic
     :param expected: type of commands that is subscribed to while nobody publishes; None is none
 
-    :ivar commands: that it hears
+    :ivar commands: of its drive, that it hears; None without a drive
     """
 
     def __init__(
@@ -107,12 +109,15 @@ class RobotTopics:
         if kind is not None:
             below = self._below if robot_tf is RobotTf.NAMESPACED else '/'
             # Before the readings, which are looked up in it by their stamps.
-            self._add(kind, 'tf', partial(self._transforms, kind), below=below, depth=TF_DEPTH)
+            if robot.drive is not None or robot.links:
+                transforms = partial(self._transforms, kind)
+                self._add(kind, 'tf', transforms, below=below, depth=TF_DEPTH)
             fixed = self._publisher(kind, 'tf_static', below=below, durability=latched)
             if fixed is not None:
                 fixed.publish(kind(transforms=self._frames.fixed(Time(), robot)))
         self._add(Odometry, 'ground_truth', self.truth)
-        self._add(Odometry, 'odom', self.odometry, rate=robot.odometry.rate)
+        if robot.drive is not None:
+            self._add(Odometry, 'odom', self.odometry, rate=robot.odometry.rate)
         for sensor in robot.sensors:
             kind = READINGS[type(sensor)].kind
             message = partial(self.reading, sensor)
@@ -122,8 +127,16 @@ class RobotTopics:
         )
         # Colour and shape of the last description.
         self._described: object = None
-        topic = f'{self._below}cmd_vel'
-        self.commands = Commands(node, topic, body, robot.drive, refuse, expected=expected)
+        self.commands: Commands | None = None
+        if robot.drive is not None:
+            topic = f'{self._below}cmd_vel'
+            self.commands = Commands(node, topic, body, robot.drive, refuse, expected=expected)
+        self._motors = motor_topics(node, self._below, body, robot, refuse)
+
+    @property
+    def command_topics(self) -> list[CommandTopic]:
+        """Return the topics of its commands."""
+        return [*([] if self.commands is None else [self.commands]), *self._motors]
 
     def _add(
         self,
@@ -162,12 +175,19 @@ class RobotTopics:
         self._publishers.append(publisher)
         return publisher
 
-    def describe(self, body: Body) -> None:
+    def describe(self, body: Body, scene: Scene) -> None:
         """Publish how the robot looks, if that is new."""
-        looks = body.shape, body.color, body.total_mass
-        if self._description is not None and looks != self._described:
+        rows = {
+            link: scene.row_of.get(part_name(body.name, link.name)) for link in self.robot.links
+        }
+        parts = [(link, scene.bodies[row]) for link, row in rows.items() if row is not None]
+        bodies = body, *(part for _, part in parts)
+        looks = [(each.shape, each.color, each.total_mass) for each in bodies]
+        # Without one of its links a description is none.
+        whole = len(parts) == len(self.robot.links)
+        if self._description is not None and whole and looks != self._described:
             self._described = looks
-            self._description.publish(String(data=urdf_of(body, self._frames)))
+            self._description.publish(String(data=urdf_of(body, self._frames, parts)))
 
     @property
     def has_subscribers(self) -> bool:
@@ -201,9 +221,12 @@ class RobotTopics:
         return scanned
 
     def _transforms(self, kind: type, view: StampedView, _: int, number: int) -> Any:
-        """Return the message of the transform that moves."""
-        odometry = tuple(view.snapshot.robots['odometry'][number].tolist())
-        return kind(transforms=[self._frames.moving(view.stamp, odometry)])
+        """Return the message of the transforms that move."""
+        transforms = self._frames.of_links(view.stamp, view.snapshot, self.body, self.robot)
+        if self.robot.drive is not None:
+            odometry = tuple(view.snapshot.robots['odometry'][number].tolist())
+            transforms = [self._frames.moving(view.stamp, odometry), *transforms]
+        return kind(transforms=transforms)
 
     def odometry(self, view: StampedView, _: int, number: int) -> Odometry:
         """Return where wheels and gyroscope tell that the robot is, and how it moves."""
@@ -249,7 +272,8 @@ class RobotTopics:
 
     def close(self) -> None:
         """Take the topics back."""
-        self.commands.close()
+        for topic in self.command_topics:
+            topic.close()
         for publisher in self._publishers:
             self._node.destroy_publisher(publisher)
 

@@ -16,7 +16,7 @@ from collections.abc import Generator, Iterator, Sequence
 from physsim_ros.model.errors import InPast, NotAlone, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past.node import Line
+from physsim_ros.simulation.past.line import Line
 from physsim_ros.simulation.past.past import Past
 
 # Greatest simulation time that is simulated again [s].
@@ -90,7 +90,7 @@ class _Amendment:
         self._past, self._tree, self._cursor = past, past.tree, past.cursor
         self._requests, self._gesture, self._author = requests, gestures[0], author
         tree, (self._end, serial) = self._tree, self._cursor.moment
-        starts = [tree.gesture_start(each, serial) for each in gestures]
+        starts = [tree.moment_before_gesture(each, serial) for each in gestures]
         # The first step that differs, and the serial before it.
         self._step, self._serial = min(
             (start for start in starts if start is not None),
@@ -101,7 +101,7 @@ class _Amendment:
         self._later = [
             each
             for each in tree.nodes_between(self._serial, serial)
-            if each.gesture not in gestures or each.author != tree.node(each.opening).author
+            if each.gesture not in gestures or each.author != tree.node(each.gesture_start).author
         ]
         self._stands_alone = stands_alone
         self.done: list[Answer | Refusal] = []

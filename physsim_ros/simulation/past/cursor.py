@@ -2,13 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The cursor: a world at a moment of the line of events in force.
+The cursor: a world at a moment of the line of events in force, which a replay reaches.
 
-Laws: a world that continues from a moment of the past makes the same bits as before, until a
-request changes its course. Long work, a seek, an amendment of the past or steps, is made in parts.
-Meanwhile `moment` and the settings are those of the goal, of steps those that are made, and
-reading `world` finishes the work. A seek replaces another one, and steps; an amendment is finished
-first.
+Laws: a world that continues from a moment of the past makes the same bits as before, from the same
+checkpoints and with the same requests, until a request changes its course; a difference is
+reported as `divergence`. At each checkpoint on its way, the world moves into a space that is built
+from it, as it did the first time.
+
+Long work, a seek, an amendment of the past or steps, is made in parts. Meanwhile `moment` and the
+settings are those of the goal, of steps those that are made, and reading `world` finishes the
+work. A seek replaces another one, and steps; an amendment is finished first.
 """
 
 from __future__ import annotations
@@ -18,18 +21,130 @@ from enum import Enum
 from typing import NamedTuple
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
-from physsim_ros.model.errors import OutOfHistory
+from physsim_ros.model.errors import OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.past.node import Moment, Node
-from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.line import Keyframe, Moment, Node
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
 # Share of the time between two checkpoints in which the bodies for the next one are built [1], so
 # that no frame builds all.
 _AHEAD = 0.75
+
+
+class Replay:
+    """
+    A world that is sent to moments of the line in force.
+
+    :param world: at a moment of the line, or sent there by `resume`
+    :param tree: of all lines
+    :param reports: of events without a request, to which it adds
+
+    :ivar serial: number of the last request that was applied
+    """
+
+    def __init__(self, world: World, tree: Tree, reports: list[Answer]) -> None:
+        self.serial = 0
+        self._world = world
+        self._tree = tree
+        self._reports = reports
+        # The checkpoint from which the present space was built.
+        self._resumed: Moment | None = None
+
+    @property
+    def _here(self) -> Moment:
+        """Step and serial of the world as it is."""
+        return Moment(self._world.step_count, self.serial)
+
+    def resume(self, keyframe: Keyframe, *, going_over: bool = False) -> None:
+        """
+        Go to a keyframe.
+
+        :param going_over: whether the world is at that moment now, with the same bits
+        """
+        self._world.resume(keyframe.checkpoint, going_over=going_over)
+        self.serial = keyframe.serial
+        self._resumed = keyframe.moment
+
+    def replay_shown(self, step: int) -> None:
+        """Replay up to a step of the line, with the requests with which it was shown."""
+        _finish(self._replay_to(step, self._tree.serial_shown_at(step)))
+
+    def replay_to(self, moment: Moment) -> None:
+        """Replay up to a moment of the line, no earlier than now."""
+        _finish(self._replay_to(*moment))
+
+    def _replay_to(self, step: int, serial: int) -> Iterator[None]:
+        """Replay up to a moment of the line, no earlier than now; yield after each part."""
+        world = self._world
+        while world.step_count < step:
+            yield from self._replay_to_stop(min(step, world.step_count + world.frame_steps))
+            yield
+        yield from self._apply_logged(serial)
+
+    def _replay_to_stop(self, end: int) -> Iterator[None]:
+        """Replay up to the next step with a request or a checkpoint, or to the end."""
+        tree, world = self._tree, self._world
+        yield from self._apply_logged(tree.serial_at(world.step_count))
+        self.enter_checkpoint()
+        stop = tree.next_stop(world.step_count, end)
+        yield from self._make_steps(stop, is_new=stop > tree.head)
+        yield from self._apply_logged(tree.serial_shown_at(world.step_count))
+
+    def _make_steps(self, end: int, *, is_new: bool) -> Iterator[None]:
+        """
+        Make the steps up to one with a request or a checkpoint; yield where they take long.
+
+        :param is_new: whether the line has not reached them before; else their events were
+            reported the first time
+        """
+        world, tree = self._world, self._tree
+        for _ in world.parts_of_steps(end - world.step_count):
+            if is_new:
+                tree.note_step(world.step_count)
+            yield
+        lost, broken = world.take_lost(), world.take_broken()
+        if is_new:
+            tree.note_step(end)
+            for name in lost:
+                self._report(
+                    'divergence', f'{name} left the range of numbers and was removed', name
+                )
+            for name, force in broken:
+                self._report(
+                    'joint_broken', f'{name} broke at {force:.3g} N and was removed', name
+                )
+
+    def _apply_logged(self, serial: int) -> Iterator[None]:
+        """Apply the logged requests of this step up to a serial; yield after each."""
+        for node in self._tree.nodes_between(self.serial, serial):
+            self.enter_checkpoint()
+            try:
+                self._world.replay(node.request)
+            except Refusal as refusal:
+                self._report('divergence', f'a request of the log is refused now: {refusal}')
+            self.serial += 1
+            yield
+
+    def enter_checkpoint(self) -> None:
+        """Move into a space that is built from the checkpoint of this moment, if there is one."""
+        keyframe = self._tree.keyframe_at(*self._here)
+        if keyframe is not None and self._resumed != keyframe.moment:
+            self.resume(keyframe, going_over=self.check_digest())
+
+    def check_digest(self) -> bool:
+        """Return whether the world has the digest of the keyframe here; report a difference."""
+        keyframe = self._tree.keyframe_at(*self._here)
+        same = keyframe is None or self._world.digest() == keyframe.digest
+        if not same:
+            seconds = self._world.step_count * self._world.dt
+            self._report('divergence', f'{seconds:.3f} s was reached with other bits than before')
+        return same
+
+    def _report(self, code: str, message: str, subject: str = '') -> None:
+        self._reports.append(Answer(topic=code, subject=subject, message=message, code=code))
 
 
 class _Kind(Enum):
@@ -82,7 +197,7 @@ class Cursor(Replay):
     @property
     def settings(self) -> WorldSettings:
         """Return the settings of the world at this moment."""
-        return self._tree.node(self.moment[1]).settings
+        return self._tree.node(self.moment.serial).settings
 
     @property
     def moment(self) -> Moment:
@@ -100,6 +215,11 @@ class Cursor(Replay):
     def is_working(self) -> bool:
         """Whether a seek, an amendment or steps are under way."""
         return self._work is not None
+
+    @property
+    def is_seeking(self) -> bool:
+        """Whether a seek is under way."""
+        return self._work is not None and self._work.kind is _Kind.SEEK
 
     @property
     def is_stepping(self) -> bool:
@@ -196,10 +316,10 @@ class Cursor(Replay):
 
         :param elsewhere: whether the world is on another line now
         """
-        tree, frame, goal = self._tree, self._world.frame_steps, (step, serial)
+        tree, frame, goal = self._tree, self._world.frame_steps, Moment(step, serial)
         # Contacts are those of one frame, as they were the first time.
         begin = max(tree.oldest, step - (step % frame or frame))
-        start = min((begin, tree.serial_shown_at(begin)), goal)
+        start = min(Moment(begin, tree.serial_shown_at(begin)), goal)
         first = start if self._world.reports_contacts else goal
         keyframe = tree.keyframe_before(*first)
         # A seek that this one replaces has also come to a moment of the line.
@@ -310,7 +430,7 @@ class Cursor(Replay):
         if step < self._tree.tip.end:
             return
         due = self._tree.is_checkpoint_due(step) or (
-            self._resumed is not None and self._resumed[0] == step
+            self._resumed is not None and self._resumed.step == step
         )
         if due and self._tree.keyframe_at(*self._here) is None:
             self.add_keyframe()
@@ -326,3 +446,9 @@ class Cursor(Replay):
         world, spacing = self._world, self._tree.spacing
         if not world.is_built_ahead:
             world.build_bodies(-(-len(world) * steps // max(1, int(spacing * _AHEAD))))
+
+
+def _finish(parts: Iterator[None]) -> None:
+    """Carry out all parts of a work."""
+    for _ in parts:
+        pass

@@ -21,10 +21,10 @@ from typing import NamedTuple
 
 import numpy as np
 from physsim_ros.model.checkpoint import WorldState
+from physsim_ros.model.sizes import frame_size
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.budget import frame_size
-from physsim_ros.simulation.past.node import CachedFrame, Keyframe
-from physsim_ros.simulation.past.replay import Replay
+from physsim_ros.simulation.past.cursor import Replay
+from physsim_ros.simulation.past.line import CachedFrame, Keyframe, Moment
 from physsim_ros.simulation.past.tree import Tree
 from physsim_ros.simulation.world import World
 
@@ -95,7 +95,7 @@ class FrameCache:
     def state_of_run(self) -> WorldState:
         """Return the state after the last request of the line, as far as that is kept."""
         tree = self._tree
-        moment = max((tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
+        moment = max(Moment(tree.tip.step, tree.tip.serial), tree.keyframes[0].moment)
         # The replay that is under way begins anew.
         self._segment = None
         self._replay.resume(tree.keyframe_before(*moment))

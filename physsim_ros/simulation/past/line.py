@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The line of events in force, flat: what was asked and kept, by step and by serial.
+A line of events: its requests and checkpoints; the one in force is flat, by step and by serial.
 
 Laws: a moment is a step and the number of requests up to it, the serial of the last one; requests
 are counted from the beginning of the world, and a serial never changes.
@@ -14,10 +14,174 @@ from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
 from collections.abc import Collection
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
-from physsim_ros.model.requests import Axle, Cut, Join, Pin, Spawn
+from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.requests import Axle, Cut, HandRequest, Join, Pin, Request, Restore, Spawn
 from physsim_ros.model.scene import Scene
-from physsim_ros.simulation.past.node import Keyframe, Moment, Node
+from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.snapshot import Contacts, Snapshot
+
+
+class Moment(NamedTuple):
+    """
+    A moment of a line.
+
+    :ivar step: of the world
+    :ivar serial: number of requests up to it
+    """
+
+    step: int
+    serial: int
+
+
+class Keyframe(NamedTuple):
+    """
+    A checkpoint and its moment.
+
+    :ivar step: of the checkpoint
+    :ivar serial: number of requests up to it
+    :ivar checkpoint: at that moment
+    :ivar digest: of the world then
+    :ivar size: memory of the checkpoint [bytes]
+    """
+
+    step: int
+    serial: int
+    checkpoint: Checkpoint
+    digest: str
+    size: int
+
+    @property
+    def moment(self) -> Moment:
+        """Return step and serial."""
+        return Moment(self.step, self.serial)
+
+
+class CachedFrame(NamedTuple):
+    """
+    The state after a step, as it was shown.
+
+    :ivar snapshot: of the world
+    :ivar contacts: since the frame before; None if contacts were not reported
+    """
+
+    snapshot: Snapshot
+    contacts: Contacts | None
+
+    def copy(self) -> CachedFrame:
+        """Return a copy whose snapshot has no cached properties."""
+        return CachedFrame(self.snapshot.copy(), self.contacts)
+
+
+class Loaded(NamedTuple):
+    """
+    The state that was loaded last.
+
+    :ivar serial: of the request that loaded it; 0 for the root
+    :ivar state: that was loaded
+    """
+
+    serial: int
+    state: WorldState
+
+
+@dataclass(slots=True, eq=False, kw_only=True)
+class Node:
+    """
+    A request that changed the world, and the run of the world up to the next one.
+
+    :param parent: the node before; None at the root
+    :param step: at which it was applied, and branches off the run of its parent
+    :param request: that was applied; of a root, the one that loads the state
+    :param settings: of the world after the request
+    :param gesture: number of its gesture; requests of one gesture are undone together
+    :param gesture_start: serial of the first request of the gesture
+    :param author: name of the person who did it; '' is nobody
+    :param subject: name of the body or joint concerned, or ''
+    :param adds: whether it has added a body or joint
+    :param size: memory of the request [bytes]
+    :param shown: whether its step was shown with it; in a running world, a request is first shown
+        in the next frame
+
+    :ivar serial: number of requests from the beginning of the world to this one
+    :ivar after: step of the last checkpoint of its parent before it; -1 is none
+    :ivar loaded: the state that was loaded last
+    :ivar total: memory of all requests from the beginning to this one [bytes]
+    :ivar end: the last step that was reached without another request
+    :ivar keyframes: up to that step
+    :ivar users: number of children, and of lines that end with it
+    """
+
+    parent: Node | None
+    step: int
+    request: Request
+    settings: WorldSettings
+    gesture: int = 0
+    gesture_start: int = 0
+    author: str = ''
+    subject: str = ''
+    adds: bool = False
+    size: int = 0
+    shown: bool = False
+    serial: int = field(init=False, default=0)
+    after: int = field(init=False, default=-1)
+    loaded: Loaded = field(init=False)
+    total: int = field(init=False, default=0)
+    end: int = field(init=False)
+    keyframes: list[Keyframe] = field(init=False, default_factory=list)
+    users: int = field(init=False, default=0)
+
+    def phrase(self, count: int) -> str:
+        """
+        Return the phrase for a gesture that begins with it: `spawn ball/0 and 2 more`.
+
+        :param count: number of requests of the gesture
+        """
+        phrase = self.request.phrase(self.subject)
+        # All moves of a hand are one drag.
+        more = count > 1 and not isinstance(self.request, HandRequest)
+        return f'{phrase} and {count - 1} more' if more else phrase
+
+    def __post_init__(self) -> None:
+        self.end, parent = self.step, self.parent
+        if parent is not None:
+            self.serial, self.total = parent.serial + 1, parent.total + self.size
+            steps = (keyframe.step for keyframe in parent.keyframes)
+            self.after = max((step for step in steps if step <= self.step), default=-1)
+            self.loaded = parent.loaded
+            parent.users += 1
+        if isinstance(self.request, Restore):
+            self.loaded = Loaded(self.serial, self.request.state)
+
+
+@dataclass(slots=True, eq=False, kw_only=True)
+class Line:
+    """
+    A line of events that is not in force, and the moment at which it was left.
+
+    :param tip: its last node
+    :param head: the last step that it has reached
+    :param moment: at which it is shown when it is in force again; a serial of None is that with
+        which the step was shown
+    :param course: number of its course
+    :param reset_count: number of resets before it
+    :param words: phrase for the gesture that was undone in it, or for the reset after it; '' is
+        none
+
+    :ivar frames: that only it has shown, in the order of time; of a course that was left
+    :ivar size: memory of these frames [bytes]
+    """
+
+    tip: Node
+    head: int
+    moment: tuple[int, int | None]
+    course: int
+    reset_count: int
+    words: str = ''
+    frames: list[CachedFrame] = field(default_factory=list)
+    size: int = 0
 
 
 class LineInForce:
@@ -40,7 +204,7 @@ class LineInForce:
         self.keyframes: list[Keyframe] = []
         self.head = 0
         # Serial of the first request of each gesture.
-        self._openings: dict[int, int] = {}
+        self._gesture_starts: dict[int, int] = {}
 
     @property
     def oldest(self) -> int:
@@ -58,7 +222,7 @@ class LineInForce:
     @property
     def end(self) -> Moment:
         """Return the last moment that was reached."""
-        return self.head, self.tip.serial
+        return Moment(self.head, self.tip.serial)
 
     @property
     def _first(self) -> int:
@@ -139,14 +303,14 @@ class LineInForce:
         """
         if serial <= self._first:
             return None
-        opening = self.node(serial).opening
-        return (self.node(opening), serial - opening + 1) if opening > self._first else None
+        start = self.node(serial).gesture_start
+        return (self.node(start), serial - start + 1) if start > self._first else None
 
     def last_gesture_of(self, author: str) -> Node | None:
         """Return the first request of the last gesture of a person; None if none is kept."""
         for node in reversed(self.nodes[1:]):
             if node.author == author:
-                return self.node(node.opening) if node.opening > self._first else None
+                return self.node(node.gesture_start) if node.gesture_start > self._first else None
         return None
 
     def added_by(self, author: str, scene: Scene) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -171,11 +335,11 @@ class LineInForce:
             tuple(joint.name for joint in scene.joints if joints.get(joint.name) == author),
         )
 
-    def gesture_start(self, gesture: int, serial: int) -> Moment | None:
+    def moment_before_gesture(self, gesture: int, serial: int) -> Moment | None:
         """Return the moment before the first request of a gesture up to a serial, if kept."""
-        opening = self._openings.get(gesture, serial + 1)
-        kept = self._first < opening <= serial
-        return (self.node(opening).step, opening - 1) if kept else None
+        start = self._gesture_starts.get(gesture, serial + 1)
+        kept = self._first < start <= serial
+        return Moment(self.node(start).step, start - 1) if kept else None
 
     def note_shown(self, step: int, serial: int) -> None:
         """Note that a step was shown with the requests up to a serial."""

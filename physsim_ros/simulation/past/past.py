@@ -7,10 +7,9 @@ The past: the cursor on the tree of all lines, and what people do with time.
 Laws: undo takes the last gesture first, and redo reverts the last undo first, until another
 request is applied. After each frame the past is within its budget of memory: the oldest entries
 are dropped, in this order of kinds: frames of the course in force, which a replay makes again;
-ghosts; courses that were left; lines that were undone; lines before resets; last, the oldest
-checkpoint of the course in force, with the requests up to the next one. The last checkpoint, the
-requests after it, and the frames beside the one that is shown always remain. See `node` for the
-theory of operation.
+those of courses that were left; these courses; lines that were undone; lines before resets; last,
+the oldest checkpoint of the course in force, with the requests up to the next one. The last
+checkpoint, the requests after it, and the frames beside the one that is shown always remain.
 """
 
 from __future__ import annotations
@@ -24,12 +23,10 @@ from physsim_ros.model.errors import Failed, OutOfHistory, Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.simulation.past.budget import Budget
-from physsim_ros.simulation.past.cursor import Cursor
+from physsim_ros.simulation.past.cursor import Cursor, Replay
 from physsim_ros.simulation.past.frames import FrameCache
-from physsim_ros.simulation.past.node import CachedFrame, Line, Moment
-from physsim_ros.simulation.past.replay import Replay
-from physsim_ros.simulation.past.tree import Tree
+from physsim_ros.simulation.past.line import CachedFrame, Line, Moment
+from physsim_ros.simulation.past.tree import Budget, Tree
 from physsim_ros.simulation.world import World
 
 # Check of the times of a past [s].
@@ -118,7 +115,7 @@ class Past:
         """
         return self.steps_in(_SPAN(seconds, name))
 
-    def ghost(self, course: int, seconds: float) -> Snapshot | None:
+    def course_snapshot(self, course: int, seconds: float) -> Snapshot | None:
         """
         Return the last snapshot of a course that was left, up to a simulation time.
 
@@ -126,7 +123,7 @@ class Past:
         :param seconds: simulation time [s]
         :return: None if it is not kept
         """
-        return self.tree.ghost_at(course, self.steps_in(seconds))
+        return self.tree.course_snapshot(course, self.steps_in(seconds))
 
     def fit_memory(self, shown: Moment) -> None:
         """
@@ -147,7 +144,7 @@ class Past:
         self._count_memory()
         is_lost = False
         for drop in (
-            tree.drop_oldest_ghost,
+            tree.drop_oldest_frames,
             tree.drop_oldest_line,
             tree.drop_oldest_checkpoint,
         ):
@@ -219,7 +216,7 @@ class Past:
 
     def _begin_course(self) -> None:
         """Begin a course at this moment, and keep the line that is in force."""
-        step, _ = self.cursor.moment
+        step = self.cursor.moment.step
         left = self.tree.line(self.cursor.moment)
         self.tree.keep_course(left, self.frames.drop_from(step))
         self.tree.drop_undone()
@@ -272,7 +269,7 @@ class Past:
         state = tree.tip.loaded.state
         if seed is not None:
             state = replace(state, settings=replace(state.settings, seed=seed))
-        is_begun = tree.head == 0 and self.cursor.moment[1] == 0
+        is_begun = tree.head == 0 and self.cursor.moment.serial == 0
         if is_begun and state.settings.seed == self.cursor.settings.seed:
             # Nothing has happened since the beginning.
             return False
@@ -306,7 +303,7 @@ class Past:
         tree.resets.append(before)
         self.frames.drop_from(0)
         self._courses += 1
-        tree.course, tree.era = self._courses, tree.era + 1
+        tree.course, tree.reset_count = self._courses, tree.reset_count + 1
 
     def words(self, moment: Moment) -> tuple[str, str]:
         """
@@ -331,10 +328,10 @@ class Past:
         words, _ = self.words(moment)
         if not words:
             raise OutOfHistory('there is nothing to undo', field='history')
-        if gesture := tree.last_gesture(moment[1]):
+        if gesture := tree.last_gesture(moment.serial):
             first, _ = gesture
             before = tree.node(first.serial - 1)
-            goal = tree.line_to(before, first.step, (first.step, before.serial))
+            goal = tree.line_to(before, first.step, Moment(first.step, before.serial))
         else:
             # The requests since a reset are undone before it, though they are no longer kept.
             goal = tree.resets[-1]
@@ -350,12 +347,12 @@ class Past:
         :return: the phrase for what was redone
         :raises OutOfHistory: nothing was undone, or another request was applied since
         """
-        tree, era = self.tree, self.tree.era
+        tree, resets = self.tree, self.tree.reset_count
         if not tree.has_undone:
             raise OutOfHistory('there is nothing to redo', field='history')
         words = tree.undone[-1].words
         left, _ = self.go_to(tree.undone[-1])
-        if tree.era == era:
+        if tree.reset_count == resets:
             tree.drop(left)
         else:
             left.words = words
@@ -376,7 +373,7 @@ class Past:
         line = next((line for line, _ in tree.courses_left() if line.course == number), None)
         if line is None:
             raise OutOfHistory(f'course {number} is not kept', field='course')
-        line.moment = min(moment[0], line.head), None
+        line.moment = min(moment.step, line.head), None
         tree.keep_course(*self.go_to(line))
         self.tree.drop_undone()
         return True
@@ -386,12 +383,12 @@ class Past:
         tree, cursor = self.tree, self.cursor
         left = tree.line(cursor.moment)
         frames = self.frames.drop_from(cursor.follow(line.tip, line.head, line.moment))
-        reached, _ = cursor.moment
+        reached = cursor.moment.step
         if reached != line.moment[0]:
             message = f'{reached / self.physics_rate:.3f} s is the oldest that is kept'
             self.reports.append(Answer(topic='history', message=message))
-        tree.course, tree.era = line.course, line.era
-        for frame in line.ghost:
+        tree.course, tree.reset_count = line.course, line.reset_count
+        for frame in line.frames:
             self.frames.add_frame(frame)
         self.tree.drop(line)
         return left, frames

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The tree of all lines of events: the one in force, flat, and those that were left.
+The tree of all lines of events: the one in force, those that were left, and their memory.
 
-Law: a line that is not in force is independent of the others; its ghost has the frames that it has
-shown, to the bit, and no others. See `node` for the theory of operation.
+Law: a line that is not in force is independent of the others; a course keeps the frames that it
+has shown, to the bit, and no others. `Past.fit_memory` has the order in which entries are dropped.
 """
 
 from __future__ import annotations
@@ -15,17 +15,26 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 
 from physsim_ros.model.checkpoint import Checkpoint, WorldState
+from physsim_ros.model.checks import Within
 from physsim_ros.model.requests import Request, Restore
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.sizes import checkpoint_size, frame_size, request_size
 from physsim_ros.model.snapshot import Snapshot
-from physsim_ros.simulation.past.budget import (
-    Budget,
-    checkpoint_size,
-    frame_size,
-    request_size,
+from physsim_ros.simulation.past.line import (
+    CachedFrame,
+    Keyframe,
+    Line,
+    LineInForce,
+    Moment,
+    Node,
 )
-from physsim_ros.simulation.past.line import LineInForce
-from physsim_ros.simulation.past.node import CachedFrame, Keyframe, Line, Moment, Node
+
+# Bytes of a megabyte.
+MEGABYTE = 10**6
+# Least and greatest budget [MB]: a second of a few hundred commands; a large machine.
+LEAST_MEMORY, MOST_MEMORY = 1.0, 1e6
+# Default budget [MB].
+DEFAULT_MEMORY = 256.0
 
 # Greatest number of courses that are kept, as many as a person tells apart; the one that was left
 # first is dropped first.
@@ -33,6 +42,40 @@ MOST_COURSES = 16
 # Share of the budget from which the requests after a checkpoint make the next one due [1], so that
 # the past has at least eight parts that can be dropped.
 _LOG_SHARE = 1 / 8
+
+
+class Budget:
+    """
+    The budget of the past.
+
+    :param megabytes: the budget [MB]
+    :raises BadProperty: it is out of range
+    :raises Malformed: it is not a finite number
+
+    :ivar size: the budget [bytes]
+    :ivar used: memory of the past at the last count [bytes]
+    :ivar told: whether users know that the past was shortened
+    """
+
+    def __init__(self, megabytes: float) -> None:
+        self.used = 0
+        self.megabytes = megabytes
+
+    @property
+    def megabytes(self) -> float:
+        """Return the budget [MB]."""
+        return self.size / MEGABYTE
+
+    @megabytes.setter
+    def megabytes(self, megabytes: float) -> None:
+        megabytes = Within(LEAST_MEMORY, MOST_MEMORY, 'MB')(megabytes, 'history_memory')
+        self.size = round(megabytes * MEGABYTE)
+        self.told = False
+
+    @property
+    def in_megabytes(self) -> tuple[float, float]:
+        """Return the memory of the past at the last count, and the budget [MB]."""
+        return self.used / MEGABYTE, self.megabytes
 
 
 class Tree(LineInForce):
@@ -44,9 +87,9 @@ class Tree(LineInForce):
     :param length: number of steps that are kept
     :param spacing: greatest number of steps from one checkpoint to the next
 
-    :ivar size: memory of requests, checkpoints and ghosts [bytes]
+    :ivar size: memory of requests, checkpoints and frames of lines that were left [bytes]
     :ivar course: number of the course of the line in force
-    :ivar era: number of resets before it
+    :ivar reset_count: number of resets before it
     :ivar shown: the moment that is shown; the checkpoint before it is not dropped to save memory
     :ivar left: courses that were left, by number, in the order in which they were left
     :ivar undone: lines to which redo returns, the next one last
@@ -57,8 +100,8 @@ class Tree(LineInForce):
         super().__init__(length=length, spacing=spacing)
         self.budget = budget
         self.size = 0
-        self.course, self.era = 1, 0
-        self.shown = (0, 0)
+        self.course, self.reset_count = 1, 0
+        self.shown = Moment(0, 0)
         self.left: dict[int, Line] = {}
         self.undone: list[Line] = []
         self.resets: list[Line] = []
@@ -115,7 +158,7 @@ class Tree(LineInForce):
         step, settings = checkpoint.step, checkpoint.scene.settings
         request = Restore(state=state)
         root = Node(parent=None, step=0, request=request, settings=settings, shown=True)
-        self._add_keyframe(root, (step, 0), checkpoint, digest, None)
+        self._add_keyframe(root, Moment(step, 0), checkpoint, digest, None)
         self.follow(root, step)
 
     def follow(self, tip: Node, head: int) -> int:
@@ -133,11 +176,11 @@ class Tree(LineInForce):
             self._release(self.tip)
         self.nodes[kept:] = apart
         if left:
-            self._openings.clear()
+            self._gesture_starts.clear()
         if not kept:
             self.keyframes.clear()
         for node in self.nodes if left else apart:
-            self._openings[node.gesture] = node.opening
+            self._gesture_starts[node.gesture] = node.gesture_start
         # Keyframes of the last node in common depend on the node after it.
         last = max(0, kept - 1)
         while self.keyframes and self.keyframes[-1].serial >= self.nodes[last].serial:
@@ -173,14 +216,14 @@ class Tree(LineInForce):
         :param adds: whether it has added a body or joint
         """
         step, serial = moment
-        opening = self._openings.get(gesture, serial + 1)
+        start = self._gesture_starts.get(gesture, serial + 1)
         node = Node(
             parent=self.node(serial),
             step=step,
             request=request,
             settings=settings,
             gesture=gesture,
-            opening=min(opening, serial + 1),
+            gesture_start=min(start, serial + 1),
             author=author,
             subject=subject,
             adds=adds,
@@ -225,7 +268,9 @@ class Tree(LineInForce):
     def line_to(self, tip: Node, head: int, moment: Moment) -> Line:
         """Return a line of the course in force up to a node, kept from now on."""
         tip.users += 1
-        return Line(tip=tip, head=head, moment=moment, course=self.course, era=self.era)
+        return Line(
+            tip=tip, head=head, moment=moment, course=self.course, reset_count=self.reset_count
+        )
 
     def lines(self) -> Iterator[Line]:
         """Iterate over the lines that are not in force, the first to be dropped first."""
@@ -235,26 +280,26 @@ class Tree(LineInForce):
 
     def courses_left(self) -> list[tuple[Line, int]]:
         """Return the courses that can be returned to, each with the step at which it parts."""
-        lines = (line for line in self.left.values() if line.era == self.era)
+        lines = (line for line in self.left.values() if line.reset_count == self.reset_count)
         partings = ((line, self.parting(line.tip, line.head)) for line in lines)
         return [(line, step) for line, step in partings if step is not None]
 
-    def keep_course(self, line: Line, ghost: Sequence[CachedFrame]) -> None:
+    def keep_course(self, line: Line, frames: Sequence[CachedFrame]) -> None:
         """Keep a line as a course that was left, with the frames that only it has shown."""
-        line.ghost = [frame._replace(contacts=None) for frame in ghost]
-        line.size = sum(frame_size(*frame) for frame in line.ghost)
+        line.frames = [frame._replace(contacts=None) for frame in frames]
+        line.size = sum(frame_size(*frame) for frame in line.frames)
         self.size += line.size
         self.left[line.course] = line
-        of_era = [each for each in self.left.values() if each.era == line.era]
-        if len(of_era) > MOST_COURSES:
-            self.drop(of_era[0])
+        since_reset = [each for each in self.left.values() if each.reset_count == line.reset_count]
+        if len(since_reset) > MOST_COURSES:
+            self.drop(since_reset[0])
 
-    def ghost_at(self, course: int, step: int) -> Snapshot | None:
+    def course_snapshot(self, course: int, step: int) -> Snapshot | None:
         """Return the last snapshot that a course has shown up to a step, if it is kept."""
         line = self.left.get(course)
-        ghost = line.ghost if line is not None else []
-        place = bisect_right(ghost, step, key=lambda frame: frame.snapshot.step)
-        return ghost[place - 1].snapshot if place else None
+        frames = line.frames if line is not None else []
+        place = bisect_right(frames, step, key=lambda frame: frame.snapshot.step)
+        return frames[place - 1].snapshot if place else None
 
     def drop(self, line: Line) -> None:
         """Drop a line."""
@@ -263,12 +308,12 @@ class Tree(LineInForce):
         for stack in (self.undone, self.resets):
             if line in stack:
                 stack.remove(line)
-        self._drop_ghost(line)
+        self._drop_frames(line)
         self._release(line.tip)
 
     def drop_undone(self) -> None:
         """Drop the undone lines, and the courses of eras that were undone: there is no redo."""
-        undone = [line for line in self.left.values() if line.era > self.era]
+        undone = [line for line in self.left.values() if line.reset_count > self.reset_count]
         for line in [*self.undone, *undone]:
             self.drop(line)
 
@@ -287,7 +332,10 @@ class Tree(LineInForce):
         if self._oldest is not self.keyframes[0]:
             self._oldest = self.keyframes[0]
             self.drop_where(
-                lambda line: line.era == self.era and self.parting(line.tip, line.head) is None
+                lambda line: (
+                    line.reset_count == self.reset_count
+                    and self.parting(line.tip, line.head) is None
+                )
             )
 
     def drop_where(self, is_lost: Callable[[Line], bool]) -> None:
@@ -304,11 +352,11 @@ class Tree(LineInForce):
 
     # The budget
 
-    def drop_oldest_ghost(self) -> bool:
-        """Drop the ghost of the line that was left first; return whether there was one."""
+    def drop_oldest_frames(self) -> bool:
+        """Drop the frames of the line that was left first; return whether there were any."""
         line = next((line for line in self.lines() if line.size), None)
         if line is not None:
-            self._drop_ghost(line)
+            self._drop_frames(line)
         return line is not None
 
     def drop_oldest_line(self) -> bool:
@@ -349,13 +397,13 @@ class Tree(LineInForce):
         parent, root.parent, root.size = root.parent, None, 0
         root.request = Restore(state=root.loaded.state)
         self._release(parent)
-        # A gesture that began before the root keeps its opening, the serial of a dropped node.
-        self._openings = {each.gesture: each.opening for each in self.nodes}
+        # A gesture that began before the root keeps its start, the serial of a dropped node.
+        self._gesture_starts = {each.gesture: each.gesture_start for each in self.nodes}
         self._partings.clear()
 
-    def _drop_ghost(self, line: Line) -> None:
+    def _drop_frames(self, line: Line) -> None:
         self.size -= line.size
-        line.ghost, line.size = [], 0
+        line.frames, line.size = [], 0
 
     def _release(self, node: Node | None) -> None:
         """Note that a line or child no longer uses a node; remove nodes without users."""

@@ -11,7 +11,7 @@ to the bit, so that markers which are published back change nothing.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 import math
 from typing import Any
@@ -40,6 +40,15 @@ from physsim_ros.model.snapshot import Answer
 from physsim_ros.model.texts import counted
 from physsim_ros.model.transform import local_to_world, ORIGIN, Point, Pose, REST
 from physsim_ros.simulation.world import joint_requests
+from physsim_ros.simulation.world.assembly import (
+    all_members,
+    check_new_parts,
+    check_same_parts,
+    members,
+    moving_with_parts,
+    parts_of,
+    placed_with_parts,
+)
 from physsim_ros.simulation.world.body_description import (
     changed_body,
     changed_twist,
@@ -61,7 +70,11 @@ _SAME_COLOR = 1e-6
 
 
 def spawn(live: LiveSpace, request: Spawn) -> Answer:
-    """Add a body, or change the one of that name."""
+    """
+    Add a body, with its parts if it is a robot that has some, or change the one of that name.
+
+    It may end half done: where a joint of a robot is refused.
+    """
     space, name = live.space, request.name
     old = space.bodies.by_name.get(name)
     pose = pose_in_world(space, request.pose, request.frame)
@@ -73,15 +86,24 @@ def spawn(live: LiveSpace, request: Spawn) -> Answer:
         here = old.pose
         _change(live, old, changes, here if is_same_pose(here, pose) else pose, request)
         return Answer(subject=name, message=f'changed {name}')
-    body, twist = new_body(request, live.settings, expires)
+    links, joints = parts_of(replace(request, pose=pose, frame=''))
+    check_new_parts(space, links, joints)
+    made = [
+        (*new_body(each, live.settings, expires), at)
+        for each, at in ((request, pose), *((link, link.pose) for link in links))
+    ]
+    body = made[0][0]
     check_robot(space, body)
     check_start(body, space.bodies.by_name)
     live.capacity.check_robot(body)
     live.capacity.check_attraction(body)
-    live.capacity.check_body(body, pose)
-    space.add(body, pose, twist)
+    live.capacity.check_bodies([(each, at, None) for each, _, at in made])
+    for each, twist, at in made:
+        space.add(each, at, twist)
+    for joint in joints:
+        joint_requests.join(live, joint)
     hint = '; gravity pulls it: robots are seen from above, with gravity [0, 0]'
-    falls = body.robot is not None and any(live.settings.gravity)
+    falls = body.robot is not None and body.dynamic and any(live.settings.gravity)
     return Answer(subject=name, message=f'spawned {name}{hint if falls else ""}')
 
 
@@ -140,10 +162,13 @@ def move_bodies(live: LiveSpace, request: MoveBodies) -> Answer:
     space = live.space
     rigids = [body_of_name(space, name, 'names') for name in request.names]
     dx, dy = request.by
-    poses = [(rigid.pose[0] + dx, rigid.pose[1] + dy, rigid.pose[2]) for rigid in rigids]
-    for pose in poses:
+    poses = {
+        rigid.body.name: (rigid.pose[0] + dx, rigid.pose[1] + dy, rigid.pose[2])
+        for rigid in rigids
+    }
+    for pose in poses.values():
         check_pose(pose, 'by')
-    _set_poses(live, rigids, poses)
+    set_poses(live, poses)
     return _done('moved', request.names)
 
 
@@ -156,9 +181,10 @@ def command(live: LiveSpace, request: Command) -> Answer:
     # Refuses an unknown frame, though twists and wrenches are in world axes.
     pose_in_world(space, ORIGIN, request.frame)
     poses = [pose_in_world(space, pose, request.frame) for pose in _tuples(request.poses)]
-    _set_poses(live, rigids, poses)
-    for rigid, twist in zip(rigids, _tuples(request.twists), strict=False):
-        space.set_twist(rigid, twist)
+    set_poses(live, dict(zip(request.names, poses, strict=False)))
+    twists = dict(zip(request.names, _tuples(request.twists), strict=False))
+    for name, twist in moving_with_parts(space, twists).items():
+        space.set_twist(space.bodies.by_name[name], twist)
     until = live.step_after(live.settings.command_timeout)
     for rigid, wrench in zip(rigids, _tuples(request.wrenches), strict=False):
         space.set_wrench(rigid, wrench, until)
@@ -215,9 +241,10 @@ def release(live: LiveSpace, request: Release) -> Answer:
 
 
 def delete(live: LiveSpace, request: Delete) -> Answer:
-    """Remove a body, and its joints."""
+    """Remove a body, or the robot of which it is a part, and its joints."""
     body_of_name(live.space, request.name)
-    live.space.remove(request.name)
+    for name in members(live.space, request.name):
+        live.space.remove(name)
     return _done('deleted', (request.name,))
 
 
@@ -233,7 +260,7 @@ def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
         body_of_name(live.space, name, 'names')
     for name in request.joints:
         live.space.unjoin(name)
-    for name in request.names:
+    for name in all_members(live.space, request.names):
         live.space.remove(name)
     if request.names:
         return _done('deleted', request.names)
@@ -243,7 +270,7 @@ def delete_bodies(live: LiveSpace, request: DeleteBodies) -> Answer:
 
 def delete_all(live: LiveSpace, request: DeleteAll) -> Answer:
     """Remove all bodies, or all of a namespace, and their joints."""
-    names = names_in(live.space.bodies.by_name, request.namespace)
+    names = all_members(live.space, names_in(live.space.bodies.by_name, request.namespace))
     for name in names:
         live.space.remove(name)
     return Answer(message=f'deleted {counted(len(names), "body")}')
@@ -269,13 +296,18 @@ def _done(verb: str, names: tuple[str, ...]) -> Answer:
     return Answer(message=f'{verb} {counted(len(names), "body")}')
 
 
-def _set_poses(live: LiveSpace, rigids: list[RigidBody], poses: list[Pose]) -> None:
-    """Set the poses of bodies, unless too many pieces would overlap."""
+def set_poses(live: LiveSpace, poses: Mapping[str, Pose]) -> None:
+    """
+    Set the poses of bodies, and of parts that follow them.
+
+    :raises WorldFull: too many pieces would overlap; nothing is changed
+    """
     if not poses:
         return
-    moved = zip(rigids, poses, strict=True)
-    live.capacity.check_bodies([(rigid.body, pose, rigid) for rigid, pose in moved])
-    for rigid, pose in zip(rigids, poses, strict=True):
+    bodies = live.space.bodies.by_name
+    placed = [(bodies[name], at) for name, at in placed_with_parts(live.space, poses).items()]
+    live.capacity.check_bodies([(rigid.body, pose, rigid) for rigid, pose in placed])
+    for rigid, pose in placed:
         live.space.set_pose(rigid, pose)
 
 
@@ -289,6 +321,7 @@ def _change(
     """Change fields and properties of a body, and its pose."""
     body = changed_body(old.body, changes, request, live.settings)
     check_robot(live.space, body)
+    check_same_parts(old.body, body)
     if body.actor != old.body.actor:
         check_start(body, live.space.bodies.by_name)
     live.capacity.check_robot(body)
@@ -297,4 +330,8 @@ def _change(
     twist = changed_twist(body, twist, request)
     if (body.shape, body.anchored, pose) != (old.body.shape, old.body.anchored, old.pose):
         live.capacity.check_body(body, pose, old=old)
+    followers = placed_with_parts(live.space, {body.name: pose}) if pose != old.pose else {}
     live.space.change(old, body, pose, twist)
+    for name, at in followers.items():
+        if name != body.name:
+            live.space.set_pose(live.space.bodies.by_name[name], at)

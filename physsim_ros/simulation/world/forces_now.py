@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The forces of contacts and joints in a world that has made no step since it was opened or changed.
+The forces in a world that has made no step since it was opened or changed.
 
-They are those of a copy of the world, which makes a few steps; the world itself is not touched.
-Bodies that rest on each other are placed with a gap of some micrometres, or overlap as much: in
-the first steps of the copy they come to rest, without a bounce. The forces are those of the first
-step whose contacts are those of the step before, with the same impulses; joints need a step, too.
+Contacts, joints, media and attraction have the forces of a copy of the world, which makes a few
+steps; the world itself is not touched. Bodies that rest on each other are placed with a gap of
+some micrometres, or overlap as much: in the first steps of the copy they come to rest, without a
+bounce. The forces are those of the first step whose contacts are those of the step before, with
+the same impulses; joints need a step, too.
 
 Laws: forces on what rests are those that later steps report, to a part in a thousand. An impact is
 not a force at rest: what approaches has no contact before it touches.
@@ -38,7 +39,7 @@ _IMPACT = 0.05
 
 def forces_now(state: WorldState, physics_rate: float) -> tuple[Contacts, Snapshot] | None:
     """
-    Return the contacts of a world at rest, as of one step, and a snapshot with the joint forces.
+    Return the contacts of a world at rest, as of one step, and a snapshot with its other forces.
 
     :param state: of the world
     :param physics_rate: steps a second of simulation time [Hz]

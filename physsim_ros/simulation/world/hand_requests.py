@@ -19,6 +19,7 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.snapshot import Answer, Grip
 from physsim_ros.model.transform import rotated, world_to_local
+from physsim_ros.simulation.world.body_requests import set_poses
 from physsim_ros.simulation.world.live_space import LiveSpace, points_in_world, pose_in_world
 
 
@@ -65,8 +66,7 @@ def move_hand(live: LiveSpace, request: MoveHand) -> Answer:
         arm_x, arm_y = rotated(grip.anchor, yaw)
         pose = (x - arm_x, y - arm_y, yaw)
         if pose != rigid.pose:
-            live.capacity.check_body(rigid.body, pose, old=rigid)
-            space.set_pose(rigid, pose)
+            set_poses(live, {grip.body: pose})
     space.set_grip(grip._replace(target=(x, y)))
     done = 'placed' if request.paused else 'draws'
     return Answer(subject=grip.body, message=f'{done} {grip.body}')

@@ -17,10 +17,10 @@ from itertools import starmap
 import math
 
 from physsim_ros.engine.space import Space
-from physsim_ros.model.errors import Anchored, no_joint, nothing_at
+from physsim_ros.model.errors import Anchored, BadProperty, no_joint, nothing_at
 from physsim_ros.model.joints import JointKind, JointProperties
 from physsim_ros.model.names import names_in, WORLD
-from physsim_ros.model.requests import Axle, Join, Pin, Rejoin, Unjoin, UnjoinAll
+from physsim_ros.model.requests import Axle, CommandMotors, Join, Pin, Rejoin, Unjoin, UnjoinAll
 from physsim_ros.model.rope_path import arc, side, spans
 from physsim_ros.model.scene import Guide, Joint, Seat
 from physsim_ros.model.shapes import Disc
@@ -60,10 +60,11 @@ def join(live: LiveSpace, request: Join) -> Answer:
         names = _passed_bodies(space, properties.over, passed)
         properties = replace(properties, over=names)
         points = (points[0], *map(partial(_center, space), names, passed), points[-1])
-    _check_members(space, request.kind, (a, *(properties.over or ()), b))
+    _check_carrier(space, (a, b), properties.carrier)
+    _check_members(space, request.kind, (a, *properties.guides, b))
     if (
         kept is not None
-        and (kept.a, kept.b, kept.properties.over) == (a, b, properties.over)
+        and (kept.a, kept.b, kept.properties.guides) == (a, b, properties.guides)
         and _is_at(space, kept, points)
     ):
         seat, guides = kept.seat, kept.guides
@@ -74,6 +75,7 @@ def join(live: LiveSpace, request: Join) -> Answer:
         seat = _seat(request.kind, points, _pose(space, a), _pose(space, b), phase)
         guides, length = _rope(space, properties.over or (), points)
         seat = seat._replace(length=length) if guides else seat
+        guides = guides or tuple(Guide(name, 0.0, 0.0) for name in properties.guides)
     joint = Joint(
         name=request.name,
         kind=request.kind,
@@ -132,6 +134,28 @@ def unjoin(live: LiveSpace, request: Unjoin) -> Answer:
     check_names(live.space, (request.name,), 'name')
     live.space.unjoin(request.name)
     return Answer(subject=request.name, message=f'deleted joint {request.name}')
+
+
+def command_motors(live: LiveSpace, request: CommandMotors) -> Answer:
+    """
+    Have motors of joints obey commands.
+
+    :raises UnknownJoint: there is no joint of a name
+    :raises BadProperty: a joint has no motor
+    """
+    names = [command.joint for command in request.commands]
+    check_names(live.space, names, 'joint')
+    for name in names:
+        joint = live.space.joints.by_name[name].joint
+        if not joint.properties.effort:
+            raise BadProperty(
+                f'{name} has no motor: an axle or a slider with the property effort has one',
+                field='joint',
+            )
+    for command in request.commands:
+        live.space.command_motor(command, live.step_count)
+    subject = names[0] if len(names) == 1 else ''
+    return Answer(subject=subject, message=f'commanded {counted(len(names), "motor")}')
 
 
 def check_names(space: Space, names: Iterable[str], field: str) -> None:
@@ -255,6 +279,22 @@ def _rope(
     )
 
 
+def _check_carrier(space: Space, ends: tuple[str, str], carrier: str | None) -> None:
+    """
+    Refuse a carrier of a gear that is no third body.
+
+    :raises UnknownBody: there is no body of that name
+    :raises BadProperty: it is one of the two
+    """
+    if carrier is None or carrier == WORLD:
+        return
+    body_of_name(space, carrier, 'carrier', others=(WORLD,))
+    if carrier in ends:
+        raise BadProperty(
+            f'{carrier} is a wheel of the gear, and not its carrier', field='carrier'
+        )
+
+
 def _check_members(space: Space, kind: JointKind, names: tuple[str, ...]) -> None:
     """Refuse a joint none of whose bodies is dynamic."""
     bodies = [space.bodies.by_name[name].body for name in dict.fromkeys(names) if name != WORLD]
@@ -292,6 +332,8 @@ def _phase(space: Space, a: str, b: str, properties: JointProperties) -> float:
     """
     ratio = 1.0 if properties.ratio is None else properties.ratio
     now = ratio * _pose(space, b)[2] - _pose(space, a)[2]
+    if properties.carrier is not None:
+        now += (1.0 - ratio) * _pose(space, properties.carrier)[2]
     if properties.phase is None:
         return now
     return properties.phase + math.tau * round((now - properties.phase) / math.tau)

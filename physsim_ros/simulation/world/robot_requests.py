@@ -30,9 +30,11 @@ def drive(live: LiveSpace, request: DriveRobot) -> Answer:
     Have a robot drive at a velocity.
 
     :raises UnknownBody: there is no such body
-    :raises BadProperty: it is no robot
+    :raises BadProperty: it is no robot, or has no drive
     """
     rigid, robot = robot_of_name(live.space, request.name)
+    if robot.drive is None:
+        raise BadProperty(f'{request.name} has no drive', field='name')
     timeout = robot.drive.timeout if request.timeout is None else request.timeout
     until = live.step_after(timeout)
     live.space.drive(rigid, request.velocity, NEVER if until is None else until)
@@ -63,10 +65,11 @@ def is_driving(live: LiveSpace, request: DriveRobot, steps: int) -> bool:
     :param steps: from now on
     """
     rigid = live.space.bodies.by_name.get(request.name)
-    if rigid is None or rigid.body.robot is None:
+    drive = None if rigid is None or rigid.body.robot is None else rigid.body.robot.drive
+    if rigid is None or drive is None:
         return True
     aim, until = live.space.drive_of(rigid)
-    if aim != rigid.body.robot.drive.aim(request.velocity):
+    if aim != drive.aim(request.velocity):
         return False
     # One that stands still does so after its timeout, too.
     return not any(aim) or until >= live.step_count + steps

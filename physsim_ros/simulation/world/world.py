@@ -96,6 +96,7 @@ HANDLERS: Mapping[type, Callable[[LiveSpace, Any], Answer]] = {
     requests.MoveHand: hand_requests.move_hand,
     requests.KeepHand: hand_requests.keep_hand,
     requests.LetGo: hand_requests.let_go,
+    requests.CommandMotors: joint_requests.command_motors,
     requests.DriveRobot: robot_requests.drive,
     requests.Configure: configure,
     requests.Restore: restore,
@@ -186,6 +187,8 @@ class World(LiveSpace):
         digest.update(free.tobytes())
         for rigid in self.space.wrenched():
             digest.update(f'{rigid.body.name} {rigid.wrench!r} {rigid.wrench_until}'.encode())
+        for command in self.space.joints.commands.values():
+            digest.update(repr(command).encode())
         for grip in self.grips:
             digest.update(repr(grip).encode())
         for states in (self.space.table.robot_states, self.space.table.actor_states):

@@ -94,7 +94,7 @@ def set_speed(page: PageSession, origin: Origin, speed: float) -> None:
 @message('seek', '~/seek', time=_stamp)
 def seek(page: PageSession, origin: Origin, time: int) -> None:
     """Go to a simulation time, which a message has in [s] and the function in [ns]."""
-    page.perform(origin, partial(page.world.seek, time), Wait.BEHIND_REQUESTS)
+    page.world.submit_seek(time, topic=origin.topic, asker=origin.asker)
 
 
 @message('course', '~/timeline', course=Whole(0, 2**31))

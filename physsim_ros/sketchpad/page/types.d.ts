@@ -120,6 +120,10 @@ export interface Joint {
   damping?: number;
   length?: number;
   ratio?: number;
+  /** Name of the body about which the angles of a gear are measured. */
+  carrier?: string;
+  /** 1 of an axle that turns counter-clockwise only, -1 of one that turns clockwise. */
+  ratchet?: number;
   max_force?: number;
   break_force?: number;
 }

@@ -122,14 +122,15 @@ def robot_entry(body: str, robot: Robot) -> dict[str, Any]:
     """
     Return the kind of a robot's drive, its greatest velocities [m/s, rad/s], its namespace.
 
+    Of a robot without a drive it is the namespace alone.
+
     :param body: its name
     """
-    return {
-        'kind': robot.drive.KIND,
-        'max_speed': robot.drive.max_speed,
-        'max_turn': robot.drive.max_turn,
-        'namespace': robot.namespace_of(body),
-    }
+    drive = robot.drive
+    entry: dict[str, Any] = {'namespace': robot.namespace_of(body)}
+    if drive is not None:
+        entry |= {'kind': drive.KIND, 'max_speed': drive.max_speed, 'max_turn': drive.max_turn}
+    return entry
 
 
 def joint_entry(joint: Joint, rows: Mapping[str, int]) -> dict[str, Any]:

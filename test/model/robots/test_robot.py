@@ -40,7 +40,6 @@ def test_its_namespace_is_by_the_name_of_its_body_unless_it_says_one():
     ('said', 'error', 'field'),
     [
         ('turtlebot3_burger', BadProperty, 'robot'),
-        ({}, BadProperty, 'drive'),
         ({'drive': None}, BadProperty, 'drive'),
         ({'drive': 'omni'}, BadProperty, 'drive'),
         ({'drive': {}}, BadProperty, 'kind'),

@@ -42,7 +42,7 @@ class Imu(Sensor):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WheelEncoders(Sensor):
-    """Encoders: turns of all wheels of the drive, and of axles and motors; `at` has no effect."""
+    """Encoders: of all wheels of the drive, and of all joints; `at` and `link` have no effect."""
 
     KIND: ClassVar = 'joint_states'
 

@@ -4,7 +4,7 @@
 """The base of all sensors: a topic, a place on the body, a rate."""
 
 from abc import ABC
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import math
 import re
 from typing import Annotated
@@ -12,6 +12,7 @@ from typing import Annotated
 from physsim_ros.model.checks import Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty, Malformed
+from physsim_ros.model.robots.part_names import BASE, check_part
 from physsim_ros.model.shapes import LARGEST
 from physsim_ros.model.transform import ORIGIN, Point, Pose
 
@@ -44,7 +45,14 @@ def _topic(value: object, name: str) -> str:
     return value
 
 
-def _mounting(value: object, name: str) -> Pose:
+def mounting(value: object, name: str) -> Pose:
+    """
+    Return a pose in the frame of a body: x, y [m] and, where there are three numbers, yaw [rad].
+
+    :param name: of the field, for the refusal
+    :raises Malformed: there are neither two nor three
+    :raises BadProperty: it is no list of numbers, or one is out of range
+    """
     if not isinstance(value, list | tuple):
         raise BadProperty(f'{name} must be a list of numbers, not {shown(value)}', field=name)
     if len(value) not in (2, 3):
@@ -94,7 +102,11 @@ class Sensor(Checked, ABC):
     """
 
     name: Annotated[str, _topic, 'of its topic, below the namespace of the robot']
-    at: Annotated[Pose, _mounting, 'x, y [m], yaw [rad] in the frame of the body'] = ORIGIN
+    at: Annotated[Pose, mounting, 'x, y [m], yaw [rad] in the frame of its link'] = ORIGIN
     rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'readings a second of simulation time'] = (
         10.0
+    )
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    link: Annotated[str, check_part, 'that it is mounted on; `base` is the body of the robot'] = (
+        field(default=BASE, repr=False)
     )

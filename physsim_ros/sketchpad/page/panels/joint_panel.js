@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of a joint that was tapped: its constants, its force now, and deletion. */
 
-import {createElement, inRow, numberField, range, showText, textButton} from '../dom.js';
+import {choice, createElement, inRow, numberField, range, showText, textButton} from '../dom.js';
 import {threeDigits} from '../rounding.js';
 import {t} from '../strings.js';
 import {distance} from '../vectors.js';
@@ -30,10 +30,10 @@ const RING = 9; // px: at its ends
  * @param {string[]} names of the joint alone
  * @returns {?Content} null where it is gone
  */
-export function jointContent({world, connection, selection, meters}, [name]) {
+export function jointContent({world, connection, selection, meters, words}, [name]) {
   const numberOf = () => world.scene.joints.findIndex((each) => each.name === name), joint = world.scene.joints[numberOf()];
   if (!joint) return null;
-  const change = (/** @type {Record<string, ?number>} */ properties) => connection.send('change_joint', {name, properties});
+  const change = (/** @type {Record<string, number | string | null>} */ properties) => connection.send('change_joint', {name, properties});
   const unit = joint.kind === 'slider' ? 'm' : 'rad', force = createElement('p');
   /** @type {['lower' | 'upper' | 'max_force' | 'break_force', string][]} */
   const limits = [['break_force', t('Breaks at [N]')]];
@@ -44,6 +44,8 @@ export function jointContent({world, connection, selection, meters}, [name]) {
       const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
       return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
     }),
+    ...joint.kind === 'axle' ? [ratchetField(joint, (ratchet) => change({ratchet}))] : [],
+    ...joint.kind === 'gear' ? [carrierField(joint, world, words, (carrier) => change({carrier}))] : [],
     ...limits.map(([key, label]) =>
       createElement('label', {}, label, numberField(joint[key] ?? null, (value) => change({[key]: value}), {placeholder: t('none')}))),
     meters.jointField(name),
@@ -55,6 +57,30 @@ export function jointContent({world, connection, selection, meters}, [name]) {
     view.ring(world.place(now.a, now.points[0]), RING, view.palette.accent);
     if (now.points[1] && now.kind !== 'slider') view.ring(world.place(now.b, now.points[1]), RING, view.palette.accent);
   }};
+}
+
+/**
+ * @param {Joint} axle
+ * @param {(way: ?number) => void} change
+ * @returns {HTMLElement} a choice of the way that an axle turns
+ */
+function ratchetField(axle, change) {
+  /** @type {[string, string][]} */
+  const ways = [['', t('both ways')], ['1', t('counter-clockwise')], ['-1', t('clockwise')]], label = t('Turns');
+  return createElement('label', {}, label, choice(label, ways, String(axle.ratchet ?? ''), (way) => change(Number(way) || null)));
+}
+
+/**
+ * @param {Joint} gear
+ * @param {WorldState} world
+ * @param {App['words']} words
+ * @param {(name: ?string) => void} change
+ * @returns {HTMLElement} a choice of the body about which the angles of a gear are measured
+ */
+function carrierField(gear, world, words, change) {
+  const wheels = [gear.a, gear.b].map((row) => world.scene.bodies[row]?.name), label = t('About the arm');
+  const bodies = words.choices(t('none')).filter(([name]) => !wheels.includes(name));
+  return createElement('label', {}, label, choice(label, bodies, gear.carrier ?? '', (name) => change(name || null)));
 }
 
 /**

@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The budget of the past in bytes, and the memory of what is kept.
+The memory of requests, checkpoints and frames.
 
 Law: arrays count by their `nbytes`, all else by constants, measured with tracemalloc on CPython
-3.11; the sum is good to a factor of two.
+3.11; a sum is good to a factor of two.
 """
 
 from __future__ import annotations
 
 from physsim_ros.model.checkpoint import Checkpoint
-from physsim_ros.model.checks import Within
 from physsim_ros.model.requests import (
     ChangeBody,
     Command,
@@ -24,13 +23,6 @@ from physsim_ros.model.requests import (
 )
 from physsim_ros.model.shapes import Convex, Shape
 from physsim_ros.model.snapshot import Contacts, Snapshot
-
-# Bytes of a megabyte.
-MEGABYTE = 10**6
-# Least and greatest budget [MB]: a second of a few hundred commands; a large machine.
-LEAST_MEMORY, MOST_MEMORY = 1.0, 1e6
-# Default budget [MB].
-DEFAULT_MEMORY = 256.0
 
 # Memory of a value without its arrays [bytes]: a request, the description of a body or joint, a
 # frame, a scene, half a checkpoint; and of a piece or vertex of a shape.
@@ -85,37 +77,3 @@ def _shape_size(shape: Shape) -> int:
     pieces = shape.form.pieces
     vertices = sum(len(each.vertices) for each in pieces if isinstance(each, Convex))
     return _VERTEX * (3 * len(pieces) + vertices + len(getattr(shape, 'outline', ())))
-
-
-class Budget:
-    """
-    The budget of the past.
-
-    :param megabytes: the budget [MB]
-    :raises BadProperty: it is out of range
-    :raises Malformed: it is not a finite number
-
-    :ivar size: the budget [bytes]
-    :ivar used: memory of the past at the last count [bytes]
-    :ivar told: whether users know that the past was shortened
-    """
-
-    def __init__(self, megabytes: float) -> None:
-        self.used = 0
-        self.megabytes = megabytes
-
-    @property
-    def megabytes(self) -> float:
-        """Return the budget [MB]."""
-        return self.size / MEGABYTE
-
-    @megabytes.setter
-    def megabytes(self, megabytes: float) -> None:
-        megabytes = Within(LEAST_MEMORY, MOST_MEMORY, 'MB')(megabytes, 'history_memory')
-        self.size = round(megabytes * MEGABYTE)
-        self.told = False
-
-    @property
-    def in_megabytes(self) -> tuple[float, float]:
-        """Return the memory of the past at the last count, and the budget [MB]."""
-        return self.used / MEGABYTE, self.megabytes

@@ -1,0 +1,81 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Commands of the motors of joints: a position, a velocity, an effort, or a trajectory."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+import itertools
+import math
+from typing import Annotated, NamedTuple
+
+from physsim_ros.model.checks import check_finite, HEAVIEST, LONGEST, OneOf, shown, text
+from physsim_ros.model.declarations import Checked
+from physsim_ros.model.errors import BadProperty, Malformed
+
+# In the order of `COMMAND_POSITION` ... of `engine/core/core.h`.
+MODES = ('position', 'velocity', 'effort')
+# Greatest number of points of a trajectory.
+MOST_POINTS = 1000
+
+
+class CommandPoint(NamedTuple):
+    """
+    A point of a trajectory.
+
+    :ivar time: since the command [s]
+    :ivar value: position [rad, m], velocity [rad/s, m/s] or effort [N m, N] then
+    :ivar rate: of a position, its velocity there; NaN is none: the path up to the next point, and
+        from the one before, is straight
+    """
+
+    time: float
+    value: float
+    rate: float = math.nan
+
+
+def points_from(value: object, name: str) -> tuple[CommandPoint, ...]:
+    """
+    Return the points of a list of times, values and, where there are three numbers, rates.
+
+    :param name: of the field, for the refusal
+    :raises Malformed: it is no such list, or a number is not finite
+    :raises BadProperty: there are too many points, a number is out of range, or times fall
+    """
+    if not isinstance(value, Iterable):
+        raise Malformed(f'{name} must be a list of points, not {shown(value)}', field=name)
+    points = tuple(_point(each, name) for each in value)
+    if not 1 <= len(points) <= MOST_POINTS:
+        raise BadProperty(f'{name} must be 1 to {MOST_POINTS} points', field=name)
+    if any(b.time <= a.time for a, b in itertools.pairwise(points)):
+        raise BadProperty(f'the times of {name} must increase', field=name)
+    return points
+
+
+def _point(value: object, name: str) -> CommandPoint:
+    row = tuple(value) if isinstance(value, list | tuple) else ()
+    rate = math.nan if len(row) < 3 or row[2] is None else row[2]
+    time, number = check_finite(row[:2], 2, name)
+    if not (isinstance(rate, int | float) and (math.isnan(rate) or abs(rate) <= HEAVIEST)):
+        raise Malformed(f'{name} has a rate {shown(rate)}', field=name)
+    if not 0.0 <= time <= LONGEST:
+        raise BadProperty(f'a time of {name} must lie between 0 and {LONGEST:g} s', field=name)
+    if abs(number) > HEAVIEST:
+        raise BadProperty(f'a value of {name} exceeds {HEAVIEST:g}', field=name)
+    return CommandPoint(time, number, float(rate))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MotorCommand(Checked):
+    """
+    A command of the motor of a joint, until the next one.
+
+    :raises Malformed: a number is not finite
+    :raises BadProperty: there is no such mode, or a value or time is out of range
+    """
+
+    joint: Annotated[str, text, 'name of the joint']
+    mode: Annotated[str, OneOf(MODES), 'of the values']
+    points: Annotated[
+        tuple[CommandPoint, ...], points_from, 'time [s], value, rate; the last value stays'
+    ]

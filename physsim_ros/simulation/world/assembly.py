@@ -1,0 +1,144 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""
+Assemblies: robots with parts, whose bodies are spawned, moved and deleted as one.
+
+Laws: what is set of a body that a request names is as the request says; parts that it does not
+name follow as if all were rigid. A part whose robot is gone is a body like any other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.space import Space
+from physsim_ros.model.body_properties import Properties
+from physsim_ros.model.errors import BadProperty, Exists
+from physsim_ros.model.requests import Join, Spawn
+from physsim_ros.model.robots import part_name, Robot
+from physsim_ros.model.scene import Body
+from physsim_ros.model.transform import local_to_world, Pose, Twist, world_to_local
+
+
+def parts_of(spawn: Spawn) -> tuple[list[Spawn], list[Join]]:
+    """Return the requests for the parts of a robot that is spawned, points in the world."""
+    robot = spawn.properties.robot
+    if robot is None:
+        return [], []
+    links = [
+        Spawn(
+            name=part_name(spawn.name, link.name),
+            shape=link.shape,
+            pose=_placed(link.at, spawn.pose),
+            color=link.color or spawn.color,
+            lifetime=spawn.lifetime,
+            properties=Properties(
+                mass=link.mass,
+                density=link.density,
+                friction=link.friction,
+                elasticity=link.elasticity,
+                towed=link.towed,
+            ),
+        )
+        for link in robot.links
+    ]
+    joints = [
+        Join(
+            name=part_name(spawn.name, joint.name),
+            kind=joint.kind,
+            points=tuple(local_to_world(point, spawn.pose) for point in joint.points),
+            a=part_name(spawn.name, joint.a),
+            b=part_name(spawn.name, joint.b),
+            properties=joint.properties,
+        )
+        for joint in robot.joints
+    ]
+    return links, joints
+
+
+def check_new_parts(space: Space, links: Iterable[Spawn], joints: Iterable[Join]) -> None:
+    """
+    Refuse parts whose names are taken.
+
+    :raises Exists: there is a body or joint of such a name
+    """
+    bodies = (link.name for link in links if link.name in space.bodies.by_name)
+    for name in (*bodies, *(each.name for each in joints if each.name in space.joints.by_name)):
+        raise Exists(f'the name {name} of a part of the robot is taken', field='name')
+
+
+def check_same_parts(old: Body, new: Body) -> None:
+    """
+    Refuse a change of the parts of a robot.
+
+    :raises BadProperty: there is one
+    """
+    if _parts(old.robot) != _parts(new.robot):
+        raise BadProperty(
+            f'the parts of {old.name} cannot be changed; delete it and spawn it again',
+            field='robot',
+        )
+
+
+def _parts(robot: Robot | None) -> tuple[object, object]:
+    return ((), ()) if robot is None else (robot.links, robot.joints)
+
+
+def members(space: Space, name: str) -> tuple[str, ...]:
+    """Return the names of a robot's body and parts that are there, of which a body is one."""
+    bodies = space.bodies.by_name
+    robot = name.removesuffix('/0').rpartition('/')[0]
+    for body in (name, robot):
+        rigid = bodies.get(body)
+        if rigid is not None and rigid.body.robot is not None:
+            found = (part_name(body, link.name) for link in rigid.body.robot.links)
+            names = body, *(each for each in found if each in bodies)
+            if name in names:
+                return names
+    return (name,)
+
+
+def all_members(space: Space, names: Iterable[str]) -> list[str]:
+    """Return the names of bodies, and those of the robots of which they are parts, each once."""
+    return [*dict.fromkeys(each for name in names for each in members(space, name))]
+
+
+def placed_with_parts(space: Space, poses: Mapping[str, Pose]) -> dict[str, Pose]:
+    """Return the poses of bodies that are set, and those of the parts that follow them."""
+    placed = dict(poses)
+    for leader, follower in _followers(space, poses):
+        to = poses[leader.body.name]
+        x, y = local_to_world(world_to_local(follower.pose[:2], leader.pose), to)
+        placed[follower.body.name] = x, y, follower.pose[2] + (to[2] - leader.pose[2])
+    return placed
+
+
+def moving_with_parts(space: Space, twists: Mapping[str, Twist]) -> dict[str, Twist]:
+    """Return the velocities of bodies that are set, and those of the parts that follow them."""
+    moving = dict(twists)
+    for leader, follower in _followers(space, twists):
+        vx, vy, spin = twists[leader.body.name]
+        dx, dy = follower.pm_body.position - leader.pm_body.position
+        moving[follower.body.name] = vx - spin * dy, vy + spin * dx, spin
+    return moving
+
+
+def _followers(space: Space, named: Mapping[str, object]) -> Iterator[tuple[RigidBody, RigidBody]]:
+    """Yield a named body, and a part of the same robot that is not named and follows it."""
+    bodies = space.bodies.by_name
+    done: set[str] = set()
+    for name in named:
+        names = members(space, name)
+        if names[0] in done:
+            continue
+        done.add(names[0])
+        leader = names[0] if names[0] in named else name
+        for each in names:
+            if each not in named:
+                yield bodies[leader], bodies[each]
+
+
+def _placed(at: Pose, origin: Pose) -> Pose:
+    return *local_to_world(at[:2], origin), origin[2] + at[2]

@@ -1,0 +1,83 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Water and air by the panels of the page: bodies float, and the wind blows."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+
+WORLD = """
+format: 1
+bounds: [-10, 0, 10, 9]
+gravity: [0, -9.81]
+bodies:
+  - {name: pool/0, box: {width: 8, height: 4}, at: [0, 2], anchored: true}
+  - {name: block/0, box: {width: 2, height: 0.8}, at: [0, 4.4], density: 1, elasticity: 0}
+  - {name: ball/0, circle: {radius: 0.3}, at: [-8, 0.3], mass: 0.5}
+"""
+
+
+@pytest.fixture(scope='module')
+def address(outside: Outside) -> str:
+    """Give the module the address of a world with a block on a box."""
+    return started_world(outside, world=WORLD)[1]
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page with the hand, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.begin(3)
+    sheet.press('Hand')
+    yield sheet
+    sheet.close()
+
+
+def type_number(sheet: Sheet, label: str, text: str) -> None:
+    """Type a number into the panel."""
+    field = sheet.page.get_by_label(f'{label}, typed', exact=True)
+    field.fill(text)
+    field.press('Enter')
+
+
+def test_a_body_becomes_water_and_a_block_floats_in_it(sheet: Sheet) -> None:
+    sheet.page.mouse.click(*sheet.place(2.0, 1.0))
+    sheet.page.get_by_label('Water: bodies float in it').check()
+    type_number(sheet, 'Density of the medium [kg/m²]', '4')
+    type_number(sheet, 'Viscosity [N s/m²]', '10')
+    sheet.play_until(5.0)
+    # A quarter of its height is under the level of 4 m.
+    assert sheet.pose('block/0') == pytest.approx([0.0, 4.2, 0.0], abs=1e-3)
+
+
+def test_a_pool_without_water_is_left_by_what_floated(sheet: Sheet) -> None:
+    sheet.page.mouse.click(*sheet.place(2.0, 1.0))
+    water = sheet.page.get_by_label('Water: bodies float in it')
+    water.check()
+    density = sheet.page.get_by_label('Density of the medium [kg/m²], typed', exact=True)
+    density.wait_for()
+    water.uncheck()
+    density.wait_for(state='hidden')
+    # It is a gate still: the block falls through it.
+    sheet.play_until(2.0)
+    assert sheet.pose('block/0')[1] == pytest.approx(0.4, abs=1e-3)
+
+
+def test_the_air_of_the_world_has_the_wind_that_is_typed(sheet: Sheet) -> None:
+    sheet.press('Material')
+    type_number(sheet, 'Viscosity of the air [N s/m²]', '2')
+    type_number(sheet, 'Wind to the right [m/s]', '3')
+    sheet.page.keyboard.press('Escape')
+    sheet.press('Material')
+    wind = sheet.page.get_by_label('Wind to the right [m/s], typed', exact=True)
+    sheet.until(lambda: wind.input_value() == '3', 'the wind that was typed')
+    sheet.play_until(1.0)
+    # Linear drag alone brings the ball to 3 m/s in a fraction of a second.
+    assert sheet.pose('ball/0')[0] > -8.0 + 1.0
