@@ -11,8 +11,9 @@ Pymunk does not wake bodies that overlap a static or kinematic body which is add
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+import itertools
+import math
 
-import numpy as np
 from physsim_ros.engine.body import reach_of, RigidBody, SEAM
 from physsim_ros.engine.warm_start import ShapeIds
 from physsim_ros.model.transform import Point
@@ -71,7 +72,7 @@ class BodySet:
         may have moved their bodies, but not in a space that is restored from a checkpoint.
         """
         if self._places is None:
-            self._places = _Places(list(self.by_name.values()))
+            self._places = _Places(self.by_name.values())
         found = [rigid for rigid in self._places.near(point) if rigid.covers(point)]
         return [rigid.body.name for rigid in sorted(found, key=lambda rigid: -rigid.serial)]
 
@@ -126,23 +127,43 @@ class BodySet:
 
 class _Places:
     """
-    The places of bodies, until one moves.
+    The places of bodies, until one moves: a hierarchical hash grid (Mirtich 1996).
+
+    A body is in the cell of its engine's origin, in the level whose cells are as wide as its
+    reach, or up to twice as wide.
 
     :param rigids: the bodies
     """
 
-    def __init__(self, rigids: Sequence[RigidBody]) -> None:
-        self._rigids = rigids
-        places = [(*rigid.pm_body.position, reach_of(rigid.body)) for rigid in rigids]
-        self._x, self._y, self._reach = np.array(places, np.float64).reshape(-1, 3).T.copy()
+    def __init__(self, rigids: Iterable[RigidBody]) -> None:
+        # By level, column and row.
+        self._cells: dict[tuple[int, int, int], list[tuple[float, float, float, RigidBody]]] = {}
+        for rigid in rigids:
+            x, y = rigid.pm_body.position
+            # A share for the rounding of places, 1 nm at 1 000 km.
+            reach = reach_of(rigid.body) * (1.0 + 1e-12) + SEAM + 1e-15 * (abs(x) + abs(y))
+            cell = _cell_of(x, y, math.frexp(reach)[1])
+            self._cells.setdefault(cell, []).append((x, y, reach, rigid))
+        self._levels = {level for level, _, _ in self._cells}
 
     def near(self, point: Point) -> Iterator[RigidBody]:
         """Yield the bodies that may cover a point of the world [m]."""
-        apart = np.hypot(self._x - point[0], self._y - point[1])
-        # A share for the rounding of places, 1 nm at 1 000 km.
-        slack = SEAM + 1e-15 * (abs(point[0]) + abs(point[1]))
-        for row in np.flatnonzero(apart <= self._reach * (1.0 + 1e-12) + slack).tolist():
-            yield self._rigids[row]
+        for level in self._levels:
+            _, column, row = _cell_of(*point, level)
+            for cell in itertools.product((level,), _around(column), _around(row)):
+                for x, y, reach, rigid in self._cells.get(cell, ()):
+                    if math.dist((x, y), point) <= reach:
+                        yield rigid
+
+
+def _cell_of(x: float, y: float, level: int) -> tuple[int, int, int]:
+    """Return level, column and row of a place [m]; a cell is 2 to the level wide [m]."""
+    return level, math.floor(math.ldexp(x, -level)), math.floor(math.ldexp(y, -level))
+
+
+def _around(number: int) -> range:
+    """Return a number and its neighbours."""
+    return range(number - 1, number + 2)
 
 
 def _is_anchored(shape: pymunk.Shape) -> bool:

@@ -1,20 +1,23 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""A file costs the world's thread what its length says, whatever it is full of."""
+"""A file costs the world's thread what its length says, whatever it is full of; so do steps."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+import gc
+import json
 import math
 import time
 from typing import Any
 
 from physsim_ros import Simulation
 from physsim_ros.files import load_mapping, state_from
+from physsim_ros.model.attraction import MOST_ATTRACTING
+from physsim_ros.model.robots.sensors.distance import MOST_BEAMS
 from physsim_ros.model.settings import WorldSettings
 import pytest
-import yaml
 
 pytestmark = pytest.mark.slow
 
@@ -22,58 +25,177 @@ pytestmark = pytest.mark.slow
 WHOLE, PART = 2**18, 2**16
 # CPU time of the whole by that of the part: 4 where work is proportional, 16 by the square.
 MOST = 8.0
+# CPU time of the part below which the ratio says nothing [s].
+LEAST = 0.05
+Entries = Iterator[tuple[str, dict[str, Any]]]
+TURNS = [math.tau * number / 1000 for number in range(1000)]
+ROUND = [[round(0.2 * math.cos(turn), 5), round(0.2 * math.sin(turn), 5)] for turn in TURNS]
+WAVE = [[round(0.06 * number, 2), round(math.sin(0.1 * number), 3)] for number in range(1000)]
 
 
-def disc(number: int, x: float, y: float, **more: Any) -> dict[str, Any]:
-    return {'name': f'b/{number}', 'circle': {'radius': 0.2}, 'at': [x, y], **more}
+def place(number: int) -> list[float]:
+    """Return a place in rows of 100, half a metre apart [m]."""
+    return [0.5 * (number % 100), 0.5 * (number // 100)]
 
 
-def row(number: int) -> Iterator[tuple[str, dict[str, Any]]]:
-    yield 'bodies', disc(number, 0.5 * number, 0.0)
+def disc(number: int, **more: Any) -> dict[str, Any]:
+    return {'name': f'b/{number}', 'circle': {'radius': 0.2}, 'at': place(number), **more}
 
 
-def joined(number: int) -> Iterator[tuple[str, dict[str, Any]]]:
-    x = 0.5 * number
-    yield from row(number)
-    ends = {'a': f'b/{number}', 'b': f'b/{max(number - 1, 0)}' if number else 'world'}
-    yield (
-        'joints',
-        {'name': f'j/{number}', 'kind': 'rod', **ends, 'points': [[x, 0], [x - 0.5, 0]]},
-    )
+def discs(number: int) -> Entries:
+    yield 'bodies', disc(number)
 
 
-def pinned(number: int) -> Iterator[tuple[str, dict[str, Any]]]:
-    yield from row(number)
-    yield 'joints', {'name': f'j/{number}', 'kind': 'pin', 'points': [[0.5 * number, 0.0]]}
+def polygons(number: int) -> Entries:
+    yield 'bodies', {'name': f'b/{number}', 'polygon': ROUND, 'at': place(number)}
 
 
-def text_of(entries: Callable[[int], Iterator[tuple[str, dict[str, Any]]]], length: int) -> str:
+def chains(number: int) -> Entries:
+    chain = {'points': WAVE, 'thickness': 0.05}
+    yield 'bodies', {'name': f'b/{number}', 'chain': chain, 'at': [0.0, 3.0 * number]}
+
+
+def notes(number: int) -> Entries:
+    yield 'bodies', disc(number, label='a\n' * 20, sensor=True, anchored=True)
+
+
+def forces(number: int) -> Entries:
+    yield 'bodies', disc(number, forces=[{'force': [0, 1], 'at': [0.1, 0.0]}] * 16)
+
+
+def belts(number: int) -> Entries:
+    yield 'bodies', disc(number, belt=1.0, anchored=True)
+
+
+def media(number: int) -> Entries:
+    """Yield a region and a body in it."""
+    more = {'anchored': True, 'sensor': True, 'medium': {'density': 2.0, 'gusts': 1.0}}
+    yield 'bodies', disc(number, **(more if number % 2 else {}))
+
+
+def attraction(number: int) -> Entries:
+    yield 'bodies', disc(number, **({} if number < MOST_ATTRACTING else {'sensor': True}))
+
+
+def robots(number: int) -> Entries:
+    yield 'bodies', disc(number, **({'robot': 'turtlebot4'} if number < 200 else {}))
+
+
+def lasers(number: int) -> Entries:
+    """Yield a robot of 64 scanners, as long as its topics are few enough."""
+    scans = [{'kind': 'laser', 'name': f's{each}', 'beams': MOST_BEAMS} for each in range(64)]
+    robot = {'drive': {'kind': 'omni'}, 'sensors': scans}
+    yield 'bodies', disc(number, **({'robot': robot} if number < 50 else {}))
+
+
+def paths(number: int) -> Entries:
+    actor = {'kind': 'path', 'points': WAVE, 'speed': 1.0}
+    yield 'bodies', disc(number, kinematic=True, actor=actor)
+
+
+def people(number: int) -> Entries:
+    actor = {'kind': 'social_force', 'points': [[1.0, 0.0], [5.0, 5.0]], 'repeat': 'loop'}
+    # As far apart as in a street: of a dense crowd all see all, up to its size.
+    x, y = place(number)
+    yield 'bodies', disc(number, actor=actor, at=[6.0 * x, 6.0 * y])
+
+
+def rods(number: int) -> Entries:
+    yield from discs(number)
+    ends = {'a': f'b/{number}', 'b': f'b/{number - 1}' if number else 'world'}
+    points = [place(number), place(max(number - 1, 0)) if number else [-1.0, 0.0]]
+    yield 'joints', {'name': f'j/{number}', 'kind': 'rod', **ends, 'points': points}
+
+
+def springs(number: int) -> Entries:
+    for which, entry in rods(number):
+        yield which, entry | ({'kind': 'spring'} if which == 'joints' else {})
+
+
+def pins(number: int) -> Entries:
+    """Yield a joint by hand, whose body is found at its point."""
+    yield from discs(number)
+    yield 'joints', {'name': f'j/{number}', 'kind': 'pin', 'points': [place(number)]}
+
+
+def pulleys(number: int) -> Entries:
+    """Yield a rope by hand over 62 wheels, which are found at its points."""
+    yield from discs(number)
+    if number >= 64 and number % 4 == 0:
+        points = [place(each) for each in range(number, number - 64, -1)]
+        yield 'joints', {'name': f'j/{number}', 'kind': 'rope', 'points': points}
+
+
+KINDS: list[Callable[[int], Entries]] = [
+    discs,
+    polygons,
+    chains,
+    notes,
+    forces,
+    belts,
+    media,
+    attraction,
+    robots,
+    lasers,
+    paths,
+    people,
+    rods,
+    springs,
+    pins,
+    pulleys,
+]
+
+
+def text_of(entries: Callable[[int], Entries], length: int) -> str:
     """Return the text of a file of a length, full of entries."""
     lists: dict[str, list[str]] = {'bodies': [], 'joints': []}
     number = size = 0
     while size < length:
         for name, entry in entries(number):
-            line = yaml.safe_dump([entry], default_flow_style=True, width=math.inf)[1:-2]
-            lists[name].append(f'- {line}\n')
-            size += len(line) + 3
+            line = f'- {json.dumps(entry)}\n'
+            lists[name].append(line)
+            size += len(line)
         number += 1
+    air = 'gravitation: 0.001\n' if entries is attraction else ''
     parts = (f'{name}:\n{"".join(lines)}' for name, lines in lists.items() if lines)
-    return f'format: 1\ngravity: [0, 0]\n{"".join(parts)}'
+    return f'format: 1\ngravity: [0, 0]\nfloor_friction: 0.5\n{air}{"".join(parts)}'
 
 
-@pytest.mark.parametrize('entries', [row, joined, pinned])
-def test_a_file_four_times_as_long_takes_some_four_times_as_long(
-    entries: Callable[[int], Iterator[tuple[str, dict[str, Any]]]],
-) -> None:
-    took = []
-    for length in (PART, WHOLE):
-        text = text_of(entries, length)
+def costs_of(entries: Callable[[int], Entries], length: int) -> dict[str, float]:
+    """Return the CPU time of each thing that is done with a file of a length [s]."""
+    costs: dict[str, float] = {}
+
+    def note(what: str, act: Callable[[], Any]) -> Any:
         began = time.thread_time()
-        content = load_mapping(text, field='world')
-        world = Simulation()
-        world.begin(state_from(content, WorldSettings(), 240.0))
-        world.advance_frame()
-        world.past.cursor.add_keyframe()
-        took.append(time.thread_time() - began)
-    print(f'{entries.__name__}: {took[0]:.2f}, {took[1]:.2f} s')  # noqa: T201 - for the log
-    assert took[1] < MOST * took[0]
+        found = act()
+        costs[what] = time.thread_time() - began
+        return found
+
+    text, world = text_of(entries, length), Simulation()
+    content = note('text', lambda: load_mapping(text, field='world'))
+    state = note('bodies and joints', lambda: state_from(content, WorldSettings(), 240.0))
+    note('world', lambda: world.begin(state))
+    world.advance_frame()
+    note('frame', world.advance_frame)
+    note('checkpoint', world.past.cursor.add_keyframe)
+    return costs
+
+
+@pytest.fixture(autouse=True)
+def collected() -> Iterator[None]:
+    """Have no garbage of other tests collected while a cost is measured."""
+    gc.collect()
+    gc.disable()
+    yield
+    gc.enable()
+
+
+@pytest.mark.parametrize('entries', KINDS)
+def test_a_file_four_times_as_long_takes_some_four_times_as_long(
+    entries: Callable[[int], Entries],
+) -> None:
+    part, whole = (costs_of(entries, length) for length in (PART, WHOLE))
+    row = ', '.join(f'{what} {1e3 * took:.0f} ms' for what, took in whole.items())
+    print(f'{entries.__name__}: {row}')  # noqa: T201 - the table
+    for what, took in whole.items():
+        assert took < MOST * max(part[what], LEAST), what

@@ -120,8 +120,7 @@ class JointSet:
 
     def clear(self) -> None:
         """Remove all joints from the engine, before its bodies are used in another space."""
-        # The last one first, which is the first in Chipmunk's list of those of the background.
-        self._pm_space.remove(*reversed(self._constraints()))
+        self._take_out()
         self._drop_table()
         self._totals.clear()
         self.commands.clear()
@@ -129,6 +128,14 @@ class JointSet:
         self.by_name.clear()
         self._on.clear()
         self._serials.clear()
+
+    def __del__(self) -> None:
+        """Remove all joints before Pymunk frees the space: it takes the square of their number."""
+        self._take_out()
+
+    def _take_out(self) -> None:
+        # The last one first, which is the first in Chipmunk's list of those of the background.
+        self._pm_space.remove(*reversed(self._constraints()))
 
     def check(self, names: Iterable[str]) -> None:
         """Make what steps need of joints, so that an error in it refuses the request for them."""

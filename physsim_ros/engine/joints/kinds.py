@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import chain, pairwise
 import math
 from typing import NamedTuple
 
@@ -225,7 +225,7 @@ def _rod(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
 def _own(kind: int, ends: Ends, row: Row) -> Part:
     """Return a row that no constraint of Chipmunk has: a motor without torque has its impulse."""
-    bodies = [ends.a, ends.b, *(guide.body for guide in ends.guides)]
+    bodies = chain((ends.a, ends.b), (guide.body for guide in ends.guides))
     moved = next(body for body in bodies if body.body_type == pymunk.Body.DYNAMIC)
     other = ends.b if ends.b is not moved else ends.a
     motor = pymunk.SimpleMotor(moved, other, 0.0)
