@@ -54,6 +54,11 @@ class BuildCore(build_ext):
     The compiler and the flags of which Python was made are not: there is no Python in it.
     """
 
+    def finalize_options(self) -> None:
+        """Note whether the core is for the source tree; setuptools forgets it while it compiles."""
+        super().finalize_options()
+        self.is_for_source_tree = bool(self.inplace)
+
     def build_extensions(self) -> None:
         """Choose the compiler, and compile."""
         compiler = COMPILER['machine_compiler']()
@@ -67,7 +72,7 @@ class BuildCore(build_ext):
         # The C library that zig builds for itself, 60 MB: elsewhere it would be in the home.
         os.environ.setdefault('ZIG_GLOBAL_CACHE_DIR', str(Path(self.build_temp, 'zig').resolve()))
         # What runs from the source tree, as the tests do, checks the promises that code relies on.
-        checks = [] if self.inplace or self.editable_mode else ['-DNDEBUG']
+        checks = [] if self.is_for_source_tree or self.editable_mode else ['-DNDEBUG']
         flags = [*FLAGS, *checks, *_environment('CPPFLAGS'), *_environment('CFLAGS')]
         self.compiler.set_executables(
             compiler_so=[*compiler, '-fPIC', *flags],

@@ -46,11 +46,12 @@ class BodyProperties(TypedDict, total=False):
     sensor: bool
     surface_velocity: Numbers
     belt: float
-    charge: float
-    medium: Mapping[str, Any] | None
     robot: str | Mapping[str, Any]
+    towed: bool
     actor: Mapping[str, Any]
     forces: Sequence[Mapping[str, Any]]
+    charge: float
+    medium: Mapping[str, Any] | None
     label: str
 
 
