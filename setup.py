@@ -55,7 +55,7 @@ class BuildCore(build_ext):
     """
 
     def finalize_options(self) -> None:
-        """Note whether the core is for the source tree; setuptools forgets it while it compiles."""
+        """Note whether the core is for the source tree: setuptools forgets it as it compiles."""
         super().finalize_options()
         self.is_for_source_tree = bool(self.inplace)
 

@@ -60,7 +60,7 @@ static double position_of(const World *world, const Motor *motor) {
 static void obey(const World *world, const Motor *motor, double *rate, double *most) {
     double dt = world->dt;
     // Chipmunk moves bodies before it solves: a rate acts from the end of this sub-step on.
-    double time = ((double)(world->step - motor->begun) * SUB_STEPS + world->own->sub_step + 1) * dt;
+    double time = (double)((world->step - motor->begun) * SUB_STEPS + world->own->sub_step + 1) * dt;
     double value = command_at(motor, time);
     switch (motor->mode) {
     case COMMAND_POSITION:
