@@ -71,7 +71,7 @@ class BuildCore(build_ext):
             compiler = COMPILER['zig_compiler']()
         # The C library that zig builds for itself, 60 MB: elsewhere it would be in the home.
         os.environ.setdefault('ZIG_GLOBAL_CACHE_DIR', str(Path(self.build_temp, 'zig').resolve()))
-        # What runs from the source tree, as the tests do, checks the promises that code relies on.
+        # A core for the source tree, with which the tests run, checks its promises by `assert`.
         checks = [] if self.is_for_source_tree or self.editable_mode else ['-DNDEBUG']
         flags = [*FLAGS, *checks, *_environment('CPPFLAGS'), *_environment('CFLAGS')]
         self.compiler.set_executables(

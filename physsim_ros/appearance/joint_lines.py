@@ -106,7 +106,7 @@ class JointGlyphs:
         self._seats = _drawn_seats(scene)
         self._rope_lengths = np.array(
             [
-                # What a winch has wound in is not slack.
+                # A winch keeps its rope taut.
                 joint.rest_length
                 if joint.kind is JointKind.ROPE and not joint.properties.rate
                 else 0.0

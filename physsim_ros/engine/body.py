@@ -238,7 +238,7 @@ def build(body: Body, serial: int) -> RigidBody:
         # Groups of the engine are unsigned.
         shape.filter = pymunk.ShapeFilter(group=body.group % 2**32)
         if body.medium is not None:
-            # What lies in a region does not touch it.
+            # A region has no contacts with the bodies in it.
             shape.filter = NOTHING
     return rigid
 

@@ -294,7 +294,7 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
         'break_force': 30.0,
         'collide': rng.random() < 0.5,
     }
-    # What a rope passes is at its points.
+    # A rope has a guide at each of its inner points.
     known = [name for name in kind.schema.properties if name in said]
     names = [name for name in known if rng.random() < 0.3]
     return JointProperties(**{name: said[name] for name in names})

@@ -311,5 +311,5 @@ class JointSet:
 
 
 def _reference(joint: Joint) -> tuple[object, ...]:
-    """Return what bounds that have moved count from."""
+    """Return the fields of a joint from which its bounds, where they move, began."""
     return joint.kind, joint.a, joint.b, joint.seat, joint.guides, joint.rest_length

@@ -239,7 +239,9 @@ def _path(joint: Joint, ends: Ends) -> tuple[Part, ...]:
 
     The row of its last piece has what a winch winds in, and what it is longer than drawn.
     """
-    passed = sum(each.span + arc(*each[2:3], *each[4:6]) for each in ends.guides)
+    passed = sum(
+        each.span + arc(each.radius, each.heading_in, each.heading_out) for each in ends.guides
+    )
     end = EngineGuide(ends.b, ends.at_b, span=joint.seat.length - passed)
     stops = [EngineGuide(ends.a, ends.at_a), *ends.guides, end]
     wheels = [
@@ -250,7 +252,7 @@ def _path(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     spans = [
         (*stops[first:last], stops[last]) for first, last in pairwise((0, *wheels, len(stops) - 1))
     ]
-    # What a wheel has wound up from a point of its rim neither moves nor stretches.
+    # A piece with both ends on one wheel lies on the rim, and neither moves nor stretches.
     pieces = [span for span in spans if len({stop.body for stop in span}) > 1]
     rows = [
         Row(lib.ROW_PATH, 0.0, sum(stop.span for stop in piece[1:]), guides=piece)

@@ -110,7 +110,7 @@ def _check_role(body: Body) -> None:
         raise BadProperty(f'{body.name} has a drive; a link of it can be towed', field='towed')
     if body.robot.drive is None and body.actor is not None:
         raise BadProperty(f'{body.name} is a robot without a drive; it is no actor', field='actor')
-    # What has no wheels may stand fast, as an arm does.
+    # A robot without wheels may stand fast, as an arm does.
     roles = ('sensor',) if body.robot.drive is None else ('anchored', 'kinematic', 'sensor')
     for role in roles:
         if getattr(body, role):

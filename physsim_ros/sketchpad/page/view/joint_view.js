@@ -70,7 +70,7 @@ export class JointView {
         break;
       case 'rope':
         if (joint.guides) this.#path(joint);
-        // What a winch has wound in is not slack.
+        // A winch keeps its rope taut.
         else this.#rope(p, q, joint.rate ? 0 : joint.rest_length * this.camera.scale);
         this.#ends(p, q, ground);
         break;
