@@ -120,8 +120,8 @@ class Seat(NamedTuple):
 
     ax, ay [m]: anchor point in the frame of a; bx, by [m]: the same in the frame of b; ux, uy:
     unit vector of the axis of a slider or a rack in the frame of b; phase [rad]: angle of b times
-    ratio minus angle of a; length [m]: distance of the two points. Box2D: localAnchorA, localAnchorB,
-    localAxis, referenceAngle, length.
+    ratio minus angle of a; length [m]: distance of the two points. Box2D: localAnchorA,
+    localAnchorB, localAxis, referenceAngle, length.
     """
 
     ax: float
