@@ -154,6 +154,7 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
         own[row]['lever'] = lever_of(forms[row]) if wheels is None else wheels.lever
     own['towed'] = [body.towed is not None for body in bodies]
     own['belt'] = [body.belt for body in bodies]
+    own['rolling'] = [body.rolling_resistance for body in bodies]
     own['surface'][:] = [body.surface_velocity for body in bodies] or np.empty((0, 2))
     # The background has no inner radius: what meets its walls counts alone.
     records[-1]['anchored'], records[-1]['safe_depth'] = True, math.inf

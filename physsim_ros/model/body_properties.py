@@ -101,6 +101,12 @@ class Properties(Checked):
         'velocity of its surface along its outline, counter-clockwise, as that of a belt seen '
         'from the side',
     ] = None
+    rolling_resistance: Annotated[
+        float | None,
+        Within(0.0, 10.0),
+        'coefficient c of what rolls, a disc or what it rolls on, the greater of the two: at its '
+        'rim, a force of c times the load resists it',
+    ] = None
     robot: Annotated[
         Robot | None,
         Robot.from_value,

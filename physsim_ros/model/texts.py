@@ -43,6 +43,7 @@ EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
     'sensor': ('trigger', 'ghost', 'detector', 'is_trigger'),
     'surface_velocity': ('conveyor', 'conveyor_velocity'),
     'belt': ('belt_speed', 'tread', 'surface_speed'),
+    'rolling_resistance': ('rolling_friction', 'crr', 'roll'),
     'robot': ('vehicle', 'drive'),
     'towed': ('trailer', 'wheels', 'caster', 'cart'),
     'actor': ('path', 'trajectory', 'waypoints', 'tween', 'walk', 'pedestrian', 'behavior'),

@@ -46,6 +46,7 @@ class BodyProperties(TypedDict, total=False):
     sensor: bool
     surface_velocity: Numbers
     belt: float
+    rolling_resistance: float
     robot: str | Mapping[str, Any]
     towed: bool
     actor: Mapping[str, Any]

@@ -89,6 +89,7 @@ typedef struct Body {
     double floor_friction; // coefficient of friction with the floor; 0 where none acts
     double lever;          // mean distance of the points that bear it on the floor [m]
     double belt;           // velocity of its surface along its outline, counter-clockwise [m/s]
+    double rolling;        // coefficient of rolling resistance
     cpVect surface;        // velocity of the surface of a conveyor, in the body's axes [m/s]
     BodyState state;
     BodyScratch scratch;

@@ -56,6 +56,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     time_impacts(world);
     defer_contacts(world);
     solve_impacts(world);
+    find_rolls(world);
     find_joint_islands(world);
 }
 
@@ -73,9 +74,11 @@ static void step(World *world) {
     prepare_parts(world);
     command_motors(world);
     keep_twists(world);
+    begin_rolling(world);
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
+    end_rolling(world);
     keep_fields(world);
     find_leads(world);
     forgive_trembling(world);

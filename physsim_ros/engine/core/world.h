@@ -20,6 +20,9 @@ static const double standard_gravity = 9.81;
 typedef struct Private {
     Arena arena;
     cpConstraint *hook;
+    cpConstraintClass *hook_class, rolling_class; // its own class, and that within a step (`rolling.c`)
+    struct Roll *rolls;                           // of this step
+    int roll_count;
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;

@@ -110,6 +110,9 @@ def body_entry(body: Body) -> dict[str, Any]:
         'group': body.group,
         'label': body.label,
         **({'belt': body.belt} if body.belt else {}),
+        **(
+            {'rolling_resistance': body.rolling_resistance} if body.rolling_resistance else {}
+        ),
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
         **({} if body.actor is None else {'actor': body.actor.entry()}),
         **({} if body.medium is None else {'medium': body.medium.entry()}),
