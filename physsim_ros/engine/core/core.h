@@ -226,6 +226,7 @@ enum {
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
     ROW_ALONG,    // way of the first anchor along that axis [m]
+    ROW_ROLL,     // the same, and radius (yaw_a - yaw_b) [m]
     ROW_PATH      // length of a rope on its way past its guides [m]
 };
 
@@ -308,8 +309,8 @@ typedef struct Part {
 typedef struct Joint {
     double anchor_a[2]; // in the frame of the first body, its origin the centre of mass [m]
     double anchor_b[2]; // the same in the frame of the second
-    double axis[2];     // unit vector of a slider in the frame of the second body
-    double ratio;       // of a gear
+    double axis[2];     // unit vector of a slider or a rack in the frame of the second body
+    double ratio;       // of a gear; of a rack, the radius of its pinion [m]
     double most;        // impulse in a step beyond which it breaks [N s, N m s]
     uint8_t has_axis;   // the direction from its first to its second point is an axis of the second body
     uint8_t presses;    // its first part may push the bodies apart
