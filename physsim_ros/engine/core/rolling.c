@@ -7,24 +7,32 @@
 // Method: at each contact of a disc, a torque of any size up to c r N stops the spin of the two bodies against each
 // other: c is the greater coefficient of the two, r the radius, N the load (rolling friction of Box2D 3.1; the load
 // acts c r ahead of the centre). It is a row of Chipmunk's iterations, after the contacts, which bound it by their
-// loads of the moment. Before the first iteration it is solved once with the loads of the step before: a disc at rest
-// on a slope is then in balance from the start. Munk2D has no hook in its iterations but that of constraints: the class
-// of the hook constraint is replaced within a step. Law: a disc of radius of gyration k rolls on for v² (1 + k²/r²) /
-// (2 c g), a cart of light wheels for v² / (2 c g), and both stand on slopes below c. Cost: 5 ns a contact, where no
-// body has it 1 ns. Without it law 75 (rolling resistance) fails.
+// loads of the moment; the contacts of jointed bodies have theirs in the joint solver (`joint_islands.c`). Before the
+// first iteration it is solved once with the loads of the step before: a disc at rest on a slope is then in balance
+// from the start. Munk2D has no hook in its iterations but that of constraints: the class of the hook constraint is
+// replaced within a step. Law: a disc of radius of gyration k rolls on for v² (1 + k²/r²) / (2 c g), a cart of light
+// wheels for v² / (2 c g), and both stand on slopes below c. Cost: 5 ns a contact, where no body has it 1 ns. Without
+// it law 75 (rolling resistance) fails.
 
 #include "outline.h"
 #include "stages.h"
 
 typedef struct Roll {
     const cpArbiter *arbiter;
-    double lever;   // c r [m]
+    double arm;     // c r [m]
     double inverse; // of the moments of inertia [1/(kg m²)]
     double impulse; // on the second body [N m s]
 } Roll;
 
 static double round_radius(const cpShape *shape) {
     return kind_of(shape) == SHAPE_CIRCLE ? radius_of(shape) : 0.0;
+}
+
+double rolling_arm(const cpArbiter *arbiter) {
+    double a = body_of(arbiter->body_a)->rolling, b = body_of(arbiter->body_b)->rolling;
+    double inverse = arbiter->body_a->i_inv + arbiter->body_b->i_inv;
+    double radius = greatest(round_radius(arbiter->a), round_radius(arbiter->b));
+    return inverse > 0.0 ? greatest(a, b) * radius : 0.0;
 }
 
 static void resist(cpConstraint *hook, double dt) {
@@ -37,12 +45,18 @@ static void resist(cpConstraint *hook, double dt) {
         for (int point = 0; point < arbiter->count; point++) {
             load += arbiter->contacts[point].jnAcc;
         }
-        double most = roll->lever * greatest(load, 0.0), former = roll->impulse;
+        double most = roll->arm * greatest(load, 0.0), former = roll->impulse;
         double stopped = former - (arbiter->body_b->w - arbiter->body_a->w) / roll->inverse;
         roll->impulse = clamped(stopped, -most, most);
         arbiter->body_a->w -= (roll->impulse - former) * arbiter->body_a->i_inv;
         arbiter->body_b->w += (roll->impulse - former) * arbiter->body_b->i_inv;
     }
+}
+
+// Whether the joint solver has the row of a contact.
+static bool is_borne(const World *world, const cpArbiter *arbiter) {
+    const bool *bearers = world->own->bearers;
+    return bearers != NULL && (bearers[place_of(world, arbiter->body_a)] || bearers[place_of(world, arbiter->body_b)]);
 }
 
 void find_rolls(World *world) {
@@ -51,12 +65,9 @@ void find_rolls(World *world) {
     own->roll_count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         const cpArbiter *arbiter = arbiter_at(world, number);
-        const Body *a = body_of(arbiter->body_a), *b = body_of(arbiter->body_b);
-        double resistance = greatest(a->rolling, b->rolling);
-        double inverse = arbiter->body_a->i_inv + arbiter->body_b->i_inv;
-        if (resistance > 0.0 && inverse > 0.0) {
-            double radius = greatest(round_radius(arbiter->a), round_radius(arbiter->b));
-            own->rolls[own->roll_count++] = (Roll){arbiter, resistance * radius, inverse, 0.0};
+        double arm = rolling_arm(arbiter), inverse = arbiter->body_a->i_inv + arbiter->body_b->i_inv;
+        if (arm > 0.0 && !is_borne(world, arbiter)) {
+            own->rolls[own->roll_count++] = (Roll){arbiter, arm, inverse, 0.0};
         }
     }
 }
@@ -67,6 +78,7 @@ void begin_rolling(World *world) {
     world->own->rolling_class.applyCachedImpulse = world->own->rolling_class.applyImpulse = resist;
     world->own->hook->klass = &world->own->rolling_class;
     world->own->roll_count = 0;
+    world->own->bearers = NULL;
 }
 
 void end_rolling(World *world) {

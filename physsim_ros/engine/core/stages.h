@@ -47,6 +47,8 @@ void command_motors(World *world);
 
 // Have Chipmunk's solver resist rolling, until the step ends (`rolling.c`).
 void begin_rolling(World *world);
+// How far ahead of a disc the load of a contact acts where it rolls; 0 is where nothing rolls [m].
+double rolling_arm(const cpArbiter *arbiter);
 void end_rolling(World *world);
 
 // Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that roll

@@ -56,8 +56,8 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     time_impacts(world);
     defer_contacts(world);
     solve_impacts(world);
-    find_rolls(world);
     find_joint_islands(world);
+    find_rolls(world);
 }
 
 static void step(World *world) {

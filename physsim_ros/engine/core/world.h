@@ -36,6 +36,7 @@ typedef struct Private {
     struct Load *loads; // of the contacts of this step
     int load_count;
     struct Islands *joint_islands; // of this step
+    bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
     int call_step;                 // number of the step in this call
     int sub_step;                  // number of the sub-step in this step
     struct Report *report;
