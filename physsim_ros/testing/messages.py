@@ -47,6 +47,8 @@ class BodyProperties(TypedDict, total=False):
     surface_velocity: Numbers
     belt: float
     rolling_resistance: float
+    one_way: Numbers
+    closed_sides: bool
     robot: str | Mapping[str, Any]
     towed: bool
     actor: Mapping[str, Any]
