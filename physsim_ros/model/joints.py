@@ -77,6 +77,8 @@ class Schema:
     :param words: everyday words for it; those of Box2D, Pymunk and URDF among them
     :param least_distance: between its two points [m]; 0 is no such rule
     :param has_axis: whether the direction from its first to its second point is an axis of body b
+    :param rolls: whether the line through its second point, across that from its first, is an
+        axis of body b, along which a rolls
     :param along_line: whether its force is along the line between its two points, where a knife
         can cut it
     """
@@ -87,6 +89,7 @@ class Schema:
     words: tuple[str, ...] = ()
     least_distance: float = 0.0
     has_axis: bool = False
+    rolls: bool = False
     along_line: bool = False
     passes: bool = False
 
@@ -191,6 +194,17 @@ class JointKind(StrEnum):
             'couples the rotations of `a` and `b`',
             own=('ratio', 'phase', 'carrier'),
             words=('cog', 'gears', 'planetary', 'epicyclic'),
+        ),
+    )
+    RACK = (
+        'rack',
+        Schema(
+            2,
+            'a pinion: `a` rolls about its first point, without slipping, on the straight rack of '
+            '`b` through its second, across the line between them',
+            words=('rack_and_pinion', 'pinion', 'rolling', 'toothed_rack'),
+            least_distance=SMALLEST,
+            rolls=True,
         ),
     )
 
