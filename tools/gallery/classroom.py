@@ -47,6 +47,8 @@ def draw_class(path: Path) -> None:
         found = [re.search(r'http\S+', program.wait_for('/login?token=')) for _ in range(2)]
         pupils, teacher = (match[0] for match in found if match)
         browser = launched_chromium(closing.enter_context(sync_playwright()))
+        # While a teacher watches, pupils can raise a hand.
+        overview = Sheet(browser, teacher)
         sheets = {name: come(browser, pupils, name) for name in PUPILS}
         for name, sheet in sheets.items():
             if name in ANSWERS:
@@ -58,7 +60,6 @@ def draw_class(path: Path) -> None:
                 sheet.play_until(PUPILS[name])
             if name == RUNNING:
                 sheet.press('Play')
-        overview = Sheet(browser, teacher)
         overview.page.get_by_text(f'{len(PUPILS)} of {len(PUPILS)} here').wait_for()
         # The pictures of worlds come one after the other.
         overview.page.wait_for_timeout(5000)

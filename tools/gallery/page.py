@@ -149,9 +149,10 @@ class Film:
         sheet.page.wait_for_timeout(500)
         self.shoot()
         self._drag(line(body, (x + by[0], y + by[1])), every=2)
-        # A tap beside the bodies chooses none, and closes the panel, which gives the view back.
+        # A tap beside the bodies chooses none, and closes the panel.
         sheet.drag(beside)
         sheet.page.wait_for_timeout(500)
+        sheet.press('Frame the world')
         self.shoot()
 
     def save(self, path: Path) -> None:
@@ -161,7 +162,7 @@ class Film:
         times = [1000 // RATE] * len(self.pictures)
         times[0] = times[-1] = REST
         first.save(
-            path, save_all=True, append_images=others, duration=times, loop=0, quality=60, method=6
+            path, save_all=True, append_images=others, duration=times, loop=0, quality=60, method=4
         )
 
     def _drag(self, stroke: Stroke, *, every: int) -> None:
