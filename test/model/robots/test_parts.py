@@ -32,7 +32,7 @@ GEAR = {**JOINT, 'name': 'g', 'kind': 'gear', 'ratio': 2.0}
         ([{**LINK, 'name': 'a/b'}], [JOINT], BadProperty, 'name'),
         ([{**LINK, 'circle': {'radius': 1}}], [JOINT], BadProperty, 'shape'),
         ([{**LINK, 'drive': {}}], [JOINT], UnknownProperty, 'drive'),
-        ([LINK], [{**JOINT, 'stiffness': 3}], UnknownProperty, 'stiffness'),
+        ([LINK], [{**JOINT, 'rest_length': 3}], UnknownProperty, 'rest_length'),
         ([LINK], [{**JOINT, 'kind': 'hook'}], BadProperty, 'kind'),
         ([LINK], [{**JOINT, 'effort': -1}], BadProperty, 'effort'),
         ([LINK], [{**SLIDER, 'effort': 3, 'rate': 1}], BadProperty, 'effort'),
