@@ -19,6 +19,7 @@ from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import BadProperty, no_frame
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
+from physsim_ros.model.robots import part_name, whole_of
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import contain_each, contains_each, extent_of
@@ -91,6 +92,22 @@ class SceneQuery:
     def body(self, name: str) -> Body:
         """Return the description of a body."""
         return self.snapshot.scene.bodies[self._rows[name]]
+
+    def whole(self, name: str) -> str:
+        """Return the name of the robot of which a body is a part, else that of the body."""
+        return whole_of(name, lambda each: self.body(each).robot if each in self._rows else None)
+
+    def parts(self, robot: str) -> tuple[str, ...]:
+        """Return the names of the links of a robot that are there; of another body none."""
+        mapping = self.body(robot).robot
+        names = () if mapping is None else (part_name(robot, each.name) for each in mapping.links)
+        return tuple(name for name in names if name in self._rows)
+
+    def joints_of_robot(self, name: str) -> frozenset[str]:
+        """Return the names of the joints of a robot; of another body none."""
+        mapping = self.body(name).robot
+        joints = () if mapping is None else mapping.joints
+        return frozenset(part_name(name, each.name) for each in joints)
 
     def pose(self, name: str) -> Pose:
         """Return x, y [m] and yaw [rad] of a body's origin."""

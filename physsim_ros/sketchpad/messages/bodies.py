@@ -105,8 +105,8 @@ def place(page: PageSession, origin: Origin, names: tuple[str, ...], poses: list
 
 @message('copy', '~/spawn', name=fields.text, to=fields.point)
 def copy(page: PageSession, origin: Origin, name: str, to: Point) -> None:
-    """Add a body like another one, at rest, at a point [m]."""
-    page.submit(origin, (page.drawing.copy(name, to, page.world.current_snapshot()),))
+    """Add a body like another one, of a part the whole robot, at rest, at a point [m]."""
+    page.submit(origin, page.drawing.copy(name, to, page.world.current_snapshot()))
 
 
 @message('copy_machine', '~/spawn', names=fields.names, by=fields.point)
