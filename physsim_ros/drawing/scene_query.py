@@ -127,6 +127,8 @@ class SceneQuery:
         """
         Return the names of the bodies that cover a point, the last spawned (topmost) first.
 
+        Regions of media come after what is in them.
+
         :param point: in the world [m]
         :param slack: the greatest distance of the point from a body that still covers it [m]
         """
@@ -137,6 +139,8 @@ class SceneQuery:
         poses = self.snapshot.poses[rows]
         local = rotated_each(point - poses[:, :2], -poses[:, 2])
         covering = rows[contain_each(forms, local[:, 0], local[:, 1], slack)]
+        bodies = self.snapshot.scene.bodies
+        covering = sorted(covering, key=lambda row: bodies[row].medium is not None)
         return tuple(self.names[row] for row in covering)
 
     def bodies_along(self, start: Point, end: Point) -> tuple[str, ...]:

@@ -68,13 +68,16 @@ class BodySet:
         """
         Return the bodies that cover a point of the world [m], the highest serial first.
 
+        Regions of media come after what is in them.
+
         Pymunk's own query knows shapes where the last step has compared them; since then stages
         may have moved their bodies, but not in a space that is restored from a checkpoint.
         """
         if self._places is None:
             self._places = _Places(self.by_name.values())
         found = [rigid for rigid in self._places.near(point) if rigid.covers(point)]
-        return [rigid.body.name for rigid in sorted(found, key=lambda rigid: -rigid.serial)]
+        found.sort(key=lambda rigid: (rigid.body.medium is not None, -rigid.serial))
+        return [rigid.body.name for rigid in found]
 
     def count_near(
         self,
