@@ -22,6 +22,8 @@ from physsim_ros.model.scene import Joint
 # Turns of a coil; corners of a turn of it, of a circle, of a rope.
 _COILS, _COIL_STEPS, _CIRCLE, _ROPE = 7, 8, 16, 12
 _TEETH = 8
+# Turns of the spiral of a torsion spring.
+_SPIRAL = 3
 # Half the length of the track of a slider without limits [half sizes of its symbol].
 _TRACK = 8.0
 
@@ -68,7 +70,7 @@ def joint_strips(joint: Joint, size: float) -> list[Strip]:
             corners = ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
             return [[Corner(arm=(size * x, size * y)) for x, y in corners]]
         case JointKind.AXLE:
-            return [_circle(size)]
+            return [_circle(size), *([_spiral(size)] if joint.stiffness else [])]
         case JointKind.MOTOR:
             return [_circle(size), *_arrow(2 * size, math.copysign(1.0, joint.number('rate')))]
         case JointKind.SPRING:
@@ -99,6 +101,15 @@ def _circle(radius: float, at: float = 0.0) -> Strip:
         Corner(at, arm=(radius * math.cos(angle), radius * math.sin(angle)), on_b=at > 0)
         for angle in angles
     ]
+
+
+def _spiral(size: float) -> Strip:
+    """Return the spiral of a torsion spring, which turns with its body a."""
+    corners = []
+    for number in range(_SPIRAL * _CIRCLE + 1):
+        angle, reach = math.tau * number / _CIRCLE, size * (1.0 + number / _CIRCLE / 2.0)
+        corners.append(Corner(arm=(reach * math.cos(angle), reach * math.sin(angle))))
+    return corners
 
 
 def _wheel(radius: float, at: float = 0.0) -> Strip:

@@ -140,8 +140,8 @@ class SceneQuery:
         local = rotated_each(point - poses[:, :2], -poses[:, 2])
         covering = rows[contain_each(forms, local[:, 0], local[:, 1], slack)]
         bodies = self.snapshot.scene.bodies
-        covering = sorted(covering, key=lambda row: bodies[row].medium is not None)
-        return tuple(self.names[row] for row in covering)
+        ordered = sorted(covering.tolist(), key=lambda row: bodies[row].medium is not None)
+        return tuple(self.names[row] for row in ordered)
 
     def bodies_along(self, start: Point, end: Point) -> tuple[str, ...]:
         """

@@ -18,7 +18,6 @@ from physsim_ros.engine.settings import COLLISION_SLOP, SLOP_SHARE
 from physsim_ros.model.actors import Pedestrian
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.attraction import attracts
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.media import gust_waves
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
@@ -216,7 +215,7 @@ def _mark_sprung(records: Table, joints: Sequence[Joint], rows: dict[str, int]) 
         for one, other in ((a, b), (b, a)):
             if dynamic[one] and not dynamic[other]:
                 hung.add(root(one))
-            if dynamic[one] and joint.kind is JointKind.SPRING:
+            if dynamic[one] and joint.is_elastic:
                 springy.add(root(one))
                 records[one]['on_spring'] = True
     sprung = hung & springy

@@ -112,9 +112,24 @@ class JointKind(StrEnum):
         'axle',
         Schema(
             1,
-            'lets them turn about the point, as a `ratchet` one way; limits are angles',
-            own=('lower', 'upper', 'ratchet', 'effort', 'max_speed', 'gain'),
-            words=('hinge', 'revolute', 'continuous', 'pivot', 'bolt', 'ratchet', 'freewheel'),
+            'lets them turn about the point, as a `ratchet` one way; with `stiffness` it has a '
+            'torsion spring; limits are angles',
+            own=(
+                'lower',
+                'upper',
+                'ratchet',
+                'friction',
+                'stiffness',
+                'damping',
+                'rest_angle',
+                'effort',
+                'max_speed',
+                'gain',
+            ),
+            words=(
+                *('hinge', 'revolute', 'continuous', 'pivot', 'bolt', 'ratchet', 'freewheel'),
+                *('bearing', 'torsion_spring', 'rotary_spring', 'damped_rotary_spring'),
+            ),
         ),
     )
     MOTOR = (
@@ -163,7 +178,7 @@ class JointKind(StrEnum):
         Schema(
             2,
             'lets `a` slide along a line fixed to `b`, without rotating; with `rate` it is driven',
-            own=('lower', 'upper', 'rate', 'effort', 'max_speed', 'gain'),
+            own=('lower', 'upper', 'friction', 'rate', 'effort', 'max_speed', 'gain'),
             words=('prismatic', 'groove', 'rail', 'piston'),
             least_distance=SMALLEST,
             has_axis=True,
@@ -265,11 +280,30 @@ class JointProperties(Checked):
         'rate at which that motor closes the way to a commanded position, by that way',
         20.0,
     ] = None
-    stiffness: Annotated[float | None, Within(0.0, HEAVIEST, 'N/m'), 'force per strain', 100.0] = (
-        None
-    )
+    friction: Annotated[
+        float | None,
+        Within(0.0, HEAVIEST, 'N m or N'),
+        'torque or force with which a bearing or a slide resists motion, whatever it bears',
+        0.0,
+    ] = None
+    stiffness: Annotated[
+        float | None,
+        Within(0.0, HEAVIEST, 'N/m or N m/rad'),
+        'force per strain; of an axle, torque per angle, none unless it is set',
+        100.0,
+    ] = None
     damping: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against the rate of strain', 0.0
+        float | None,
+        Within(0.0, HEAVIEST, 'N s/m or N m s/rad'),
+        'force against the rate of strain; of an axle, torque against its angular velocity',
+        0.0,
+    ] = None
+    rest_angle: Annotated[
+        float | None,
+        Within(-LARGEST, LARGEST, 'rad'),
+        'angle of `a` relative to `b`, from where they were joined, at which a torsion spring '
+        'has no torque',
+        0.0,
     ] = None
     rest_length: Annotated[
         float | None, Within(0.0, LARGEST, 'm'), 'length of a spring without force', AS_DRAWN

@@ -190,8 +190,16 @@ class Joint:
 
     @property
     def stiffness(self) -> float:
-        """Return the stiffness of a spring [N/m], 0 for other kinds."""
-        return float(self.number('stiffness')) if self.kind is JointKind.SPRING else 0.0
+        """Return the stiffness of a spring [N/m], or of an axle [N m/rad]; else 0."""
+        if self.kind is JointKind.SPRING:
+            return self.number('stiffness')
+        return self.properties.stiffness or 0.0
+
+    @property
+    def is_elastic(self) -> bool:
+        """Whether it has a spring or a damper: along a line, or of an axle about its point."""
+        properties = self.properties
+        return self.kind is JointKind.SPRING or bool(properties.stiffness or properties.damping)
 
     @property
     def is_driven(self) -> bool:

@@ -230,9 +230,9 @@ enum {
 };
 
 // Laws of constraint rows: lower <= x <= upper, both the same for an equality; the force of a spring and its damper,
-// without which x is `lower`; x changes at `rate`, with a force of any size up to `most`; x does not rise, as in a
-// ratchet, or does not fall.
-enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE, LAW_FALLS, LAW_RISES };
+// without which x is `lower`; x changes at `rate`, with a force of any size up to `most`; x does not change, likewise;
+// x does not rise, as in a ratchet, or does not fall.
+enum { LAW_BOUNDS, LAW_SPRING, LAW_DRIVE, LAW_FRICTION, LAW_FALLS, LAW_RISES };
 
 // What a rope passes, in the order of its way: the bodies at its ends, rings, and wheels. Of a gear it is the carrier.
 typedef struct Guide {
@@ -254,8 +254,8 @@ typedef struct Row {
     double rate;             // of x where it is driven, of the upper bound elsewhere [m/s, rad/s]
     double least, greatest;  // upper bound that such a rate leads to [m]
     double offset;           // of a path, the length that is added to it [m]
-    double stiffness;        // of a spring [N/m]
-    double damping;          // of a spring, with what its stiffness adds to it [N s/m]
+    double stiffness;        // of a spring [N/m, N m/rad]
+    double damping;          // of a spring, with what its stiffness adds to it [N s/m, N m s/rad]
     int32_t first_guide, guide_count;
 } Row;
 

@@ -9,7 +9,7 @@ import {distance, rotated} from '../vectors.js';
 const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
 const ON_BODIES = ['pin', 'axle', 'motor', 'slider']; // kinds whose symbol lies on their bodies, and is no larger than they
-const COILS = 8, TEETH = 10;
+const COILS = 8, TEETH = 10, SPIRAL = 3; // turns of a coil, teeth of a wheel, turns of a torsion spring
 const RAIL = 1; // m of rail shown to each side where there is no limit
 const TENSE = 10; // weights at which a joint is drawn in the colour of warning
 
@@ -58,6 +58,7 @@ export class JointView {
         // Its circle would cover the links of a chain.
         if (ground || this.#roomFor(joint) > size) this.#circle(p, size);
         this.#dot(p);
+        if (joint.stiffness) this.#spiral(p, world.frame.yaw[joint.a]);
         break;
       case 'spring':
         this.#line(coil(p, q, size));
@@ -128,6 +129,20 @@ export class JointView {
     this.ctx.beginPath();
     this.ctx.arc(x, y, this.size / 3, 0, 2 * Math.PI);
     this.ctx.fill();
+  }
+
+  /**
+   * @param {Point} center of a torsion spring
+   * @param {number} yaw of the body that it turns with [rad]
+   */
+  #spiral([x, y], yaw) {
+    /** @type {Point[]} */
+    const points = [];
+    for (let angle = 0; angle <= SPIRAL * 2 * Math.PI; angle += Math.PI / 8) {
+      const reach = this.size * (1 + angle / (4 * Math.PI));
+      points.push([x + reach * Math.cos(angle + yaw), y - reach * Math.sin(angle + yaw)]);
+    }
+    this.#line(points);
   }
 
   /**
