@@ -91,6 +91,7 @@ static void step(World *world) {
     }
     find_free(world);
     keep_awake(world);
+    take_out_closing(world);
     take_out_impacts(world);
 }
 

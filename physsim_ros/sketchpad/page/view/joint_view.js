@@ -83,6 +83,10 @@ export class JointView {
         this.#wheel(joint.a);
         this.#wheel(joint.b);
         break;
+      case 'rack':
+        this.#wheel(joint.a);
+        this.#teeth(joint, q);
+        break;
       default:
         this.#line([p, q]);
         this.#ends(p, q, ground);
@@ -234,6 +238,22 @@ export class JointView {
     this.ctx.closePath();
     this.ctx.fill();
     this.ctx.stroke();
+  }
+
+  /**
+   * @param {Joint} rack
+   * @param {Point} q the middle of its teeth
+   */
+  #teeth({axis: [ux, uy], b, rest_length: radius}, [x, y]) {
+    const [dx, dy] = rotated([ux, uy], b < 0 ? 0 : this.world.frame.yaw[b]);
+    const pitch = 2 * Math.PI * radius * this.camera.scale / TEETH;
+    /** @type {Point[]} */
+    const points = [];
+    for (let i = -4 * TEETH; i <= 4 * TEETH; i++) {
+      const along = i * pitch / 4, down = (i & 2 ? -0.15 : 0.15) * pitch;
+      points.push([x + along * dx + down * dy, y - along * dy + down * dx]);
+    }
+    this.#line(points);
   }
 
   /** @param {number} row a body with teeth, which turn with it */
