@@ -45,7 +45,7 @@ STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core 
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run class test test-all lint tables sanitize mutate bench ablate evaluate gallery docs release soak clean
+.PHONY: help run class test test-all lint tables sanitize coverage mutate bench ablate evaluate gallery docs release soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
@@ -113,6 +113,10 @@ tables: $(BUILT)  ## write anew what docs/ and config/ repeat from the code
 # With AddressSanitizer and UndefinedBehaviorSanitizer. HISTORIES=200 unless it is given; ARGS chooses other tests.
 sanitize: $(TOOLS)  ## run laws and random histories with memory checks in the core
 	$(BIN)/python -m tools.sanitize $(ARGS)
+
+# Of the tests of `make test`, unless ARGS names others.
+coverage: $(TOOLS)  ## count the lines of Python and C that the tests run
+	$(BIN)/python -m tools.coverage $(ARGS)
 
 # With SEED=0 and COUNT=12 unless they are given; ARGS='engine/core/floor' tries files whose path begins so.
 mutate: $(TOOLS)  ## change constants and conditions at random; tell which of them no fast test notices

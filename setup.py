@@ -249,6 +249,7 @@ setup(
             'segno>=1.6,<2',
             # Runs sweeps in processes of a cluster.
             'distributed',
+            'coverage>=7.10',
             # A second middleware, for readers that are not Fast DDS.
             'cyclonedds>=0.10',
             'hypothesis',

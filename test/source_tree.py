@@ -41,17 +41,18 @@ def copy_source(place: Path) -> Path:
     return Path(shutil.copytree(ROOT, place, ignore=_not_source))
 
 
-def compile_core(tree: Path, **variables: str) -> None:
+def compile_core(tree: Path, objects: Path | None = None, **variables: str) -> None:
     """
     Compile the core of a source tree within it.
 
+    :param objects: folder of the object files; by default they are deleted
     :param variables: CC, CFLAGS and so on
     :raises AssertionError: with what was printed
     """
     with TemporaryDirectory(prefix='core_') as place:
         command = [sys.executable, 'setup.py', '--quiet', 'build_ext', '--inplace']
         done = subprocess.run(
-            [*command, '--build-temp', f'{place}/temp', '--build-lib', f'{place}/lib'],
+            [*command, f'--build-temp={objects or place}', f'--build-lib={place}/lib'],
             cwd=tree,
             env=os.environ | variables,
             stdout=subprocess.PIPE,

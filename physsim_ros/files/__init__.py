@@ -10,6 +10,7 @@ Not here: ROS and Rerun; the state of a world (`model.checkpoint`); the recognit
 
 from physsim_ros.files.foreign import advice_on_xml, CONVERTED, kind_of
 from physsim_ros.files.own_worlds import check_world_name, OwnWorlds
+from physsim_ros.files.reading import on_thread
 from physsim_ros.files.regular_file import make_directory, read_bytes, read_parts, write_file
 from physsim_ros.files.resources import (
     BadDrawing,
@@ -56,6 +57,7 @@ __all__ = [
     'load_mapping',
     'load_world',
     'make_directory',
+    'on_thread',
     'read_bytes',
     'read_parts',
     'robot_spawn',

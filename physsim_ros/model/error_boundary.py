@@ -13,10 +13,11 @@ An error inside of a step is no `Exception` (`StepFailed`): it passes, and ends 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from itertools import count
 import traceback
+from typing import TypeVar
 
 from physsim_ros.model.errors import Failed, PhysSimError
 from physsim_ros.model.snapshot import Answer
@@ -24,6 +25,8 @@ from physsim_ros.model.texts import abbreviated
 
 # Length of a line of the log [characters], and number of events that wait.
 _LONGEST_LINE, _MOST_EVENTS = 500, 100
+_Awaited = TypeVar('_Awaited')
+_Result = TypeVar('_Result')
 # Type of an error, and the lines of code by which it came, each once: a recursion has few.
 _Place = tuple[type, frozenset[tuple[str, int]]]
 
@@ -70,6 +73,19 @@ class ErrorBoundary:
             took = self._clock() - began
             if took > self._longest[1]:
                 self._longest = name, took
+
+    def parts_of_message(
+        self, name: str, parts: Generator[_Awaited, None, _Result]
+    ) -> Generator[_Awaited, None, _Result]:
+        """Carry out a message in parts, each as `message` does."""
+        while True:
+            with self.message(name):
+                try:
+                    awaited = next(parts)
+                except StopIteration as end:
+                    result: _Result = end.value
+                    return result
+            yield awaited
 
     @contextmanager
     def reading(self, name: str) -> Iterator[None]:

@@ -77,6 +77,8 @@ class Schema:
     :param words: everyday words for it; those of Box2D, Pymunk and URDF among them
     :param least_distance: between its two points [m]; 0 is no such rule
     :param has_axis: whether the direction from its first to its second point is an axis of body b
+    :param rolls: whether the line through its second point, across that from its first, is an
+        axis of body b, along which a rolls
     :param along_line: whether its force is along the line between its two points, where a knife
         can cut it
     """
@@ -87,6 +89,7 @@ class Schema:
     words: tuple[str, ...] = ()
     least_distance: float = 0.0
     has_axis: bool = False
+    rolls: bool = False
     along_line: bool = False
     passes: bool = False
 
@@ -112,9 +115,24 @@ class JointKind(StrEnum):
         'axle',
         Schema(
             1,
-            'lets them turn about the point, as a `ratchet` one way; limits are angles',
-            own=('lower', 'upper', 'ratchet', 'effort', 'max_speed', 'gain'),
-            words=('hinge', 'revolute', 'continuous', 'pivot', 'bolt', 'ratchet', 'freewheel'),
+            'lets them turn about the point, as a `ratchet` one way; with `stiffness` it has a '
+            'torsion spring; limits are angles',
+            own=(
+                'lower',
+                'upper',
+                'ratchet',
+                'friction',
+                'stiffness',
+                'damping',
+                'rest_angle',
+                'effort',
+                'max_speed',
+                'gain',
+            ),
+            words=(
+                *('hinge', 'revolute', 'continuous', 'pivot', 'bolt', 'ratchet', 'freewheel'),
+                *('bearing', 'torsion_spring', 'rotary_spring', 'damped_rotary_spring'),
+            ),
         ),
     )
     MOTOR = (
@@ -163,7 +181,7 @@ class JointKind(StrEnum):
         Schema(
             2,
             'lets `a` slide along a line fixed to `b`, without rotating; with `rate` it is driven',
-            own=('lower', 'upper', 'rate', 'effort', 'max_speed', 'gain'),
+            own=('lower', 'upper', 'friction', 'rate', 'effort', 'max_speed', 'gain'),
             words=('prismatic', 'groove', 'rail', 'piston'),
             least_distance=SMALLEST,
             has_axis=True,
@@ -176,6 +194,17 @@ class JointKind(StrEnum):
             'couples the rotations of `a` and `b`',
             own=('ratio', 'phase', 'carrier'),
             words=('cog', 'gears', 'planetary', 'epicyclic'),
+        ),
+    )
+    RACK = (
+        'rack',
+        Schema(
+            2,
+            'a pinion: `a` rolls about its first point, without slipping, on the straight rack of '
+            '`b` through its second, across the line between them',
+            words=('rack_and_pinion', 'pinion', 'rolling', 'toothed_rack'),
+            least_distance=SMALLEST,
+            rolls=True,
         ),
     )
 
@@ -223,8 +252,8 @@ class JointProperties(Checked):
     lower: Annotated[
         float | None,
         Within(-LARGEST, LARGEST, 'rad or m'),
-        'least angle of `a` relative to `b`, or displacement of `a` along the axis, from where '
-        'they were joined; of a winch, its least length',
+        'least angle of `a` relative to `b`, or least displacement of `a` along the axis, from '
+        'where they were joined; of a winch, the least length',
     ] = None
     upper: Annotated[
         float | None,
@@ -239,9 +268,8 @@ class JointProperties(Checked):
     rate: Annotated[
         float | None,
         Within(-FASTEST, FASTEST, 'rad/s or m/s'),
-        'angular velocity of `a` relative to `b`, counter-clockwise; of a winch, that of its '
-        'length, which begins as `length` and stays within its limits; of a slider, velocity of '
-        '`a` along its line',
+        'motor: angular velocity of `a` relative to `b`, counter-clockwise; slider: velocity of '
+        '`a` along its line; winch: rate of its length, which begins as `length`',
         1.0,
     ] = None
     max_torque: Annotated[
@@ -250,26 +278,45 @@ class JointProperties(Checked):
     effort: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N m or N'),
-        'greatest torque or force of its motor, which holds until it is commanded; without it '
-        'there is none',
+        'gives the joint a motor of this greatest torque or force, which holds until it is '
+        'commanded',
     ] = None
     max_speed: Annotated[
         float | None,
         Within(0.0, FASTEST, 'rad/s or m/s'),
-        'greatest rate at which that motor obeys commands',
+        'greatest rate of that motor',
         1.0,
     ] = None
     gain: Annotated[
         float | None,
         Within(0.0, 200.0, '1/s'),
-        'rate at which that motor closes the way to a commanded position, by that way',
+        'speed of that motor towards a commanded position, divided by the distance to it',
         20.0,
     ] = None
-    stiffness: Annotated[float | None, Within(0.0, HEAVIEST, 'N/m'), 'force per strain', 100.0] = (
-        None
-    )
+    friction: Annotated[
+        float | None,
+        Within(0.0, HEAVIEST, 'N m or N'),
+        'torque or force with which a bearing or a slide resists motion, whatever it bears',
+        0.0,
+    ] = None
+    stiffness: Annotated[
+        float | None,
+        Within(0.0, HEAVIEST, 'N/m or N m/rad'),
+        'force per strain; of an axle, torque per angle, none unless it is set',
+        100.0,
+    ] = None
     damping: Annotated[
-        float | None, Within(0.0, HEAVIEST, 'N s/m'), 'force against the rate of strain', 0.0
+        float | None,
+        Within(0.0, HEAVIEST, 'N s/m or N m s/rad'),
+        'force against the rate of strain; of an axle, torque against its angular velocity',
+        0.0,
+    ] = None
+    rest_angle: Annotated[
+        float | None,
+        Within(-LARGEST, LARGEST, 'rad'),
+        'angle of `a` relative to `b`, from where they were joined, at which a torsion spring '
+        'has no torque',
+        0.0,
     ] = None
     rest_length: Annotated[
         float | None, Within(0.0, LARGEST, 'm'), 'length of a spring without force', AS_DRAWN
@@ -280,8 +327,8 @@ class JointProperties(Checked):
     over: Annotated[
         tuple[str, ...] | None,
         _names,
-        'names of the bodies at the points between its ends, `world` for the background; a body '
-        'that is a disc is a wheel, on which the rope does not slip, others are rings',
+        'names of the bodies at the points between the ends, `world` for the background; on a '
+        'disc the rope runs as on a wheel, without slipping; other points are rings',
         AS_DRAWN,
     ] = None
     ratio: Annotated[
@@ -300,14 +347,14 @@ class JointProperties(Checked):
     carrier: Annotated[
         str | None,
         _body_name,
-        'name of a third body against which the angles of a gear are measured, as the arm that '
-        'carries a planet; `world`, and unless it is set, they are absolute',
+        'name of a third body relative to which the angles of a gear are measured, such as the '
+        'arm of a planet; by default, and with `world`, they are absolute',
     ] = None
     max_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
-        'greatest force of the joint, of a driven slider that of its drive, 1000 N unless it is '
-        'set; for torques, N m',
+        'greatest force of the joint; for torques, N m. For a driven slider, the force of its '
+        'drive, by default 1000 N',
     ] = None
     break_force: Annotated[
         float | None,

@@ -119,9 +119,9 @@ class Seat(NamedTuple):
     The anchor points of a joint, its axis, reference angle and length, from when it was drawn.
 
     ax, ay [m]: anchor point in the frame of a; bx, by [m]: the same in the frame of b; ux, uy:
-    unit vector of a slider's axis in the frame of b; phase [rad]: angle of b times ratio minus
-    angle of a; length [m]: distance of the two points. Box2D: localAnchorA, localAnchorB,
-    localAxis, referenceAngle, length.
+    unit vector of the axis of a slider or a rack in the frame of b; phase [rad]: angle of b times
+    ratio minus angle of a; length [m]: distance of the two points. Box2D: localAnchorA,
+    localAnchorB, localAxis, referenceAngle, length.
     """
 
     ax: float
@@ -190,8 +190,16 @@ class Joint:
 
     @property
     def stiffness(self) -> float:
-        """Return the stiffness of a spring [N/m], 0 for other kinds."""
-        return float(self.number('stiffness')) if self.kind is JointKind.SPRING else 0.0
+        """Return the stiffness of a spring [N/m], or of an axle [N m/rad]; else 0."""
+        if self.kind is JointKind.SPRING:
+            return self.number('stiffness')
+        return self.properties.stiffness or 0.0
+
+    @property
+    def is_elastic(self) -> bool:
+        """Whether it has a spring or a damper: along a line, or of an axle about its point."""
+        properties = self.properties
+        return self.kind is JointKind.SPRING or bool(properties.stiffness or properties.damping)
 
     @property
     def is_driven(self) -> bool:

@@ -64,6 +64,7 @@ EVERYDAY_WORDS: dict[str, tuple[str, ...]] = {
     'stiffness': ('k', 'spring_constant', 'hardness', 'stiff'),
     'damping': ('damper', 'viscosity', 'c'),
     'rest_length': ('natural_length', 'free_length', 'rest'),
+    'rest_angle': ('neutral_angle', 'zero_angle', 'equilibrium'),
     'length': ('distance', 'long'),
     'over': ('via', 'through', 'wheels', 'pulleys', 'rings', 'sheaves'),
     'ratio': ('transmission', 'teeth'),

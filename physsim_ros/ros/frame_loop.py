@@ -10,12 +10,13 @@ node has started nothing is applied by itself.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 import time
 
 from physsim_ros.model.snapshot import Answer, Frame, Snapshot
 from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.robots import Fleet
+from physsim_ros.simulation.parts import Parted
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 
@@ -150,13 +151,19 @@ class FrameLoop:
             return True
         return self._simulation.apply_up_to_seek(_RequestTime(self._rest_ns).is_spent)
 
-    def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+    def submit_call(
+        self,
+        call: Parted[Sequence[Answer]],
+        wait: Wait,
+        on_told: Callable[[], object] = lambda: None,
+    ) -> None:
         """
         Make a call at its time among the requests, now if they leave the time for it.
 
+        :param on_told: called when its answers are told
         :raises Busy: too many requests wait
         """
-        self._simulation.requests.submit_call(call, wait)
+        self._simulation.requests.submit_call(call, wait, on_told)
         if self.started:
             self.apply_up_to_seek()
         elif wait is not Wait.NONE:

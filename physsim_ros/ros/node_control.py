@@ -9,7 +9,7 @@ Law: services, topics, pages and `simulation_interfaces` do it all by this one c
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
+from physsim_ros.simulation.parts import in_parts, Parted, Parts
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
@@ -139,19 +140,25 @@ class NodeControl:
         """Apply the waiting requests, and return the snapshot that is shown."""
         return self._loop.current_snapshot()
 
-    def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+    def submit_call(
+        self,
+        call: Parted[Sequence[Answer]],
+        wait: Wait,
+        on_told: Callable[[], object] = lambda: None,
+    ) -> None:
         """
         Make a call at its time among the requests, and tell its answers.
 
+        :param on_told: called when its answers are told
         :raises Busy: too many requests wait
         """
-        self._loop.submit_call(call, wait)
+        self._loop.submit_call(call, wait, on_told)
 
     def service(self, name: str) -> Service:
         """Return a service."""
         return self.services[name]
 
-    def perform_on(self, service: str, world: str) -> str:
+    def perform_on(self, service: str, world: str) -> Parts[str]:
         """
         Perform a service on the world file of a name; where that is refused, nothing has changed.
 
@@ -159,7 +166,7 @@ class NodeControl:
         """
         return self._perform_with(world, self.services[service].perform)
 
-    def open_world(self, world: str) -> str:
+    def open_world(self, world: str) -> Parts[str]:
         """
         Begin with the world of a name, at time 0; undo reverts it.
 
@@ -167,13 +174,15 @@ class NodeControl:
         """
         return self._perform_with(world, self._files.open_world)
 
-    def _perform_with(self, world: str, action: Callable[[], str]) -> str:
+    def _perform_with(self, world: str, action: Parted[str]) -> Parts[str]:
         before = self.values['world_file']
         self.set_parameter('world_file', world)
         try:
-            return action()
+            return (yield from in_parts(action))
         except Exception:
-            self.set_parameter('world_file', before)
+            # Somebody may have set it meanwhile.
+            if self.values['world_file'] == world:
+                self.set_parameter('world_file', before)
             raise
 
     def note_change(self) -> None:

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from physsim_ros.files import (
     find_world,
     hides_shipped,
     load_world,
+    on_thread,
     save_world,
     user_lessons,
     user_worlds,
@@ -21,7 +23,9 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.texts import counted
 from physsim_ros.ros.parameters import SPECS
+from physsim_ros.simulation.parts import at_once, Parts
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import beginning_of
 
 
 class WorldFiles:
@@ -48,19 +52,20 @@ class WorldFiles:
 
         :raises Refusal: there is no such file, or it is refused
         """
-        self._simulation.begin(self._read(confined=False)[0])
+        state, _ = at_once(self._read(confined=False))
+        self._simulation.begin(state)
 
-    def load(self, *, confined: bool) -> str:
+    def load(self, *, confined: bool) -> Parts[str]:
         """
         Replace the world by the file, and return a message about it; time goes on.
 
         :param confined: whether only files below `world_dir` and the shipped worlds may be read
         :raises Refusal: there is no such file, or it is refused
         """
-        state, path = self._read(confined=confined)
+        state, path = yield from self._read(confined=confined)
         return f'{self._simulation.load(state)} from {path.name}'
 
-    def open_world(self) -> str:
+    def open_world(self) -> Parts[str]:
         """
         Begin with the world of the file, at time 0, and return a message about it.
 
@@ -68,8 +73,10 @@ class WorldFiles:
 
         :raises Refusal: there is no such file, or it is refused
         """
-        state, path = self._read(confined=True)
-        return f'{self._simulation.open_world(state)} from {path.name}'
+        state, path = yield from self._read(confined=True)
+        begin = partial(beginning_of, state, self._simulation.physics_rate)
+        beginning = yield from on_thread(begin)
+        return f'{self._simulation.open_world(state, beginning)} from {path.name}'
 
     def save(self) -> str:
         """
@@ -89,7 +96,7 @@ class WorldFiles:
             message += '; from now on it comes before the shipped world of that name'
         return message
 
-    def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
+    def _read(self, *, confined: bool) -> Parts[tuple[WorldState, Path]]:
         name, simulation = self._values['world_file'], self._simulation
         try:
             path = find_world(
@@ -98,12 +105,14 @@ class WorldFiles:
                 lesson_dir=self.lessons,
                 confined=confined,
             )
-            state = load_world(
+            load = partial(
+                load_world,
                 path,
                 settings=simulation.settings,
                 physics_rate=simulation.physics_rate,
                 parameters=SPECS,
             )
+            state = yield from on_thread(load)
         except BadWorldFile as refusal:
             if not confined:
                 raise

@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -13,6 +13,7 @@ from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import Request
 from physsim_ros.model.sizes import request_size
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.parts import Parted
 
 # Memory of a marker as rclpy decodes it [bytes].
 _UNREAD = 2500
@@ -82,12 +83,14 @@ class Call:
     """
     Call a function that reads or replaces the world.
 
-    :param call: the function; it returns answers
+    :param call: the function; it returns answers, and may have parts
     :param wait: the time at which it is called
+    :param on_told: called when its answers are told
     """
 
-    call: Callable[[], Iterable[Answer]]
+    call: Parted[Sequence[Answer]]
     wait: Wait
+    on_told: Callable[[], object]
 
 
 @dataclass(slots=True)

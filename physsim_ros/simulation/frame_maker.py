@@ -140,10 +140,11 @@ class FrameMaker:
         Apply the requests up to a seek.
 
         :param is_spent: whether there is no time for a further one
-        :return: whether no seek is under way, and no request waits
+        :return: whether no seek and no call is under way, and no request waits
         """
-        self.requests.apply_up_to_seek(is_spent)
-        return self.playback.is_there and not self.requests.has_requests
+        requests = self.requests
+        requests.apply_up_to_seek(is_spent)
+        return self.playback.is_there and not (requests.has_requests or requests.is_calling)
 
     def finish_seek(self, is_overdue: Callable[[], bool]) -> bool:
         """
@@ -253,7 +254,8 @@ class FrameMaker:
         self.requests.apply_up_to_seek(is_spent)
         if not self.finish_seek(is_overdue):
             return ()
-        if self.requests.is_in_gesture or (playback.frames_due and self.requests.has_requests):
+        is_busy = self.requests.has_requests or self.requests.is_calling
+        if self.requests.is_in_gesture or (playback.frames_due and is_busy):
             playback.clock.restart()
             return ()
         if playback.frames_due:

@@ -6,18 +6,21 @@ The queue of requests: they wait for the next frame, and are applied there in th
 
 Laws: entries are applied in the order of their arrival, and each is answered once, but moves of
 hands and drives only if refused. A move of a hand replaces the waiting move of that hand, unless a
-request of another kind came between them; so does a seek the waiting seek. A seek is answered when
-its moment is reached, or when the world is sent elsewhere before. Requests that read or change the
-world wait for the end of a seek; all entries wait for the end of an amendment. Requests beyond a
-limit, in count and in memory, are refused; beyond twice that count, answers are dropped and only
-counted.
+request of another kind came between them; so does a seek the waiting seek. A seek, or a call that
+sends the world elsewhere, is answered when the moment is reached, or when the world is sent
+elsewhere before. Requests that read or change the world wait for the end of a seek; all entries
+wait for the end of an amendment, and of a call in parts. Requests beyond a limit, in count and in
+memory, are refused; beyond twice that count, answers are dropped and only counted.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, wait
 from dataclasses import replace
+from functools import partial
+from typing import Any, NamedTuple
 
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.requests import (
@@ -39,6 +42,7 @@ from physsim_ros.simulation.entries import (
     Wait,
 )
 from physsim_ros.simulation.hands import Hands
+from physsim_ros.simulation.parts import at_once, in_parts, Parted, Parts
 from physsim_ros.simulation.past import amend, Past, take_back
 from physsim_ros.simulation.playback import Playback
 
@@ -47,6 +51,20 @@ __all__ = ['Amend', 'RequestQueue', 'TakeBack', 'Unread', 'Wait']
 # Greatest number of requests that wait, and their greatest memory [bytes]: five worlds of 20,000
 # bodies. Up to twice that number of answers are kept one by one.
 MOST_WAITING, MOST_BYTES = 100_000, 256 * 10**6
+
+
+class _UnderWay(NamedTuple):
+    """
+    A call in parts that is under way.
+
+    :ivar call: the entry
+    :ivar parts: of it
+    :ivar awaited: for which its next part waits
+    """
+
+    call: Call
+    parts: Parts[Sequence[Answer]]
+    awaited: Future[Any]
 
 
 class RequestQueue:
@@ -77,8 +95,12 @@ class RequestQueue:
         # waiting seek that no request has followed.
         self._moves: dict[str, Entry] = {}
         self._seek: Entry | None = None
-        # The answer to the seek under way.
-        self._arrival: Answer | None = None
+        # Answers the seek under way, or the call that began it; its argument tells by what it is
+        # superseded, '' by nothing.
+        self._answer_arrival: Callable[[str], object] | None = None
+        # Whether the last call has sent the world elsewhere; the call that is under way.
+        self._has_jumped = False
+        self._under_way: _UnderWay | None = None
         # Count of dropped answers that the last entry reports.
         self._untold = 0
 
@@ -149,23 +171,31 @@ class RequestQueue:
         self._seek = Entry(Seek(stamp), topic, '', self.gesture, asker=asker)
         self._waiting.append(self._seek)
 
-    def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+    def submit_call(
+        self,
+        call: Parted[Sequence[Answer]],
+        wait: Wait,
+        on_told: Callable[[], object] = lambda: None,
+    ) -> None:
         """
         Make a call now, or add it to the requests.
 
+        :param call: may have parts
         :param wait: the time at which it is called
+        :param on_told: called when its answers are told
         :raises Busy: too many requests wait
         """
         if wait is Wait.NONE:
-            for answer in call():
+            for answer in at_once(in_parts(call)):
                 self.tell(answer)
+            on_told()
             return
         if busy := self._busy():
             raise busy
         self._moves.clear()
         self._seek = None
         # Its answers have their own topics.
-        self._waiting.append(Entry(Call(call, wait), '', '', self.begin_gesture()))
+        self._waiting.append(Entry(Call(call, wait, on_told), '', '', self.begin_gesture()))
 
     def refuse(
         self,
@@ -223,11 +253,18 @@ class RequestQueue:
             return False
         return following.gesture == self._applied
 
+    @property
+    def is_calling(self) -> bool:
+        """Return whether a call in parts is under way, for which all entries wait."""
+        return self._under_way is not None
+
     def apply_waiting(self) -> None:
-        """Apply all entries, and finish the seeks and amendments that others wait for."""
+        """Apply all entries, and finish the seeks, calls and amendments that others wait for."""
         if self._waiting:
             self.apply_up_to_seek()
-        while self._waiting and not self._is_applying:
+        while (self._waiting or self._under_way) and not self._is_applying:
+            if self._under_way:
+                wait((self._under_way.awaited,))
             self._playback.seek_shown()
             self._past.cursor.finish_work()
             self.apply_up_to_seek()
@@ -248,16 +285,15 @@ class RequestQueue:
                     case Refusal() as refusal:
                         self._playback.changed = True
                         self._answer(refusal, entry)
-                    case Call(call=call):
-                        self.answers += call()
+                    case Call() as call:
+                        self._has_jumped = False
+                        self._carry_out(call, in_parts(call.call))
                     case Amend() | TakeBack() as change:
                         self._playback.seek_shown()
                         self._past.cursor.work(self._amend(change, entry))
                     case Seek(stamp=stamp):
                         message = self.seek(stamp)
-                        self._arrival = Answer(
-                            topic=entry.topic, message=message, asker=entry.asker
-                        )
+                        self._answer_arrival = partial(self._answer_seek, entry, message)
                     case request:
                         self._playback.changed = True
                         if isinstance(request, Unread):
@@ -279,6 +315,7 @@ class RequestQueue:
             return
         self._is_applying = True
         try:
+            self._continue_call()
             while self._waiting and self._is_ready(self._waiting[0]):
                 self.note_arrival()
                 entry = self._waiting.popleft()
@@ -297,10 +334,40 @@ class RequestQueue:
             self._is_applying = False
 
     def _is_ready(self, entry: Entry) -> bool:
-        """Return whether an entry need not wait for a seek or an amendment."""
+        """Return whether an entry need not wait for a seek, a call or an amendment."""
+        if self._under_way is not None:
+            return False
         if entry.is_for_world:
             return self._playback.is_there
         return entry.is_answer or not self._past.cursor.is_amending
+
+    def _continue_call(self) -> None:
+        """Go on with the call that is under way, if it has what it waits for."""
+        if self._under_way is not None and self._under_way.awaited.done():
+            call, parts, _ = self._under_way
+            self._under_way = None
+            self._carry_out(call, parts)
+
+    def _carry_out(self, call: Call, parts: Parts[Sequence[Answer]]) -> None:
+        """Carry out the next part of a call, and collect its answers after the last one."""
+        try:
+            self._under_way = _UnderWay(call, parts, next(parts))
+        except StopIteration as end:
+            if self._has_jumped and not self._playback.has_arrived:
+                self._answer_arrival = partial(self._answer_call, call, end.value)
+            else:
+                self._answer_call(call, end.value)
+
+    def _answer_call(self, call: Call, answers: Sequence[Answer], _: str = '') -> None:
+        """Collect the answers to a call, which is done, be its moment reached or superseded."""
+        self.answers += answers
+        call.on_told()
+
+    def _answer_seek(self, entry: Entry, message: str, superseded: str) -> None:
+        """Collect the answer to a seek."""
+        self.answers.append(
+            Answer(topic=entry.topic, message=superseded or message, asker=entry.asker)
+        )
 
     def _amend(self, change: Amend | TakeBack, entry: Entry) -> Iterator[None]:
         """Change the past in parts, and collect the answers."""
@@ -361,6 +428,7 @@ class RequestQueue:
     def note_jump(self) -> None:
         """Show the moment to which something else than a seek has sent the cursor."""
         self._playback.note_jump()
+        self._has_jumped = True
         self._supersede('jump')
 
     def note_arrival(self) -> None:
@@ -370,15 +438,12 @@ class RequestQueue:
 
     def _supersede(self, by: str) -> None:
         """Answer the seek that was under way, in whose place the cursor went elsewhere."""
-        if self._arrival is not None:
-            message = f'superseded by a {by} to {self._playback.time}'
-            self._arrival = replace(self._arrival, message=message)
-            self._tell_arrival()
+        self._tell_arrival(f'superseded by a {by} to {self._playback.time}')
 
-    def _tell_arrival(self) -> None:
-        if self._arrival is not None:
-            self.answers.append(self._arrival)
-            self._arrival = None
+    def _tell_arrival(self, superseded: str = '') -> None:
+        if self._answer_arrival is not None:
+            answer, self._answer_arrival = self._answer_arrival, None
+            answer(superseded)
 
     def release_grips(self) -> None:
         """Remove the grips of hands that are gone, unless their release lies ahead."""

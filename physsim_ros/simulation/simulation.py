@@ -27,7 +27,7 @@ from physsim_ros.model.timeline import TimelineStatus
 from physsim_ros.sensing import View
 from physsim_ros.simulation.frame_maker import FrameMaker
 from physsim_ros.simulation.past import DEFAULT_MEMORY, Past
-from physsim_ros.simulation.world import forces_now, loaded
+from physsim_ros.simulation.world import Beginning, forces_now, loaded
 
 # Simulation time from one checkpoint to the next [s]: the most that is replayed to reach a step.
 CHECKPOINTS = 3.0
@@ -282,14 +282,15 @@ class Simulation(FrameMaker):
             done = past.reset(seed)
         return 'back at the beginning, time 0' if done else 'at the beginning, time 0'
 
-    def open_world(self, state: WorldState) -> str:
+    def open_world(self, state: WorldState, beginning: Beginning | None = None) -> str:
         """
         Begin with another state, at time 0; `undo` reverts it. Return a message.
 
+        :param beginning: that of the state, as any thread makes it; None is to be made
         :raises Refusal: it is too large, or cannot be simulated; nothing is changed
         """
         with self._jump():
-            self.past.open_world(state)
+            self.past.open_world(state, beginning)
             self.requests.hands.clear()
             self.stop_driving()
         return loaded(state)

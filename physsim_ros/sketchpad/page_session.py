@@ -9,8 +9,9 @@ Law: a session changes nothing itself; it submits requests, and every message ha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
+from functools import partial
 import time
 from typing import Any, NamedTuple
 
@@ -22,6 +23,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
+from physsim_ros.simulation.parts import in_parts, Parted, Parts
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
@@ -259,7 +261,7 @@ class PageSession:
         """
         self.send(answer_content(Answer(topic='page', message=message, **details), origin.request))
 
-    def perform(self, origin: Origin, action: Callable[[], str], wait: Wait = Wait.NONE) -> None:
+    def perform(self, origin: Origin, action: Parted[str], wait: Wait = Wait.NONE) -> None:
         """
         Perform an action at its time, and queue its answer.
 
@@ -267,9 +269,9 @@ class PageSession:
         :param wait: time of the action
         """
         boundary = self.world.boundary
-        self.call(origin, lambda: [answer_of(origin, action, boundary)], wait)
+        self.call(origin, partial(answers_of, origin, action, boundary), wait)
 
-    def call(self, origin: Origin, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+    def call(self, origin: Origin, call: Parted[Sequence[Answer]], wait: Wait) -> None:
         """Make a call at its time, or refuse it where too many wait."""
         try:
             self.world.submit_call(call, wait)
@@ -294,13 +296,15 @@ def author_of(person: str, role: Role) -> str:
     return person + _TEACHES if role is Role.TEACH else person
 
 
-def answer_of(origin: Origin, action: Callable[[], str], boundary: ErrorBoundary) -> Answer:
-    """Perform an action; return the answer with its message, or with its refusal."""
+def answers_of(
+    origin: Origin, action: Parted[str], boundary: ErrorBoundary
+) -> Parts[tuple[Answer]]:
+    """Perform an action; return the one answer, with its message or with its refusal."""
     topic, asker = origin.topic, origin.asker
     try:
-        with boundary.message(topic):
-            return Answer(topic=topic, message=action(), asker=asker)
+        message = yield from boundary.parts_of_message(topic, in_parts(action))
     except Refusal as refusal:
-        return Answer.refused(refusal, topic=topic, asker=asker)
+        return (Answer.refused(refusal, topic=topic, asker=asker),)
     except PhysSimError as error:
-        return Answer(topic=topic, message=str(error), code='refused', asker=asker)
+        return (Answer(topic=topic, message=str(error), code='refused', asker=asker),)
+    return (Answer(topic=topic, message=message, asker=asker),)

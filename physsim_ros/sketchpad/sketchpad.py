@@ -13,24 +13,26 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 import time
 from typing import Any
 
-from physsim_ros.files import OwnWorlds, state_from, text_of
+from physsim_ros.files import OwnWorlds, text_of
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer, Frame
+from physsim_ros.simulation.parts import Parts
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
 from physsim_ros.sketchpad.inbox import Closed, Entry, Inbox, Opened, Upload, UPLOADERS
 from physsim_ros.sketchpad.message import Message, Origin
-from physsim_ros.sketchpad.page_session import answer_of, PageSession, Shared
+from physsim_ros.sketchpad.page_session import answers_of, PageSession, Shared
 from physsim_ros.sketchpad.past import BodyPasts, PastContacts, timeline_content, TimelineReport
 from physsim_ros.sketchpad.results import Results, results_file
 from physsim_ros.sketchpad.rights import check_moment, check_right, Right, Role
 from physsim_ros.sketchpad.server.frame_codec import VERSION
 from physsim_ros.sketchpad.server.server import Server
-from physsim_ros.sketchpad.world_control import WorldControl
+from physsim_ros.sketchpad.world_control import opened, WorldControl
 
 # Time for messages of pages between two frames [s]: a quarter of a frame at 60 Hz. A stroke takes
 # some 3 ms.
@@ -242,14 +244,11 @@ class Sketchpad:
         """Replace the world by an uploaded one, and tell the answer to the uploader too."""
         origin, simulation = Origin(UPLOADERS, '', '~/load_world'), self._simulation
 
-        def load() -> str:
-            settings, rate = simulation.settings, simulation.physics_rate
-            return simulation.open_world(state_from(upload.content, settings, rate))
-
-        def answers() -> list[Answer]:
-            answer = answer_of(origin, load, self._boundary)
+        def answers() -> Parts[tuple[Answer]]:
+            load = partial(opened, simulation, upload.content)
+            (answer,) = yield from answers_of(origin, load, self._boundary)
             upload.reply(answer)
-            return [answer]
+            return (answer,)
 
         try:
             with self._boundary.message(origin.topic):

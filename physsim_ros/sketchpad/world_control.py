@@ -10,15 +10,19 @@ pages have names, and an undo of their own.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
 from physsim_ros.drawing import DrawingSettings
+from physsim_ros.files import on_thread, state_from
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Snapshot
+from physsim_ros.simulation.parts import Parted, Parts
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
+from physsim_ros.simulation.world import beginning_of
 
 
 class WorldControl(Protocol):
@@ -61,10 +65,16 @@ class WorldControl(Protocol):
     def current_snapshot(self) -> Snapshot:
         """Apply the waiting requests, and return the snapshot that is shown."""
 
-    def submit_call(self, call: Callable[[], Iterable[Answer]], wait: Wait) -> None:
+    def submit_call(
+        self,
+        call: Parted[Sequence[Answer]],
+        wait: Wait,
+        on_told: Callable[[], object] = lambda: None,
+    ) -> None:
         """
         Make a call at its time among the requests, and tell its answers.
 
+        :param on_told: called when its answers are told
         :raises Busy: too many requests wait
         """
 
@@ -75,17 +85,17 @@ class WorldControl(Protocol):
         :raises Refusal: it is refused
         """
 
-    def service(self, name: str) -> tuple[Callable[[], str], Wait]:
+    def service(self, name: str) -> tuple[Parted[str], Wait]:
         """Return the action of a service, which raises a PhysSimError, and its time."""
 
-    def perform_on(self, service: str, world: str) -> str:
+    def perform_on(self, service: str, world: str) -> Parts[str]:
         """
         Perform `load_world` or `save_world` on the world of a name.
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
 
-    def open_world(self, world: str) -> str:
+    def open_world(self, world: str) -> Parts[str]:
         """
         Begin with the world of a name, at time 0; undo reverts it.
 
@@ -106,3 +116,16 @@ class WorldControl(Protocol):
         :param topic: its source
         :param asker: key of the message that asks, which the answer names
         """
+
+
+def opened(simulation: Simulation, content: Mapping[str, Any]) -> Parts[str]:
+    """
+    Begin with a world at time 0, which undo reverts, and return a message about it.
+
+    :param content: mapping of its file
+    :raises Refusal: it is refused
+    """
+    settings, rate = simulation.settings, simulation.physics_rate
+    state = yield from on_thread(partial(state_from, content, settings, rate))
+    beginning = yield from on_thread(partial(beginning_of, state, rate))
+    return simulation.open_world(state, beginning)

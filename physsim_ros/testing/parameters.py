@@ -59,6 +59,8 @@ class Parameters(TypedDict, total=False):
     robot_tf: Literal['prefixed', 'namespaced', 'none']
     robots_in_past: Literal['follow', 'freeze']
     drive_timeout: float
+    laser_beams: int
+    laser_angle: Sequence[float]
     lockstep: float
     viewer: Literal['none', 'spawn', 'web', 'connect', 'auto']
     viewer_url: str

@@ -25,6 +25,8 @@ VALUES: dict[str, float] = {
     'stiffness': 20.0,
     'damping': 0.5,
     'rest_length': 0.7,
+    'rest_angle': 0.3,
+    'friction': 0.2,
     'length': 2.5,
     'ratio': -2.0,
 }

@@ -32,7 +32,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
         'bad_size',
         'points',
     ),
-    'a property of another kind': ({'stiffness': 3.0}, 'unknown_property', 'stiffness'),
+    'a property of another kind': ({'rest_length': 3.0}, 'unknown_property', 'rest_length'),
     'a limit that is no number': ({'lower': math.inf}, 'malformed', 'lower'),
     'limits crossed': ({'lower': 2.0, 'upper': 1.0}, 'bad_property', 'lower'),
     'a ratio of nothing': ({'kind': 'gear', 'ratio': 0.0}, 'bad_property', 'ratio'),
@@ -93,6 +93,9 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
         'bad_property',
         'stiffness',
     ),
+    'a negative torsion spring': ({'stiffness': -1.0}, 'bad_property', 'stiffness'),
+    'a torsion spring with no number': ({'rest_angle': math.nan}, 'malformed', 'rest_angle'),
+    'a bearing that drives': ({'friction': -0.1}, 'bad_property', 'friction'),
     'a negative force': ({'break_force': -1.0}, 'bad_property', 'break_force'),
     'a word for a flag': ({'collide': 'yes'}, 'bad_property', 'collide'),
 }

@@ -134,8 +134,8 @@ def test_a_property_that_is_null_has_its_default_again():
     world.apply(join_from({'kind': 'axle', 'a': 'a/0', 'upper': None, 'lower': -2.0}, **drawn))
     (joint,) = world.scene.joints
     assert joint.properties.explicit() == {'lower': -2.0, 'break_force': 9.0}
-    with pytest.raises(UnknownProperty, match='stiffness'):
-        join_from(terms | {'stiffness': None}, **drawn)
+    with pytest.raises(UnknownProperty, match='rest_length'):
+        join_from(terms | {'rest_length': None}, **drawn)
 
 
 def test_a_joint_gives_no_more_than_its_greatest_force():

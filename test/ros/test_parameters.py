@@ -108,7 +108,8 @@ def test_every_parameter_is_described_over_ros_with_its_unit_and_range(client: C
         if isinstance(spec.default, bool | str):
             continue
         limited = descriptor.floating_point_range or descriptor.integer_range
-        assert limited or name in ('gravity', 'wind', 'bounds', 'datum', 'draw_velocity'), name
+        rows = ('gravity', 'wind', 'bounds', 'datum', 'laser_angle', 'draw_velocity')
+        assert limited or name in rows, name
         if name in RANGES:
             span = RANGES[name]
             assert (limited[0].from_value, limited[0].to_value) == (span.low, span.high), name
@@ -183,6 +184,11 @@ def test_a_bad_value_is_refused_with_its_code(physsim: PhysSim) -> None:
         ('bounds', [0.0, 0.0, 1.0]),
         ('bounds', [1.0, 0.0, 0.0, 1.0]),
         ('bounds', [0.0, 0.0, math.nan, 1.0]),
+        ('laser_angle', [0.0]),
+        ('laser_angle', [1.0, 0.0]),
+        ('laser_angle', [0.0, 0.001]),
+        ('laser_angle', [0.0, math.inf]),
+        ('laser_angle', [0.0, 7.0]),
         ('viewer', 'window'),
         ('viewer', ''),
     ):

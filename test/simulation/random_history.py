@@ -285,6 +285,8 @@ def joint_properties_of(rng: Choices, kind: JointKind) -> JointProperties:
         'gain': 50.0,
         'stiffness': rng.choice((0.0, 20.0, 3000.0)),
         'damping': rng.choice((0.5, 100.0)),
+        'rest_angle': rng.number(),
+        'friction': rng.choice((0.0, 1.0, 100.0)),
         'rest_length': rng.random(),
         'length': 2.0 * rng.random(),
         'ratio': rng.choice((-1.0, 0.5, 3.0)),

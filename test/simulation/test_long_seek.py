@@ -210,6 +210,41 @@ def test_a_seek_is_told_done_when_it_is_and_not_where_another_one_takes_its_plac
     assert not told_of_seeks(simulation)
 
 
+@pytest.mark.parametrize('ends_by', ['replay', 'seek', 'another undo'])
+def test_an_undo_is_told_done_when_its_replay_is_or_when_the_world_goes_elsewhere(
+    simulation, digests, ends_by
+):
+    for number in range(2):
+        late = spawning(f'late/{number}', DISC, (5.0 + number, 1.0, 0.0))
+        simulation.requests.submit(late, topic='~/spawn')
+    simulation.apply_requests()
+    told: list[str] = []
+
+    def undo(name: str) -> None:
+        def call() -> list[Answer]:
+            return [Answer(topic='~/undo', message=simulation.undo())]
+
+        simulation.requests.submit_call(call, Wait.BEHIND_REQUESTS, lambda: told.append(name))
+
+    undo('first')
+    for tick in range(50):
+        assert not simulation.advance(tick * SECOND // 60, is_overdue=lambda: True)
+        assert not told
+        assert not simulation.requests.take_answers()
+    match ends_by:
+        case 'seek':
+            simulation.requests.submit_seek(SECOND, topic='~/seek')
+        case 'another undo':
+            undo('second')
+    simulation.apply_up_to_seek()
+    assert told == ([] if ends_by == 'replay' else ['first'])
+    answers = simulation.requests.take_answers() + simulation.advance_frame().answers
+    undone = [each.message for each in answers if each.topic == '~/undo']
+    assert undone[0] == 'undid spawn late/1, back at 2.500 s'
+    assert told == ['first', 'second'][: len(undone)]
+    assert len(undone) == 1 + (ends_by == 'another undo')
+
+
 def test_a_cached_frame_is_shown_at_once_and_the_world_follows_it(simulation, digests):
     cursor = simulation.past.cursor
     for number, step in enumerate((480, 240, 360)):

@@ -4,10 +4,13 @@
 """Thousands of requests are applied in slices: time goes on between them, but in no gesture."""
 
 from collections.abc import Callable
+from concurrent.futures import Future
+from threading import Thread
 
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.parts import Parts
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 
@@ -104,6 +107,56 @@ def test_a_call_behind_requests_waits_for_them():
     for number in range(COUNT // SLICE + 1):
         tick(simulation, number)
     assert seen == [SLICE, COUNT]
+
+
+def begin_reading(simulation: Simulation) -> Future[str]:
+    """Submit a call that waits for a file, and a request behind it; return what is waited for."""
+    future: Future[str] = Future()
+
+    def call() -> Parts[list[Answer]]:
+        yield future
+        return [Answer(topic='~/load_world', message=future.result())]
+
+    simulation.requests.submit_call(call, Wait.FOR_SEEK)
+    late = spawning('late/0', BOX, (0.0, 0.0, 0.0))
+    simulation.requests.submit(late, topic='~/spawn')
+    return future
+
+
+def test_time_goes_on_while_a_call_waits_for_a_file_and_requests_wait_for_the_call():
+    simulation = Simulation(settings=NOWHERE)
+    tick(simulation, 0)
+    future = begin_reading(simulation)
+    for number in range(1, 5):
+        assert tick(simulation, number) == 1
+        assert not simulation.apply_up_to_seek()
+        assert len(simulation.world) == 0
+    future.set_result('loaded')
+    (frame,) = simulation.advance(5 * FRAME)
+    assert simulation.step == 20
+    assert [each.message for each in frame.answers] == ['loaded', 'spawned late/0']
+    assert simulation.apply_up_to_seek()
+
+
+def test_a_single_frame_of_a_paused_world_waits_for_a_call_that_waits_for_a_file():
+    simulation = Simulation(settings=NOWHERE, speed=0.0)
+    tick(simulation, 0)
+    future = begin_reading(simulation)
+    simulation.playback.queue_frame()
+    assert tick(simulation, 1) == 0
+    future.set_result('loaded')
+    (frame,) = simulation.advance(2 * FRAME)
+    assert frame.moved
+    assert frame.snapshot.scene.names == ('late/0',)
+
+
+def test_who_wants_the_world_at_once_waits_for_the_file():
+    simulation = Simulation(settings=NOWHERE)
+    future = begin_reading(simulation)
+    assert not simulation.apply_up_to_seek()
+    Thread(target=future.set_result, args=('loaded',)).start()
+    simulation.advance_frame()
+    assert len(simulation.world) == 1
 
 
 def test_a_single_frame_of_a_paused_world_waits_for_all_requests():

@@ -12,7 +12,7 @@ from physsim_ros.files import OwnWorlds
 from physsim_ros.ros import world_files
 from physsim_ros.simulation import request_queue
 from physsim_ros.simulation.simulation import Simulation
-from physsim_ros.sketchpad import autosave, message, Role, sketchpad
+from physsim_ros.sketchpad import autosave, message, Role, sketchpad, world_control
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.message import KINDS
 from physsim_ros.sketchpad.page_session import PageSession
@@ -107,7 +107,7 @@ def test_an_action(
 
 @pytest.mark.parametrize('part', ['state_from', 'check_moment'])
 def test_an_upload(doors: PageDoors, part: str) -> None:
-    doors.fail(sketchpad, part)
+    doors.fail(world_control if part == 'state_from' else sketchpad, part)
     assert_failed(doors.browser.open_world(WORLD))
     doors.go_on()
 

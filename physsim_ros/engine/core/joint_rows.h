@@ -23,7 +23,7 @@ static inline bool is_equality(const Row *row) {
 
 // Whether a row is about the rate of x, wherever x is.
 static inline bool is_of_rate(const Row *row) {
-    return row->law == LAW_DRIVE || row->law == LAW_FALLS || row->law == LAW_RISES;
+    return row->law == LAW_DRIVE || row->law == LAW_FRICTION || row->law == LAW_FALLS || row->law == LAW_RISES;
 }
 
 // Return x of a row, and its Jacobian.

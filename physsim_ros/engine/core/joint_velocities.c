@@ -44,6 +44,9 @@ static const double rounding_of_edges = 1e-9;
 static const double least_slip = 1e-3;
 // Difference of slips that needs no further solution, in m/s and as a share of the slip.
 static const double slip_error = 1e-4, slip_share = 1e-3;
+// Share of its rate that a damper takes in a step, at least: the row of a spring without one is soft by this, and
+// swings on for a million seconds.
+static const double least_damping = 1e-9;
 
 // Springs with a damper, and those that are too stiff for the step (`joints/stiffness.py`), are soft rows: the impulse
 // of the step is -dt (k x + c v), x the strain before it and v the velocity after it (implicit Euler of the damper;
@@ -69,15 +72,23 @@ typedef struct Change {
     double energy;    // of the change of velocities, twice [J]
 } Change;
 
+// J M⁻¹ Jᵀ of a spring, where nothing else holds its bodies.
+static double spring_unit(const Solve *solve, int row) {
+    Ends ends = solve->island->ends[row];
+    const Inverse *inverses = solve->island->inverses;
+    return softness_unit(solve->jacobians[row], inverses[ends.a], inverses[ends.b]);
+}
+
+static double damping_of(const Solve *solve, int row) {
+    return greatest(solve->island->rows[row]->damping, least_damping / (solve->dt * spring_unit(solve, row)));
+}
+
 static double softness_of(const Solve *solve, int row) {
     const Row *of_joint = solve->island->rows[row];
     if (of_joint->law != LAW_SPRING) {
         return joint_softness;
     }
-    Ends ends = solve->island->ends[row];
-    const Inverse *inverses = solve->island->inverses;
-    double own = softness_unit(solve->jacobians[row], inverses[ends.a], inverses[ends.b]);
-    return 1.0 / (solve->dt * of_joint->damping * own);
+    return 1.0 / (solve->dt * damping_of(solve, row) * spring_unit(solve, row));
 }
 
 // The impulses along the two edges of a cone, by those along and across its normal.
@@ -200,7 +211,7 @@ static void set_targets(const Solve *solve, VelocityRows *rows, const double *bo
     int normal = island->joint_row_count, tangent = normal + island->touch_count;
     for (int row = 0; row < normal; row++) {
         const Row *of_joint = island->rows[row];
-        double pull = solve->springs[row] ? of_joint->stiffness * solve->excess[row] / of_joint->damping : 0.0;
+        double pull = solve->springs[row] ? of_joint->stiffness * solve->excess[row] / damping_of(solve, row) : 0.0;
         rows->wanted[row] = bound_rate(of_joint) - pull - rows->rates[row];
     }
     for (int number = 0; number < island->touch_count; number++) {
@@ -397,12 +408,12 @@ static void write_impulses(Solve *solve, const Solution *solution) {
     }
 }
 
-// A joint of which a row has reached its greatest force does not hold; one that is driven holds all the same.
+// A joint of which a row has reached its greatest force does not hold; one that drives or springs holds all the same.
 static void find_yielded(Solve *solve, const Solution *solution) {
     const Island *island = solve->island;
     for (int row = 0; row < island->joint_row_count; row++) {
         const Row *of_joint = island->rows[row];
-        if (!is_of_rate(of_joint) && fabs(solution->impulses[row]) >= of_joint->most) {
+        if (of_joint->law == LAW_BOUNDS && fabs(solution->impulses[row]) >= of_joint->most) {
             for (int other = 0; other < island->joint_row_count; other++) {
                 if (island->joint_of_row[other] == island->joint_of_row[row]) {
                     solve->holds[other] = false;

@@ -66,7 +66,9 @@ void add_rest(Body *body, Twist gained);
 void find_joint_islands(World *world);
 void solve_joints(World *world);
 void close_joints(World *world);
-// The impulses of impacts, from which the next step does not start (`impact_loads.c`).
+// Impulses from which the next step does not start: of gaps that were closed (`joint_solver.c`), and of impacts
+// (`impact_loads.c`).
+void take_out_closing(World *world);
 void take_out_impacts(World *world);
 void begin_totals(World *world);
 void find_gaps(World *world);

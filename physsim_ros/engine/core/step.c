@@ -116,6 +116,7 @@ static void step(World *world) {
     }
     find_free(world);
     keep_awake(world);
+    take_out_closing(world);
     take_out_impacts(world);
     begin_sleepers(awake, awake_count);
 }

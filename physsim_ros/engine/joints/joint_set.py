@@ -25,7 +25,6 @@ from physsim_ros.engine.joints import stiffness
 from physsim_ros.engine.joints.joint_table import check_joint, JointTable
 from physsim_ros.engine.joints.kinds import build_joint, EngineJoint
 from physsim_ros.model.arrays import Flags, Floats
-from physsim_ros.model.joints import JointKind
 from physsim_ros.model.motor_command import MotorCommand
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.snapshot import Springs
@@ -193,11 +192,9 @@ class JointSet:
             self._table.command(command, begun)
 
     def _soft_springs(self) -> dict[str, float]:
-        """Return the dampings of the springs that Chipmunk does not solve, by name [N s/m]."""
+        """Return the dampings of the springs that Chipmunk does not solve, by name."""
         springs = [
-            each.joint
-            for each in self.by_name.values()
-            if each.joint.kind is JointKind.SPRING and each.parts
+            each.joint for each in self.by_name.values() if each.joint.is_elastic and each.parts
         ]
         bodies = {name: rigid.body for name, rigid in self._bodies.items()}
         dampings = stiffness.dampings_of(springs, bodies, self._dt)

@@ -33,7 +33,7 @@ class JointTable:
     :param joints: of the set
     :param unstepped: names of joints whose first step is to come
     :param totals: (k, 2) float64 of each joint: impulses of its constraints in the last step
-    :param soft: damping of the springs that Chipmunk does not solve, by name [N s/m]
+    :param soft: damping of the springs that Chipmunk does not solve, by name [N s/m, N m s/rad]
     :param dt: of a sub-step [s]
 
     :ivar joints: (j,) `Joint`
@@ -174,8 +174,7 @@ def check_joint(each: EngineJoint, bodies: Mapping[str, Body], dt: float) -> Non
     :param bodies: by name
     :param dt: of a sub-step [s]
     """
-    is_spring = each.joint.kind is JointKind.SPRING
-    damping = dampings_of([each.joint], bodies, dt)[0] if is_spring else 0.0
+    damping = dampings_of([each.joint], bodies, dt)[0] if each.joint.is_elastic else 0.0
     _rows_of(each, 0, damping, dt)
     _joint_fields(each, dt, unstepped=True)
 
@@ -187,7 +186,7 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
         each.ends.at_a,
         each.ends.at_b,
         (seat.ux, seat.uy),
-        joint.number('ratio'),
+        seat.length if joint.kind.schema.rolls else joint.number('ratio'),
         math.inf if most is None else most * dt * lib.SUB_STEPS,
         joint.kind.schema.has_axis,
         joint.kind in _PRESSING,
@@ -209,7 +208,7 @@ def _rows_of(
     Return the rows of a joint, each with its guides.
 
     :param first: number of its first part
-    :param damping: of a spring that Chipmunk does not solve [N s/m]; 0 is none
+    :param damping: of a spring that Chipmunk does not solve [N s/m, N m s/rad]; 0 is none
     """
     force = each.joint.holding_force
     rows: list[tuple[tuple[object, ...], tuple[EngineGuide, ...]]] = []

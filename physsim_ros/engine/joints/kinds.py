@@ -171,7 +171,15 @@ def _axle(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     """
     lower, upper, phase = joint.properties.lower, joint.properties.upper, joint.seat.phase
     ratchet = joint.properties.ratchet
-    parts: tuple[Part, ...] = (_pivot(ends), *_commanded(joint, ends, lib.PART_OWN, lib.ROW_ANGLE))
+    parts: tuple[Part, ...] = (
+        _pivot(ends),
+        *_commanded(joint, ends, lib.PART_OWN, lib.ROW_ANGLE),
+        *_friction(joint, ends, lib.PART_OWN, lib.ROW_ANGLE),
+    )
+    if joint.is_elastic:
+        neutral = phase - joint.number('rest_angle')
+        spring = Row(lib.ROW_ANGLE, neutral, neutral, law=lib.LAW_SPRING)
+        parts = (*parts, _own(lib.PART_OWN, ends, spring))
     if ratchet is not None:
         law = lib.LAW_FALLS if ratchet > 0.0 else lib.LAW_RISES
         parts = (*parts, _own(lib.PART_OWN, ends, Row(lib.ROW_ANGLE, law=law)))
@@ -195,6 +203,17 @@ def _commanded(joint: Joint, ends: Ends, part: int, row: int) -> tuple[Part, ...
     if not joint.properties.effort:
         return ()
     return (_own(part, ends, Row(row, law=lib.LAW_DRIVE, most=joint.properties.effort)),)
+
+
+def _friction(joint: Joint, ends: Ends, part: int, row: int) -> tuple[Part, ...]:
+    """
+    Return the friction of a bearing or a slide, if it has any: dry, the same at every load.
+
+    :param part: kind of its part
+    :param row: kind of its row
+    """
+    most = joint.number('friction')
+    return (_own(part, ends, Row(row, law=lib.LAW_FRICTION, most=most)),) if most else ()
 
 
 def _motor(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -311,8 +330,9 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     drive = _drives(joint, ends)
     lower, upper = joint.properties.lower, joint.properties.upper
     motor = _commanded(joint, ends, lib.PART_DRIVE, lib.ROW_ALONG)
+    along = (*(motor or drive), *_friction(joint, ends, lib.PART_DRIVE, lib.ROW_ALONG))
     if lower is None and upper is None:
-        return *parts, *(motor or drive)
+        return *parts, *along
     least, most = -math.inf if lower is None else lower, math.inf if upper is None else upper
     # Distances from a point of the line that lies behind its lower limit.
     back = _BACK if lower is None else _BACK - lower
@@ -321,7 +341,7 @@ def _slider(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     limit = pymunk.SlideJoint(ends.b, ends.a, origin, ends.at_a, nearest, back + most)
     limit.error_bias = _NO_BIAS
     row = Row(lib.ROW_ALONG, least, most, below=-1.0)
-    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *(motor or drive)
+    return *parts, Part(lib.PART_SLIDE, limit, (row,)), *along
 
 
 def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
@@ -334,6 +354,12 @@ def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     return (_own(lib.PART_OWN, ends, row._replace(guides=ends.guides)),)
 
 
+def _rack(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return a way along a rack, and the same along the rim of the pinion that rolls on it."""
+    met = -joint.seat.length * joint.seat.phase
+    return (_own(lib.PART_DRIVE, ends, Row(lib.ROW_ROLL, met, met)),)
+
+
 KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {
     JointKind.PIN: _weld,
     JointKind.AXLE: _axle,
@@ -343,6 +369,7 @@ KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {
     JointKind.ROPE: _rope,
     JointKind.SLIDER: _slider,
     JointKind.GEAR: _gear,
+    JointKind.RACK: _rack,
 }
 
 

@@ -7,7 +7,8 @@ Stiffness: which springs are soft constraints, solved with the loads that act on
 Chipmunk moves bodies first and lets springs pull then (symplectic Euler), which keeps the energy
 of what swings, and is stable while no body swings by more than two radians a sub-step. All springs
 on a body together swing it by less than one while sum of f k (1/m + r^2/I) <= 1 / dt^2, f = 2
-where the other body is dynamic too, since (v_a - v_b)^2 <= 2 v_a^2 + 2 v_b^2. What exceeds that is
+where the other body is dynamic too, since (v_a - v_b)^2 <= 2 v_a^2 + 2 v_b^2; a torsion spring has
+1/I in place of 1/m + r^2/I. What exceeds that is
 taken where the sub-step ends (implicit Euler): no spring is too stiff, and one that swings faster
 than steps can show comes to rest. A damper is always taken there.
 """
@@ -44,7 +45,7 @@ def springs_of(joints: Sequence[EngineJoint]) -> Springs:
 
 def dampings_of(springs: Sequence[Joint], bodies: Mapping[str, Body], dt: float) -> list[float]:
     """
-    Return the damping of each spring, with what its stiffness adds to it [N s/m].
+    Return the damping of each spring, with what its stiffness adds to it [N s/m, N m s/rad].
 
     :param bodies: by name
     :param dt: of a sub-step [s]
@@ -62,7 +63,7 @@ def dampings_of(springs: Sequence[Joint], bodies: Mapping[str, Body], dt: float)
 
 
 def _softness(spring: Joint, bodies: Mapping[str, Body]) -> Iterator[tuple[str, float]]:
-    """Yield the dynamic bodies of a spring, and f (1/m + r^2/I) of each [1/kg]."""
+    """Yield the dynamic bodies of a spring, and f (1/m + r^2/I) or f/I of each."""
     seat = spring.seat
     ends = ((spring.a, seat.ax, seat.ay), (spring.b, seat.bx, seat.by))
     moving = [each for each in ends if each[0] in bodies and bodies[each[0]].dynamic]
@@ -70,4 +71,5 @@ def _softness(spring: Joint, bodies: Mapping[str, Body]) -> Iterator[tuple[str, 
         body = bodies[name]
         form = body.shape.form
         arm2 = (x - form.centroid[0]) ** 2 + (y - form.centroid[1]) ** 2
-        yield name, len(moving) * (1.0 + arm2 / form.gyration) / body.total_mass
+        share = 1.0 + arm2 / form.gyration if spring.kind.points == 2 else 1.0 / form.gyration
+        yield name, len(moving) * share / body.total_mass

@@ -14,7 +14,10 @@ from typing import Annotated, Any
 from physsim_ros.drawing import DrawingSettings, Tool
 from physsim_ros.model.checks import flag, OneOf, text, Vector, Whole, Within
 from physsim_ros.model.declarations import Checked, Declaration
+from physsim_ros.model.errors import BadProperty
+from physsim_ros.model.robots.sensors import angles, LEAST_INCREMENT, MOST_BEAMS
 from physsim_ros.model.settings import WorldSettings
+from physsim_ros.model.transform import Point
 from physsim_ros.ros.robots.frames import RobotTf
 from physsim_ros.simulation.clock import SPEED
 from physsim_ros.simulation.past import DEFAULT_MEMORY, LEAST_MEMORY, MOST_MEMORY
@@ -27,9 +30,28 @@ Type = Parameter.Type
 # Value of draw_color with which each body has another colour.
 AUTO = 'auto'
 # Values of parameters for settings that are None, which ROS does not have.
-_FOR_NONE = {'bounds': [], 'datum': [], 'draw_color': AUTO}
+_FOR_NONE = {'bounds': [], 'datum': [], 'laser_angle': [], 'draw_color': AUTO}
 # A note of a parameter that is fixed after the start.
 READ_ONLY = 'read-only'
+
+
+# Least angle between the first and the last beam [rad], in which MOST_BEAMS have room.
+_NARROWEST = MOST_BEAMS * LEAST_INCREMENT
+
+
+def _laser_angle(value: object, name: str) -> Point | None:
+    """
+    Return the first and the last angle of lasers [rad]; None of an empty list.
+
+    :raises Malformed: there are not two numbers
+    :raises BadProperty: they are out of range or out of order, or too close together
+    """
+    if isinstance(value, list | tuple) and not value:
+        return None
+    first, last = angles(value, name)
+    if last - first < _NARROWEST:
+        raise BadProperty(f'{name} must span at least {_NARROWEST:g} rad', field=name)
+    return first, last
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,6 +158,17 @@ class NodeSettings(Checked):
         'simulation time after which a robot stops without another command on `cmd_vel`; 0 is '
         'never, -1 is the `timeout` of each drive',
     ] = -1.0
+    laser_beams: Annotated[
+        int,
+        Whole(0, MOST_BEAMS),
+        "beams of all lasers on their topics; 0 is each laser's own number",
+    ] = 0
+    laser_angle: Annotated[
+        Point | None,
+        _laser_angle,
+        'first and last angle of all lasers on their topics [rad], counter-clockwise, 0.01 rad to '
+        "a full turn apart; empty is each laser's own",
+    ] = None
     lockstep: Annotated[
         float,
         Within(0.0, 3600.0, 's'),

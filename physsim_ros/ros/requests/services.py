@@ -10,13 +10,14 @@ message.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.parts import at_once, in_parts, Parted, Parts
 from physsim_ros.simulation.request_queue import RequestQueue, Wait
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -26,21 +27,21 @@ from std_srvs.srv import Trigger
 
 # Depth of the calls that wait to be read: 50 clients with 20 calls each.
 _QOS = QoSProfile(depth=1000)
-# Carries out a service, and returns a message about it; raises a Refusal where it cannot.
-Action = Callable[[], str]
 # Fills in a response, with a refusal where the call is not carried out, and returns the answers.
-Fill = Callable[[Refusal | None], Iterable[Answer]]
+Fill = Callable[[Refusal | None], Sequence[Answer] | Parts[Sequence[Answer]]]
+# Makes a call at its time among the requests, and calls the last function when it is told.
+Submit = Callable[[Parted[Sequence[Answer]], Wait, Callable[[], object]], None]
 
 
 class Service(NamedTuple):
     """
     A service.
 
-    :ivar perform: performs it, and returns a message about it
+    :ivar perform: performs it, and returns a message about it; raises a Refusal where it cannot
     :ivar wait: what its calls wait for
     """
 
-    perform: Action
+    perform: Parted[str]
     wait: Wait = Wait.NONE
 
 
@@ -56,20 +57,22 @@ class ServiceCalls:
     def __init__(
         self,
         requests: RequestQueue,
-        submit: Callable[[Callable[[], Iterable[Answer]], Wait], None],
+        submit: Submit,
         boundary: ErrorBoundary,
     ) -> None:
         self._requests = requests
         self._submit = submit
         self._boundary = boundary
 
-    def fill(self, topic: str, fill: Fill, refusal: Refusal | None = None) -> Iterable[Answer]:
-        """Fill in a response now, and return the answers."""
+    def fill(
+        self, topic: str, fill: Fill, refusal: Refusal | None = None
+    ) -> Parts[Sequence[Answer]]:
+        """Fill in a response, and return the answers."""
         try:
-            with self._boundary.message(topic):
-                return fill(refusal)
+            parts = in_parts(partial(fill, refusal))
+            return (yield from self._boundary.parts_of_message(topic, parts))
         except Failed as failed:
-            return fill(failed)
+            return (yield from in_parts(partial(fill, failed)))
 
     def add(self, topic: str, response: Any, fill: Fill, wait: Wait) -> Future:
         """
@@ -80,17 +83,16 @@ class ServiceCalls:
         """
         reply = Future()
 
-        def finish(refusal: Refusal | None = None) -> Iterable[Answer]:
-            answers = self.fill(topic, fill, refusal)
+        def send() -> None:
             reply.set_result(response)
-            return answers
 
         try:
             with self._boundary.reading(topic):
-                self._submit(finish, wait)
+                self._submit(partial(self.fill, topic, fill), wait, send)
         except (Busy, Failed) as refusal:
-            for answer in finish(refusal):
+            for answer in at_once(self.fill(topic, fill, refusal)):
                 self._requests.tell(answer)
+            send()
         return reply
 
     def reply_when_done(self, service: rclpy.service.Service) -> None:
@@ -135,12 +137,14 @@ def create_services(
     :param on_success: called after each service that was not refused
     """
 
-    def fill(name: str, response: Trigger.Response, refused: Refusal | None) -> list[Answer]:
+    def fill(
+        name: str, response: Trigger.Response, refused: Refusal | None
+    ) -> Parts[Sequence[Answer]]:
         topic = f'~/{name}'
         try:
             if refused is not None:
                 raise refused
-            response.message = services[name].perform()
+            response.message = yield from in_parts(services[name].perform)
             on_success()
         except Refusal as refusal:
             response.message = f'{refusal.code}: {refusal}'

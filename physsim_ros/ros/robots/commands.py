@@ -6,8 +6,8 @@ Commands of a robot: `cmd_vel`, as `Twist`, as `TwistStamped`, or of a car as Ac
 
 The type is that of the publisher, as the graph has it. A process takes one type for a topic: where
 it has other nodes, nothing is subscribed to before a publisher is there. Of publishers of several
-types one is heard as long as it speaks: one that died without a shutdown stays on the graph for
-some 20 s. Of what comes between two frames the last one counts.
+types the newest is heard, as long as it speaks: one that died without a shutdown stays on the
+graph for some 20 s. Of what comes between two frames the last one counts.
 """
 
 from __future__ import annotations
@@ -89,6 +89,8 @@ class Commands(CommandTopic):
         # Type that was chosen last, and steady time of that or of the last command [s].
         self._kind: type | None = None
         self._spoke = math.inf
+        # Identifiers of the publishers at the last look.
+        self._known: set[bytes] = set()
         # Type and bytes of the last command.
         self._last: tuple[type, bytes] | None = None
         # Name of the topic on the graph, and number of its publishers at the last look; None where
@@ -173,13 +175,10 @@ class Commands(CommandTopic):
         reliable, best_effort = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
         if not types:
             return None if self._expected is None else (self._expected, reliable), deaf
-        place = types.index(self._kind) if self._kind in types else 0
-        if len(types) > 1 and time.monotonic() > self._spoke + _SILENCE:
-            place = (place + 1) % len(types)
-        kind = types[place]
+        kind = self._choose_type(types, self._new_types(publishers))
         if len(types) > 1:
             words = ' and of '.join(sorted(each.__name__ for each in types))
-            deaf = f'publishers of {words} are there; one is heard as long as it speaks'
+            deaf = f'publishers of {words} are there; the newest is heard, as long as it speaks'
         # Best effort hears publishers of both reliabilities, and may lose a message.
         is_lossy = any(
             each.qos_profile.reliability == best_effort
@@ -187,6 +186,25 @@ class Commands(CommandTopic):
             if each.topic_type in self._types
         )
         return (kind, best_effort if is_lossy else reliable), deaf
+
+    def _new_types(self, publishers: Sequence[TopicEndpointInfo]) -> set[type]:
+        """Return the types of the publishers that have come since the last look."""
+        before = self._known
+        self._known = {bytes(each.endpoint_gid) for each in publishers}
+        new = (each for each in publishers if bytes(each.endpoint_gid) not in before)
+        return {kind for each in new if (kind := self._types.get(each.topic_type)) is not None}
+
+    def _choose_type(self, types: Sequence[type], new: set[type]) -> type:
+        """
+        Return the type to hear: of a new publisher, else as before, else the next that may speak.
+
+        :param types: that are published
+        :param new: of the publishers that have come since the last look
+        """
+        if self._kind not in types or (new and self._kind not in new):
+            return next((each for each in types if each in new), types[0])
+        silent = time.monotonic() > self._spoke + _SILENCE
+        return types[(types.index(self._kind) + silent) % len(types)]
 
     def _subscribe(self, kind: type, reliability: ReliabilityPolicy) -> bool:
         """Subscribe to messages of a type; return whether the middleware has let it."""

@@ -73,6 +73,8 @@ class Fleet:
         self._boundary = boundary
         self._expected = expected
         self._scene: Scene | None = None
+        # Beams and angles that the parameters set for all lasers.
+        self._lasers: dict[str, Any] = {}
         # Steady time of the next look at the graph [s].
         self._look_due = 0.0
         # Steady time since which a command is waited for [s]; None is none.
@@ -198,6 +200,10 @@ class Fleet:
         if frozen or (before is not None and snapshot.stamp < before.stamp):
             # The scan that was to be answered is of a time that is not shown.
             self._expect_no_answers()
+        lasers = self._laser_changes
+        if lasers != self._lasers:
+            self._lasers, self._scene = lasers, None
+            self._close()
         if snapshot.scene is not self._scene:
             self._scene = snapshot.scene
             self._update(snapshot.scene)
@@ -231,6 +237,11 @@ class Fleet:
         topic = commands.topic
         self._requests.tell(Answer(topic=topic, subject=robot.body, message=message))
 
+    def _close(self) -> None:
+        """Take the topics of all robots back."""
+        while self.robots:
+            self.robots.popitem()[1].close()
+
     def _update(self, scene: Scene) -> None:
         """Make topics for robots that have come, and take those of others back."""
         bodies = [scene.bodies[row] for row in scene.robot_rows.tolist()]
@@ -246,6 +257,15 @@ class Fleet:
                 self.robots[body.name] = topics
                 topics.describe(body, scene)
 
+    @property
+    def _laser_changes(self) -> dict[str, Any]:
+        """Return the fields of all lasers that parameters set."""
+        beams, angle = self._values['laser_beams'], self._values['laser_angle']
+        return {
+            **({'beams': beams} if beams else {}),
+            **({'angle': tuple(angle)} if len(angle) else {}),
+        }
+
     def _make(self, body: str, robot: Robot) -> RobotTopics:
         return RobotTopics(
             self._node,
@@ -254,6 +274,7 @@ class Fleet:
             robot_tf=RobotTf(self._values['robot_tf']),
             world_frame=self._values['frame_id'],
             refuse=partial(self._refuse, body),
+            lasers=self._lasers,
             expected=self._expected,
         )
 

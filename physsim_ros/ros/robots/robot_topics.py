@@ -10,7 +10,8 @@ subscribes; a topic that ROS refuses, as another type has it, is refused, and th
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from functools import partial
 import math
 from typing import Any, NamedTuple
@@ -78,6 +79,7 @@ class RobotTopics:
     :param robot_tf: where its transforms are published
     :param world_frame: name of the world frame
     :param refuse: reports a topic that cannot be; takes the refusal and the topic
+    :param lasers: fields of lasers that its messages have in place of its own
     :param expected: type of commands that is subscribed to while nobody publishes; None is none
 
     :ivar commands: of its drive, that it hears; None without a drive
@@ -92,6 +94,7 @@ class RobotTopics:
         robot_tf: RobotTf,
         world_frame: str,
         refuse: Callable[[Refusal, str], None],
+        lasers: Mapping[str, Any],
         expected: type | None = None,
     ) -> None:
         self.body, self.robot = body, robot
@@ -118,7 +121,11 @@ class RobotTopics:
         self._add(Odometry, 'ground_truth', self.truth)
         if robot.drive is not None:
             self._add(Odometry, 'odom', self.odometry, rate=robot.odometry.rate)
+        # Lasers as they are published, by the name of their topic.
+        self._lasers: dict[str, Laser] = {}
         for sensor in robot.sensors:
+            if isinstance(sensor, Laser) and lasers:
+                self._lasers[sensor.name] = self._changed(sensor, lasers)
             kind = READINGS[type(sensor)].kind
             message = partial(self.reading, sensor)
             self._add(kind, sensor.name, message, rate=sensor.rate, sensor=sensor)
@@ -137,6 +144,14 @@ class RobotTopics:
     def command_topics(self) -> list[CommandTopic]:
         """Return the topics of its commands."""
         return [*([] if self.commands is None else [self.commands]), *self._motors]
+
+    def _changed(self, laser: Laser, changes: Mapping[str, Any]) -> Laser:
+        """Return a laser with other fields; itself, if that is refused."""
+        try:
+            return replace(laser, **changes)
+        except Refusal as refusal:
+            self._refuse(refusal, f'{self._below}{laser.name}')
+            return laser
 
     def _add(
         self,
@@ -264,7 +279,7 @@ class RobotTopics:
     def reading(self, sensor: Sensor, view: StampedView, row: int, _: int = 0) -> Any:
         """Return the message of a sensor of it."""
         reading = READINGS[type(sensor)]
-        message = reading.message(view, row, sensor)
+        message = reading.message(view, row, self._lasers.get(sensor.name, sensor))
         if reading.stamped:
             message.header.stamp = view.stamp
             message.header.frame_id = self._frames.name(sensor.name)

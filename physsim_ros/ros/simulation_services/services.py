@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -18,6 +18,7 @@ from physsim_ros.ros.simulation_services.results import CodedRefusal, result_of
 from physsim_ros.ros.simulation_services.simulation_states import SimulationStates
 from physsim_ros.ros.simulation_services.spawning import Spawning
 from physsim_ros.ros.simulation_services.worlds import NamedPoses, Worlds
+from physsim_ros.simulation.parts import at_once, in_parts, Parts
 from physsim_ros.simulation.request_queue import Wait
 from rclpy.action import ActionServer
 from rclpy.node import Node
@@ -27,7 +28,7 @@ from simulation_interfaces.action import SimulateSteps
 from simulation_interfaces.msg import Result
 
 # Fills in the response to a request, and returns a message about what was done.
-_Perform = Callable[[Any, Any], str]
+_Perform = Callable[[Any, Any], str | Parts[str]]
 
 
 class SimulationServices:
@@ -45,7 +46,7 @@ class SimulationServices:
         entities, places, worlds = Entities(control), NamedPoses(control), Worlds(control)
         spawning = Spawning(control, worlds)
         self._states = states = SimulationStates(control, worlds)
-        for name, (kind, perform) in {
+        services: dict[str, tuple[Any, _Perform]] = {
             'get_simulator_features': (srv.GetSimulatorFeatures, states.features),
             'get_spawnables': (srv.GetSpawnables, spawning.spawnables),
             'spawn_entity': (srv.SpawnEntity, spawning.spawn),
@@ -68,7 +69,8 @@ class SimulationServices:
             'load_world': (srv.LoadWorld, worlds.load),
             'unload_world': (srv.UnloadWorld, worlds.unload),
             'get_current_world': (srv.GetCurrentWorld, worlds.current),
-        }.items():
+        }
+        for name, (kind, perform) in services.items():
             self._create(node, f'~/simulation/{name}', kind, perform)
         ActionServer(node, SimulateSteps, '~/simulation/simulate_steps', self._simulate_steps)
 
@@ -86,14 +88,14 @@ class SimulationServices:
         request: Any,
         response: Any,
         refused: Refusal | None,
-    ) -> list[Answer]:
+    ) -> Parts[Sequence[Answer]]:
         """Fill in a response, and return the answer; what only reads has none."""
         # Of all but one service.
         result = getattr(response, 'result', Result())
         try:
             if refused is not None:
                 raise refused
-            message = perform(request, response)
+            message = yield from in_parts(partial(perform, request, response))
         except (CodedRefusal, Refusal) as error:
             refusal, result.result = result_of(error)
         else:
@@ -123,7 +125,7 @@ class SimulationServices:
 
         topic = '~/simulation/simulate_steps'
         fill = partial(self._fill, topic, perform, goal.request, response)
-        for answer in self._calls.fill(topic, fill):
+        for answer in at_once(self._calls.fill(topic, fill)):
             self._control.simulation.requests.tell(answer)
         if response.result.result == Result.RESULT_OK:
             goal.succeed()

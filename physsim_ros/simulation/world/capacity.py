@@ -177,27 +177,26 @@ class Capacity:
         if self.checking and space.grips.of(hand) is None and len(space.grips) >= MOST_HANDS:
             raise WorldFull(f'{MOST_HANDS} hands drag a body; no more are allowed')
 
-    def check_state(self, state: WorldState) -> None:
-        """
-        Refuse a state that is too large.
 
-        :raises WorldFull: it is
-        """
-        if not self.checking:
-            return
-        pieces = sum(len(each.body.shape.form.pieces) for each in state.bodies)
-        check_limit('max_bodies', len(state.bodies), state.settings)
-        check_limit('max_shapes', pieces, state.settings)
-        check_limit('max_joints', len(state.joints), state.settings)
-        _check_topics(each.body for each in state.bodies)
-        check_attraction((each.body for each in state.bodies), state.settings)
-        ends = Counter(end for joint in state.joints for end in joint.bodies)
-        for body, count in ends.items():
-            _check_on_body(count, body)
-        most = state.settings.max_overlaps
-        count = _count([(each.body, each.pose) for each in state.bodies], most)
-        if count > most:
-            raise _too_many(count, most)
+def check_state(state: WorldState) -> None:
+    """
+    Refuse a state that is too large.
+
+    :raises WorldFull: it is
+    """
+    pieces = sum(len(each.body.shape.form.pieces) for each in state.bodies)
+    check_limit('max_bodies', len(state.bodies), state.settings)
+    check_limit('max_shapes', pieces, state.settings)
+    check_limit('max_joints', len(state.joints), state.settings)
+    _check_topics(each.body for each in state.bodies)
+    check_attraction((each.body for each in state.bodies), state.settings)
+    ends = Counter(end for joint in state.joints for end in joint.bodies)
+    for body, count in ends.items():
+        _check_on_body(count, body)
+    most = state.settings.max_overlaps
+    count = _count([(each.body, each.pose) for each in state.bodies], most)
+    if count > most:
+        raise _too_many(count, most)
 
 
 def check_limit(limit: str, count: int, settings: WorldSettings) -> None:

@@ -27,7 +27,7 @@ from physsim_ros.model.errors import no_body, no_frame
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.transform import local_to_world, Point, Pose
-from physsim_ros.simulation.world.capacity import Capacity
+from physsim_ros.simulation.world.capacity import Capacity, check_state
 
 # Difference within which places are the same [1, of their size]: markers that come back have the
 # digits of a double; no person draws a point twice so exactly.
@@ -92,17 +92,20 @@ class LiveSpace:
         self._replace(space, BodyPool())
         self.step_count = checkpoint.step
 
-    def begin(self, state: WorldState, step: int) -> None:
+    def begin(self, state: WorldState, step: int, beginning: Beginning | None = None) -> None:
         """
         Replace the space by one that begins with a saved state.
 
         :param step: number of steps that the world has made then
+        :param beginning: that of the state at that step, of which nothing has begun yet; None is
+            to be made
         :raises WorldFull: the state is too large; nothing is changed
         """
-        self.capacity.check_state(state)
-        checkpoint = checkpoint_of(state, step, self._sub_step)
-        space = restore_checkpoint(checkpoint, self._sub_step)
-        self._replace(space, BodyPool(), _Fresh(checkpoint, space, space.changes))
+        if beginning is None:
+            if self.capacity.checking:
+                check_state(state)
+            beginning = _beginning_of(state, step, self._sub_step)
+        self._replace(beginning.space, BodyPool(), beginning)
         self.step_count = step
 
     @property
@@ -114,14 +117,14 @@ class LiveSpace:
         """Build a number of bodies for the next `renew`."""
         self._pool.build_bodies(self.space.table.scene, count)
 
-    def _replace(self, space: Space, pool: BodyPool, fresh: _Fresh | None = None) -> None:
+    def _replace(self, space: Space, pool: BodyPool, fresh: Beginning | None = None) -> None:
         self.space, self.capacity = space, Capacity(space)
         self._pool, self._fresh = pool, fresh
 
 
-class _Fresh(NamedTuple):
+class Beginning(NamedTuple):
     """
-    A checkpoint of a loaded state, and the space that was built from it.
+    The checkpoint of a loaded state, and the space that was built from it.
 
     :ivar changes: count of changes of that space when it was built
     """
@@ -134,6 +137,23 @@ class _Fresh(NamedTuple):
         """Return whether a space at a step is this one, unchanged."""
         as_built = self.space is space and space.age == 0 and space.changes == self.changes
         return as_built and self.checkpoint.step == step
+
+
+def beginning_of(state: WorldState, physics_rate: float) -> Beginning:
+    """
+    Return the beginning of a world at time 0, on any thread.
+
+    :param physics_rate: of the world [Hz]
+    :raises WorldFull: the state is too large
+    """
+    check_state(state)
+    return _beginning_of(state, 0, sub_step_of(physics_rate))
+
+
+def _beginning_of(state: WorldState, step: int, sub_step: float) -> Beginning:
+    checkpoint = checkpoint_of(state, step, sub_step)
+    space = restore_checkpoint(checkpoint, sub_step)
+    return Beginning(checkpoint, space, space.changes)
 
 
 def steps_in(seconds: float, physics_rate: float) -> int:

@@ -9,18 +9,20 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from physsim_ros.files import check_world_name, load_mapping, state_from, text_of
+from physsim_ros.files import check_world_name, load_mapping, text_of
 from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
+from physsim_ros.simulation.parts import in_parts, Parted, Parts
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
 from physsim_ros.sketchpad.messages.files import reaching
 from physsim_ros.sketchpad.page_session import PageSession
 from physsim_ros.sketchpad.rights import Right
+from physsim_ros.sketchpad.world_control import opened
 
 # Names of the services that a page may call.
 ACTIONS = (
@@ -123,18 +125,18 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     :param replace: whether an own world of that name may be written over, and kept
     """
 
-    def save() -> str:
+    def save() -> Parts[str]:
         with reaching(name):
             page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
             page.shared.own_worlds.keep(name)
-        return page.world.perform_on('save_world', name)
+        return (yield from page.world.perform_on('save_world', name))
 
     page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
 
 
-def _saving(page: PageSession, save: Callable[[], str]) -> str:
+def _saving(page: PageSession, save: Parted[str]) -> Parts[str]:
     """Save the world, note that it is saved, and return the message about it."""
-    done = save()
+    done = yield from in_parts(save)
     page.shared.autosave.note_saved()
     page.shared.list_worlds(None)
     return done
@@ -186,13 +188,7 @@ def _manage(page: PageSession, origin: Origin, action: Callable[[], str], name: 
 @message('open_text', '~/load_world', Right.TEACH, world=_world_text)
 def open_text(page: PageSession, origin: Origin, world: dict[str, Any]) -> None:
     """Begin with the world of a text, as that of a run, at time 0, which undo reverts."""
-
-    def begin() -> str:
-        simulation = page.world.simulation
-        state = state_from(world, simulation.settings, simulation.physics_rate)
-        return simulation.open_world(state)
-
-    page.perform(origin, begin, Wait.FOR_SEEK)
+    page.perform(origin, partial(opened, page.world.simulation, world), Wait.FOR_SEEK)
 
 
 @message('share', '~/save_world', Right.DRAW, run=Optional(flag))

@@ -12,7 +12,7 @@ export const THINGS = new Map([
   ['disc', t('circle')], ['rectangle', t('rectangle')], ['polygon', t('polygon')], ['wall', t('wall')],
   ['body', t('body')], ['joint', t('joint')], ['axle', t('axle')], ['pin', t('pin')], ['spring', t('spring')],
   ['rod', t('rod')], ['rope', t('rope')], ['chain', t('chain')], ['motor', t('motor')], ['slider', t('slider')],
-  ['gear', t('gear')], ['anchor', t('anchor')], ['velocity', t('velocity')], ['gravity', t('gravity')],
+  ['gear', t('gear')], ['rack', t('rack and pinion')], ['anchor', t('anchor')], ['velocity', t('velocity')], ['gravity', t('gravity')],
   ['delete', t('delete')], ['hatching', t('heavier by hatching')], ['all bodies', t('all bodies')],
   ['several bodies', t('several bodies')], ['all joints', t('all joints')], ['world', t('the world')],
   ['settings', t('settings')],

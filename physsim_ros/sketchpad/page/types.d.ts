@@ -118,6 +118,10 @@ export interface Joint {
   max_torque?: number;
   stiffness?: number;
   damping?: number;
+  /** Of a torsion spring [rad]. */
+  rest_angle?: number;
+  /** Of a bearing or a slide [N m, N]. */
+  friction?: number;
   length?: number;
   ratio?: number;
   /** Name of the body about which the angles of a gear are measured. */

@@ -15,7 +15,7 @@ const GESTURE = new RegExp(`(^|: )(${[...GESTURES.keys()].join('|')}) (.+?)( and
 const LISTED = 200; // bodies that can be chosen from
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
 /** Names that nobody chose: of what a pen, a click or a tool of this page has drawn. */
-const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear) )?((?:drawn|note|incline)\/\d+)/g;
+const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear|rack) )?((?:drawn|note|incline)\/\d+)/g;
 
 export class Words {
   /** @param {Connection} connection */
@@ -82,7 +82,7 @@ export class Words {
   tell({message, code = '', subject = '', topic = '', ok = true}) {
     if (topic === '~/clear' && ok) return t('All bodies deleted');
     const verb = subject ? message.slice(0, Math.max(message.indexOf(subject), 0)).trimEnd() : '';
-    const joint = /^changed (axle|pin|spring|rod|rope|motor|slider|gear) /.exec(message)?.[1];
+    const joint = /^changed (axle|pin|spring|rod|rope|motor|slider|gear|rack) /.exec(message)?.[1];
     if (joint) return said('changed', capital(thingWord(joint)));
     if (verb.startsWith('joined')) return said('spawned', capital(thingWord(/ by (\w+) /.exec(message)?.[1] ?? 'joint')));
     if (VERBS.has(verb)) return said(verb, this.title(subject));

@@ -29,7 +29,7 @@ SPRING = {**JOINT, 'name': 's', 'kind': 'spring', 'points': [[0.0, 0.0], [0.1, 0
         ([{**LINK, 'name': 'a/b'}], [JOINT], BadProperty, 'name'),
         ([{**LINK, 'circle': {'radius': 1}}], [JOINT], BadProperty, 'shape'),
         ([{**LINK, 'drive': {}}], [JOINT], UnknownProperty, 'drive'),
-        ([LINK], [{**JOINT, 'stiffness': 3}], UnknownProperty, 'stiffness'),
+        ([LINK], [{**JOINT, 'rest_length': 3}], UnknownProperty, 'rest_length'),
         ([LINK], [{**JOINT, 'kind': 'hook'}], BadProperty, 'kind'),
         ([LINK], [{**JOINT, 'effort': -1}], BadProperty, 'effort'),
     ],

@@ -5,9 +5,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import ExitStack
 from functools import partial
 import math
+from typing import Any, NamedTuple
 
 from geometry_msgs.msg import Twist, TwistStamped
 from physsim_ros.ros.node import PhysSimNode
@@ -143,10 +145,9 @@ def test_a_flood_of_commands_costs_one_request_a_frame(flat: PhysSim) -> None:
     assert flat.node.simulation.requests.gesture == before
 
 
-@pytest.mark.parametrize('dies', [False, True])
-def test_publishers_of_both_types_are_told_and_one_is_heard_as_long_as_it_speaks(
-    monkeypatch: pytest.MonkeyPatch, dies: bool
-) -> None:
+@pytest.fixture
+def crossing(monkeypatch: pytest.MonkeyPatch) -> Iterator[Crossing]:
+    """Return a robot in a world, and contexts of two other processes in its domain."""
     # One participant has one type for a topic.
     others = Context(), Context()
     with (
@@ -157,25 +158,57 @@ def test_publishers_of_both_types_are_told_and_one_is_heard_as_long_as_it_speaks
         for other in others:
             rclpy.init(context=other, domain_id=context.get_domain_id(), args=[])
             closing.callback(other.try_shutdown)
-        robot, client = sim.robot('turtlebot3_burger'), Client(sim)
-        plain = Driver(others[0], looks=False)
-        stamped = Driver(others[1], kind=TwistStamped, looks=False)
+        yield Crossing(sim, sim.robot('turtlebot3_burger'), Client(sim), others)
 
-        def drives(driver: Driver, speed: float) -> bool:
-            driver.send(speed)
-            sim.step()
-            return bool(robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6))
 
-        known = partial(sim.node.get_publishers_info_by_topic, '/robot_0/cmd_vel')
-        client.spin_until(lambda: len(known()) == 2)
-        client.spin_until(lambda: drives(plain, 0.2))
-        told = [event for event in client.events if event.field == 'cmd_vel']
-        assert [event.code for event in told] == ['bad_property']
-        if not dies:
-            plain.destroy_publisher(plain.publisher)
-        client.spin_until(lambda: drives(stamped, -0.1))
-        told = [event for event in client.events if event.field == 'cmd_vel']
-        assert len(told) == 1
+class Crossing(NamedTuple):
+    sim: PhysSim
+    robot: Any
+    client: Client
+    others: tuple[Context, Context]
+
+    def knows(self, count: int) -> bool:
+        """Return whether as many publishers of commands are on the graph."""
+        return len(self.sim.node.get_publishers_info_by_topic('/robot_0/cmd_vel')) == count
+
+    def drives(self, driver: Driver, speed: float, *beside: Driver) -> bool:
+        """Return whether the robot obeys a driver beside others that stop it, after a frame."""
+        for other in beside:
+            other.send(0.0)
+        driver.send(speed)
+        self.sim.step()
+        return bool(self.robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6))
+
+
+@pytest.mark.parametrize('dies', [False, True])
+def test_publishers_of_both_types_are_told_and_one_is_heard_as_long_as_it_speaks(
+    crossing: Crossing, dies: bool
+) -> None:
+    client = crossing.client
+    plain = Driver(crossing.others[0], looks=False)
+    stamped = Driver(crossing.others[1], kind=TwistStamped, looks=False)
+    client.spin_until(lambda: crossing.knows(2))
+    client.spin_until(lambda: crossing.drives(plain, 0.2))
+    told = [event for event in client.events if event.field == 'cmd_vel']
+    assert [event.code for event in told] == ['bad_property']
+    if not dies:
+        plain.destroy_publisher(plain.publisher)
+    client.spin_until(lambda: crossing.drives(stamped, -0.1))
+    told = [event for event in client.events if event.field == 'cmd_vel']
+    assert len(told) == 1
+
+
+@pytest.mark.parametrize('kinds', [(Twist, TwistStamped), (TwistStamped, Twist)])
+def test_the_newest_publisher_is_heard_while_one_of_another_type_still_speaks(
+    crossing: Crossing, kinds: tuple[type, type]
+) -> None:
+    client = crossing.client
+    old = Driver(crossing.others[0], kind=kinds[0], looks=False)
+    client.spin_until(lambda: crossing.drives(old, 0.2))
+    new = Driver(crossing.others[1], kind=kinds[1], looks=False)
+    client.spin_until(lambda: crossing.drives(new, -0.1, old))
+    # It is heard until it is silent.
+    client.spin_until(lambda: crossing.drives(old, 0.2))
 
 
 def test_a_publisher_of_another_type_than_commands_is_told_once(

@@ -11,9 +11,9 @@ new kind is a class and a member of `SENSORS`. Start with `sensor`, then `distan
 from __future__ import annotations
 
 from physsim_ros.model.declarations import OfKind
-from physsim_ros.model.robots.sensors.distance import Laser, RangeFinder
+from physsim_ros.model.robots.sensors.distance import Laser, MOST_BEAMS, RangeFinder
 from physsim_ros.model.robots.sensors.motion import Bumper, FloorEye, Gps, Imu, WheelEncoders
-from physsim_ros.model.robots.sensors.sensor import Sensor
+from physsim_ros.model.robots.sensors.sensor import angles, LEAST_INCREMENT, Sensor
 
 # By the word for it.
 SENSORS: dict[str, type[Sensor]] = {
@@ -37,6 +37,8 @@ sensor_from = OfKind(
 )
 
 __all__ = [
+    'LEAST_INCREMENT',
+    'MOST_BEAMS',
     'SENSORS',
     'Bumper',
     'FloorEye',
@@ -46,5 +48,6 @@ __all__ = [
     'RangeFinder',
     'Sensor',
     'WheelEncoders',
+    'angles',
     'sensor_from',
 ]

@@ -18,10 +18,13 @@ const CONSTANTS = {
   spring: [['stiffness', t('Spring constant [N/m]'), 500, 1, 100], ['rest_length', t('Rest length [m]'), 5, 0.01, 0],
     ['damping', t('Damping [N s/m]'), 20, 0.1, 0]],
   rope: [['length', t('Length [m]'), 10, 0.01, 0], ['rate', t('Rate of a winch [m/s]'), 2, 0.05, 0]],
-  slider: [['rate', t('Rate of its drive [m/s]'), 2, 0.05, 0]],
+  slider: [['rate', t('Rate of its drive [m/s]'), 2, 0.05, 0], ['friction', t('Friction [N]'), 50, 0.1, 0]],
+  axle: [['stiffness', t('Torsion spring [N m/rad]'), 100, 0.1, 0], ['rest_angle', t('Angle at rest [rad]'), 3.2, 0.01, 0],
+    ['damping', t('Damping [N m s/rad]'), 20, 0.1, 0], ['friction', t('Friction [N m]'), 20, 0.1, 0]],
   motor: [['rate', t('Rate [rad/s]'), 20, 0.1, 1], ['max_torque', t('Greatest torque [N m]'), 1000, 1, 1000]],
   gear: [['ratio', t('Ratio'), 5, 0.1, 1]],
 };
+const SIGNED = ['rate', 'ratio', 'rest_angle'];
 const MEASURED = ['spring', 'rod', 'rope'], LIMITED = ['axle', 'slider'];
 const RING = 9; // px: at its ends
 
@@ -42,7 +45,7 @@ export function jointContent({world, connection, selection, meters, words}, [nam
   return {title: capital(thingWord(joint.kind)), name: isDrawn(name) || world.scene.lesson ? '' : name, first: [force], rest: [
     ...(CONSTANTS[joint.kind] ?? []).map(([key, label, most, step, otherwise]) => {
       const value = Number(key === 'length' ? joint.length ?? joint.rest_length : joint[key] ?? otherwise);
-      return range(label, key === 'rate' || key === 'ratio' ? -most : 0, most, step, value, (now) => change({[key]: now}));
+      return range(label, SIGNED.includes(key) ? -most : 0, most, step, value, (now) => change({[key]: now}));
     }),
     ...joint.kind === 'axle' ? [ratchetField(joint, (ratchet) => change({ratchet}))] : [],
     ...joint.kind === 'gear' ? [carrierField(joint, world, words, (carrier) => change({carrier}))] : [],

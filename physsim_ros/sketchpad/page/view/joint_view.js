@@ -8,7 +8,7 @@ import {distance, rotated} from '../vectors.js';
 
 const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
-const COILS = 8, TEETH = 10;
+const COILS = 8, TEETH = 10, SPIRAL = 3; // turns of a coil, teeth of a wheel, turns of a torsion spring
 const RAIL = 1; // m of rail shown to each side where there is no limit
 const TENSE = 10; // weights at which a joint is drawn in the colour of warning
 
@@ -57,6 +57,7 @@ export class JointView {
         // Its circle would cover the links of a chain.
         if (ground || this.#hasRoom(joint.a) || this.#hasRoom(joint.b)) this.#circle(p, size);
         this.#dot(p);
+        if (joint.stiffness) this.#spiral(p, world.frame.yaw[joint.a]);
         break;
       case 'spring':
         this.#line(coil(p, q, size));
@@ -80,6 +81,10 @@ export class JointView {
       case 'gear':
         this.#wheel(joint.a);
         this.#wheel(joint.b);
+        break;
+      case 'rack':
+        this.#wheel(joint.a);
+        this.#teeth(joint, q);
         break;
       default:
         this.#line([p, q]);
@@ -121,6 +126,20 @@ export class JointView {
     this.ctx.beginPath();
     this.ctx.arc(x, y, this.size / 3, 0, 2 * Math.PI);
     this.ctx.fill();
+  }
+
+  /**
+   * @param {Point} center of a torsion spring
+   * @param {number} yaw of the body that it turns with [rad]
+   */
+  #spiral([x, y], yaw) {
+    /** @type {Point[]} */
+    const points = [];
+    for (let angle = 0; angle <= SPIRAL * 2 * Math.PI; angle += Math.PI / 8) {
+      const reach = this.size * (1 + angle / (4 * Math.PI));
+      points.push([x + reach * Math.cos(angle + yaw), y - reach * Math.sin(angle + yaw)]);
+    }
+    this.#line(points);
   }
 
   /**
@@ -212,6 +231,22 @@ export class JointView {
     this.ctx.closePath();
     this.ctx.fill();
     this.ctx.stroke();
+  }
+
+  /**
+   * @param {Joint} rack
+   * @param {Point} q the middle of its teeth
+   */
+  #teeth({axis: [ux, uy], b, rest_length: radius}, [x, y]) {
+    const [dx, dy] = rotated([ux, uy], b < 0 ? 0 : this.world.frame.yaw[b]);
+    const pitch = 2 * Math.PI * radius * this.camera.scale / TEETH;
+    /** @type {Point[]} */
+    const points = [];
+    for (let i = -4 * TEETH; i <= 4 * TEETH; i++) {
+      const along = i * pitch / 4, down = (i & 2 ? -0.15 : 0.15) * pitch;
+      points.push([x + along * dx + down * dy, y - along * dy + down * dx]);
+    }
+    this.#line(points);
   }
 
   /** @param {number} row a body with teeth, which turn with it */

@@ -1,0 +1,30 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""A file is read on a thread of its own, whose error is raised where the file is awaited."""
+
+from __future__ import annotations
+
+from threading import get_ident
+
+from physsim_ros.files import on_thread
+from physsim_ros.model.errors import BadWorldFile
+from physsim_ros.simulation.parts import at_once, in_parts
+import pytest
+
+
+def test_the_result_comes_from_another_thread() -> None:
+    assert at_once(on_thread(get_ident)) != get_ident()
+
+
+@pytest.mark.parametrize('error', [BadWorldFile('no'), ValueError('no')])
+def test_an_error_is_raised_by_who_waits(error: Exception) -> None:
+    def read() -> None:
+        raise error
+
+    with pytest.raises(type(error), match='no'):
+        at_once(in_parts(lambda: on_thread(read)))
+
+
+def test_a_function_without_parts_has_its_result_at_once() -> None:
+    assert at_once(in_parts(lambda: 'done')) == 'done'

@@ -1,0 +1,118 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Law 73: torsion springs, and the friction of bearings and slides."""
+
+import math
+
+import numpy as np
+from physsim_ros.model.shapes import Box, Disc
+import pytest
+
+from .scenes import DT, G, join, run, simulation, spawn, steps
+from .test_machines import crossings
+
+NEUTRAL = 0.5
+
+
+def torsion_pendulum(**said):
+    """Return a simulation of a disc of 1 kg m² that starts half a radian below its rest."""
+    sim = simulation(gravity=(0.0, 0.0))
+    spawn(sim, 'disc/0', Disc(radius=0.5), mass=8.0)
+    join(sim, 'axle/0', 'axle', [(0.0, 0.0)], a='disc/0', b='world', rest_angle=NEUTRAL, **said)
+    return sim
+
+
+@pytest.mark.parametrize('stiffness', [1.0, 40.0, 400.0])
+def test_a_torsion_pendulum_has_its_period_and_keeps_its_swing(report, stiffness):
+    sim, exact = torsion_pendulum(stiffness=stiffness), math.tau / math.sqrt(stiffness)
+    seen = list(steps(sim, round(6.3 * exact / DT)))
+    times, angles = zip(*((now.step * DT, now.poses[0, 2] - NEUTRAL) for now in seen), strict=True)
+    period = np.diff(crossings(times, angles)).mean()
+    report.check(73, 'torsion pendulum, period', period, exact, 1e-4, 's', relative=True)
+    swing = np.abs(angles[-round(exact / DT) :]).max()
+    report.check(73, 'torsion pendulum, swing', swing, NEUTRAL, 1e-3, 'rad', relative=True)
+
+
+@pytest.mark.parametrize(('stiffness', 'damping'), [(40.0, 0.4), (40.0, 4.0), (4.0, 4.0)])
+def test_a_damped_torsion_pendulum_decays(report, stiffness, damping):
+    sim = torsion_pendulum(stiffness=stiffness, damping=damping)
+    rate = damping / 2.0
+    turn = np.emath.sqrt(stiffness - rate**2)
+    for now in steps(sim, 1200):
+        time = now.step * DT
+        # Where it is critically damped, sin(w t) / w is t.
+        sine = np.sin(turn * time) / turn if turn else time
+        way = np.real(np.exp(-rate * time) * (np.cos(turn * time) + rate * sine))
+        # Half a sub-step of the greatest speed.
+        within = 2e-3 * NEUTRAL * math.sqrt(stiffness)
+        angle = now.poses[0, 2]
+        report.check(73, 'damped torsion pendulum', angle, NEUTRAL * (1 - way), within, 'rad')
+
+
+def test_a_viscous_bearing_slows_a_wheel(report):
+    sim = simulation(gravity=(0.0, 0.0))
+    spawn(sim, 'disc/0', Disc(radius=0.5), mass=8.0, spin=3.0)
+    join(sim, 'axle/0', 'axle', [(0.0, 0.0)], a='disc/0', b='world', damping=0.5)
+    spin = run(sim, 2.0).twists[0, 2]
+    report.check(73, 'viscous bearing, spin', spin, 3.0 * math.exp(-1.0), 1e-3, 'rad/s')
+
+
+def test_a_lamp_hangs_where_its_torsion_spring_bears_it(report):
+    # k (angle - rest) = -m g x, with the spring between two bodies that move.
+    sim = simulation()
+    spawn(sim, 'post/0', Box(width=0.2, height=2.0), (0.0, 1.0, 0.0), mass=5.0)
+    join(sim, 'pin/0', 'pin', [(0.0, 0.0)], a='post/0', b='world')
+    spawn(sim, 'lamp/0', Box(width=1.0, height=0.1), (0.5, 2.0, 0.0), mass=2.0)
+    said = {'stiffness': 60.0, 'damping': 30.0, 'rest_angle': 0.2}
+    join(sim, 'axle/0', 'axle', [(0.0, 2.0)], a='lamp/0', b='post/0', **said)
+    angle = run(sim, 10.0).poses[1, 2]
+    torque = 60.0 * (angle - 0.2)
+    report.check(73, 'lamp, torque', torque, -2.0 * G * 0.5 * math.cos(angle), 1e-4, 'N m')
+
+
+def test_the_friction_of_a_bearing_stops_a_wheel(report):
+    sim = simulation(gravity=(0.0, 0.0))
+    spawn(sim, 'disc/0', Disc(radius=0.5), mass=8.0, spin=3.0)
+    join(sim, 'axle/0', 'axle', [(0.0, 0.0)], a='disc/0', b='world', friction=1.5)
+    spins = [now.twists[0, 2] for now in steps(sim, 720)]
+    report.check(73, 'friction of a bearing, spin after 1 s', spins[239], 1.5, 1e-9, 'rad/s')
+    report.check(73, 'friction of a bearing, spin at rest', spins[-1], 0.0, 1e-12, 'rad/s')
+    turned = sim.world.snapshot().poses[0, 2]
+    report.check(73, 'friction of a bearing, turn', turned, 3.0, 0.01, 'rad')
+
+
+@pytest.mark.parametrize(('friction', 'moves'), [(0.9, True), (1.1, False)])
+def test_atwoods_machine_starts_where_a_weight_overcomes_its_bearing(report, friction, moves):
+    radius, heavy, light, wheel = 0.2, 2.5, 1.5, 4.0
+    most = (heavy - light) * G * radius
+    sim = simulation()
+    spawn(sim, 'wheel/0', Disc(radius=radius), (0.0, 3.0, 0.0), mass=wheel)
+    said = {'friction': friction * most}
+    join(sim, 'axle/0', 'axle', [(0.0, 3.0)], a='wheel/0', b='world', **said)
+    for side, mass in ((-1.0, heavy), (1.0, light)):
+        pose = (side * radius, 1.5, 0.0)
+        spawn(sim, f'box/{2 * mass:g}', Box(width=0.2, height=0.2), pose, mass=mass)
+    points = [(-radius, 1.6), (0.0, 3.0), (radius, 1.6)]
+    join(sim, 'rope/0', 'rope', points, a='box/5', b='box/3', over=('wheel/0',))
+    # As it starts, the half-step lead of its free fall is a sub-step late.
+    early, late = (-run(sim, 0.5).twists[1, 1] for _ in range(2))
+    pull = (1.0 - friction) * most / radius if moves else 0.0
+    right = pull / (heavy + light + wheel / 2.0)
+    name = "Atwood's machine with a bearing, acceleration"
+    report.check(73, name, (late - early) / 0.5, right, 1e-6, 'm/s²')
+
+
+def test_the_friction_of_a_slide_holds_a_carriage_or_slows_it(report):
+    sim = simulation()
+    for number, friction in enumerate((14.0, 10.0)):
+        y = 2.0 * number
+        spawn(sim, f'box/{number}', Box(width=0.4, height=0.2), (0.0, y, 0.0), mass=2.0)
+        # Down an incline of 1 : 1, along which the weight pulls with 13.9 N.
+        said = {'a': f'box/{number}', 'b': 'world', 'friction': friction}
+        join(sim, f'slider/{number}', 'slider', [(0.0, y), (1.0, y - 1.0)], **said)
+    early, late = (np.hypot(*run(sim, 0.5).twists[:, :2].T) for _ in range(2))
+    report.check(73, 'friction of a slide that holds, speed', late[0], 0.0, 1e-6, 'm/s')
+    right = G / math.sqrt(2.0) - 10.0 / 2.0
+    slowed = (late - early)[1] / 0.5
+    report.check(73, 'friction of a slide, acceleration', slowed, right, 1e-6, 'm/s²')
