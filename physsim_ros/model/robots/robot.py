@@ -7,6 +7,7 @@ A robot: a drive, odometry, sensors, parts, and the namespace of its topics.
 Law: the topics of a robot have different names, which ROS allows.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 import re
 from typing import Annotated
@@ -15,7 +16,7 @@ from physsim_ros.model.checks import ListOf, Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
-from physsim_ros.model.robots.part_names import BASE
+from physsim_ros.model.robots.part_names import BASE, part_name
 from physsim_ros.model.robots.parts import check_tree, Link, LinkJoint, TREE_KINDS
 from physsim_ros.model.robots.sensors import Sensor, sensor_from, topic_name
 from physsim_ros.model.transform import ORIGIN, Point, Pose
@@ -184,3 +185,16 @@ class Robot(Checked):
         """
         names = [*self._topics, *_OWN_FRAMES, *(link.name for link in self.links)]
         return [f'{namespace}/{name}' for name in names] if namespace else names
+
+
+def whole_of(name: str, robot_of: Callable[[str], Robot | None]) -> str:
+    """
+    Return the name of the robot of which a body is a part, else that of the body.
+
+    :param name: of the body
+    :param robot_of: returns the robot of that name; None if that is no robot, or not there
+    """
+    whole = name.removesuffix('/0').rpartition('/')[0]
+    robot = robot_of(whole)
+    links = () if robot is None else robot.links
+    return whole if name in (part_name(whole, link.name) for link in links) else name
