@@ -30,7 +30,8 @@ void damp_resting(World *world);
 // Actors: where they go, and at which velocity (`actors.c`).
 void move_actors(World *world);
 
-// The floor, with drives and odometry of robots (`floor.c`, `drives.c`).
+// The floor, with drives and odometry of robots (`floor.c`, `drives.c`), and whether it acts on any body.
+bool has_floor(const World *world);
 void pull_by_floor(World *world);
 void find_pushes(World *world);
 void roll_wheels(World *world);

@@ -38,6 +38,8 @@ typedef struct Private {
     struct Islands *joint_islands; // of this step
     bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
     int call_step;                 // number of the step in this call
+    bool all_active;               // requests may have changed any body since the last sub-step
+    bool has_floor;                // there is a body on which a floor acts
     int sub_step;                  // number of the sub-step in this step
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
@@ -70,6 +72,16 @@ static inline bool has_stage(const World *world, uint32_t stage) {
 
 static inline bool sleeps(const Body *body) {
     return body->engine->sleeping_root != NULL;
+}
+
+// The bodies that a sub-step may change: those that are awake, in Chipmunk's order; in the first one of a call all
+// bodies, since requests may have changed any.
+static inline int active_count(const World *world) {
+    return world->own->all_active ? world->body_count : world->space->dynamicBodies->num;
+}
+
+static inline Body *active_at(const World *world, int number) {
+    return world->own->all_active ? world->bodies + number : body_of(world->space->dynamicBodies->arr[number]);
 }
 
 static inline Pose pose_of(const cpBody *body) {
