@@ -35,6 +35,9 @@ typedef struct Private {
     struct Islands *joint_islands; // of this step
     int call_step;                 // number of the step in this call
     int sub_step;                  // number of the sub-step in this step
+    int wishing;                   // number of the actor whose wish is found next
+    bool wishes;                   // wishes of actors are found, before the first sub-step
+    struct Surroundings *around;   // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
 } Private;
