@@ -69,10 +69,8 @@ def joint_strips(joint: Joint, size: float) -> list[Strip]:
         case JointKind.PIN:
             corners = ((1, 1), (-1, 1), (-1, -1), (1, -1), (1, 1))
             return [[Corner(arm=(size * x, size * y)) for x, y in corners]]
-        case JointKind.AXLE:
-            return [_circle(size), *([_spiral(size)] if joint.stiffness else [])]
-        case JointKind.MOTOR:
-            return [_circle(size), *_arrow(2 * size, math.copysign(1.0, joint.number('rate')))]
+        case JointKind.AXLE | JointKind.MOTOR:
+            return _axle(joint, size)
         case JointKind.SPRING:
             return [list(_coil(size)), _circle(size / 2), _circle(size / 2, at=1.0)]
         case JointKind.ROD:
@@ -91,8 +89,16 @@ def joint_strips(joint: Joint, size: float) -> list[Strip]:
         case JointKind.GEAR:
             wheels = [_wheel(2 * size), _wheel(2 * size, at=1.0)]
             return [*wheels, [Corner(0.0), Corner(1.0)]]
+        case JointKind.RACK:
+            return [_wheel(joint.seat.length), _teeth(joint)]
         case _:
             return [[Corner(0.0), Corner(1.0)], _circle(size / 2), _circle(size / 2, at=1.0)]
+
+
+def _axle(joint: Joint, size: float) -> list[Strip]:
+    if joint.kind is JointKind.MOTOR:
+        return [_circle(size), *_arrow(2 * size, math.copysign(1.0, joint.number('rate')))]
+    return [_circle(size), *([_spiral(size)] if joint.stiffness else [])]
 
 
 def _circle(radius: float, at: float = 0.0) -> Strip:
@@ -121,6 +127,19 @@ def _wheel(radius: float, at: float = 0.0) -> Strip:
             reach = radius * (1.15 if number % 2 else 0.85)
             arm = (reach * math.cos(angle), reach * math.sin(angle))
             strip.append(Corner(at, arm=arm, on_b=at > 0))
+    return strip
+
+
+def _teeth(joint: Joint) -> Strip:
+    """Return the teeth of a rack, as far apart as those of its pinion, in the frame of b."""
+    seat = joint.seat
+    pitch = math.tau * seat.length / _TEETH
+    strip = []
+    for number in range(-2 * _TEETH, 2 * _TEETH + 1):
+        for half in (-0.4, 0.4):
+            along, down = (number + half) * pitch / 2, pitch * (0.2 if number % 2 else -0.2)
+            arm = seat.ux * along + seat.uy * down, seat.uy * along - seat.ux * down
+            strip.append(Corner(1.0, arm=arm, on_b=True))
     return strip
 
 

@@ -17,13 +17,15 @@ from dataclasses import dataclass, field, replace
 import math
 import operator
 
+import numpy as np
+from physsim_ros.engine.core import dtype_of
 from physsim_ros.engine.layout import address_of
 from physsim_ros.model.applied_forces import wrench_of
 from physsim_ros.model.checkpoint import BodyState, Motion
 from physsim_ros.model.scene import Body
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Capsule, Circle, contains, Convex, Piece
-from physsim_ros.model.states import ActorState, RobotState, SPAWNED, WAITING
+from physsim_ros.model.states import ACTOR_STATE, ROBOT_STATE, SPAWNED, WAITING
 from physsim_ros.model.transform import (
     local_to_world,
     NO_WRENCH,
@@ -49,6 +51,11 @@ SKIN = 1e-11
 NOTHING = pymunk.ShapeFilter(categories=0, mask=0)
 # Properties on which the engine's objects of a body do not depend.
 _OURS = 'color', 'expires', 'robot', 'label', 'actor', 'forces'
+# The state of a body that has not been in a table: in free flight, its lead by fields to be found.
+BODY_STATE = dtype_of('BodyState')
+_NEW = np.zeros(1, BODY_STATE)[0]
+_NEW['free'] = _NEW['fresh'] = True
+_SPAWNED, _WAITING = np.array([SPAWNED], ROBOT_STATE)[0], np.array([WAITING], ACTOR_STATE)[0]
 # Distance at which a point counts as inside [m]: on the seam of two pieces it lies inside neither.
 SEAM = 1e-9
 
@@ -60,39 +67,26 @@ class RigidBody:
 
     :param body: its description
     :param pm_body: the Pymunk body
-    :param serial: number of the spawn; the body that is spawned later is the topmost one
     :param first_shape: the engine's number of its first shape
     :param row: in the table of bodies; -1 if it is in none yet
     :param wrench: force [N] and torque [N m] that act on the centre of mass
     :param wrench_until: step at which the wrench ends; None is never
-    :param free: in free flight, so that the engine's velocity leads; this and what follows is the
-        state of a body that is in no table
-    :param released: something that it touched was removed or moved since the last step
-    :param thrown: its velocity was set since the last step
-    :param fresh: its lead by fields is to be found as the next step begins
-    :param field_lead: the lead of its velocity by fields [m/s, rad/s]
-    :param push: changes of velocity [m/s] and spin [rad/s] by contacts and joints, on a floor
-    :param driven: of a robot, the state of drive and odometry
-    :param acting: of an actor, its state
+    :param state: `BodyState`, in the table of the core once it is in one
+    :param driven: `RobotState` of a robot, likewise
+    :param acting: `ActorState` of an actor, likewise
 
     :ivar address: of the struct of Chipmunk
     """
 
     body: Body
     pm_body: pymunk.Body
-    serial: int
     first_shape: int = 0
     row: int = -1
     wrench: Wrench = NO_WRENCH
     wrench_until: int | None = None
-    free: bool = True
-    released: bool = False
-    thrown: bool = False
-    fresh: bool = True
-    field_lead: Twist = REST
-    push: Twist = REST
-    driven: RobotState = SPAWNED
-    acting: ActorState = WAITING
+    state: np.void = field(default_factory=_NEW.copy)
+    driven: np.void = field(default_factory=_SPAWNED.copy)
+    acting: np.void = field(default_factory=_WAITING.copy)
     address: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -124,6 +118,18 @@ class RigidBody:
         offset_x, offset_y = rotated(self.offset, yaw)
         return x + vx * seconds - offset_x, y + vy * seconds - offset_y, yaw
 
+    def take_over_roles(self, old: RigidBody, body: Body) -> None:
+        """
+        Continue with the states of robot and actor after a change of the body.
+
+        A body that is no robot any more has none; a new actor waits for its start.
+
+        :param old: the body before, or this one
+        :param body: the new description
+        """
+        self.driven = _SPAWNED.copy() if body.robot is None else old.driven
+        self.acting = old.acting if body.actor == old.body.actor else _WAITING.copy()
+
     def covers(self, point: Point) -> bool:
         """Return whether a point of the world lies in the body where it is now, edge included."""
         form, local = self.body.shape.form, world_to_local(point, self.pose)
@@ -134,19 +140,12 @@ class RigidBody:
     def lead(self, gravity: Point, dt: float) -> Twist:
         """Return how far the engine's velocity is ahead of the true one in free flight."""
         x, y, turn = lead_of(self.body, self.wrench, self.pm_body.angle, gravity, dt)
-        return x + self.field_lead[0], y + self.field_lead[1], turn + self.field_lead[2]
+        field_x, field_y, field_turn = self.state['field'].tolist()
+        return x + field_x, y + field_y, turn + field_turn
 
-    def steady_lead(self, gravity: Point, dt: float) -> Twist:
-        """Return the part of `lead` that is constant: without applied forces and fields."""
-        return lead_of(replace(self.body, forces=()), self.wrench, 0.0, gravity, dt)
-
-    def twist(self, gravity: Point, dt: float, *, free: bool) -> Twist:
-        """
-        Return the true velocity of the centre of mass [m/s] and spin [rad/s].
-
-        :param free: whether the body is in free flight
-        """
-        ahead = self.lead(gravity, dt) if free else REST
+    def twist(self, gravity: Point, dt: float) -> Twist:
+        """Return the true velocity of the centre of mass [m/s] and spin [rad/s]."""
+        ahead = self.lead(gravity, dt) if self.state['free'] else REST
         vx, vy = self.pm_body.velocity
         return vx - ahead[0], vy - ahead[1], self.pm_body.angular_velocity - ahead[2]
 
@@ -161,7 +160,7 @@ class RigidBody:
         ahead = self.lead(gravity, dt) if free else REST
         self.pm_body.velocity = twist[0] + ahead[0], twist[1] + ahead[1]
         self.pm_body.angular_velocity = twist[2] + ahead[2]
-        self.free = free
+        self.state['free'] = free
 
 
 def index_at_rest(pm_body: pymunk.Body) -> None:
@@ -218,7 +217,7 @@ def engine_motion(state: BodyState, settings: WorldSettings, dt: float) -> Motio
     return Motion(x, y, pose[2], vx, vy, spin, free=True)
 
 
-def build(body: Body, serial: int) -> RigidBody:
+def build(body: Body) -> RigidBody:
     """Make the engine objects of a body, outside any space, at the origin and at rest."""
     if body.anchored:
         pm_body = pymunk.Body(body_type=pymunk.Body.STATIC)
@@ -226,7 +225,7 @@ def build(body: Body, serial: int) -> RigidBody:
         pm_body = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
     else:
         pm_body = pymunk.Body(body.total_mass, body.total_mass * body.shape.form.gyration)
-    rigid = RigidBody(body, pm_body, serial)
+    rigid = RigidBody(body, pm_body)
     shapes = [_shape(piece, pm_body, rigid.offset) for piece in body.shape.form.pieces]
     _set_neighbors([shape for shape in shapes if isinstance(shape, pymunk.Segment)])
     for shape in shapes:
@@ -274,13 +273,3 @@ def same_in_engine(a: Body, b: Body) -> bool:
     """Return whether two bodies have the same objects in the engine."""
     ours = {name: getattr(a, name) for name in _OURS}
     return a == replace(b, **ours)
-
-
-def states_after(old: RigidBody, body: Body) -> tuple[RobotState, ActorState]:
-    """
-    Return the states of robot and actor after a change of their body.
-
-    A body that is no robot any more has none; a new actor waits for its start.
-    """
-    driven = SPAWNED if body.robot is None else old.driven
-    return driven, old.acting if body.actor == old.body.actor else WAITING

@@ -51,7 +51,7 @@ class BodyPool:
             body = scene.bodies[self._row]
             spare = self.bodies.get(body.name)
             if spare is None or spare.body is not body:
-                self.bodies[body.name] = rigid_body.build(body, self._row)
+                self.bodies[body.name] = rigid_body.build(body)
                 count -= 1
             self._row += 1
 
@@ -80,4 +80,4 @@ def _extract_body(space: Space) -> RigidBody:
     space.pm_space.remove(rigid.pm_body)
     # The last step left a bias velocity, by which the next one would push overlaps apart.
     pymunk.Body.update_position(rigid.pm_body, 0.0)
-    return RigidBody(rigid.body, rigid.pm_body, rigid.serial)
+    return RigidBody(rigid.body, rigid.pm_body)

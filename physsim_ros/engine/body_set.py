@@ -66,15 +66,19 @@ class BodySet:
 
     def at(self, point: Point) -> list[str]:
         """
-        Return the bodies that cover a point of the world [m], the highest serial first.
+        Return the bodies that cover a point of the world [m], the last in spawn order first.
+
+        Regions of media come after what is in them.
 
         Pymunk's own query knows shapes where the last step has compared them; since then stages
         may have moved their bodies, but not in a space that is restored from a checkpoint.
         """
         if self._places is None:
             self._places = _Places(self.by_name.values())
-        found = [rigid for rigid in self._places.near(point) if rigid.covers(point)]
-        return [rigid.body.name for rigid in sorted(found, key=lambda rigid: -rigid.serial)]
+        found = {row: rigid for row, rigid in self._places.near(point) if rigid.covers(point)}
+        rows = sorted(found, reverse=True)
+        rows.sort(key=lambda row: found[row].body.medium is not None)
+        return [found[row].body.name for row in rows]
 
     def count_near(
         self,
@@ -132,28 +136,28 @@ class _Places:
     A body is in the cell of its engine's origin, in the level whose cells are as wide as its
     reach, or up to twice as wide.
 
-    :param rigids: the bodies
+    :param rigids: the bodies, in spawn order
     """
 
     def __init__(self, rigids: Iterable[RigidBody]) -> None:
         # By level, column and row.
-        self._cells: dict[tuple[int, int, int], list[tuple[float, float, float, RigidBody]]] = {}
-        for rigid in rigids:
+        self._cells: dict[tuple[int, int, int], list[tuple[int, Point, float, RigidBody]]] = {}
+        for row, rigid in enumerate(rigids):
             x, y = rigid.pm_body.position
             # A share for the rounding of places, 1 nm at 1 000 km.
             reach = reach_of(rigid.body) * (1.0 + 1e-12) + SEAM + 1e-15 * (abs(x) + abs(y))
             cell = _cell_of(x, y, math.frexp(reach)[1])
-            self._cells.setdefault(cell, []).append((x, y, reach, rigid))
+            self._cells.setdefault(cell, []).append((row, (x, y), reach, rigid))
         self._levels = {level for level, _, _ in self._cells}
 
-    def near(self, point: Point) -> Iterator[RigidBody]:
-        """Yield the bodies that may cover a point of the world [m]."""
+    def near(self, point: Point) -> Iterator[tuple[int, RigidBody]]:
+        """Yield the bodies that may cover a point of the world [m], each with its row."""
         for level in self._levels:
             _, column, row = _cell_of(*point, level)
             for cell in itertools.product((level,), _around(column), _around(row)):
-                for x, y, reach, rigid in self._cells.get(cell, ()):
-                    if math.dist((x, y), point) <= reach:
-                        yield rigid
+                for row, center, reach, rigid in self._cells.get(cell, ()):
+                    if math.dist(center, point) <= reach:
+                        yield row, rigid
 
 
 def _cell_of(x: float, y: float, level: int) -> tuple[int, int, int]:

@@ -8,33 +8,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from physsim_ros.engine.body import RigidBody
+from physsim_ros.engine.body import BODY_STATE, RigidBody
 from physsim_ros.engine.layout import address_of
 from physsim_ros.engine.scene_columns import columns_of
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.checkpoint import NO_FIELDS
 from physsim_ros.model.noise import normals
 from physsim_ros.model.scene import Scene
-from physsim_ros.model.states import (
-    ACTOR_STATE,
-    ActorState,
-    NO_ACTORS,
-    NO_ROBOTS,
-    Records,
-    ROBOT_STATE,
-    RobotState,
-    states_in,
-)
-from physsim_ros.model.transform import NO_WRENCH, REST
+from physsim_ros.model.states import ACTOR_STATE, NO_ACTORS, NO_ROBOTS, Records, ROBOT_STATE
+from physsim_ros.model.transform import NO_WRENCH
 import pymunk
 
 # A body beyond this position or speed is removed [m, m/s, rad, rad/s]; `step.c` has it too.
 LOST = 1e12
-# Fields of `Robot` and `Actor` that are state, in the order of `ROBOT_STATE` and `ACTOR_STATE`.
-_OF_ROBOT = ['aim', 'until', 'rolling', 'travel', 'odometry', 'covariance']
-_OF_ACTOR = ['begun', 'reached']
-# Fields of the state of a `Body` that are true or false.
-_FLAGS = 'free', 'released', 'thrown', 'fresh'
 # Steps whose noise is made at once: a call of `normals` takes as long as 300 of its numbers.
 _BLOCK = 64
 
@@ -65,51 +51,24 @@ class BodyTable:
         self.actors = self.columns.actors.copy()
         # Blocks of noise by robot and number, until they are used up.
         self._blocks: dict[tuple[int, int], Floats] = {}
-        own = self.records['state'][:-1]
         self.records['engine'] = [*(rigid.address for rigid in bodies), address_of(background)]
-        for name in _FLAGS:
-            own[name] = [getattr(rigid, name) for rigid in bodies]
         for row, rigid in enumerate(bodies):
-            if rigid.field_lead != REST:
-                own['field'][row] = rigid.field_lead
             if rigid.wrench != NO_WRENCH:
-                self.set_wrench(row, scene.settings.gravity, dt)
-            if rigid.push != NO_WRENCH:
-                own['push'][row] = rigid.push
-        if len(self.robots):
-            driven = [bodies[row].driven for row in self.robots['body'].tolist()]
-            self.robots[_OF_ROBOT] = np.array(driven, ROBOT_STATE)
-        if len(self.actors):
-            acting = [bodies[row].acting for row in self.actors['body'].tolist()]
-            self.actors[_OF_ACTOR] = np.array(acting, ACTOR_STATE)
+                self.records['wrench'][row] = rigid.wrench
+        self._take_over_states()
 
-    def set_wrench(self, row: int, gravity: tuple[float, float], dt: float) -> None:
-        """Set the wrench of a body, and the lead of its velocity in free flight."""
-        rigid = self.bodies[row]
-        self.records['wrench'][row] = rigid.wrench
-        # The core adds the part of applied forces, which depends on the pose.
-        for table, lead in ((self.records, 'steady_lead'), (self.records['state'], 'lead')):
-            table[lead][row] = rigid.steady_lead(gravity, dt)
-
-    def store(self) -> None:
-        """Write to each body what outlives the table, before that is dropped."""
-        own = self.records['state'][:-1]
-        columns = (own[name].astype(np.bool_).tolist() for name in _FLAGS)
-        for rigid, *flags in zip(self.bodies, *columns, strict=True):
-            rigid.free, rigid.released, rigid.thrown, rigid.fresh = flags
-        pushes = own['push']
-        for row in np.flatnonzero(pushes.any(axis=1)).tolist():
-            x, y, turn = pushes[row].tolist()
-            self.bodies[row].push = x, y, turn
-        if self.has_fields:
-            for rigid, (x, y, turn) in zip(self.bodies, own['field'].tolist(), strict=True):
-                rigid.field_lead = x, y, turn
-        driven = states_in(self.robot_states, RobotState)
-        for row, state in zip(self.robots['body'].tolist(), driven, strict=True):
-            self.bodies[row].driven = state
-        acting = states_in(self.actor_states, ActorState)
-        for row, each in zip(self.actors['body'].tolist(), acting, strict=True):
-            self.bodies[row].acting = each
+    def _take_over_states(self) -> None:
+        """Continue with the states of the bodies, which are in this table from now on."""
+        states = self.records['state'][:-1]
+        states[:] = np.frombuffer(
+            b''.join(rigid.state.tobytes() for rigid in self.bodies), BODY_STATE
+        )
+        for rigid, state in zip(self.bodies, states, strict=True):
+            rigid.state = state
+        for table, kind in ((self.robots, 'driven'), (self.actors, 'acting')):
+            for row, record in zip(table['body'].tolist(), table, strict=True):
+                record['state'] = getattr(self.bodies[row], kind)
+                setattr(self.bodies[row], kind, record['state'])
 
     # Fields
 
@@ -166,21 +125,15 @@ class BodyTable:
         """
         return self.records['state']['push'][self.records['floor_friction'] > 0.0]
 
-    def set_pushes(self, pushes: Floats) -> None:
-        """Continue with what contacts and joints have changed in the last steps."""
-        rows = np.flatnonzero(self.records['floor_friction'] > 0.0)
-        if len(pushes) == len(rows):
-            self.records['state']['push'][rows] = pushes
-
     @property
     def robot_states(self) -> Records:
         """Return (r,) `ROBOT_STATE`: drives and odometry of the robots."""
-        return self.robots[_OF_ROBOT].astype(ROBOT_STATE) if len(self.robots) else NO_ROBOTS
+        return self.robots['state'].astype(ROBOT_STATE) if len(self.robots) else NO_ROBOTS
 
     @property
     def actor_states(self) -> Records:
         """Return (a,) `ACTOR_STATE`: the states of the actors."""
-        return self.actors[_OF_ACTOR].astype(ACTOR_STATE) if len(self.actors) else NO_ACTORS
+        return self.actors['state'].astype(ACTOR_STATE) if len(self.actors) else NO_ACTORS
 
     def make_noise(self, step: int, count: int) -> None:
         """Make the noise of odometry for some steps: it depends on seed, name and step alone."""

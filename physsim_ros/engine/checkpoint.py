@@ -18,7 +18,7 @@ import math
 
 import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import engine_motion, RigidBody
+from physsim_ros.engine.body import BODY_STATE, engine_motion, RigidBody
 from physsim_ros.engine.boundary import wall_count
 from physsim_ros.engine.space import Space
 from physsim_ros.engine.warm_start import read_impulses, shape_numbers, write_impulses
@@ -35,6 +35,7 @@ from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.states import (
     ACTOR_STATE,
     ActorState,
+    Records,
     ROBOT_STATE,
     RobotState,
     SPAWNED,
@@ -222,32 +223,25 @@ def restore_checkpoint(
     """
     scene, first = checkpoint.scene, checkpoint.memory.walls
     space = Space(scene.settings, dt, first_shape=first, lesson=scene.lesson)
-    rigids = [
-        _rigid_body(body, pool or {}, row) for row, body in enumerate(checkpoint.scene.bodies)
-    ]
-    for rigid, first, free in zip(
-        rigids, checkpoint.memory.ids.tolist(), checkpoint.free.tolist(), strict=True
+    rigids = [_rigid_body(body, pool or {}) for body in checkpoint.scene.bodies]
+    for rigid, first, state in zip(
+        rigids, checkpoint.memory.ids.tolist(), _body_states(checkpoint), strict=True
     ):
-        rigid.first_shape, rigid.free = first, free
-    driven = states_in(checkpoint.robots, RobotState)
-    for row, state in zip(scene.robot_rows.tolist(), driven, strict=True):
-        rigids[row].driven = state
-    acting = states_in(checkpoint.actors, ActorState)
-    for row, each in zip(scene.actor_rows.tolist(), acting, strict=True):
-        rigids[row].acting = each
-    for rigid, lead in zip(rigids, _leads_of(checkpoint), strict=True):
-        if lead is not None:
-            rigid.field_lead, rigid.fresh = lead, False
+        rigid.first_shape, rigid.state = first, state
+    for row, driven in zip(scene.robot_rows.tolist(), checkpoint.robots, strict=True):
+        rigids[row].driven = driven
+    for row, acting in zip(scene.actor_rows.tolist(), checkpoint.actors, strict=True):
+        rigids[row].acting = acting
     space.bodies.add_without_shapes(rigids)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
-    table = space.lay_out(scene)
-    table.set_pushes(checkpoint.memory.pushes)
+    space.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
     space.core.write_state(at_rest)
     space.shapes.put_back(
-        (rigid.first_shape, rigid.pm_body.shapes) for rigid in sorted(rigids, key=_scattered)
+        (rigids[row].first_shape, rigids[row].pm_body.shapes)
+        for row in sorted(range(len(rigids)), key=_scattered)
     )
     write_impulses(space.pm_space, space.shapes, checkpoint.memory, dt)
     space.core.write_state(checkpoint.state)
@@ -265,21 +259,31 @@ def restore_checkpoint(
     return space
 
 
-def _scattered(rigid: RigidBody) -> int:
+def _body_states(checkpoint: Checkpoint) -> Records:
+    """Return (n,) `BodyState`: the states with which bodies continue from a checkpoint."""
+    states = np.zeros(len(checkpoint.scene.bodies), BODY_STATE)
+    states['free'], states['fresh'] = checkpoint.free, True
+    if len(checkpoint.field_leads):
+        known = ~np.isnan(checkpoint.field_leads[:, 0])
+        states['field'][known], states['fresh'][known] = checkpoint.field_leads[known], False
+    rows = np.flatnonzero(checkpoint.scene.floor_friction > 0.0)
+    if len(checkpoint.memory.pushes) == len(rows):
+        states['push'][rows] = checkpoint.memory.pushes
+    return states
+
+
+def _scattered(row: int) -> int:
     """
-    Return the place of a body in the order in which its shapes enter the engine's tree.
+    Return the place of a body in the order in which its shapes enter the engine's tree, by row.
 
     The tree of bodies in a row that enter from left to right is as deep as there are bodies: with
     20,000 of them it took 10 s. Rows of the scene are scattered by the golden ratio (Fibonacci
     hashing: Knuth, "The Art of Computer Programming" 3, section 6.4), so that names do not matter.
     """
-    return rigid.serial * 2654435761 % 2**32
+    return row * 2654435761 % 2**32
 
 
-def _rigid_body(body: Body, pool: Mapping[str, RigidBody], row: int) -> RigidBody:
+def _rigid_body(body: Body, pool: Mapping[str, RigidBody]) -> RigidBody:
     """Return the engine's objects of a body, from the pool if it has them."""
     rigid = pool.get(body.name)
-    if rigid is None or rigid.body is not body:
-        rigid = rigid_body.build(body, row)
-    rigid.serial = row
-    return rigid
+    return rigid if rigid is not None and rigid.body is body else rigid_body.build(body)

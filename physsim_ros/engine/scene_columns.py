@@ -108,7 +108,7 @@ def _make_columns(scene: Scene, dt: float) -> SceneColumns:
     tracks = tuple(
         np.array(body.actor.track, np.float64) for body in scene.bodies if body.actor is not None
     )
-    bodies, regions = _body_records(scene, rows, dt), _region_records(scene)
+    bodies, regions = _body_records(scene, rows), _region_records(scene)
     return SceneColumns(
         rows=rows,
         moving=not all(body.anchored for body in scene.bodies),
@@ -124,13 +124,13 @@ def _make_columns(scene: Scene, dt: float) -> SceneColumns:
     )
 
 
-def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
+def _body_records(scene: Scene, rows: dict[str, int]) -> Table:
     bodies, count = scene.bodies, len(scene.bodies)
     records = np.zeros(count + 1, _BODY)
     own = records[:-1]
     anchored = np.array([body.anchored for body in bodies], np.bool_)
-    dynamic = np.array([body.dynamic for body in bodies], np.bool_)
-    own['anchored'], own['dynamic'] = anchored, dynamic
+    own['anchored'] = anchored
+    own['dynamic'] = [body.dynamic for body in bodies]
     own['sensor'] = [body.sensor for body in bodies]
     own['group'] = [body.group for body in bodies]
     # The engine's origin of an anchored body is its own.
@@ -145,9 +145,6 @@ def _body_records(scene: Scene, rows: dict[str, int], dt: float) -> Table:
     own['area'] = [form.area for form in forms]
     own['safe_depth'] = [_safe_depth(body) for body in bodies]
     own['slop'] = [_slop(body) for body in bodies]
-    gravity = (*(half * dt / 2 for half in scene.settings.gravity), 0.0)
-    own['steady_lead'][:] = np.where(dynamic[:, None], gravity, 0.0)
-    own['state']['lead'][:] = own['steady_lead']
     own['floor_friction'] = scene.floor_friction
     for row in np.flatnonzero(own['floor_friction']).tolist():
         wheels = bodies[row].wheels

@@ -14,9 +14,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 import math
 
-import numpy as np
 from physsim_ros.engine import body as rigid_body
-from physsim_ros.engine.body import RigidBody, same_in_engine, states_after
+from physsim_ros.engine.body import RigidBody, same_in_engine
 from physsim_ros.engine.body_set import BodySet, wake_bodies
 from physsim_ros.engine.body_table import BodyTable
 from physsim_ros.engine.boundary import Boundary
@@ -149,7 +148,7 @@ class Space:
         if self._fields not in (None, fields):
             wake_bodies(rigid.pm_body for rigid in self.bodies.by_name.values())
             for rigid in self.bodies.by_name.values():
-                rigid.fresh = True
+                rigid.state['fresh'] = True
         self._fields = fields
 
     def lay_out_joints(self) -> None:
@@ -162,7 +161,7 @@ class Space:
         """Return the true velocity of a body."""
         if rigid.pm_body.is_sleeping:
             return REST
-        return rigid.twist(self._settings.gravity, self.dt, free=self._is_free(rigid))
+        return rigid.twist(self._settings.gravity, self.dt)
 
     def configure(self, settings: WorldSettings) -> None:
         """Replace the settings: gravity, damping, iterations, and the walls of `bounds`."""
@@ -184,8 +183,7 @@ class Space:
     def add(self, body: Body, pose: Pose, twist: Twist) -> RigidBody:
         """Add a new body, the topmost one."""
         check_columns(body, self._settings, self.dt)
-        last = next(reversed(self.bodies.by_name.values()), None)
-        rigid = rigid_body.build(body, 0 if last is None else last.serial + 1)
+        rigid = rigid_body.build(body)
         self._insert(rigid, pose, twist)
         return rigid
 
@@ -195,14 +193,14 @@ class Space:
         if same_in_engine(old.body, body):
             self._drop_table()
             self.changes += body != old.body
-            old.driven, old.acting = states_after(old, body)
+            old.take_over_roles(old, body)
             old.body = body
             if pose != old.pose:
                 self.set_pose(old, pose)
             if twist != self.twist_of(old):
                 self.set_twist(old, twist)
             return
-        rigid = rigid_body.build(body, old.serial)
+        rigid = rigid_body.build(body)
         # What it touches it does not touch anew.
         rigid.row = old.row
         pose = self.joints.with_turns(old, pose)
@@ -214,7 +212,7 @@ class Space:
         self.joints.check(self.joints.names_on(body.name))
         if not body.dynamic:
             self.grips.remove_from(body.name)
-        rigid.driven, rigid.acting = states_after(old, body)
+        rigid.take_over_roles(old, body)
         self._release(touching)
         if old.wrench != NO_WRENCH and body.dynamic:
             self.set_wrench(rigid, old.wrench, old.wrench_until)
@@ -242,28 +240,27 @@ class Space:
         # It attracts others from another place.
         attracting = len(self._table.columns.attractors) if self._table is not None else 0
         for each in self.bodies.by_name.values() if attracting else (rigid,):
-            self._set_flag(each, 'fresh', value=True)
+            each.state['fresh'] = True
         self._release(touching)
         self.changes += 1
 
     def set_twist(self, rigid: RigidBody, twist: Twist) -> None:
         """Set the velocity of a body, which is in free flight then unless it has joints."""
-        free = self._is_free(rigid) or not self.joints.has_joints(rigid.body.name)
+        free = rigid.state['free'] or not self.joints.has_joints(rigid.body.name)
         rigid.set_twist(twist, self._settings.gravity, self.dt, free=free)
         if not rigid.body.anchored:
-            self._set_flag(rigid, 'free', free)
-            self._set_flag(rigid, 'thrown', True)
-        self._set_flag(rigid, 'fresh', value=True)
+            rigid.state['thrown'] = True
+        rigid.state['fresh'] = True
         self.changes += 1
 
     def set_wrench(self, rigid: RigidBody, wrench: Wrench, until: int | None) -> None:
         """Set the wrench on a body until a step; None is for ever."""
-        twist, free = self.twist_of(rigid), self._is_free(rigid)
+        twist, free = self.twist_of(rigid), rigid.state['free']
         self.put_wrench(rigid, wrench, until)
         if wrench != NO_WRENCH:
             rigid.pm_body.activate()
         if self._table is not None:
-            self._table.set_wrench(rigid.row, self._settings.gravity, self.dt)
+            self._table.records['wrench'][rigid.row] = wrench
         if free:
             self.set_twist(rigid, twist)
         self.changes += 1
@@ -278,7 +275,8 @@ class Space:
 
     def wrenched(self) -> list[RigidBody]:
         """Return the bodies on which a wrench acts, in spawn order."""
-        return sorted(self._wrenched.values(), key=lambda rigid: rigid.serial)
+        rows = self.table.columns.rows
+        return sorted(self._wrenched.values(), key=lambda rigid: rows[rigid.body.name])
 
     # Motors and robots
 
@@ -310,22 +308,15 @@ class Space:
         robot = rigid.body.robot
         drive = None if robot is None else robot.drive
         assert drive is not None  # noqa: S101 - its caller refuses other bodies
-        aim, record = drive.aim(velocity), self._robot_record(rigid)
+        aim = drive.aim(velocity)
         self.changes += self.drive_of(rigid) != (aim, until)
-        record['aim'], record['until'] = aim, until
+        rigid.driven['aim'], rigid.driven['until'] = aim, until
         rigid.pm_body.activate()
 
     def drive_of(self, rigid: RigidBody) -> tuple[Twist, int]:
         """Return the velocity that a robot aims at [m/s, rad/s], and the step up to which."""
-        record = self._robot_record(rigid)
-        ahead, aside, turn = record['aim'].tolist()
-        return (ahead, aside, turn), int(record['until'])
-
-    def _robot_record(self, rigid: RigidBody) -> np.void:
-        """Return the record of a robot in the table of the core."""
-        robots = self.table.robots
-        record: np.void = robots[int(robots['body'].searchsorted(rigid.row))]
-        return record
+        ahead, aside, turn = rigid.driven['aim'].tolist()
+        return (ahead, aside, turn), int(rigid.driven['until'])
 
     # Grips
 
@@ -450,8 +441,8 @@ class Space:
             scale_impulses(self.shapes, share)
         for rigid in rigids:
             # If no share is left, nothing rests on anything any more.
-            if rigid.free or not (share or self.joints.has_joints(rigid.body.name)):
-                rigid.set_twist(rigid.twist(old, self.dt, free=rigid.free), new, self.dt)
+            if rigid.state['free'] or not (share or self.joints.has_joints(rigid.body.name)):
+                rigid.set_twist(rigid.twist(old, self.dt), new, self.dt)
         self.pm_space.gravity = new
 
     def _rebuild_boundary(self) -> None:
@@ -460,29 +451,13 @@ class Space:
         self.boundary.rebuild(self._settings)
         self._release(touching)
 
-    def _is_free(self, rigid: RigidBody) -> bool:
-        """Return whether a body is in free flight, and read by how much its velocity leads."""
-        if self._table is None:
-            return rigid.free
-        state = self._table.records['state'][rigid.row]
-        x, y, turn = state['field'].tolist()
-        rigid.field_lead = x, y, turn
-        return bool(state['free'])
-
-    def _set_flag(self, rigid: RigidBody, flag: str, value: bool) -> None:  # noqa: FBT001
-        """Set a flag of a body that outlives the table."""
-        if self._table is None:
-            setattr(rigid, flag, value)
-        else:
-            self._table.records['state'][flag][rigid.row] = value
-
     def _release(self, rigids: Iterable[RigidBody]) -> None:
         """Note bodies whose support may have been removed, or moved away."""
         for rigid in rigids:
             # A body whose engine objects have been made anew is another one.
             now = self.bodies.by_name.get(rigid.body.name)
             if now is not None:
-                self._set_flag(now, 'released', value=True)
+                now.state['released'] = True
 
     def _insert(self, rigid: RigidBody, pose: Pose, twist: Twist) -> None:
         self._drop_table()
@@ -500,9 +475,7 @@ class Space:
 
     def _drop_table(self) -> None:
         """Drop the table, before a body or joint is added, removed or changed."""
-        if self._table is not None:
-            self._table.store()
-            self._core.drop_joints()
+        self._core.drop_joints()
         self._table = None
 
 

@@ -140,7 +140,9 @@ def _is_unedited(
     # The background is never among the bodies.
     if joint.a == joint.b or not unmoved.issuperset({*joint.bodies} - {WORLD}) or joint.a == WORLD:
         return False
-    if joint.kind.schema.has_axis and abs(math.hypot(seat.ux, seat.uy) - 1.0) > ROUNDING:
+    schema = joint.kind.schema
+    has_axis = schema.has_axis or schema.rolls
+    if has_axis and abs(math.hypot(seat.ux, seat.uy) - 1.0) > ROUNDING:
         return False
     if phase is not None:
         difference = abs(math.remainder(seat.phase - phase, math.tau))

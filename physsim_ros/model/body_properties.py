@@ -98,7 +98,7 @@ class Properties(Checked):
     belt: Annotated[
         float | None,
         Within(-FASTEST, FASTEST, 'm/s'),
-        'velocity of its surface along its outline, counter-clockwise, as that of a belt seen '
+        'velocity of its surface along its outline, counter-clockwise, like a conveyor belt seen '
         'from the side',
     ] = None
     robot: Annotated[

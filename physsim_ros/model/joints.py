@@ -77,6 +77,8 @@ class Schema:
     :param words: everyday words for it; those of Box2D, Pymunk and URDF among them
     :param least_distance: between its two points [m]; 0 is no such rule
     :param has_axis: whether the direction from its first to its second point is an axis of body b
+    :param rolls: whether the line through its second point, across that from its first, is an
+        axis of body b, along which a rolls
     :param along_line: whether its force is along the line between its two points, where a knife
         can cut it
     """
@@ -87,6 +89,7 @@ class Schema:
     words: tuple[str, ...] = ()
     least_distance: float = 0.0
     has_axis: bool = False
+    rolls: bool = False
     along_line: bool = False
     passes: bool = False
 
@@ -193,6 +196,17 @@ class JointKind(StrEnum):
             words=('cog', 'gears', 'planetary', 'epicyclic'),
         ),
     )
+    RACK = (
+        'rack',
+        Schema(
+            2,
+            'a pinion: `a` rolls about its first point, without slipping, on the straight rack of '
+            '`b` through its second, across the line between them',
+            words=('rack_and_pinion', 'pinion', 'rolling', 'toothed_rack'),
+            least_distance=SMALLEST,
+            rolls=True,
+        ),
+    )
 
     @property
     def points(self) -> int:
@@ -238,8 +252,8 @@ class JointProperties(Checked):
     lower: Annotated[
         float | None,
         Within(-LARGEST, LARGEST, 'rad or m'),
-        'least angle of `a` relative to `b`, or displacement of `a` along the axis, from where '
-        'they were joined; of a winch, its least length',
+        'least angle of `a` relative to `b`, or least displacement of `a` along the axis, from '
+        'where they were joined; of a winch, the least length',
     ] = None
     upper: Annotated[
         float | None,
@@ -254,9 +268,8 @@ class JointProperties(Checked):
     rate: Annotated[
         float | None,
         Within(-FASTEST, FASTEST, 'rad/s or m/s'),
-        'angular velocity of `a` relative to `b`, counter-clockwise; of a winch, that of its '
-        'length, which begins as `length` and stays within its limits; of a slider, velocity of '
-        '`a` along its line',
+        'motor: angular velocity of `a` relative to `b`, counter-clockwise; slider: velocity of '
+        '`a` along its line; winch: rate of its length, which begins as `length`',
         1.0,
     ] = None
     max_torque: Annotated[
@@ -265,19 +278,19 @@ class JointProperties(Checked):
     effort: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N m or N'),
-        'greatest torque or force of its motor, which holds until it is commanded; without it '
-        'there is none',
+        'gives the joint a motor of this greatest torque or force, which holds until it is '
+        'commanded; not together with `rate`',
     ] = None
     max_speed: Annotated[
         float | None,
         Within(0.0, FASTEST, 'rad/s or m/s'),
-        'greatest rate at which that motor obeys commands',
+        'greatest rate of that motor',
         1.0,
     ] = None
     gain: Annotated[
         float | None,
         Within(0.0, 200.0, '1/s'),
-        'rate at which that motor closes the way to a commanded position, by that way',
+        'speed of that motor towards a commanded position, divided by the distance to it',
         20.0,
     ] = None
     friction: Annotated[
@@ -314,8 +327,8 @@ class JointProperties(Checked):
     over: Annotated[
         tuple[str, ...] | None,
         _names,
-        'names of the bodies at the points between its ends, `world` for the background; a body '
-        'that is a disc is a wheel, on which the rope does not slip, others are rings',
+        'names of the bodies at the points between the ends, `world` for the background; on a '
+        'disc the rope runs as on a wheel, without slipping; other points are rings',
         AS_DRAWN,
     ] = None
     ratio: Annotated[
@@ -334,14 +347,14 @@ class JointProperties(Checked):
     carrier: Annotated[
         str | None,
         _body_name,
-        'name of a third body against which the angles of a gear are measured, as the arm that '
-        'carries a planet; `world`, and unless it is set, they are absolute',
+        'name of a third body relative to which the angles of a gear are measured, such as the '
+        'arm of a planet; by default, and with `world`, they are absolute',
     ] = None
     max_force: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N'),
-        'greatest force of the joint, of a driven slider that of its drive, 1000 N unless it is '
-        'set; for torques, N m',
+        'greatest force of the joint; for torques, N m. For a driven slider, the force of its '
+        'drive, by default 1000 N',
     ] = None
     break_force: Annotated[
         float | None,
@@ -358,6 +371,12 @@ class JointProperties(Checked):
             raise BadProperty(
                 f'lower is {self.lower:g} and upper {self.upper:g}; lower must not be greater',
                 field='lower',
+            )
+        if self.rate is not None and self.effort:
+            raise BadProperty(
+                'a slider has either a rate, with which it is driven, or an effort, with which '
+                'its motor obeys commands',
+                field='effort',
             )
 
     @property

@@ -119,9 +119,9 @@ class Seat(NamedTuple):
     The anchor points of a joint, its axis, reference angle and length, from when it was drawn.
 
     ax, ay [m]: anchor point in the frame of a; bx, by [m]: the same in the frame of b; ux, uy:
-    unit vector of a slider's axis in the frame of b; phase [rad]: angle of b times ratio minus
-    angle of a; length [m]: distance of the two points. Box2D: localAnchorA, localAnchorB,
-    localAxis, referenceAngle, length.
+    unit vector of the axis of a slider or a rack in the frame of b; phase [rad]: angle of b times
+    ratio minus angle of a; length [m]: distance of the two points. Box2D: localAnchorA,
+    localAnchorB, localAxis, referenceAngle, length.
     """
 
     ax: float

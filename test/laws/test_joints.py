@@ -116,9 +116,18 @@ def test_joints_that_contradict_each_other_give_no_energy(report, seed):
 
 @pytest.mark.slow
 def test_motors_and_springs_among_them_give_no_energy_either(report):
-    gains = [energy_from_nowhere(*tangle(seed, (*KINDS, 'spring', 'motor'))) for seed in range(20)]
+    seeds = random.Random(34).sample(range(1_000_000), 60)
+    gains = [energy_from_nowhere(*tangle(seed, (*KINDS, 'spring', 'motor'))) for seed in seeds]
     what = 'tangle with motors and springs, energy gained'
     report.check(34, f'{what} by nine in ten', float(np.percentile(gains, 90)), 0.0, 0.05, '–')
+    # Joints that are drawn together lift their bodies, which is counted as a gain.
+    report.check(34, f'{what} by any', max(gains), 0.0, 0.2, '–')
+
+
+@pytest.mark.parametrize('seed', [33, slow(44)])
+def test_motors_that_jam_on_the_ground_give_no_energy(report, seed):
+    gain = energy_from_nowhere(*tangle(seed, (*KINDS, 'spring', 'motor')))
+    report.check(34, 'tangle that jams, energy gained', gain, 0.0, 0.05, '–')
 
 
 def test_a_loaded_chain_does_not_stir_at_a_checkpoint(report):

@@ -266,6 +266,8 @@ def mirrored(state):
                 ratchet=None if said.ratchet is None else -said.ratchet,
                 rest_angle=None if said.rest_angle is None else -said.rest_angle,
             )
+        if each.kind is JointKind.RACK:
+            return replace(each, seat=seat._replace(ux=-seat.ux, uy=-seat.uy))
         if each.kind is JointKind.MOTOR:
             return joint_properties(each, rate=-each.number('rate'))
         if said.phase is not None:

@@ -56,7 +56,7 @@ KEYS = ['mass', 'density', 'friction', 'elasticity', 'velocity', 'spin', 'anchor
 VALUES = ['0', '1', '-1', '0.5', '1e5', '1e-9', '1e12', '.nan', '.inf', 'true', 'false', '[1, 2]',
           '[-1e5, 0]', '[1]', '[]', '~', 'x', '{}', '12345678901234567890']  # fmt: skip
 NAMES = ['a/0', 'a/1', 'b/0', 'body/0']
-KINDS = ['pin', 'axle', 'motor', 'spring', 'rod', 'rope', 'slider', 'gear']
+KINDS = ['pin', 'axle', 'motor', 'spring', 'rod', 'rope', 'slider', 'gear', 'rack']
 JOINT_KEYS = ['kind', 'a', 'b', 'lower', 'upper', 'rate', 'max_torque', 'stiffness', 'damping',
               'rest_length', 'length', 'ratio', 'phase', 'carrier', 'over', 'ratchet', 'max_force',
               'break_force', 'collide']  # fmt: skip

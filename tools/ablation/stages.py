@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from unittest import mock
 
 import numpy as np
-from physsim_ros.engine import body_table, settings, warm_start
+from physsim_ros.engine import settings, warm_start
 from physsim_ros.engine.body import RigidBody
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
@@ -41,13 +41,6 @@ class Stage(NamedTuple):
     replaced: tuple[tuple[Target, Any], ...] = ()
 
 
-def _columns_without_lead(scene: Any, dt: float, _columns: Any = body_table.columns_of) -> Any:
-    columns = _columns(scene, dt)
-    bodies = columns.bodies.copy()
-    bodies['state']['lead'] = 0.0
-    return columns._replace(bodies=bodies)
-
-
 def _no_common_points(*_: object) -> Any:
     return np.empty(0, np.intp), np.empty(0, np.intp)
 
@@ -57,14 +50,7 @@ def _nothing(*_: object, **__: object) -> None:
 
 
 STAGES = (
-    Stage(
-        'half-step velocity',
-        lib.STAGE_HALF_STEP,
-        (
-            ((RigidBody, 'lead'), lambda *_: REST),
-            ((body_table, 'columns_of'), _columns_without_lead),
-        ),
-    ),
+    Stage('half-step velocity', lib.STAGE_HALF_STEP, (((RigidBody, 'lead'), lambda *_: REST),)),
     Stage('support graph', lib.STAGE_SUPPORT),
     Stage('resting damping', lib.STAGE_RESTING_DAMPING),
     Stage('floor', lib.STAGE_FLOOR),

@@ -76,8 +76,8 @@ static void start_actors(World *world) {
     for (int number = 0; number < world->actor_count; number++) {
         Actor *actor = world->actors + number;
         bool starts = !actor->waits || is_opened(world, actor) || is_near(world, actor);
-        if (actor->begun == never && starts) {
-            actor->begun = world->step + actor->delay;
+        if (actor->state.begun == never && starts) {
+            actor->state.begun = world->step + actor->delay;
         }
     }
 }
@@ -135,7 +135,7 @@ static Twist chase_path(const World *world, const Actor *actor, Pose now, Pose e
 
 static Twist follow_path(const World *world, const Actor *actor, double dt) {
     const Body *body = world->bodies + actor->body;
-    double time = (double)(world->step - actor->begun) * dt;
+    double time = (double)(world->step - actor->state.begun) * dt;
     Pose now = place_on_path(actor, time), end = place_on_path(actor, time + dt);
     return body->dynamic ? chase_path(world, actor, now, end, dt) : keep_to_path(actor, body, end, dt);
 }
@@ -147,12 +147,12 @@ static int next_point(const Actor *actor) {
     int count = actor->point_count;
     assert(count > 0);
     if (actor->repeat == ONCE) {
-        return actor->reached < count ? (int)actor->reached : count - 1;
+        return actor->state.reached < count ? (int)actor->state.reached : count - 1;
     }
     if (actor->repeat == LOOP) {
-        return (int)(actor->reached % count);
+        return (int)(actor->state.reached % count);
     }
-    int number = count > 1 ? (int)(actor->reached % (2 * count - 2)) : 0;
+    int number = count > 1 ? (int)(actor->state.reached % (2 * count - 2)) : 0;
     return number < count ? number : 2 * count - 2 - number;
 }
 
@@ -160,12 +160,12 @@ static int next_point(const Actor *actor) {
 static Vec desired_velocity(Actor *actor, Vec place) {
     Vec way = sub(actor->points[next_point(actor)].pose.p, place);
     bool ends = actor->repeat == ONCE;
-    if (length(way) <= actor->pace.goal_radius && !(ends && actor->reached >= actor->point_count)) {
-        actor->reached++;
+    if (length(way) <= actor->pace.goal_radius && !(ends && actor->state.reached >= actor->point_count)) {
+        actor->state.reached++;
         way = sub(actor->points[next_point(actor)].pose.p, place);
     }
     double distance = length(way), speed = actor->pace.speed;
-    if (ends && actor->reached >= actor->point_count - 1) {
+    if (ends && actor->state.reached >= actor->point_count - 1) {
         speed = least(speed, distance / settling_time);
     }
     return distance > 0.0 ? scaled(way, speed / distance) : way;
@@ -186,7 +186,7 @@ static Vec walk(World *world, const Surroundings *around, Actor *actor, double d
 
 // Command a robot, unless a command of somebody else still holds.
 static void command(const World *world, const Actor *actor, Robot *robot) {
-    if (world->step < robot->until || !has_begun(world, actor)) {
+    if (world->step < robot->state.until || !has_begun(world, actor)) {
         return;
     }
     Vec local = rotated_back(actor->wish.v, rotation(world->bodies[actor->body].engine->a));
@@ -195,8 +195,8 @@ static void command(const World *world, const Actor *actor, Robot *robot) {
         turn = local.y / actor->ahead;
         local = vec(local.x, 0.0);
     }
-    robot->aim = (Twist){shortened(local, actor->most.v.x), clamped(turn, -actor->most.w, actor->most.w)};
-    robot->until = world->step + 1;
+    robot->state.aim = (Twist){shortened(local, actor->most.v.x), clamped(turn, -actor->most.w, actor->most.w)};
+    robot->state.until = world->step + 1;
 }
 
 static void move_actor(const World *world, const Actor *actor) {

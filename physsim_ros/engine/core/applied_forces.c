@@ -21,24 +21,33 @@ static Twist wrench_of(const AppliedForce *applied, double yaw) {
     return (Twist){force, cross(rotated(applied->arm, by), force)};
 }
 
+// Half a step of gravity and of the wrench on a body, with the part of fields.
+static Twist steady_lead(const World *world, const Body *body) {
+    if (!body->dynamic) {
+        return (Twist){0};
+    }
+    const cpBody *engine = body->engine;
+    // Quotients, as in Python, so that a velocity that is set is reported to the bit.
+    Vec change = vec(body->wrench.v.x / engine->m, body->wrench.v.y / engine->m);
+    Twist gained = {add(world->space->gravity, change), body->wrench.w / engine->i};
+    return twist_sum(body->state.field, gained, world->dt / 2.0);
+}
+
 void find_leads(World *world) {
-    const Body *last = NULL;
-    for (int place = 0; world->has_fields && place < world->body_count; place++) {
+    if (!has_stage(world, STAGE_HALF_STEP)) {
+        return;
+    }
+    for (int place = 0; place < world->body_count; place++) {
         Body *body = world->bodies + place;
-        body->state.lead = twist_sum(body->steady_lead, body->state.field, 1.0);
+        body->state.lead = steady_lead(world, body);
     }
     for (int number = 0; number < world->force_count; number++) {
         const AppliedForce *applied = world->forces + number;
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
-        // Forces are listed in the order of their bodies.
-        assert(last == NULL || last <= body);
-        body->state.lead = body == last ? body->state.lead : twist_sum(body->steady_lead, body->state.field, 1.0);
-        last = body;
         Twist wrench = wrench_of(applied, engine->a);
-        double half = world->dt / 2.0;
         Twist change = {scaled(wrench.v, engine->m_inv), wrench.w * engine->i_inv};
-        body->state.lead = twist_sum(body->state.lead, change, half);
+        body->state.lead = twist_sum(body->state.lead, change, world->dt / 2.0);
     }
 }
 

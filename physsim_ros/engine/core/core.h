@@ -30,7 +30,7 @@ typedef struct Motion {
     Twist twist;
 } Motion;
 
-// What outlives a step of a body, besides pose and velocity, which Chipmunk has.
+// What outlives a step of a body, besides pose and velocity, which Chipmunk has. Python hands it on to the next table.
 typedef struct BodyState {
     uint8_t free;     // in free flight, so that its velocity leads by `lead`
     uint8_t released; // something that it touched was removed or moved since the last step
@@ -84,7 +84,6 @@ typedef struct Body {
     const cpVect *hull;    // corners of the convex hull of several pieces, about the centre of mass [m]
     int32_t hull_count;    // 0 of a body of one piece, and where there is no medium
     int64_t group;         // bodies of one group pass through each other; 0 is none
-    Twist steady_lead;     // half a step of gravity and of the wrench
     Twist wrench;          // force [N] and torque [N m] that act on it
     double floor_friction; // coefficient of friction with the floor; 0 where none acts
     double lever;          // mean distance of the points that bear it on the floor [m]
@@ -136,6 +135,16 @@ typedef struct Attractor {
     double charge; // [C]
 } Attractor;
 
+// What outlives a step of a robot, as `RobotState` of `model/states.py`; velocities are as seen from the robot.
+typedef struct RobotState {
+    Twist aim;            // velocity that the last command aims at; 0 after its timeout
+    int64_t until;        // step at which the command ends
+    Twist wheels;         // velocity that the wheels have
+    Twist travel;         // integral of that
+    Pose odometry;        // by wheels and gyroscope, from the pose in which it was spawned
+    double covariance[6]; // of the odometry: xx, xy, yy [m²], x yaw, y yaw [m rad], yaw yaw [rad²]
+} RobotState;
+
 // A robot: its drive, and what its wheels and its odometry have done.
 typedef struct Robot {
     // These fields are set by Python.
@@ -147,13 +156,7 @@ typedef struct Robot {
     cpVect center;       // of mass in the frame of the body [m]
     double slip[2];      // deviation of the odometry after 1 m of way: in distance [√m], in heading [rad/√m]
     const cpVect *noise; // (steps): two normal numbers for each step of this call; NULL without slip
-    // These fields are state; velocities are as seen from the robot.
-    int64_t until;        // step at which the command ends
-    Twist aim;            // velocity that the last command aims at; 0 after its timeout
-    Twist rolling;        // velocity that the wheels have
-    Twist travel;         // integral of that
-    Pose odometry;        // by wheels and gyroscope, from the pose in which it was spawned
-    double covariance[6]; // of the odometry: xx, xy, yy [m²], x yaw, y yaw [m rad], yaw yaw [rad²]
+    RobotState state;
     // These fields are set and used within a step.
     Twist mean;       // velocity of the wheels
     Twist under, end; // velocity that they give to the centre of mass: mean, and at the end; world axes
@@ -192,6 +195,12 @@ typedef struct Orca {
     double horizon, wall_horizon; // [s]
 } Orca;
 
+// What outlives a step of an actor, as `ActorState` of `model/states.py`.
+typedef struct ActorState {
+    int64_t begun;   // step at which it starts, or started
+    int64_t reached; // count of the points that it has reached
+} ActorState;
+
 // An actor: a body that moves on its own.
 typedef struct Actor {
     // These fields are set by Python.
@@ -211,9 +220,7 @@ typedef struct Actor {
     Pace pace;
     SocialForce social_force;
     Orca orca;
-    // These fields are state that outlives a step.
-    int64_t begun;   // step at which it starts, or started
-    int64_t reached; // count of the points that it has reached
+    ActorState state;
     // These fields are set and used within a step.
     Twist wish; // velocity of the centre of mass that it goes at, world axes
 } Actor;
@@ -226,6 +233,7 @@ enum {
     ROW_DISTANCE, // distance of the two anchors [m]
     ROW_ACROSS,   // distance of the first anchor from the axis of the second body [m]
     ROW_ALONG,    // way of the first anchor along that axis [m]
+    ROW_ROLL,     // the same, and radius (yaw_a - yaw_b) [m]
     ROW_PATH      // length of a rope on its way past its guides [m]
 };
 
@@ -308,8 +316,8 @@ typedef struct Part {
 typedef struct Joint {
     double anchor_a[2]; // in the frame of the first body, its origin the centre of mass [m]
     double anchor_b[2]; // the same in the frame of the second
-    double axis[2];     // unit vector of a slider in the frame of the second body
-    double ratio;       // of a gear
+    double axis[2];     // unit vector of a slider or a rack in the frame of the second body
+    double ratio;       // of a gear; of a rack, the radius of its pinion [m]
     double most;        // impulse in a step beyond which it breaks [N s, N m s]
     uint8_t has_axis;   // the direction from its first to its second point is an axis of the second body
     uint8_t presses;    // its first part may push the bodies apart

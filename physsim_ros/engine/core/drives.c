@@ -40,7 +40,7 @@ static double rim_speed(const Robot *robot, Twist velocity) {
 
 // The velocity of the wheels after a step.
 static Twist accelerated(const Robot *robot, Twist aim, double dt) {
-    Twist before = robot->rolling, after = aim, change = twist_sum(aim, before, -1.0);
+    Twist before = robot->state.wheels, after = aim, change = twist_sum(aim, before, -1.0);
     double speed = rim_speed(robot, change), most = robot->acceleration * dt;
     if (speed > most) {
         after = twist_sum(before, change, most / speed);
@@ -66,14 +66,14 @@ void roll_wheels(World *world) {
     for (int number = 0; number < world->robot_count; number++) {
         Robot *robot = world->robots + number;
         double yaw = world->bodies[robot->body].scratch.begin.yaw;
-        Twist aim = world->step < robot->until ? robot->aim : (Twist){0}, after = robot->rolling;
-        if (!is_same(robot->rolling, aim) || !is_same(aim, robot->aim)) {
+        Twist aim = world->step < robot->state.until ? robot->state.aim : (Twist){0}, after = robot->state.wheels;
+        if (!is_same(robot->state.wheels, aim) || !is_same(aim, robot->state.aim)) {
             after = accelerated(robot, aim, world->dt);
         }
-        robot->mean = twist_sum(robot->rolling, after, 1.0);
+        robot->mean = twist_sum(robot->state.wheels, after, 1.0);
         robot->mean = (Twist){scaled(robot->mean.v, 0.5), robot->mean.w / 2.0};
-        robot->aim = aim;
-        robot->rolling = after;
+        robot->state.aim = aim;
+        robot->state.wheels = after;
         double turn = robot->mean.w * world->dt;
         robot->under = at_center(robot->mean, robot->center, yaw + turn / 2.0);
         // The chord of the arc that they roll along.
@@ -90,7 +90,7 @@ static Pose reckoned(Pose pose, Vec way, double turn) {
 
 // The covariance after a chord in the frame of the odometry, with new errors along it and of the heading.
 static void propagate_covariance(Robot *robot, Vec chord, double distance, double turn) {
-    double *p = robot->covariance, x = -chord.y, y = chord.x, heading = p[5];
+    double *p = robot->state.covariance, x = -chord.y, y = chord.x, heading = p[5];
     p[0] += 2.0 * x * p[3] + x * x * heading;
     p[1] += x * p[4] + y * p[3] + x * y * heading;
     p[2] += 2.0 * y * p[4] + y * y * heading;
@@ -119,11 +119,11 @@ void reckon_odometry(World *world) {
             measured = scaled(way, share);
             drift = noise.y * robot->slip[1] * sqrt(distance + fabs(turn));
         }
-        robot->travel = twist_sum(robot->travel, robot->mean, world->dt);
-        Pose before = robot->odometry;
-        robot->odometry = reckoned(before, measured, turn + drift);
+        robot->state.travel = twist_sum(robot->state.travel, robot->mean, world->dt);
+        Pose before = robot->state.odometry;
+        robot->state.odometry = reckoned(before, measured, turn + drift);
         if (robot->noise != NULL) {
-            propagate_covariance(robot, sub(robot->odometry.p, before.p), distance, turn);
+            propagate_covariance(robot, sub(robot->state.odometry.p, before.p), distance, turn);
         }
     }
 }

@@ -14,9 +14,10 @@ typedef struct Bearing {
     uintptr_t shapes[2];
     Vec arm_a, arm_b, normal; // world axes [m]; the normal leads from the first to the second body
     double friction;
-    double slop;  // overlap that stays [m]
-    double slide; // velocity across the normal of the surfaces against their bodies [m/s]
-    double left;  // of the step after the impact; 0 for a contact that does not begin [s]
+    double slop;    // overlap that stays [m]
+    double slide;   // velocity across the normal of the surfaces against their bodies [m/s]
+    double closing; // impulse along the normal by which an overlap was closed [N s]
+    double left;    // of the step after the impact; 0 for a contact that does not begin [s]
 } Bearing;
 
 // The rows of an island: those of joints, then normals of contacts, then tangents.

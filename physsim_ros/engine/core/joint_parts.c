@@ -176,7 +176,8 @@ static Vec line_of(const World *world, const Joint *joint, const Part *part) {
     }
     // The anchors of all other kinds lie in the same place.
     const cpPinJoint *axial = (cpPinJoint *)part->constraint;
-    return joint->has_axis ? by_axis(world, joint, part) : between(part->constraint, axial->anchorA, axial->anchorB);
+    bool by_line = joint->has_axis || part->kind == PART_DRIVE;
+    return by_line ? by_axis(world, joint, part) : between(part->constraint, axial->anchorA, axial->anchorB);
 }
 
 static bool is_linear(const Part *part) {

@@ -213,8 +213,9 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
         *island->closing[row] = impulses[row] * share / solve->dt / sign;
     }
     for (int number = 0; number < island->touch_count; number++) {
-        double impulse = impulses[island->joint_row_count + number];
-        island->touches[number].point->jnAcc += impulse * share / solve->dt;
+        Bearing *touch = island->touches + number;
+        touch->closing = impulses[island->joint_row_count + number] * share / solve->dt;
+        touch->point->jnAcc += touch->closing;
     }
 }
 

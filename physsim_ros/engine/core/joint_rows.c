@@ -53,6 +53,12 @@ double row_at(const Row *row, const Joint *joint, const Anchors *anchors, Pose a
     }
     case ROW_ACROSS:
         return place_on_line(perpendicular(rotated(axis, anchors->of_b)), anchors, jacobian);
+    case ROW_ROLL: {
+        double x = place_on_line(rotated(axis, anchors->of_b), anchors, jacobian);
+        jacobian->a.w += joint->ratio;
+        jacobian->b.w -= joint->ratio;
+        return x + joint->ratio * (a.yaw - b.yaw);
+    }
     default:
         assert(row->kind == ROW_ALONG);
         return place_on_line(rotated(axis, anchors->of_b), anchors, jacobian);

@@ -82,3 +82,12 @@ void close_joints(World *world) {
         close_island(world, world->own->joint_islands->solves + number);
     }
 }
+
+void take_out_closing(World *world) {
+    for (int number = 0; has_stage(world, STAGE_JOINTS) && number < world->own->joint_islands->count; number++) {
+        const Island *island = world->own->joint_islands->islands + number;
+        for (const Bearing *touch = island->touches; touch < island->touches + island->touch_count; touch++) {
+            touch->point->jnAcc -= touch->closing;
+        }
+    }
+}

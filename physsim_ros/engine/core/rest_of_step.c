@@ -90,8 +90,8 @@ void add_rest(Body *body, Twist gained) {
 
 // Find the ways of bodies that no island of joints has found.
 static void find_rests(World *world) {
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
+    for (int number = 0; number < active_count(world); number++) {
+        Body *body = active_at(world, number);
         double left = body->scratch.since + body->scratch.left;
         if (left > 0.0 && body->dynamic && !body->scratch.rests) {
             add_rest(body, way_gained(body, twist_of(body->engine), left, world->dt));
@@ -113,8 +113,8 @@ static bool goes(Twist way) {
 void finish_moves(World *world) {
     int count = 0;
     find_rests(world);
-    for (int place = 0; place < world->body_count; place++) {
-        const Body *body = world->bodies + place;
+    for (int number = 0; number < active_count(world); number++) {
+        const Body *body = active_at(world, number);
         Twist way = body->scratch.rest;
         if (goes(far_way(world, body))) {
             count++;

@@ -33,7 +33,8 @@ void begin_wishes(World *world);
 bool find_wish(World *world);
 void move_actors(World *world);
 
-// The floor, with drives and odometry of robots (`floor.c`, `drives.c`).
+// The floor, with drives and odometry of robots (`floor.c`, `drives.c`), and whether it acts on any body.
+bool has_floor(const World *world);
 void pull_by_floor(World *world);
 void find_pushes(World *world);
 void roll_wheels(World *world);
@@ -68,7 +69,9 @@ void add_rest(Body *body, Twist gained);
 void find_joint_islands(World *world);
 void solve_joints(World *world);
 void close_joints(World *world);
-// The impulses of impacts, from which the next step does not start (`impact_loads.c`).
+// Impulses from which the next step does not start: of gaps that were closed (`joint_solver.c`), and of impacts
+// (`impact_loads.c`).
+void take_out_closing(World *world);
 void take_out_impacts(World *world);
 void begin_totals(World *world);
 void find_gaps(World *world);

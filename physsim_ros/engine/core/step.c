@@ -9,22 +9,35 @@
 // A body beyond this position or speed is removed [m, m/s, rad, rad/s]; a double resolves 0.1 mm there.
 static const double lost = 1e12;
 
+static void begin_body(Body *body) {
+    assert(body_of(body->engine) == body);
+    body->scratch.begin = pose_of(body->engine);
+    body->scratch.twist = twist_of(body->engine);
+    body->scratch.carried = body->scratch.rest = (Twist){0};
+    body->scratch.left = body->scratch.since = 0.0;
+    body->scratch.parts = body->scratch.rests = false;
+    body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
+}
+
 static void begin_bodies(World *world) {
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
-        assert(body_of(body->engine) == body);
-        body->scratch.begin = pose_of(body->engine);
-        body->scratch.twist = twist_of(body->engine);
-        body->scratch.carried = body->scratch.rest = (Twist){0};
-        body->scratch.left = body->scratch.since = 0.0;
-        body->scratch.parts = body->scratch.rests = false;
-        body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
+    for (int number = 0; number < active_count(world); number++) {
+        begin_body(active_at(world, number));
+    }
+}
+
+// Begin the next sub-step of bodies that have fallen asleep in this one: until they wake it is not done again.
+static void begin_sleepers(Body *const *bodies, int count) {
+    for (int number = 0; number < count; number++) {
+        if (sleeps(bodies[number])) {
+            begin_body(bodies[number]);
+            bodies[number]->state.free = false;
+        }
     }
 }
 
 static void keep_twists(World *world) {
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
+    for (int number = 0; number < active_count(world); number++) {
+        Body *body = active_at(world, number);
         body->scratch.twist = twist_of(body->engine);
         body->state.thrown = body->state.released = false;
     }
@@ -38,8 +51,8 @@ static bool is_lost(const cpBody *engine) {
 
 static void find_lost(World *world) {
     world->has_lost = false;
-    for (int place = 0; place < world->body_count; place++) {
-        world->has_lost = world->has_lost || is_lost(world->bodies[place].engine);
+    for (int number = 0; number < active_count(world); number++) {
+        world->has_lost = world->has_lost || is_lost(active_at(world, number)->engine);
     }
 }
 
@@ -59,6 +72,19 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     find_joint_islands(world);
 }
 
+// Step Chipmunk; return the bodies that were awake before.
+static Body **step_chipmunk(World *world, int *count) {
+    *count = world->space->dynamicBodies->num;
+    Body **awake = TAKE(&world->own->arena, Body *, *count);
+    for (int number = 0; number < *count; number++) {
+        awake[number] = body_of(world->space->dynamicBodies->arr[number]);
+    }
+    world->own->hook->preSolve = before_solving;
+    world->chipmunk.space_step(world->space, world->dt);
+    world->own->hook->preSolve = NULL;
+    return awake;
+}
+
 static void step(World *world) {
     arena_reset(&world->own->arena);
     begin_fields(world);
@@ -73,9 +99,8 @@ static void step(World *world) {
     prepare_parts(world);
     command_motors(world);
     keep_twists(world);
-    world->own->hook->preSolve = before_solving;
-    world->chipmunk.space_step(world->space, world->dt);
-    world->own->hook->preSolve = NULL;
+    int awake_count = 0;
+    Body **awake = step_chipmunk(world, &awake_count);
     keep_fields(world);
     find_leads(world);
     forgive_trembling(world);
@@ -91,7 +116,9 @@ static void step(World *world) {
     }
     find_free(world);
     keep_awake(world);
+    take_out_closing(world);
     take_out_impacts(world);
+    begin_sleepers(awake, awake_count);
 }
 
 // Time since some moment [s].
@@ -142,6 +169,7 @@ int32_t core_step(World *world, int32_t count) {
     Private *own = world->own;
     double began = wall_clock();
     int32_t made = 0;
+    own->has_floor = has_floor(world);
     own->kept = pow(world->space->damping, world->dt);
     world->has_broken = world->has_lost = false;
     do {
@@ -151,6 +179,7 @@ int32_t core_step(World *world, int32_t count) {
             break;
         }
         step(world);
+        own->all_active = false;
         own->sub_step = (own->sub_step + 1) % SUB_STEPS;
         world->within_step = own->sub_step > 0;
         if (!world->within_step) {
@@ -158,5 +187,6 @@ int32_t core_step(World *world, int32_t count) {
             made++;
         }
     } while (made < count && !is_long(world, began) && !world->has_broken && !world->has_lost);
+    own->all_active = true;
     return made;
 }

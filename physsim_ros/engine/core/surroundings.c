@@ -20,7 +20,7 @@ Vec arm_of(const World *world, const Actor *actor) {
 }
 
 bool has_begun(const World *world, const Actor *actor) {
-    return actor->begun <= world->step;
+    return actor->state.begun <= world->step;
 }
 
 bool sees_wall(const World *world, const cpShape *wall, Vec place, Nearest *nearest) {

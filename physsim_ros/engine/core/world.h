@@ -34,6 +34,8 @@ typedef struct Private {
     int load_count;
     struct Islands *joint_islands; // of this step
     int call_step;                 // number of the step in this call
+    bool all_active;               // requests may have changed any body since the last sub-step
+    bool has_floor;                // there is a body on which a floor acts
     int sub_step;                  // number of the sub-step in this step
     int wishing;                   // number of the actor whose wish is found next
     bool wishes;                   // wishes of actors are found, before the first sub-step
@@ -69,6 +71,16 @@ static inline bool has_stage(const World *world, uint32_t stage) {
 
 static inline bool sleeps(const Body *body) {
     return body->engine->sleeping_root != NULL;
+}
+
+// The bodies that a sub-step may change: those that are awake, in Chipmunk's order; in the first one of a call all
+// bodies, since requests may have changed any.
+static inline int active_count(const World *world) {
+    return world->own->all_active ? world->body_count : world->space->dynamicBodies->num;
+}
+
+static inline Body *active_at(const World *world, int number) {
+    return world->own->all_active ? world->bodies + number : body_of(world->space->dynamicBodies->arr[number]);
 }
 
 static inline Pose pose_of(const cpBody *body) {

@@ -186,7 +186,7 @@ def _joint_fields(each: EngineJoint, dt: float, *, unstepped: bool) -> tuple[obj
         each.ends.at_a,
         each.ends.at_b,
         (seat.ux, seat.uy),
-        joint.number('ratio'),
+        seat.length if joint.kind.schema.rolls else joint.number('ratio'),
         math.inf if most is None else most * dt * lib.SUB_STEPS,
         joint.kind.schema.has_axis,
         joint.kind in _PRESSING,

@@ -354,6 +354,12 @@ def _gear(joint: Joint, ends: Ends) -> tuple[Part, ...]:
     return (_own(lib.PART_OWN, ends, row._replace(guides=ends.guides)),)
 
 
+def _rack(joint: Joint, ends: Ends) -> tuple[Part, ...]:
+    """Return a way along a rack, and the same along the rim of the pinion that rolls on it."""
+    met = -joint.seat.length * joint.seat.phase
+    return (_own(lib.PART_DRIVE, ends, Row(lib.ROW_ROLL, met, met)),)
+
+
 KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {
     JointKind.PIN: _weld,
     JointKind.AXLE: _axle,
@@ -363,6 +369,7 @@ KINDS: Mapping[JointKind, Callable[[Joint, Ends], tuple[Part, ...]]] = {
     JointKind.ROPE: _rope,
     JointKind.SLIDER: _slider,
     JointKind.GEAR: _gear,
+    JointKind.RACK: _rack,
 }
 
 

@@ -92,13 +92,15 @@ export interface AppliedForce {
 }
 
 export interface Robot {
-  /** Of its drive. */
-  kind: string;
-  /** [m/s] */
-  max_speed: number;
-  /** [rad/s] */
-  max_turn: number;
   namespace: string;
+  /** Of its drive, if it has one. */
+  kind?: string;
+  /** [m/s] */
+  max_speed?: number;
+  /** [rad/s] */
+  max_turn?: number;
+  /** Names of its links. */
+  parts?: string[];
 }
 
 export interface Joint {

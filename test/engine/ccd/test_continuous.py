@@ -54,7 +54,7 @@ class Overlaps:
 
     def __init__(self, scene):
         self._space = pymunk.Space()
-        self._rigids = [rigid_body.build(body, row) for row, body in enumerate(scene.bodies)]
+        self._rigids = [rigid_body.build(body) for body in scene.bodies]
         for rigid in self._rigids:
             self._space.add(rigid.pm_body, *rigid.pm_body.shapes)
 

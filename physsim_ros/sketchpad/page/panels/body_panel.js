@@ -35,7 +35,7 @@ export function bodyContent(app, [name]) {
   const material = materialFields(body, change);
   material.find((each) => each.textContent === t('Friction'))?.append(app.numbers.pairs);
   return {
-    title: app.words.title(name), name: isDrawn(name) ? name : '',
+    title: app.words.title(name), name: isDrawn(name) || app.world.robotOf(name) ? name : '',
     first: [app.numbers.element, ...inclineFields(app, body),
       ...body.actor ? actorLines(body.actor) : [], ...body.robot ? app.driving.show(body.robot) : []],
     rest: [

@@ -8,6 +8,7 @@ import {distance, rotated} from '../vectors.js';
 
 const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
+const ON_BODIES = ['pin', 'axle', 'motor', 'slider']; // kinds whose symbol lies on their bodies, and is no larger than they
 const COILS = 8, TEETH = 10, SPIRAL = 3; // turns of a coil, teeth of a wheel, turns of a torsion spring
 const RAIL = 1; // m of rail shown to each side where there is no limit
 const TENSE = 10; // weights at which a joint is drawn in the colour of warning
@@ -24,7 +25,6 @@ export class JointView {
 
   draw() {
     const {ctx, world, camera, view: {palette}} = this;
-    this.size = Math.min(Math.max(SIZE * camera.scale, LEAST), GREATEST);
     ctx.lineJoin = ctx.lineCap = 'round';
     const gravity = Math.hypot(...world.scene.gravity) || 9.81;
     world.scene.joints.forEach((joint, number) => {
@@ -34,6 +34,7 @@ export class JointView {
       ctx.strokeStyle = share > 1 ? palette.warn : share > 1 / 3 ? palette.force : palette.ink;
       ctx.fillStyle = palette.paper;
       ctx.lineWidth = 2;
+      this.size = Math.max(Math.min(SIZE * camera.scale, GREATEST, this.#roomFor(joint)), LEAST);
       this.#drawJoint(joint);
     });
   }
@@ -55,7 +56,7 @@ export class JointView {
       case 'axle':
         if (ground) this.#support(p);
         // Its circle would cover the links of a chain.
-        if (ground || this.#hasRoom(joint.a) || this.#hasRoom(joint.b)) this.#circle(p, size);
+        if (ground || this.#roomFor(joint) > size) this.#circle(p, size);
         this.#dot(p);
         if (joint.stiffness) this.#spiral(p, world.frame.yaw[joint.a]);
         break;
@@ -82,15 +83,25 @@ export class JointView {
         this.#wheel(joint.a);
         this.#wheel(joint.b);
         break;
+      case 'rack':
+        this.#wheel(joint.a);
+        this.#teeth(joint, q);
+        break;
       default:
         this.#line([p, q]);
         this.#ends(p, q, ground);
     }
   }
 
-  /** @param {number} row of a body, whether it has room for a symbol */
-  #hasRoom(row) {
-    return this.view.bodies.appearance(this.world.scene.bodies[row]).inner * this.camera.scale > this.size;
+  /**
+   * @param {Joint} joint
+   * @returns {number} half of the size for which its bodies have room [px]: the larger one, but a robot's parts each
+   */
+  #roomFor({kind, a, b}) {
+    if (!ON_BODIES.includes(kind)) return Infinity;
+    const {bodies} = this.world.scene;
+    const rooms = [a, b].filter((row) => row >= 0).map((row) => this.view.bodies.appearance(bodies[row]).inner * this.camera.scale);
+    return Math.max(...rooms);
   }
 
   /** @param {Point} point [m] */
@@ -227,6 +238,22 @@ export class JointView {
     this.ctx.closePath();
     this.ctx.fill();
     this.ctx.stroke();
+  }
+
+  /**
+   * @param {Joint} rack
+   * @param {Point} q the middle of its teeth
+   */
+  #teeth({axis: [ux, uy], b, rest_length: radius}, [x, y]) {
+    const [dx, dy] = rotated([ux, uy], b < 0 ? 0 : this.world.frame.yaw[b]);
+    const pitch = 2 * Math.PI * radius * this.camera.scale / TEETH;
+    /** @type {Point[]} */
+    const points = [];
+    for (let i = -4 * TEETH; i <= 4 * TEETH; i++) {
+      const along = i * pitch / 4, down = (i & 2 ? -0.15 : 0.15) * pitch;
+      points.push([x + along * dx + down * dy, y - along * dy + down * dx]);
+    }
+    this.#line(points);
   }
 
   /** @param {number} row a body with teeth, which turn with it */
