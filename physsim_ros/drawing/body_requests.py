@@ -27,7 +27,7 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import Malformed, no_body
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name, WORLD
-from physsim_ros.model.requests import Join, Request, Spawn
+from physsim_ros.model.requests import Command, Join, Request, Spawn
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.shapes import Box, Chain, contains_each, Disc, Polygon, Shape
 from physsim_ros.model.transform import Point, Pose, rotated_each
@@ -95,37 +95,43 @@ def wall(name: str, points: Sequence[Point], settings: DrawingSettings) -> Spawn
     )
 
 
-def copy(name: str, position: Point, scene: SceneQuery) -> Spawn:
+def copy(name: str, position: Point, scene: SceneQuery) -> tuple[Request, ...]:
     """
-    Return the request for a copy of a body, at rest.
+    Return the requests for a copy of a body, or of the robot of which it is a part, at rest.
 
     :param name: of the body
-    :param position: of the copy [m]
+    :param position: of its copy [m]
     :raises UnknownBody: there is no such body
     """
     (name,) = _known((name,), scene, 'name')
-    return copy_of(scene.next_body(), scene.body(name), (*position, scene.pose(name)[2]))
+    x, y, _ = scene.pose(name)
+    requests, _ = _copies((name,), (position[0] - x, position[1] - y), scene)
+    return tuple(requests)
 
 
 def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Request, ...]:
     """
     Return the requests for copies of bodies, at rest, and of the joints among them.
 
-    A joint to the background is copied with its body. Limits of a copied joint count from where
-    its bodies are now.
+    Of a robot that has parts, one of which is named, the whole is copied. A joint to the
+    background is copied with its body. Limits of a copied joint count from where its bodies are
+    now.
 
     :param names: of the bodies
     :param by: vector from each body to its copy [m]
     :raises UnknownBody: there is no such body
     :raises Malformed: one is named twice
     """
-    requests: list[Request] = []
-    poses = {name: scene.pose(name) for name in _known(names, scene, 'names')}
-    copies = {WORLD: WORLD}
-    for copied, (name, (x, y, yaw)) in zip(scene.new_bodies(), poses.items(), strict=False):
-        copies[name] = copied
-        requests.append(copy_of(copied, scene.body(name), (x + by[0], y + by[1], yaw)))
-    among = [joint for joint in scene.joints if joint.a in copies and joint.b in copies]
+    requests, copies = _copies(_known(names, scene, 'names'), by, scene)
+    poses = {name: scene.pose(name) for name in copies}
+    # A robot is spawned with its joints.
+    own = {joint for name in copies for joint in scene.joints_of_robot(name)}
+    copies[WORLD] = WORLD
+    among = [
+        joint
+        for joint in scene.joints
+        if joint.a in copies and joint.b in copies and joint.name not in own
+    ]
     for copied, joint in zip(scene.new_joints(), among, strict=False):
         points, lengths = joint.drawn_points(poses), joint.drawn_values()
         join = Join(
@@ -139,6 +145,28 @@ def copy_machine(names: Sequence[str], by: Point, scene: SceneQuery) -> tuple[Re
         )
         requests.append(join)
     return tuple(requests)
+
+
+def _copies(
+    names: Sequence[str], by: Point, scene: SceneQuery
+) -> tuple[list[Request], dict[str, str]]:
+    """
+    Return the requests for copies of bodies and whole robots, and the copy of each name.
+
+    The parts of a robot are spawned with it, and then set to where those of the original are.
+    """
+    requests: list[Request] = []
+    copies: dict[str, str] = {}
+    wholes = dict.fromkeys(scene.whole(name) for name in names)
+    for copied, name in zip(scene.new_bodies(), wholes, strict=False):
+        members = name, *scene.parts(name)
+        copies |= {each: copied + each[len(name) :] for each in members}
+        moved = [(x + by[0], y + by[1], yaw) for x, y, yaw in map(scene.pose, members)]
+        requests.append(copy_of(copied, scene.body(name), moved[0]))
+        if len(members) > 1:
+            placed = tuple(copies[each] for each in members)
+            requests.append(Command(names=placed, poses=np.array(moved)))
+    return requests, copies
 
 
 def _known(names: Sequence[str], scene: SceneQuery, field: str) -> Sequence[str]:

@@ -6,8 +6,8 @@ The knife: all that a straight stroke passes right through is cut, along it.
 
 A body becomes the pieces of its shape (`cut_shape.py`). The largest is the body of before, changed
 in place. Each piece has the frame of that body, in which joints and forces stay at their points. A
-rope, rod or spring that the stroke crosses beside its bodies is removed. Robots and actors are not
-cut.
+rope, rod or spring that the stroke crosses beside its bodies is removed. Robots, their parts and
+actors are not cut.
 
 Laws: mass and momentum stay, and so does the angular momentum about the common centre of mass.
 """
@@ -29,7 +29,7 @@ from physsim_ros.model.applied_forces import AppliedForce
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
 from physsim_ros.model.requests import ChangeBody, Cut, Rejoin, Spawn, Unjoin
-from physsim_ros.model.scene import Body, Joint
+from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import cross, Point, rotated
 
@@ -51,7 +51,7 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     pieces: dict[str, list[Shape]] = {}
     count = 0
     for name in near:
-        if _can_be_cut(scene.body(name)) and (found := _pieces(name, start, end, scene)):
+        if _can_be_cut(name, scene) and (found := _pieces(name, start, end, scene)):
             pieces[name] = found
             count += len(found)
             check_count(count)
@@ -60,7 +60,9 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
         for name in near:
             if _pieces(name, start, end, scene):
                 raise NothingThere(
-                    f'{name} is a robot or an actor, which no knife cuts', field='point', body=name
+                    f'{name} is a robot, a part of one or an actor, which no knife cuts',
+                    field='point',
+                    body=name,
                 )
         raise NothingThere(
             'the stroke passes right through no body, rope, rod or spring', field='point'
@@ -83,8 +85,10 @@ def cut(start: Point, end: Point, scene: SceneQuery) -> Cut:
     )
 
 
-def _can_be_cut(body: Body) -> bool:
-    return body.robot is None and body.actor is None
+def _can_be_cut(name: str, scene: SceneQuery) -> bool:
+    """Return whether a body is neither an actor, nor a robot, nor a part of one."""
+    whole = scene.body(scene.whole(name))
+    return whole.robot is None and whole.actor is None
 
 
 def _pieces(name: str, start: Point, end: Point, scene: SceneQuery) -> list[Shape]:
@@ -121,7 +125,8 @@ def _severed(start: Point, end: Point, scene: SceneQuery) -> list[str]:
     for number in np.flatnonzero(crossed).tolist():
         joint = scene.joints[rows[number]]
         point = point_of(a[number] + of_joint[number] * along[number])
-        if {joint.a, joint.b}.isdisjoint(scene.bodies_at(point)):
+        is_part = joint.name in scene.joints_of_robot(scene.whole(joint.a))
+        if not is_part and {joint.a, joint.b}.isdisjoint(scene.bodies_at(point)):
             names.append(joint.name)
             check_count(len(names))
     return names

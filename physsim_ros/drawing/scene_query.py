@@ -19,6 +19,7 @@ from physsim_ros.model.arrays import Flags, Floats
 from physsim_ros.model.errors import BadProperty, no_frame
 from physsim_ros.model.joints import JointKind
 from physsim_ros.model.names import split_name
+from physsim_ros.model.robots import part_name, whole_of
 from physsim_ros.model.scene import Body, Joint
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import contain_each, contains_each, extent_of
@@ -92,6 +93,22 @@ class SceneQuery:
         """Return the description of a body."""
         return self.snapshot.scene.bodies[self._rows[name]]
 
+    def whole(self, name: str) -> str:
+        """Return the name of the robot of which a body is a part, else that of the body."""
+        return whole_of(name, lambda each: self.body(each).robot if each in self._rows else None)
+
+    def parts(self, robot: str) -> tuple[str, ...]:
+        """Return the names of the links of a robot that are there; of another body none."""
+        mapping = self.body(robot).robot
+        names = () if mapping is None else (part_name(robot, each.name) for each in mapping.links)
+        return tuple(name for name in names if name in self._rows)
+
+    def joints_of_robot(self, name: str) -> frozenset[str]:
+        """Return the names of the joints of a robot; of another body none."""
+        mapping = self.body(name).robot
+        joints = () if mapping is None else mapping.joints
+        return frozenset(part_name(name, each.name) for each in joints)
+
     def pose(self, name: str) -> Pose:
         """Return x, y [m] and yaw [rad] of a body's origin."""
         x, y, yaw = self.snapshot.poses[self._rows[name]].tolist()
@@ -110,6 +127,8 @@ class SceneQuery:
         """
         Return the names of the bodies that cover a point, the last spawned (topmost) first.
 
+        Regions of media come after what is in them.
+
         :param point: in the world [m]
         :param slack: the greatest distance of the point from a body that still covers it [m]
         """
@@ -120,7 +139,9 @@ class SceneQuery:
         poses = self.snapshot.poses[rows]
         local = rotated_each(point - poses[:, :2], -poses[:, 2])
         covering = rows[contain_each(forms, local[:, 0], local[:, 1], slack)]
-        return tuple(self.names[row] for row in covering)
+        bodies = self.snapshot.scene.bodies
+        ordered = sorted(covering.tolist(), key=lambda row: bodies[row].medium is not None)
+        return tuple(self.names[row] for row in ordered)
 
     def bodies_along(self, start: Point, end: Point) -> tuple[str, ...]:
         """

@@ -68,13 +68,17 @@ class BodySet:
         """
         Return the bodies that cover a point of the world [m], the last in spawn order first.
 
+        Regions of media come after what is in them.
+
         Pymunk's own query knows shapes where the last step has compared them; since then stages
         may have moved their bodies, but not in a space that is restored from a checkpoint.
         """
         if self._places is None:
             self._places = _Places(self.by_name.values())
         found = {row: rigid for row, rigid in self._places.near(point) if rigid.covers(point)}
-        return [found[row].body.name for row in sorted(found, reverse=True)]
+        rows = sorted(found, reverse=True)
+        rows.sort(key=lambda row: found[row].body.medium is not None)
+        return [found[row].body.name for row in rows]
 
     def count_near(
         self,

@@ -221,6 +221,26 @@ def test_one_stroke_cuts_all_bodies_on_its_way_but_robots_and_actors():
     assert refused.value.body == 'a/1'
 
 
+def test_parts_of_a_robot_and_joints_of_its_own_are_not_cut():
+    link = {'name': 'hand', 'box': {'width': 0.4, 'height': 0.4}, 'at': [1, 0]}
+    joints = [
+        {'name': 'neck', 'kind': 'axle', 'a': 'hand', 'points': [[0.5, 0]]},
+        {'name': 'stay', 'kind': 'rod', 'a': 'hand', 'points': [[0.8, 0], [0.1, 0]]},
+    ]
+    simulation = Simulation()
+    robot = {'links': [link], 'joints': joints}
+    simulation.perform(spawning('r/0', Box(width=0.2, height=0.2), robot=robot))
+    before = simulation.world.scene
+
+    with pytest.raises(NothingThere, match='a part of one') as refused:
+        cut(simulation, (1.0, 1.0), (1.0, -1.0))
+    with pytest.raises(NothingThere):
+        cut(simulation, (0.4, 1.0), (0.4, -1.0))
+
+    assert refused.value.body == 'r/0/hand/0'
+    assert simulation.world.scene == before
+
+
 def test_a_robot_that_is_grazed_does_not_keep_others_from_being_cut():
     simulation, box = Simulation(), Box(width=1.0, height=1.0)
     simulation.perform(spawning('a/0', box, (0.0, 0.5, 0.0)))

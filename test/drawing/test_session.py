@@ -10,13 +10,14 @@ from contextlib import suppress
 from dataclasses import replace
 import itertools
 import math
+from typing import Any
 
 import numpy as np
 from physsim_ros.drawing import DrawingSession, DrawingSettings, Reading, submit_reading
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere, NotRecognised, UnknownBody
 from physsim_ros.model.joints import JointKind
-from physsim_ros.model.requests import Configure, Join, MoveBodies, Request, Spawn
+from physsim_ros.model.requests import Command, Configure, Join, MoveBodies, Request, Spawn
 from physsim_ros.model.robots import Robot
 from physsim_ros.model.scene import Scene
 from physsim_ros.model.settings import WorldSettings
@@ -417,6 +418,39 @@ def test_a_machine_is_copied_with_the_joints_among_its_bodies() -> None:
         session.copy_machine(('a/0', 'x/0'), (1.0, 0.0), sim.world.snapshot())
 
 
+TRACTOR = {
+    'links': [{'name': 'trailer', 'box': {'width': 0.4, 'height': 0.2}, 'at': [-0.6, 0]}],
+    'joints': [{'name': 'hitch', 'kind': 'axle', 'a': 'trailer', 'points': [[-0.3, 0]]}],
+}
+
+
+@pytest.mark.parametrize('named', [('t/0',), ('t/0/trailer/0',), ('t/0/trailer/0', 't/0', 'b/0')])
+def test_a_copy_of_a_robot_or_of_a_part_is_one_whole_robot_as_it_stands(named: Any) -> None:
+    sim = Simulation(settings=WorldSettings(gravity=(0.0, 0.0)))
+    sim.perform(spawning('t/0', Box(width=0.3, height=0.2), robot=TRACTOR))
+    sim.perform(spawning('b/0', Disc(radius=0.1), (-1.0, 0.0, 0.0)))
+    hook = (-0.9, 0.0), (-1.0, 0.0)
+    sim.perform(Join(name='h/0', kind=JointKind.ROD, points=hook, a='t/0/trailer/0', b='b/0'))
+    # The trailer is turned about the hitch.
+    sim.perform(Command(names=('t/0', 't/0/trailer/0'), poses=[[0, 0, 0], [-0.3, -0.3, 1.57]]))
+    before = sim.world.snapshot()
+
+    for request in DrawingSession(DrawingSettings()).copy_machine(named, (5.0, 1.0), before):
+        sim.perform(request)
+
+    after = sim.world.snapshot()
+    rows = {name: row for row, name in enumerate(after.scene.names)}
+    new = rows.keys() - set(before.scene.names)
+    (robot,) = (name for name in new if after.scene.bodies[rows[name]].robot is not None)
+    assert len(new) == 2 + ('b/0' in named)
+    for name in ('t/0', 't/0/trailer/0'):
+        moved = after.poses[rows[name.replace('t/0', robot)]] - after.poses[rows[name]]
+        assert moved == pytest.approx([5.0, 1.0, 0.0])
+    joints = [each for each in after.scene.joints if each.name not in ('h/0', 't/0/hitch/0')]
+    assert joints[0].name == f'{robot}/hitch/0'
+    assert [each.kind for each in joints[1:]] == [JointKind.ROD] * ('b/0' in named)
+
+
 def test_a_copy_has_all_properties_of_its_body_and_a_namespace_of_its_own() -> None:
     sim = Simulation()
     disc, belt = Disc(radius=0.3), {'surface_velocity': (1.0, 0.0), 'sensor': True}
@@ -426,7 +460,8 @@ def test_a_copy_has_all_properties_of_its_body_and_a_namespace_of_its_own() -> N
     session = DrawingSession(DrawingSettings())
 
     for name in ('a/0', 'b/0'):
-        sim.perform(session.copy(name, (9.0, 0.0), sim.world.snapshot()))
+        for request in session.copy(name, (9.0, 0.0), sim.world.snapshot()):
+            sim.perform(request)
 
     one, robot, copied, other = sim.world.scene.bodies
     assert copied == replace(one, name=copied.name)

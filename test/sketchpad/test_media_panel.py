@@ -19,6 +19,15 @@ bodies:
   - {name: ball/0, circle: {radius: 0.3}, at: [-8, 0.3], mass: 0.5}
 """
 
+# Wind from another socket of this page.
+OTHER_WIND = """() => {
+    const socket = new WebSocket(`ws://${location.host}/ws`);
+    socket.onopen = () => {
+        socket.send(JSON.stringify({type: 'air', id: '', wind: [0, 1.5]}));
+        socket.close();
+    };
+}"""
+
 
 @pytest.fixture
 def sheet(sheet: Sheet) -> Sheet:
@@ -60,7 +69,12 @@ def test_a_pool_without_water_is_left_by_what_floated(sheet: Sheet) -> None:
 def test_the_air_of_the_world_has_the_wind_that_is_typed(sheet: Sheet) -> None:
     sheet.press('Material')
     type_number(sheet, 'Viscosity of the air [N s/m²]', '2')
+    # Meanwhile somebody else has set how it blows upward.
+    sheet.page.evaluate(OTHER_WIND)
+    sheet.until(lambda: sheet.page.evaluate('window.physsim.wind[1] === 1.5'), 'the other wind')
     type_number(sheet, 'Wind to the right [m/s]', '3')
+    sheet.until(lambda: sheet.page.evaluate('window.physsim.wind[0] === 3'), 'the wind')
+    assert sheet.page.evaluate('window.physsim.wind[1]') == 1.5
     sheet.page.keyboard.press('Escape')
     sheet.press('Material')
     wind = sheet.page.get_by_label('Wind to the right [m/s], typed', exact=True)
@@ -68,3 +82,30 @@ def test_the_air_of_the_world_has_the_wind_that_is_typed(sheet: Sheet) -> None:
     sheet.play_until(1.0)
     # Linear drag alone brings the ball to 3 m/s in a fraction of a second.
     assert sheet.pose('ball/0')[0] > -8.0 + 1.0
+
+
+def test_water_is_drawn_in_one_gesture_and_what_is_in_it_is_tapped(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.press('Water')
+    sheet.drag((-9.5, 0.0), (-8.0, 1.0), (-6.0, 2.0))
+    name = sheet.wait_for_new(before)
+    assert name == 'water/1'
+    assert sheet.pose(name) == pytest.approx([-7.75, 1.0, 0.0], abs=0.05)
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    sheet.press('Hand')
+    # The water was drawn last, and lies below all bodies nevertheless.
+    sheet.page.mouse.click(*sheet.place(-8.0, 0.3))
+    panel.get_by_role('heading', name='ball/0').wait_for()
+    sheet.page.mouse.click(*sheet.place(-6.5, 1.0))
+    panel.get_by_role('heading', name='Water water/1').wait_for()
+    sheet.press('Delete')
+    sheet.page.mouse.click(*sheet.place(-8.0, 0.3))
+    sheet.wait('!("ball/0" in physsim.bodies)')
+    assert name in sheet.names()
+
+
+def test_a_tap_is_a_pool_of_the_usual_size(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.press('Water')
+    sheet.page.mouse.click(*sheet.place(6.0, 5.0))
+    assert sheet.pose(sheet.wait_for_new(before)) == pytest.approx([6.0, 5.0, 0.0], abs=0.05)

@@ -13,7 +13,7 @@ sensor one in `sensors`.
 from physsim_ros.model.robots.drives import Car, Differential, Drive, DRIVES, Omni
 from physsim_ros.model.robots.part_names import BASE, part_name
 from physsim_ros.model.robots.parts import Link, LinkJoint, Towed, TREE_KINDS
-from physsim_ros.model.robots.robot import check_namespace, Odometry, Robot
+from physsim_ros.model.robots.robot import check_namespace, Odometry, Robot, whole_of
 from physsim_ros.model.robots.sensors import Sensor, sensor_from
 
 __all__ = [
@@ -33,4 +33,5 @@ __all__ = [
     'check_namespace',
     'part_name',
     'sensor_from',
+    'whole_of',
 ]

@@ -7,6 +7,7 @@ A robot: a drive, odometry, sensors, parts, and the namespace of its topics.
 Law: the topics of a robot have different names, which ROS allows.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 import re
 from typing import Annotated
@@ -15,9 +16,9 @@ from physsim_ros.model.checks import ListOf, Row, shown, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
-from physsim_ros.model.robots.part_names import BASE
+from physsim_ros.model.robots.part_names import BASE, part_name
 from physsim_ros.model.robots.parts import check_tree, Link, LinkJoint, TREE_KINDS
-from physsim_ros.model.robots.sensors import Sensor, sensor_from
+from physsim_ros.model.robots.sensors import Sensor, sensor_from, topic_name
 from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 
@@ -41,8 +42,8 @@ class Odometry(Checked):
     ] = (0.0, 0.0)
 
 
-# Names of topics that every robot has.
-OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
+# Names of topics that every robot has beside that of its commands.
+OWN_TOPICS = ('odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
 # Those of a robot whose joints have motors.
 JOINT_TOPICS = (
     'joint_command',
@@ -118,6 +119,10 @@ class Robot(Checked):
         'Robots of a world must differ in namespaces, topics and frames (a sensor `x/odom` in '
         '`tb` and a robot in `tb/x` collide)',
     ] = None
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    command_topic: Annotated[
+        str, topic_name, 'of the commands of its drive, below its namespace, as `drive`'
+    ] = field(default='cmd_vel', repr=False)
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -157,7 +162,12 @@ class Robot(Checked):
     @property
     def _topics(self) -> tuple[str, ...]:
         commands = JOINT_TOPICS if self.motors else ()
-        return *OWN_TOPICS, *commands, *(sensor.name for sensor in self.sensors)
+        return (
+            self.command_topic,
+            *OWN_TOPICS,
+            *commands,
+            *(sensor.name for sensor in self.sensors),
+        )
 
     def namespace_of(self, body: str) -> str:
         """
@@ -175,3 +185,16 @@ class Robot(Checked):
         """
         names = [*self._topics, *_OWN_FRAMES, *(link.name for link in self.links)]
         return [f'{namespace}/{name}' for name in names] if namespace else names
+
+
+def whole_of(name: str, robot_of: Callable[[str], Robot | None]) -> str:
+    """
+    Return the name of the robot of which a body is a part, else that of the body.
+
+    :param name: of the body
+    :param robot_of: returns the robot of that name; None if that is no robot, or not there
+    """
+    whole = name.removesuffix('/0').rpartition('/')[0]
+    robot = robot_of(whole)
+    links = () if robot is None else robot.links
+    return whole if name in (part_name(whole, link.name) for link in links) else name

@@ -17,7 +17,7 @@ from physsim_ros.engine.space import Space
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadProperty, Exists
 from physsim_ros.model.requests import Join, Spawn
-from physsim_ros.model.robots import part_name, Robot
+from physsim_ros.model.robots import part_name, Robot, whole_of
 from physsim_ros.model.scene import Body
 from physsim_ros.model.transform import local_to_world, Pose, Twist, world_to_local
 
@@ -51,7 +51,7 @@ def parts_of(spawn: Spawn) -> tuple[list[Spawn], list[Join]]:
             points=tuple(local_to_world(point, spawn.pose) for point in joint.points),
             a=part_name(spawn.name, joint.a),
             b=part_name(spawn.name, joint.b),
-            properties=joint.properties,
+            properties=joint.properties_of(spawn.name),
         )
         for joint in robot.joints
     ]
@@ -89,15 +89,14 @@ def _parts(robot: Robot | None) -> tuple[object, object]:
 def members(space: Space, name: str) -> tuple[str, ...]:
     """Return the names of a robot's body and parts that are there, of which a body is one."""
     bodies = space.bodies.by_name
-    robot = name.removesuffix('/0').rpartition('/')[0]
-    for body in (name, robot):
-        rigid = bodies.get(body)
-        if rigid is not None and rigid.body.robot is not None:
-            found = (part_name(body, link.name) for link in rigid.body.robot.links)
-            names = body, *(each for each in found if each in bodies)
-            if name in names:
-                return names
-    return (name,)
+
+    def robot_of(each: str) -> Robot | None:
+        return bodies[each].body.robot if each in bodies else None
+
+    whole = whole_of(name, robot_of)
+    robot = robot_of(whole)
+    parts = () if robot is None else (part_name(whole, link.name) for link in robot.links)
+    return whole, *(each for each in parts if each in bodies)
 
 
 def all_members(space: Space, names: Iterable[str]) -> list[str]:

@@ -105,8 +105,11 @@ def place(page: PageSession, origin: Origin, names: tuple[str, ...], poses: list
 
 @message('copy', '~/spawn', name=fields.text, to=fields.point)
 def copy(page: PageSession, origin: Origin, name: str, to: Point) -> None:
-    """Add a body like another one, at rest, at a point [m]."""
-    page.submit(origin, (page.drawing.copy(name, to, page.world.current_snapshot()),))
+    """Add a body like another one, of a part the whole robot, at rest, at a point [m]."""
+    requests = page.drawing.copy(name, to, page.world.current_snapshot())
+    # Of a robot with parts there are several answers.
+    told: dict[str, Any] = {'message': 'copied a robot', 'values': (request_count(len(requests)),)}
+    page.submit(origin, requests, **told if len(requests) > 1 else {})
 
 
 @message('copy_machine', '~/spawn', names=fields.names, by=fields.point)

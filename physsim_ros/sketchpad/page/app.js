@@ -193,6 +193,8 @@ Object.assign(window, {physsim: {
   get speed() { return app.world.frame.speed; },
   /** Forces as they are drawn. */
   get forces() { return app.arrows.drawn; },
+  /** Of the air [m/s]. */
+  get wind() { return app.world.scene.wind; },
   /** Impacts that were heard. */
   get heard() { return app.sound.heard; },
   /** Lengths of arrows [px] to a newton and to a metre a second. */

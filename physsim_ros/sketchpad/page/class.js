@@ -13,6 +13,7 @@ import {SceneView} from './view/scene_view.js';
 import {showResults} from './ui/results.js';
 import {watchTheme} from './view/theme.js';
 import {language, t} from './strings.js';
+import {Words} from './words.js';
 import {WorldState} from './world_state.js';
 
 /** @import {Classmate} from './types.js' */
@@ -44,6 +45,7 @@ class Card {
     this.world = new WorldState(connection);
     this.view = new SceneView(canvas, this.world, camera);
     this.canvas = canvas;
+    this.words = new Words(connection);
     /** @type {Classmate | undefined} */
     this.pupil = undefined;
     connection.on('frame', () => {

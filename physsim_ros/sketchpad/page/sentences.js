@@ -58,7 +58,7 @@ export const SENTENCES = [
   [/^rewinding at (.+)/, `${t('rewinding')}, $1×`],
   [/^deleted (\d+) bodies$/, t('Deleted $1 bodies')],
   [/^(?:moved|set pose of) (\d+) bodies$/, t('Moved $1 bodies')],
-  [/^copied (\d+) bodies$/, t('Copied $1 bodies')],
+  [/^copied (\d+) bodies$/, t('Copied $1 bodies')], [/^copied a robot$/, t('Copied a robot')],
   [/^cut into (\d+) pieces$/, t('Cut into $1 pieces')],
   [/^cut into (\d+) pieces, .*/, t('Cut into $1 pieces, and joints cut through')],
   [/^cut .*/, t('Cut through')],

@@ -43,6 +43,10 @@ export interface Body {
   sensor: boolean;
   /** Velocity of its surface, counter-clockwise [m/s]. */
   belt?: number;
+  rolling_resistance?: number;
+  /** Direction in its axes in which others pass it. */
+  one_way?: Point;
+  closed_sides?: boolean;
   label: string;
   mass: number;
   moment: number;
@@ -92,13 +96,15 @@ export interface AppliedForce {
 }
 
 export interface Robot {
-  /** Of its drive. */
-  kind: string;
-  /** [m/s] */
-  max_speed: number;
-  /** [rad/s] */
-  max_turn: number;
   namespace: string;
+  /** Of its drive, if it has one. */
+  kind?: string;
+  /** [m/s] */
+  max_speed?: number;
+  /** [rad/s] */
+  max_turn?: number;
+  /** Names of its links. */
+  parts?: string[];
 }
 
 export interface Joint {

@@ -15,7 +15,7 @@ const GESTURE = new RegExp(`(^|: )(${[...GESTURES.keys()].join('|')}) (.+?)( and
 const LISTED = 200; // bodies that can be chosen from
 const LONGEST = 52, HEAD = 24, TAIL = 12; // characters of a name that is shown whole, and of both ends of others
 /** Names that nobody chose: of what a pen, a click or a tool of this page has drawn. */
-const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear|rack) )?((?:drawn|note|incline)\/\d+)/g;
+const DRAWN = /\b(?:(body|joint|axle|pin|spring|rod|rope|motor|slider|gear|rack) )?((?:drawn|note|incline|water)\/\d+)(?!\/)/g;
 
 export class Words {
   /** @param {Connection} connection */
@@ -27,7 +27,11 @@ export class Words {
     connection.on('scene', ({bodies, lesson}) => {
       this.bodies = bodies;
       this.known = [new Map(lesson ? lessonWords(this.bodies) : []), this.known[0]];
-      for (const body of this.bodies) if (isDrawn(body.name)) this.known[0].set(body.name, shapeWord(body));
+      for (const body of this.bodies) {
+        if (isDrawn(body.name)) this.known[0].set(body.name, shapeWord(body));
+        // A link is called as in the file of its robot.
+        for (const part of body.robot?.parts ?? []) this.known[0].set(part, part.slice(body.name.length + 1, -2).replaceAll('_', ' '));
+      }
     });
   }
 
@@ -139,7 +143,7 @@ function lessonWords(bodies) {
 
 /** @param {string} name of a body */
 export function isDrawn(name) {
-  return /^(drawn|note|incline)\//.test(name);
+  return /^(drawn|note|incline|water)\/\d+$/.test(name);
 }
 
 /** @param {string} name which may have 1,000 characters */
@@ -156,7 +160,9 @@ export function capital(text) {
  * @param {Body} body
  * @returns {string} what somebody calls it who sees it
  */
-export function shapeWord({name, shape: {kind, outline, width}}) {
+export function shapeWord({name, robot, medium, shape: {kind, outline, width}}) {
+  if (robot) return t('robot');
+  if (medium) return t('water');
   if (name.startsWith('note/')) return t('note');
   if (name.startsWith('incline/')) return t('inclined plane');
   if (kind === 'disc') return thingWord('disc');

@@ -161,15 +161,25 @@ export class WorldState {
   /**
    * @param {Point} point [m]
    * @param {number} slop how far beside a body counts [m]
-   * @returns {number} the row of the topmost body there, else of the topmost beside it; -1 where there is none
+   * @returns {number} the row of the topmost body there, else of the topmost beside it, else of the water there; -1
+   *   where there is none
    */
   bodyAt(point, slop = 0) {
-    for (const margin of slop ? [0, slop] : [0]) {
+    const {bodies} = this.scene;
+    for (const [isWater, margin] of /** @type {const} */ ([[false, 0], [false, slop], [true, 0]])) {
       for (let row = this.count - 1; row >= 0; row--) {
-        if (containsPoint(this.scene.bodies[row].shape, this.toBody(row, point), margin)) return row;
+        if (Boolean(bodies[row].medium) === isWater && containsPoint(bodies[row].shape, this.toBody(row, point), margin)) return row;
       }
     }
     return -1;
+  }
+
+  /**
+   * @param {string} name of a body
+   * @returns {Body | undefined} the robot of which it is a part
+   */
+  robotOf(name) {
+    return this.scene.bodies.find(({robot}) => robot?.parts?.includes(name));
   }
 
   /**

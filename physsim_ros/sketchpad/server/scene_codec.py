@@ -14,8 +14,8 @@ from collections.abc import Mapping
 import json
 from typing import Any
 
-from physsim_ros.model.robots import Robot
-from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.robots import part_name, Robot
+from physsim_ros.model.scene import Body, BODY_DEFAULTS, Joint, Scene
 from physsim_ros.model.shapes import (
     Box,
     Capsule,
@@ -110,6 +110,11 @@ def body_entry(body: Body) -> dict[str, Any]:
         'group': body.group,
         'label': body.label,
         **({'belt': body.belt} if body.belt else {}),
+        **{
+            name: value
+            for name in ('rolling_resistance', 'one_way', 'closed_sides')
+            if (value := getattr(body, name)) != BODY_DEFAULTS[name]
+        },
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
         **({} if body.actor is None else {'actor': body.actor.entry()}),
         **({} if body.medium is None else {'medium': body.medium.entry()}),
@@ -120,9 +125,9 @@ def body_entry(body: Body) -> dict[str, Any]:
 
 def robot_entry(body: str, robot: Robot) -> dict[str, Any]:
     """
-    Return the kind of a robot's drive, its greatest velocities [m/s, rad/s], its namespace.
+    Return the namespace of a robot, and what it has of these.
 
-    Of a robot without a drive it is the namespace alone.
+    The kind of its drive, with its greatest velocities [m/s, rad/s], and the names of its parts.
 
     :param body: its name
     """
@@ -130,6 +135,8 @@ def robot_entry(body: str, robot: Robot) -> dict[str, Any]:
     entry: dict[str, Any] = {'namespace': robot.namespace_of(body)}
     if drive is not None:
         entry |= {'kind': drive.KIND, 'max_speed': drive.max_speed, 'max_turn': drive.max_turn}
+    if robot.links:
+        entry['parts'] = [part_name(body, link.name) for link in robot.links]
     return entry
 
 

@@ -110,8 +110,8 @@ export class Handles extends Gesture {
 
   /** @returns {boolean} */
   get #scales() {
-    const body = this.app.world.scene.bodies[this.app.world.row(this.app.panel.name)];
-    return !body.robot && body.shape.kind !== 'pieces';
+    const {world, panel: {name}} = this.app, body = world.scene.bodies[world.row(name)];
+    return !body.robot && !world.robotOf(name) && body.shape.kind !== 'pieces';
   }
 
   /**

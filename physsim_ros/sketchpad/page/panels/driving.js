@@ -35,17 +35,19 @@ export class Driving {
     this.element.addEventListener('lostpointercapture', () => this.#push([0, 0]));
   }
 
-  /** @returns {?Robot} the selected one */
+  /** @returns {?Robot} the selected one, if it drives */
   get #robot() {
     const {panel, world, viewOnly} = this.app, row = panel.name && !viewOnly ? world.row(panel.name) : -1;
-    return row < 0 ? null : world.scene.bodies[row].robot ?? null;
+    const robot = row < 0 ? null : world.scene.bodies[row].robot;
+    return robot?.kind ? robot : null;
   }
 
   /**
    * @param {Robot} robot
    * @returns {Node[]} its part of the panel
    */
-  show({kind, namespace, max_speed: speed, max_turn: turn}) {
+  show({kind, namespace, max_speed: speed = 0, max_turn: turn = 0}) {
+    if (!kind) return [createElement('h3', {textContent: `${t('Robot')} · /${namespace}`})];
     return [createElement('h3', {textContent: `${t('Robot, {drive}', {drive: kind})} · /${namespace}`}),
       createElement('p', {}, t('Up to {speed} m/s and {turn} rad/s', {speed, turn})),
       createElement('div', {className: 'drive'}, this.element,
@@ -112,7 +114,7 @@ export class Driving {
     if (!robot || !this.timer && !this.name) return;
     const sum = [y, 0, -x * TURN];
     for (const key of this.keys) KEYS[key].forEach((each, i) => { sum[i] += each; });
-    const most = [robot.max_speed, robot.max_speed, robot.max_turn];
+    const {max_speed: fastest = 0, max_turn: turns = 0} = robot, most = [fastest, fastest, turns];
     connection.send('drive', {name: panel.name, velocity: sum.map((each, i) => Math.max(-1, Math.min(each, 1)) * most[i])});
     this.name = this.timer ? panel.name : '';
   }

@@ -7,7 +7,7 @@ import {t} from '../strings.js';
 /** @import {App, Body, Medium} from '../types.js' */
 
 /** Of a body that becomes water: twice as dense as a new body, so that this one floats. */
-const WATER = {density: 2, viscosity: 0.5};
+export const WATER = {density: 2, viscosity: 0.5};
 
 /**
  * @param {App} app
@@ -40,13 +40,14 @@ export function mediumFields({world}, {name, medium, charge = 0}, change) {
  * @param {App} app
  * @returns {HTMLElement[]} air and attraction of the world
  */
-export function airFields({connection, world: {scene}}) {
+export function airFields({connection, world}) {
+  const {scene} = world;
   const send = (/** @type {Record<string, unknown>} */ changes) => connection.send('air', changes);
   return [
     range(t('Air drag [of the speed, each second]'), 0, 0.95, 0.05, scene.damping, (damping) => send({damping})),
     range(t('Density of the air [kg/m²]'), 0, 2, 0.01, scene.air_density, (value) => send({air_density: value})),
     range(t('Viscosity of the air [N s/m²]'), 0, 2, 0.01, scene.air_viscosity, (value) => send({air_viscosity: value})),
-    range(t('Wind to the right [m/s]'), -20, 20, 0.5, scene.wind[0], (x) => send({wind: [x, scene.wind[1]]})),
+    range(t('Wind to the right [m/s]'), -20, 20, 0.5, scene.wind[0], (x) => send({wind: [x, world.scene.wind[1]]})),
     range(t('Gusts [m/s]'), 0, 5, 0.1, scene.gusts, (gusts) => send({gusts})),
     range(t('Attraction of masses, G [N m²/kg²]'), 0, 10, 0.1, scene.gravitation, (gravitation) => send({gravitation})),
     range(t('Force of charges, k [N m²/C²]'), 0, 10, 0.1, scene.coulomb, (coulomb) => send({coulomb}))];

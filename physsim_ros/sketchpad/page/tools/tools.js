@@ -9,6 +9,7 @@ import {Protractor, Ruler} from './measuring.js';
 import {Note} from './note.js';
 import {Prediction} from './prediction.js';
 import {t} from '../strings.js';
+import {WaterTool} from './water.js';
 
 /** @import {App, ClickUse, Tool} from '../types.js' */
 
@@ -38,6 +39,7 @@ export const TOOLS = [[
   tool('polygon', t('Polygon'), 'g', t('click each corner; click the first one again to close it'), {clicks: Infinity}),
   tool('wall', t('Wall'), 'w', t('a fixed line'), {clicks: 2, angled: true}),
   tool('incline', t('Inclined plane'), '3', t('drag along the slope, or tap; its panel has its angle and length'), InclineTool),
+  tool('water', t('Water'), '6', t('drag from corner to corner: bodies float in it'), WaterTool),
 ], [
   tool('anchor', t('Anchor'), 'a', t('fix a body to the background'), {clicks: 1, aims: 'accent'}),
   tool('release', t('Release'), 'e', t('remove anchor, pins and axles of a body'), {clicks: 1, aims: 'accent'}),

@@ -7,16 +7,19 @@
 
 import {Camera} from '../view/camera.js';
 import {colorOf} from './classroom.js';
-import {choice, createElement} from '../dom.js';
+import {choice, createElement, inRow, toggling} from '../dom.js';
 import {SceneView} from '../view/scene_view.js';
 import {t} from '../strings.js';
+import {unionOf} from '../view/body_path.js';
 
-/** @import {Connection, Point, WorldState} from '../types.js' */
+/** @import {Bounds, Connection, Point, WorldState} from '../types.js' */
 /** @import {Dialog} from './dialog.js' */
+/** @import {Words} from '../words.js' */
 
-/** @typedef {{person: string, connection: Connection, world: WorldState}} Run of a pupil; person: '' where the seat is free */
+/** @typedef {{person: string, connection: Connection, world: WorldState, words: Words}} Run of a pupil; person: '' where the seat is free */
 
-const GAP = 24, PERIOD = 1000; // px around the world; ms between two looks at the ways
+const GAP = 24, PERIOD = 1000; // px around the ways; ms between two looks at them
+const FAINT = 0.2; // opacity of the others, where one run is chosen
 const DASHES = [[], [10, 5], [2, 5], [12, 4, 2, 4]]; // px: of lines whose colours are alike
 const TITLE = t('All runs in one picture');
 
@@ -29,7 +32,9 @@ export class Together {
     this.dialog = dialog;
     this.runs = runs;
     this.name = ''; // of the body
-    this.framed = ''; // epoch of the scene that was framed, and size of the picture then [px]
+    this.framed = ''; // box that was framed, and size of the picture then [px]
+    /** @type {?Run} that stands out */
+    this.chosen = null;
     /** @type {Map<Run, Point[]>} */
     this.ways = new Map();
     this.canvas = createElement('canvas', {role: 'img', 'aria-label': TITLE, className: 'together'});
@@ -47,16 +52,20 @@ export class Together {
   show() {
     const names = this.runs[0].world.scene.bodies.filter(({anchored, kinematic}) => !anchored && !kinematic).map(({name}) => name);
     if (!names.includes(this.name)) this.name = names[0] ?? '';
-    const people = this.runs.map(({person}, i) => {
-      const item = createElement('li', {hidden: !person}, person);
-      item.style.color = colorOf(i);
-      return item;
+    const people = this.runs.map((run, i) => {
+      const button = createElement('button', {type: 'button', textContent: run.person, hidden: !run.person});
+      button.style.color = colorOf(i);
+      return toggling(button, () => this.chosen === run, () => {
+        this.chosen = this.chosen === run ? null : run;
+        for (const other of people) if (other !== button) other.setAttribute('aria-pressed', 'false');
+        this.view.dirty = true;
+      });
     });
-    this.dialog.show(TITLE, choice(t('Body'), names.map((name) => [name, name]), this.name, (name) => {
+    this.dialog.show(TITLE, choice(t('Body'), names.map((name) => [name, this.runs[0].words.title(name)]), this.name, (name) => {
       this.name = name;
       this.ways.clear();
       this.#ask();
-    }), this.canvas, createElement('ul', {className: 'row'}, ...people));
+    }), this.canvas, inRow(...people));
     this.#ask();
     const timer = setInterval(() => this.canvas.checkVisibility() ? this.#ask() : clearInterval(timer), PERIOD);
   }
@@ -67,16 +76,13 @@ export class Together {
   }
 
   #draw() {
-    const {view, camera, runs: [{world: {scene: {epoch}, count}}]} = this, {ctx} = view;
-    const shown = `${epoch} ${camera.width} ${camera.height}`;
-    if (count && this.framed !== shown) {
-      this.framed = shown;
-      camera.fit(this.runs[0].world.extent(), {left: GAP, top: GAP, right: GAP, bottom: GAP});
-      view.dirty = true;
-    }
-    this.runs.forEach((run, i) => {
+    const {view, camera} = this, {ctx} = view;
+    this.#frame();
+    const order = this.runs.map((run, i) => ({run, i})).sort((one, other) => Number(one.run === this.chosen) - Number(other.run === this.chosen));
+    for (const {run, i} of order) {
       const {world, person} = run, row = world.row(this.name), way = this.ways.get(run);
-      if (!person || row < 0) return;
+      if (!person || row < 0) continue;
+      ctx.globalAlpha = !this.chosen || run === this.chosen ? 1 : FAINT;
       if (way) view.line(way, colorOf(i), DASHES[i % DASHES.length]);
       ctx.save();
       view.bodies.setTransform(world.frame, row);
@@ -84,6 +90,22 @@ export class Together {
       ctx.lineWidth = 3 / camera.scale;
       ctx.stroke(view.bodies.appearance(world.scene.bodies[row]).path);
       ctx.restore();
-    });
+      // Where the body is now; beside the page, at its edge.
+      view.number({text: person, color: colorOf(i), tip: camera.toPage(...world.place(row, world.scene.bodies[row].centroid)), along: [0, -1], named: run === this.chosen});
+      ctx.globalAlpha = 1;
+    }
+  }
+
+  /** Frame the ways and the bodies, as far as they stay near the world. */
+  #frame() {
+    const {view, camera, runs: [{world}]} = this;
+    const points = [...this.ways.values()].flat().map(([x, y]) => /** @type {Bounds} */ ([x, y, x, y]));
+    const [left, low, right, high] = unionOf([...points, world.bodiesExtent()]), [l, b, r, t] = world.extent();
+    const box = /** @type {Bounds} */ ([Math.max(left, 2 * l - r), Math.max(low, 2 * b - t), Math.min(right, 2 * r - l), Math.min(high, 2 * t - b)]);
+    const framed = box.map((each) => each.toFixed(2)).join(' ') + ` ${camera.width} ${camera.height}`;
+    if (!world.count || framed === this.framed || !box.every(Number.isFinite)) return;
+    this.framed = framed;
+    camera.fit(box, {left: GAP, top: GAP, right: GAP, bottom: GAP});
+    view.dirty = true;
   }
 }

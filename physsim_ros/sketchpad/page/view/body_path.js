@@ -68,6 +68,14 @@ export function scaledShape({kind, radius, width, height, outline, points, thick
   return width && height ? {box: {width: scale * width, height: scale * height}} : {polygon: scaled(outline)};
 }
 
+/** @param {Point[]} outline that does not cross itself (shoelace formula) */
+export function isClockwise(outline) {
+  return outline.reduce((sum, [x, y], i) => {
+    const [nextX, nextY] = outline[(i + 1) % outline.length];
+    return sum + x * nextY - nextX * y;
+  }, 0) < 0;
+}
+
 /**
  * @param {Bounds[]} boxes
  * @returns {Bounds} the least box around them; infinite where there are none

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /** Bodies on the canvas: filled, outlined, hatched where they are anchored, with a mark that turns. */
 
-import {pathOf, reachOf} from './body_path.js';
+import {isClockwise, pathOf, reachOf} from './body_path.js';
 
-/** @import {Body, Frame, Point, SceneView} from '../types.js' */
+/** @import {Body, Frame, Point, SceneView, Shape} from '../types.js' */
 
 /** @typedef {{path: Path2D, reach: number, radius: number, inner: number, plain: boolean, dark: boolean,
  *   fill: string, line: string, tiny: string}} Appearance
@@ -14,7 +14,9 @@ import {pathOf, reachOf} from './body_path.js';
 // outline is the rim that a smaller filling leaves free: without a GPU, a stroke costs twice a filling.
 const SMALL = 4, MARKED = 8, MEDIUM = 11;
 const RIM = 1.2, MARK = 1.8; // px
+const TREAD = 20; // px of a belt from tread to tread
 const SHEER = 0.35; // opacity of a sensor
+const ONE_WAY = 14; // px: half of the arrow of a one-way body
 const FLOW_GAP = 90, MOST_ARROWS = 12; // px between the arrows of a flow, and how many of them on each side of the middle
 
 export class BodyView {
@@ -119,6 +121,8 @@ export class BodyView {
       if (body.medium) this.#drawFlow(body.medium, appearance, pixel);
       else if (body.anchored) this.#drawRim(body, appearance, pixel);
       else if (size >= MARKED) this.#drawMark(body, appearance, pixel);
+      if (body.belt) this.#drawBelt(body.belt * frame.time, body.shape, appearance, pixel);
+      if (body.one_way) this.#drawOneWay(body.centroid, body.one_way, appearance, pixel);
     }
   }
 
@@ -189,6 +193,25 @@ export class BodyView {
   }
 
   /**
+   * The arrow of a one-way body, across its middle.
+   * @param {Point} centroid
+   * @param {Point} way
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawOneWay([x, y], [dx, dy], {line}, pixel) {
+    const {ctx} = this, half = ONE_WAY / Math.hypot(dx, dy) * pixel;
+    const at = (/** @type {number} */ ahead, /** @type {number} */ aside) => /** @type {Point} */ (
+      [x + (dx * ahead - dy * aside) * half, y + (dy * ahead + dx * aside) * half]);
+    ctx.strokeStyle = line;
+    ctx.lineWidth = 2 * pixel;
+    ctx.beginPath();
+    ctx.moveTo(...at(-1, 0));
+    for (const [ahead, aside] of [[1, 0], [0.3, 0.5], [1, 0], [0.3, -0.5]]) ctx.lineTo(...at(ahead, aside));
+    ctx.stroke();
+  }
+
+  /**
    * The mark that turns with a body; the centre keeps the body's colour. Of a robot it is the front.
    * @param {Body} body
    * @param {Appearance} appearance
@@ -221,6 +244,25 @@ export class BodyView {
     ctx.lineWidth = 14 * pixel;
     ctx.stroke(path);
     ctx.restore();
+  }
+
+  /**
+   * The treads of a belt, which run along the outline.
+   * @param {number} way that they have gone, counter-clockwise [m]
+   * @param {Shape} shape
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawBelt(way, {outline}, {path}, pixel) {
+    const {ctx, view: {palette}} = this, tread = TREAD * pixel;
+    for (const [style, width] of /** @type {const} */ ([[palette.ink, 6], [palette.paper, 3]])) {
+      ctx.strokeStyle = style;
+      ctx.lineWidth = width * pixel;
+      ctx.stroke(path);
+      ctx.setLineDash([tread / 2, tread / 2]);
+      ctx.lineDashOffset = (outline && isClockwise(outline) ? way : -way) % tread;
+    }
+    ctx.setLineDash([]);
   }
 
   /**

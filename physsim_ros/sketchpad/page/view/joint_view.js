@@ -8,6 +8,7 @@ import {distance, rotated} from '../vectors.js';
 
 const SIZE = 0.12; // m: half of a symbol
 const LEAST = 4, GREATEST = 14; // px, whatever the zoom
+const ON_BODIES = ['pin', 'axle', 'motor', 'slider']; // kinds whose symbol lies on their bodies, and is no larger than they
 const COILS = 8, TEETH = 10, SPIRAL = 3; // turns of a coil, teeth of a wheel, turns of a torsion spring
 const RAIL = 1; // m of rail shown to each side where there is no limit
 const TENSE = 10; // weights at which a joint is drawn in the colour of warning
@@ -24,7 +25,6 @@ export class JointView {
 
   draw() {
     const {ctx, world, camera, view: {palette}} = this;
-    this.size = Math.min(Math.max(SIZE * camera.scale, LEAST), GREATEST);
     ctx.lineJoin = ctx.lineCap = 'round';
     const gravity = Math.hypot(...world.scene.gravity) || 9.81;
     world.scene.joints.forEach((joint, number) => {
@@ -34,6 +34,7 @@ export class JointView {
       ctx.strokeStyle = share > 1 ? palette.warn : share > 1 / 3 ? palette.force : palette.ink;
       ctx.fillStyle = palette.paper;
       ctx.lineWidth = 2;
+      this.size = Math.max(Math.min(SIZE * camera.scale, GREATEST, this.#roomFor(joint)), LEAST);
       this.#drawJoint(joint);
     });
   }
@@ -55,7 +56,7 @@ export class JointView {
       case 'axle':
         if (ground) this.#support(p);
         // Its circle would cover the links of a chain.
-        if (ground || this.#hasRoom(joint.a) || this.#hasRoom(joint.b)) this.#circle(p, size);
+        if (ground || this.#roomFor(joint) > size) this.#circle(p, size);
         this.#dot(p);
         if (joint.stiffness) this.#spiral(p, world.frame.yaw[joint.a]);
         break;
@@ -92,9 +93,15 @@ export class JointView {
     }
   }
 
-  /** @param {number} row of a body, whether it has room for a symbol */
-  #hasRoom(row) {
-    return this.view.bodies.appearance(this.world.scene.bodies[row]).inner * this.camera.scale > this.size;
+  /**
+   * @param {Joint} joint
+   * @returns {number} half of the size for which its bodies have room [px]: the larger one, but a robot's parts each
+   */
+  #roomFor({kind, a, b}) {
+    if (!ON_BODIES.includes(kind)) return Infinity;
+    const {bodies} = this.world.scene;
+    const rooms = [a, b].filter((row) => row >= 0).map((row) => this.view.bodies.appearance(bodies[row]).inner * this.camera.scale);
+    return Math.max(...rooms);
   }
 
   /** @param {Point} point [m] */

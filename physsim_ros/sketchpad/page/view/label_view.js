@@ -80,6 +80,7 @@ function overlap(a, b) {
 
 const FONT = '13px system-ui, sans-serif';
 const HALF = 9, BETWEEN = 6, TIP = 7, CLEAR = 4; // px: half of the height of a number, from a tip to it, half of what a tip takes, beside a line
+const ALONG = ['spring', 'rod', 'rope']; // kinds of joints that are lines
 const TURNS = [0, 0.6, -0.6, 1.2, -1.2, 1.9, -1.9, Math.PI], FAR = [0, 18, 36]; // rad and px of the places that are tried
 
 /**
@@ -92,6 +93,8 @@ export function drawNumbers(view) {
   /** @type {Box[]} */
   const taken = numbers.map(({tip: [x, y]}) => /** @type {Box} */ ([x - TIP, y - TIP, x + TIP, y + TIP])), written = [];
   ctx.font = FONT;
+  if (!numbers.length) return;
+  const lines = [...numbers.flatMap(({from, tip}) => from ? [/** @type {const} */ ([from, tip])] : []), ...linesOf(view)];
   const inOrder = [...numbers].sort((a, b) => Number(b.named ?? false) - Number(a.named ?? false));
   for (const {text, color, tip: [x, y], along: [ux, uy], from: [fx, fy] = [x, y], named = false} of inOrder) {
     // What lies beyond the page has no number at its edge.
@@ -104,7 +107,7 @@ export function drawNumbers(view) {
       const cy = clamp(y + dy * (BETWEEN + HALF + far), sides[1] + HALF, sides[3] - HALF);
       const box = /** @type {Box} */ ([cx - half, cy - HALF, cx + half, cy + HALF]);
       const covers = 4 * written.filter((other) => overlap(box, other)).length + taken.filter((other) => overlap(box, other)).length +
-        numbers.filter(({from: begin, tip: end}) => begin && crosses(box, begin, end)).length;
+        lines.filter(([begin, end]) => crosses(box, begin, end)).length;
       if (covers < least) [best, least] = [box, covers];
       if (!least) break;
     }
@@ -119,20 +122,34 @@ function clamp(value, least, most) {
   return Math.max(Math.min(value, most), least);
 }
 
-/** @type {(box: Box, begin: Point, end: Point) => boolean} whether a line crosses a box, looked at in steps */
+/** @type {(box: Box, begin: Point, end: Point) => boolean} whether a line crosses a box (Liang and Barsky) */
 function crosses([left, top, right, bottom], [px, py], [qx, qy]) {
-  for (let share = 0; share <= 1; share += 0.05) {
-    const x = px + share * (qx - px), y = py + share * (qy - py);
-    if (x > left - CLEAR && x < right + CLEAR && y > top && y < bottom) return true;
+  let [first, last] = [0, 1];
+  for (const [from, way, low, high] of [[px, qx - px, left - CLEAR, right + CLEAR], [py, qy - py, top, bottom]]) {
+    if (!way && (from < low || from > high)) return false;
+    const [enters, leaves] = way ? [(low - from) / way, (high - from) / way].sort((one, other) => one - other) : [0, 1];
+    [first, last] = [Math.max(first, enters), Math.min(last, leaves)];
   }
-  return false;
+  return first < last;
+}
+
+/**
+ * @param {SceneView} view
+ * @returns {[Point, Point][]} lines of the page that a number would cross: bounds, springs, rods and ropes [px]
+ */
+function linesOf({camera, world: {scene, count}, world}) {
+  const at = (/** @type {Point} */ point) => camera.toPage(...point), [left, low, right, high] = scene.bounds;
+  const corners = /** @type {Point[]} */ (left === undefined ? [] : [[left, low], [right, low], [right, high], [left, high]]);
+  const bounds = corners.map((corner, i) => /** @type {[Point, Point]} */ ([at(corner), at(corners[(i + 1) % 4])]));
+  const along = scene.joints.filter(({kind, a, b}) => ALONG.includes(kind) && a < count && b < count);
+  return [...bounds, ...along.map(({a, b, points: [p, q]}) => /** @type {[Point, Point]} */ ([at(world.place(a, p)), at(world.place(b, q))]))];
 }
 
 const DOT = 4; // px: of a hit
 
-/** @param {SceneView} view whose rulers lie at its insets */
-export function drawGrid({ctx, camera, palette, insets}) {
-  const step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
+/** @param {SceneView} view */
+export function drawGrid({ctx, camera, palette}) {
+  const step = camera.gridStep;
   const [left, top] = camera.toWorld(0, 0), [right, bottom] = camera.toWorld(camera.width, camera.height);
   const pixelX = (/** @type {number} */ x) => Math.round(camera.toPage(x, 0)[0]) + 0.5;
   const pixelY = (/** @type {number} */ y) => Math.round(camera.toPage(0, y)[1]) + 0.5;
@@ -150,18 +167,30 @@ export function drawGrid({ctx, camera, palette, insets}) {
     }
     ctx.stroke();
   }
+}
+
+/** @param {SceneView} view at whose insets the rulers lie, on top of bodies; a bar covers no number */
+export function drawRulers({ctx, camera, palette, insets}) {
+  const step = camera.gridStep, digits = Math.max(0, -Math.floor(Math.log10(step)));
+  const [left, top] = camera.toWorld(insets.left, insets.top), [right, bottom] = camera.toWorld(camera.width - insets.right, camera.height - insets.bottom);
+  const write = (/** @type {number} */ value, /** @type {number} */ x, /** @type {number} */ y) => {
+    for (const method of /** @type {const} */ (['strokeText', 'fillText'])) ctx[method](`${fixed(value, digits)} m`, x, y);
+  };
   ctx.fillStyle = palette.faint;
+  ctx.strokeStyle = palette.paper;
+  ctx.lineWidth = 3;
+  ctx.lineJoin = 'round';
   ctx.font = '11px system-ui, sans-serif';
   const low = camera.height - insets.bottom;
   ctx.textAlign = 'center';
   for (const value of multiplesOf(step, left, right)) {
-    const x = pixelX(value);
-    if (x > insets.left + 40 && x < camera.width - 20) ctx.fillText(`${fixed(value, digits)} m`, x, low - 6);
+    const [x] = camera.toPage(value, 0);
+    if (x > insets.left + 40 && x < camera.width - insets.right - 20) write(value, x, low - 6);
   }
   ctx.textAlign = 'left';
   for (const value of multiplesOf(step, bottom, top)) {
-    const y = pixelY(value);
-    if (y > 20 && y < low - 24) ctx.fillText(`${fixed(value, digits)} m`, insets.left + 6, y - 4);
+    const [, y] = camera.toPage(0, value);
+    if (y > insets.top + 14 && y < low - 24) write(value, insets.left + 6, y - 4);
   }
 }
 

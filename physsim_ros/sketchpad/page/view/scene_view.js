@@ -3,7 +3,7 @@
 
 import {BodyView} from './body_view.js';
 import {JointView} from './joint_view.js';
-import {drawGrid, drawLabels, drawNumbers, drawScan} from './label_view.js';
+import {drawGrid, drawLabels, drawNumbers, drawRulers, drawScan} from './label_view.js';
 import {readPalette, watchTheme} from './theme.js';
 
 /** @import {Body, Camera, Frame, Point, WorldState} from '../types.js' */
@@ -75,6 +75,7 @@ export class SceneView {
     if (world.ghost) this.#drawGhost(world.ghost, world.ghostScene.bodies);
     this.#toPixels();
     if (world.count) this.joints.draw();
+    drawRulers(this);
     drawLabels(this);
     this.#drawHands();
     this.numbers = [];

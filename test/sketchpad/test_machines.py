@@ -1,0 +1,86 @@
+# Copyright 2026 physsim_ros maintainers
+# SPDX-License-Identifier: Apache-2.0
+
+"""Machines on the page: robots of several parts, and belts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from .chromium import Sheet, started_world
+from ..outside import Outside
+
+WORLD = """
+format: 1
+bounds: [-4, 0, 4, 5]
+bodies:
+  - {name: arm/0, robot: arm, at: [-2, 2]}
+  - {name: belt/0, box: {width: 4, height: 0.5}, at: [1.5, 1], anchored: true, belt: -1}
+  - {name: gripper/0, robot: gripper, at: [2, 4]}
+"""
+BODIES = 8
+# Colours along a horizontal line of the page [px].
+ROW = """([x, y, width]) => [...document.querySelector('canvas').getContext('2d').getImageData(
+    x * devicePixelRatio, y * devicePixelRatio, width * devicePixelRatio, 1).data]"""
+
+
+@pytest.fixture(scope='module')
+def address(outside: Outside) -> str:
+    """Give the module the address of a world with machines."""
+    return started_world(outside, world=WORLD)[1]
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
+    """Give a test a page with the hand, and the world from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.begin(BODIES)
+    sheet.press('Hand')
+    yield sheet
+    assert not sheet.errors
+    sheet.close()
+
+
+def heading(sheet: Sheet, name: str) -> None:
+    """Wait for the panel of a body to have a heading."""
+    panel = sheet.page.get_by_role('complementary', name='Body')
+    panel.get_by_role('heading', name=name, exact=True).wait_for()
+
+
+def test_a_part_has_the_name_of_its_link_and_a_robot_without_a_drive_no_stick(
+    sheet: Sheet,
+) -> None:
+    sheet.page.mouse.click(*sheet.place(-1.8, 2.0))
+    heading(sheet, 'Upper arm/0/upper/0')
+    sheet.page.mouse.click(*sheet.place(2.0, 4.0))
+    heading(sheet, 'gripper/0')
+    heading(sheet, 'Robot · /gripper_0')
+    assert sheet.page.get_by_role('img', name='Stick: drag to drive').count() == 0
+
+
+def test_a_copy_of_a_part_is_a_whole_robot(sheet: Sheet) -> None:
+    before = sheet.names()
+    sheet.page.mouse.click(*sheet.place(-1.8, 2.0))
+    heading(sheet, 'Upper arm/0/upper/0')
+    sheet.press('Copy')
+    sheet.wait('count => Object.keys(physsim.bodies).length === count', BODIES + 3)
+    sheet.page.get_by_role('status').get_by_text('Copied a robot').wait_for()
+    assert {name.partition('/')[0] for name in sheet.names() - before} == {'drawn'}
+    sheet.press('Undo')
+    sheet.wait('count => Object.keys(physsim.bodies).length === count', BODIES)
+
+
+def test_the_treads_of_a_belt_run_with_time(sheet: Sheet) -> None:
+    def treads() -> list[int]:
+        x, y = sheet.place(0.0, 1.25)
+        colors: list[int] = sheet.page.evaluate(ROW, [x, y, 60])
+        return colors
+
+    before = treads()
+    time = sheet.play_until(0.05)
+    sheet.until(lambda: treads() != before, f'treads that have gone {time} m')
+    sheet.press('Reset')
+    sheet.until(lambda: treads() == before, 'treads of the beginning')
