@@ -44,7 +44,7 @@ def draw_class(path: Path) -> None:
             'physsim_class', '--pupils', len(PUPILS), '--port', 0, '--seats', 0,
             '--ros-args', '-p', f'world_file:={LESSON}', '-p', 'speed:=0.0',
         )  # fmt: skip
-        found = [re.search(r'http\S+', program.wait_for('/login?token=')) for _ in range(2)]
+        found = [re.search(r'http\S+', program.wait_for('/login?token=', 300)) for _ in range(2)]
         pupils, teacher = (match[0] for match in found if match)
         browser = launched_chromium(closing.enter_context(sync_playwright()))
         # While a teacher watches, pupils can raise a hand.
