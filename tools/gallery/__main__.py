@@ -20,6 +20,7 @@ from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
 from PIL import Image
 
+from .classroom import draw_class
 from .page import draw_crash, draw_page
 from .stories import car_story
 
@@ -154,6 +155,9 @@ def main(chosen: list[str]) -> None:
     if not chosen or 'page' in chosen:
         draw_page(DOCS / 'page.webp', DOCS / 'time.png')
         print('page', flush=True)
+    if not chosen or 'class' in chosen:
+        draw_class(DOCS / 'class.png')
+        print('class', flush=True)
     if not chosen or 'crash' in chosen:
         draw_crash(DOCS / 'crash.webp')
         print('crash', flush=True)
