@@ -27,7 +27,10 @@ void pull_grips(World *world);
 // Errors of the solver in what friction locks in place (`resting_damping.c`).
 void damp_resting(World *world);
 
-// Actors: where they go, and at which velocity (`actors.c`).
+// Actors: where they go, and at which velocity (`actors.c`). `find_wish` finds that of the next actor, and is false
+// where all have one.
+void begin_wishes(World *world);
+bool find_wish(World *world);
 void move_actors(World *world);
 
 // The floor, with drives and odometry of robots (`floor.c`, `drives.c`), and whether it acts on any body.

@@ -38,6 +38,9 @@ typedef struct Private {
     bool all_active;               // requests may have changed any body since the last sub-step
     bool has_floor;                // there is a body on which a floor acts
     int sub_step;                  // number of the sub-step in this step
+    int wishing;                   // number of the actor whose wish is found next
+    bool wishes;                   // wishes of actors are found, before the first sub-step
+    struct Surroundings *around;   // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
 } Private;
