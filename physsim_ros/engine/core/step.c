@@ -70,6 +70,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     defer_contacts(world);
     solve_impacts(world);
     find_joint_islands(world);
+    find_rolls(world);
 }
 
 // Step Chipmunk; return the bodies that were awake before.
@@ -79,9 +80,11 @@ static Body **step_chipmunk(World *world, int *count) {
     for (int number = 0; number < *count; number++) {
         awake[number] = body_of(world->space->dynamicBodies->arr[number]);
     }
+    begin_rolling(world);
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
+    end_rolling(world);
     return awake;
 }
 

@@ -20,6 +20,9 @@ static const double standard_gravity = 9.81;
 typedef struct Private {
     Arena arena;
     cpConstraint *hook;
+    cpConstraintClass *hook_class, rolling_class; // its own class, and that within a step (`rolling.c`)
+    struct Roll *rolls;                           // of this step
+    int roll_count;
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
@@ -34,6 +37,7 @@ typedef struct Private {
     struct Load *loads; // of the contacts of this step
     int load_count;
     struct Islands *joint_islands; // of this step
+    bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
     int call_step;                 // number of the step in this call
     bool all_active;               // requests may have changed any body since the last sub-step
     bool has_floor;                // there is a body on which a floor acts
