@@ -191,13 +191,16 @@ def _before_arguments(words):
 pytestmark = pytest.mark.linter
 OF_DOCUMENTS = {
     # Files that the reader makes, and one of another project.
-    *('conftest.py', 'damper.py', 'fall.py', 'follower.py', 'parser.py', 'stopper.py'),
+    *('conftest.py', 'damper.py', 'fall.py', 'first.py', 'follower.py', 'parser.py', 'stopper.py'),
     *('test_crash.py', 'test_fall.py', 'test_stopper.py', 'test_tracker.py', 'tracker.py'),
     *('test_wall_follower.py', 'wall_follower.py', 'wall_task.py', 'ament_add_pytest_test'),
     # Fields of messages, names and parameters of Nav2.
     *('values.body', 'values.yaml', 'enable_stamped_cmd_vel', 'map_server'),
     *('controller_frequency', 'expected_update_rate', 'odom_frame_id'),
-    *('robot_base_frame', 'transform_tolerance', 'yaml_filename'),
+    *('robot_base_frame', 'base_frame_id', 'transform_tolerance', 'yaml_filename'),
+    *('bringup_launch.py', 'use_sim_time', 'slam', 'params_file', 'autostart', 'use_composition'),
+    *('amcl_node.cpp', 'costmap_2d_ros.cpp', 'laser_utils.cpp', 'odometry_utils.hpp'),
+    *('robot_utils.cpp', 'static_layer.cpp'),
     # Of simulation_interfaces, which the node does without.
     *('STATE_LOADING_WORLD', 'TYPE_CONVEX_HULL', 'fail_on_unsupported_element'),
     # Keys of the mapping `drive` of a robot.
