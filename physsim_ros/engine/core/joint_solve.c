@@ -59,7 +59,7 @@ void change_velocities(Solve *solve, const Twist *changes, double share) {
     }
 }
 
-Solve joint_solve(World *world, const Island *island) {
+Solve joint_solve(World *world, const Island *island, Arena *of_system, const System *former) {
     Arena *arena = &world->own->arena;
     Solve solve = {.arena = arena, .space = world->space, .dt = world->dt, .island = island};
     solve.velocities = island->velocities;
@@ -72,8 +72,13 @@ Solve joint_solve(World *world, const Island *island) {
     solve.jacobians = TAKE(arena, Jacobian, island->further[island->row_count]);
     solve.holds = TAKE(arena, bool, island->joint_row_count);
     solve.springs = TAKE(arena, bool, island->row_count);
-    solve.system = system_of(arena, island->body_count, island->inverses, island->row_count, island->ends,
-                             island->further, island->groups);
+    Layout layout = {.body_count = island->body_count,
+                     .row_count = island->row_count,
+                     .inverses = island->inverses,
+                     .ends = island->ends,
+                     .further = island->further,
+                     .groups = island->groups};
+    solve.system = system_of(of_system, layout, former);
     for (int row = 0; row < island->joint_row_count; row++) {
         solve.holds[row] = island->rows[row]->law == LAW_BOUNDS;
         solve.springs[row] = island->rows[row]->law == LAW_SPRING;

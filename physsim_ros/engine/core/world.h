@@ -33,6 +33,11 @@ typedef struct Private {
     struct Load *loads; // of the contacts of this step
     int load_count;
     struct Islands *joint_islands; // of this step
+    // Systems of the islands of the last sub-step, whose patterns the next one takes; and memory for those, by turns.
+    struct System *systems;
+    int system_count;
+    Arena system_arenas[2];
+    int system_turn;
     int call_step;                 // number of the step in this call
     bool all_active;               // requests may have changed any body since the last sub-step
     bool has_floor;                // there is a body on which a floor acts
