@@ -70,6 +70,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     defer_contacts(world);
     solve_impacts(world);
     find_joint_islands(world);
+    find_rolls(world);
 }
 
 // Step Chipmunk; return the bodies that were awake before.
@@ -79,9 +80,11 @@ static Body **step_chipmunk(World *world, int *count) {
     for (int number = 0; number < *count; number++) {
         awake[number] = body_of(world->space->dynamicBodies->arr[number]);
     }
+    begin_rolling(world);
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
+    end_rolling(world);
     return awake;
 }
 
@@ -128,13 +131,32 @@ static double wall_clock(void) {
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-static void begin_step(World *world) {
-    arena_reset(&world->own->arena);
-    damp_resting(world);
-    begin_totals(world);
-    find_gaps(world);
+// Whether a call that began at a moment has taken long; so it has where the clock was set back.
+static bool is_long(const World *world, double began) {
+    double took = wall_clock() - began;
+    return !(took >= 0.0 && took <= world->longest_call);
+}
+
+// Begin a step, before its first sub-step; false where the next call of the core goes on with that.
+static bool begin_step(World *world, double began) {
+    Private *own = world->own;
+    if (!own->wishes) {
+        arena_reset(&own->arena);
+        damp_resting(world);
+        begin_totals(world);
+        find_gaps(world);
+        begin_wishes(world);
+    }
+    own->wishes = true;
+    while (find_wish(world)) {
+        if (is_long(world, began)) {
+            return false;
+        }
+    }
+    own->wishes = false;
     move_actors(world);
     world->frame_steps += world->reports_contacts;
+    return true;
 }
 
 static void end_step(World *world) {
@@ -144,18 +166,20 @@ static void end_step(World *world) {
     world->age++;
 }
 
-// Nothing in a step asks for the time: where a call ends decides when the next sub-step is made, and never its bits.
+// Where a call ends by the time decides when the next sub-step, or the wish of the next actor, is made, and never its
+// bits.
 int32_t core_step(World *world, int32_t count) {
     Private *own = world->own;
-    double began = wall_clock(), took = 0.0;
+    double began = wall_clock();
     int32_t made = 0;
     own->has_floor = has_floor(world);
     own->kept = pow(world->space->damping, world->dt);
     world->has_broken = world->has_lost = false;
     do {
         own->call_step = made;
-        if (own->sub_step == 0) {
-            begin_step(world);
+        if (own->sub_step == 0 && !begin_step(world, began)) {
+            world->within_step = true;
+            break;
         }
         step(world);
         own->all_active = false;
@@ -165,9 +189,7 @@ int32_t core_step(World *world, int32_t count) {
             end_step(world);
             made++;
         }
-        took = wall_clock() - began;
-        // A clock that is set back ends the call, too.
-    } while (made < count && took >= 0.0 && took <= world->longest_call && !world->has_broken && !world->has_lost);
+    } while (made < count && !is_long(world, began) && !world->has_broken && !world->has_lost);
     own->all_active = true;
     return made;
 }

@@ -20,6 +20,9 @@ static const double standard_gravity = 9.81;
 typedef struct Private {
     Arena arena;
     cpConstraint *hook;
+    cpConstraintClass *hook_class, rolling_class; // its own class, and that within a step (`rolling.c`)
+    struct Roll *rolls;                           // of this step
+    int roll_count;
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
@@ -33,15 +36,19 @@ typedef struct Private {
     struct Load *loads; // of the contacts of this step
     int load_count;
     struct Islands *joint_islands; // of this step
+    bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
     // Systems of the islands of the last sub-step, whose patterns the next one takes; and memory for those, by turns.
     struct System *systems;
     int system_count;
     Arena system_arenas[2];
     int system_turn;
-    int call_step;                 // number of the step in this call
-    bool all_active;               // requests may have changed any body since the last sub-step
-    bool has_floor;                // there is a body on which a floor acts
-    int sub_step;                  // number of the sub-step in this step
+    int call_step;               // number of the step in this call
+    bool all_active;             // requests may have changed any body since the last sub-step
+    bool has_floor;              // there is a body on which a floor acts
+    int sub_step;                // number of the sub-step in this step
+    int wishing;                 // number of the actor whose wish is found next
+    bool wishes;                 // wishes of actors are found, before the first sub-step
+    struct Surroundings *around; // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
 } Private;
