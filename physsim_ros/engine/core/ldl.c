@@ -95,18 +95,17 @@ void ldl_analyse(Ldl *system, Arena *arena) {
 }
 
 void ldl_copy(Ldl *system, const Ldl *former, Arena *arena) {
-    int size = system->size, total = former->factor_starts[size];
-    system->parents = arena_copy(arena, former->parents, (size_t)size, sizeof(int));
-    system->pattern_starts = arena_copy(arena, former->pattern_starts, (size_t)(size + 1), sizeof(int));
-    system->pattern = arena_copy(arena, former->pattern, (size_t)total, sizeof(int));
-    system->places = arena_copy(arena, former->places, (size_t)total, sizeof(int));
-    system->factor_starts = arena_copy(arena, former->factor_starts, (size_t)(size + 1), sizeof(int));
-    system->factor_rows = arena_copy(arena, former->factor_rows, (size_t)total, sizeof(int));
+    size_t size = (size_t)system->size, total = (size_t)former->factor_starts[size];
+    system->parents = arena_copy(arena, former->parents, size, sizeof(int));
+    system->pattern_starts = arena_copy(arena, former->pattern_starts, size + 1, sizeof(int));
+    system->pattern = arena_copy(arena, former->pattern, total, sizeof(int));
+    system->places = arena_copy(arena, former->places, total, sizeof(int));
+    system->factor_starts = arena_copy(arena, former->factor_starts, size + 1, sizeof(int));
+    system->factor_rows = arena_copy(arena, former->factor_rows, total, sizeof(int));
     system->factors = TAKE(arena, double, total);
     system->inverse_pivots = TAKE(arena, double, size);
     system->work = TAKE(arena, double, size);
-    system->changed = TAKE(arena, bool, size);
-    memset(system->changed, true, (size_t)size * sizeof(bool));
+    system->changed = memset(TAKE(arena, bool, size), true, size * sizeof(bool));
 }
 
 static void factor_row(Ldl *system, int row) {
