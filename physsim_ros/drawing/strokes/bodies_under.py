@@ -125,23 +125,23 @@ def _axle_of_two(center: Point, context: Context) -> tuple[Point, tuple[str, ...
 
 def crossed_pair(center: Point, context: Context) -> tuple[str, ...]:
     """
-    Return the two topmost bodies at a point, or one and a second one that the stroke overlaps.
+    Return the two topmost bodies at a point, else those that the stroke overlaps, too.
+
+    In a gap between bodies, these are the two on either side of it.
 
     :param center: of a small closed stroke [m]
-    :return: at most two names, the topmost first
+    :return: at most two names, the topmost first; () in the open
     """
     scene, drawn = context.scene, context.drawn.points
     under = scene.bodies_at(center)[:2]
-    if len(under) != 1:
+    if len(under) == 2:
         return under
-    (name,) = under
     radius = float(norms(drawn - center).max())
     near = scene.bodies_at(center, radius)
-    shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each != name}
-    beside = max(shares, key=shares.__getitem__, default=name)
-    if shares.get(beside, 0.0) < _ACROSS:
-        return (name,)
-    return tuple(each for each in near if each in (name, beside))
+    shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each not in under}
+    beside = sorted(shares, key=shares.__getitem__, reverse=True)[: 2 - len(under)]
+    pair = {*under, *(each for each in beside if shares[each] >= _ACROSS)}
+    return tuple(each for each in near if each in pair) if len(pair) == 2 else under
 
 
 def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> str | None:

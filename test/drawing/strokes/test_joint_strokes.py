@@ -162,6 +162,14 @@ AXLES: dict[str, tuple[Sequence[Spawn], tuple[float, float, float], tuple[str, s
          spawning('wheel/0', Disc(radius=0.4), (1.0, 0.4, 0.0))],
         (1.02, 0.38, 0.08), ('wheel/0', 'chassis/0'), (1.0, 0.4),
     ),
+    **{
+        f'of {radius} m over a gap of {gap} m': (
+            [spawning('a/0', Box(width=2.0, height=0.5)),
+             spawning('b/0', Box(width=2.0, height=0.5), (2.0 + gap, 0.0, 0.0))],
+            (1.0 + gap / 2, 0.0, radius), ('b/0', 'a/0'), (1.0 + gap / 2, 0.0),
+        )
+        for gap, radius in ((0.05, 0.1), (0.1, 0.1), (0.1, 0.2))
+    },
     'of a wheel with corners': (
         [spawning('road/0', Box(width=9.0, height=1.0), (0.0, -0.95, 0.0)),
          spawning('chassis/0', Box(width=3.0, height=0.5), (0.0, 0.3, 0.0)),
@@ -196,6 +204,20 @@ def test_a_small_circle_is_an_axle(
     assert (joint.kind, {joint.a, joint.b}) == (JointKind.AXLE, {a, b})
     tolerance = 0.01 if place == ring[:2] else 1e-9
     assert world.snapshot().ends[0] == pytest.approx(np.array([place] * 2), abs=tolerance)
+
+
+def test_a_circle_beside_or_between_bodies_that_it_hardly_overlaps_is_a_disc(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=0.5))
+    spawn(world, 'b/0', Box(width=2.0, height=0.5), (2.4, 0.0, 0.0))
+
+    assert draw(world, circle(1.2, 0.0, 0.21)).meaning == 'disc'
+
+
+def test_a_small_square_over_a_gap_welds_the_bodies_beside_it(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=0.5))
+    spawn(world, 'b/0', Box(width=2.0, height=0.5), (2.1, 0.0, 0.0))
+
+    assert draw(world, square(1.05, 0.0, 0.15)).meaning == 'pin'
 
 
 @pytest.mark.parametrize('radius', [0.5, 0.6, 0.9])
