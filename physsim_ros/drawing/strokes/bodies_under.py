@@ -23,7 +23,7 @@ from physsim_ros.drawing.strokes.meanings import Context
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
-from physsim_ros.model.transform import norms, Point
+from physsim_ros.model.transform import cross, norms, Point
 
 # The least share of a circle on a second body, across whose edge it was drawn.
 _ACROSS = 0.25
@@ -34,6 +34,9 @@ _CARRIED = 0.9
 _ROUND = 0.75
 # Stride of the points that are tested: 43 of a stroke, 8 to 10 of each swing of a scribble.
 _STRIDE = 3
+# The least angle about the middle of a wheel, and the least change of direction there, of a rope
+# that runs around it [rad].
+_AROUND, _BEND = math.radians(90.0), math.radians(45.0)
 # Name of a body -> which of these points lie on it, (43,) bool.
 Crossed = dict[str, NDArray[np.bool_]]
 # The least share of the stroke on a body that is covered.
@@ -78,6 +81,36 @@ def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:
 
 def _is_dynamic(name: str, scene: SceneQuery) -> bool:
     return name != WORLD and scene.body(name).dynamic
+
+
+def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
+    """
+    Return the wheels that a rope runs around, in the order of the stroke, and where it does [m].
+
+    A wheel is a disc that is anchored or has a joint, and is not at an end of the stroke. A line
+    runs around it that bends beside it, about its middle.
+
+    :param points: (n, 2) float64: of the stroke [m]
+    """
+    scene, snap = context.scene, context.settings.snap
+    jointed = {name for joint in scene.joints for name in (joint.a, joint.b)}
+    found: list[tuple[int, str]] = []
+    for name in scene.names:
+        body = scene.body(name)
+        if not isinstance(body.shape, Disc) or not (body.anchored or name in jointed):
+            continue
+        away = points - scene.centroid(name)
+        radius = body.shape.radius
+        beside = np.flatnonzero(norms(away) < radius + max(snap, radius / 2))
+        if not len(beside) or beside[0] == 0 or beside[-1] == len(points) - 1:
+            continue
+        before, after = beside[0] - 1, beside[-1] + 1
+        angles = np.unwrap(np.arctan2(*away[before : after + 1].T[::-1]))
+        way_in, way_out = points[before + 1] - points[before], points[after] - points[after - 1]
+        bend = abs(math.atan2(cross(way_in, way_out), way_in @ way_out))
+        if abs(angles[-1] - angles[0]) > _AROUND and bend > _BEND:
+            found.append((int(beside[len(beside) // 2]), name))
+    return [(name, point_of(points[at])) for at, name in sorted(found)]
 
 
 def axle_pairs(center: Point, context: Context) -> tuple[Point, list[tuple[str, str]]]:
