@@ -93,14 +93,14 @@ def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
     :param points: (n, 2) float64: of the stroke [m]
     """
     scene, snap = context.scene, context.settings.snap
-    jointed = {name for joint in scene.joints for name in (joint.a, joint.b)}
+    low, high, centers = points.min(axis=0), points.max(axis=0), scene.snapshot.centers
+    within = ((centers > low) & (centers < high)).all(axis=1)
     found: list[tuple[int, str]] = []
-    for name in scene.names:
-        body = scene.body(name)
-        if not isinstance(body.shape, Disc) or not (body.anchored or name in jointed):
+    for row in np.flatnonzero(within).tolist():
+        body, name = scene.snapshot.scene.bodies[row], scene.names[row]
+        if not isinstance(body.shape, Disc) or not (body.anchored or _is_jointed(name, scene)):
             continue
-        away = points - scene.centroid(name)
-        radius = body.shape.radius
+        away, radius = points - centers[row], body.shape.radius
         beside = np.flatnonzero(norms(away) < radius + max(snap, radius / 2))
         if not len(beside) or beside[0] == 0 or beside[-1] == len(points) - 1:
             continue
@@ -111,6 +111,10 @@ def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
         if abs(angles[-1] - angles[0]) > _AROUND and bend > _BEND:
             found.append((int(beside[len(beside) // 2]), name))
     return [(name, point_of(points[at])) for at, name in sorted(found)]
+
+
+def _is_jointed(name: str, scene: SceneQuery) -> bool:
+    return any(name in (joint.a, joint.b) for joint in scene.joints)
 
 
 def axle_pairs(center: Point, context: Context) -> tuple[Point, list[tuple[str, str]]]:

@@ -68,11 +68,11 @@ def meanings(form: Form, context: Context) -> Iterator[Meaning]:
 def rope_around_wheels(context: Context) -> Meaning | None:
     """Return the meaning of a line from body to body, or to the background, around a wheel."""
     drawn = context.drawn.points
-    ends = bodies_under.joint_ends(drawn, context)
-    if ends is None or math.dist(drawn[0], drawn[-1]) <= context.settings.snap:
-        return None
     wheels = {name for name, _ in bodies_under.wheels_passed(drawn, context)}
-    if not wheels - {end.body for end in ends}:
+    if not wheels or math.dist(drawn[0], drawn[-1]) <= context.settings.snap:
+        return None
+    ends = bodies_under.joint_ends(drawn, context)
+    if ends is None or not wheels - {end.body for end in ends}:
         return None
     build = partial(outcomes.join, JointKind.ROPE, drawn, context)
     return Meaning(name=str(JointKind.ROPE), weight=BETWEEN, build=build)
