@@ -45,7 +45,7 @@ STRICT := -std=c11 -Wall -Wextra -Wconversion -Werror -Iphyssim_ros/engine/core 
 TSC := npx --yes --package=typescript -- tsc
 
 .DEFAULT_GOAL := help
-.PHONY: help run class test test-all lint tables sanitize coverage mutate bench ablate evaluate gallery docs release soak clean
+.PHONY: help run class test test-all lint tables sanitize coverage mutate bench ablate evaluate gallery docs links release soak clean
 
 # The comments after `##` are the help.
 help:  ## list the targets
@@ -141,6 +141,12 @@ docs: $(VENV)/.with-docs  ## build the site of the documents, docs/_build/html
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going -j auto docs docs/_build/html $(ARGS)
 	@echo 'Open docs/_build/html/index.html'
 
+# Sphinx's linkcheck; where this machine reaches no other site, nothing is asked.
+links: $(VENV)/.with-docs  ## ask whether the addresses in the documents still answer
+	@if $(BIN)/python -c 'import socket; socket.create_connection(("www.ros.org", 443), 10)' 2>/dev/null; \
+	then $(BIN)/python -m sphinx --quiet --builder linkcheck docs docs/_build/links $(ARGS); \
+	else echo 'www.ros.org does not answer: links to other sites are not checked.'; fi
+
 # With BUMP=patch, minor or major, of a new version: of package.xml, setup.py and the changelog, committed and tagged, not
 # pushed. Without it nothing but dist/ changes, and the workflow tries that.
 release: $(TOOLS) $(VENV)/.with-docs  ## build sdist, wheel and site into dist/; BUMP=minor first raises the version
@@ -187,11 +193,11 @@ $(BUILT): $(CORE) physsim_ros/engine/core | $(STAMP)
 	@if [ ! -e $@ ] || [ -n "$$(find $^ -maxdepth 0 -newer $@)" ]; then \
 	  $(BIN)/python setup.py --quiet build_ext --inplace && touch $@; fi
 
-$(TOOLS): $(BUILT) setup.py
+$(TOOLS): setup.py | $(BUILT)
 	@[ -e $@ ] || echo 'Packages for tests and tools, some 50; a minute the first time.'
 	@$(PIP) --no-build-isolation --editable '.[$(EXTRAS),test]' | $(PROGRESS)
 	@touch $@
 
-$(VENV)/.with-docs: $(BUILT)
+$(VENV)/.with-docs: setup.py | $(BUILT)
 	@$(PIP) --quiet --no-build-isolation --editable '.[$(EXTRAS),docs]'
 	@touch $@

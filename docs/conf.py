@@ -39,6 +39,11 @@ html_js_files = ['labels.js']
 # Pages come before names of the code, and reference before what else says the word.
 html_search_scorer = str(ROOT / 'docs' / 'search_scorer.js')
 
+# `make links`: an address of the reader's own machine; headings on GitHub are made by scripts.
+linkcheck_ignore = [r'http://127\.0\.0\.1']
+linkcheck_anchors_ignore_for_url = ['https://github.com/']
+linkcheck_timeout = 20
+
 # Single backticks in docstrings are names of the code.
 default_role = 'literal'
 # Headings that links name by their text, as in the repository.

@@ -44,10 +44,12 @@ def observe_scan(robot: Robot) -> NDArray[np.float32]:
     """
     Return the scan of the first laser, (beams,) float32: 0 .. 1, shares of its greatest range.
 
-    It is 1 where nothing is within range, and 0 where something is nearer than the least range.
+    It is 1 where nothing is within range or a beam is blind, and 0 where something is nearer than
+    the least range.
     """
     laser = robot.first_laser
     shares: NDArray[np.float32] = np.clip(robot.scan() / laser.range[1], 0.0, 1.0)
+    shares[np.isnan(shares)] = 1.0
     return shares.astype(np.float32)
 
 

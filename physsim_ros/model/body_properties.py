@@ -18,6 +18,7 @@ from physsim_ros.model.checks import (
     HEAVIEST,
     LIGHTEST,
     shown,
+    Vector,
     VELOCITY,
     Within,
 )
@@ -100,6 +101,21 @@ class Properties(Checked):
         Within(-FASTEST, FASTEST, 'm/s'),
         'velocity of its surface along its outline, counter-clockwise, like a conveyor belt seen '
         'from the side',
+    ] = None
+    rolling_resistance: Annotated[
+        float | None,
+        Within(0.0, 10.0),
+        'coefficient c of what rolls, a disc or what it rolls on, the greater of the two: at its '
+        'rim, a force of c times the load resists it',
+    ] = None
+    one_way: Annotated[
+        Point | None,
+        Vector(1000.0, '', 'longer'),
+        'direction in the axes of the body in which others pass it; it bears those that come '
+        'against it, as a platform does: `[0, 1]`',
+    ] = None
+    closed_sides: Annotated[
+        bool | None, flag, 'of a one-way body: it also bears what comes from its sides'
     ] = None
     robot: Annotated[
         Robot | None,

@@ -279,7 +279,7 @@ class JointProperties(Checked):
         float | None,
         Within(0.0, HEAVIEST, 'N m or N'),
         'gives the joint a motor of this greatest torque or force, which holds until it is '
-        'commanded',
+        'commanded; not together with `rate`',
     ] = None
     max_speed: Annotated[
         float | None,
@@ -371,6 +371,12 @@ class JointProperties(Checked):
             raise BadProperty(
                 f'lower is {self.lower:g} and upper {self.upper:g}; lower must not be greater',
                 field='lower',
+            )
+        if self.rate is not None and self.effort:
+            raise BadProperty(
+                'a slider has either a rate, with which it is driven, or an effort, with which '
+                'its motor obeys commands',
+                field='effort',
             )
 
     @property

@@ -9,7 +9,7 @@ after a rewind. No state, no clock, and of the engine only the core, which casts
 messages of readings are in `ros`. Start with `distance`, then `surroundings` (what rays meet).
 """
 
-from physsim_ros.sensing.distance import read_laser, read_range, scan_points
+from physsim_ros.sensing.distance import read_landmarks, read_laser, read_range, scan_points
 from physsim_ros.sensing.gps import Fix, fix_of, read_gps
 from physsim_ros.sensing.motion import (
     InertialReading,
@@ -41,6 +41,7 @@ __all__ = [
     'read_floor',
     'read_gps',
     'read_imu',
+    'read_landmarks',
     'read_laser',
     'read_odometry',
     'read_range',

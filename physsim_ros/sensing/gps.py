@@ -42,14 +42,14 @@ class Fix(NamedTuple):
 
 def read_gps(snapshot: Snapshot, row: int, gps: Gps) -> Fix | None:
     """
-    Return where a receiver is; None in a world without a datum.
+    Return where a receiver is; None in a world without a datum, or without a fix.
 
     :param snapshot: of the world
     :param row: of the robot's body in the scene
     :param gps: on it
     """
     datum = snapshot.scene.settings.datum
-    if datum is None:
+    if datum is None or gps.status == 'none':
         return None
     east, north, _ = placed(snapshot, row, gps)
     if gps.noise:

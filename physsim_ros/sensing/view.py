@@ -14,13 +14,14 @@ from physsim_ros.model.robots.sensors import (
     FloorEye,
     Gps,
     Imu,
+    Landmarks,
     Laser,
     RangeFinder,
     Sensor,
     WheelEncoders,
 )
 from physsim_ros.model.snapshot import Frame, NO_CONTACTS, Snapshot
-from physsim_ros.sensing.distance import read_laser, read_range
+from physsim_ros.sensing.distance import read_landmarks, read_laser, read_range
 from physsim_ros.sensing.gps import read_gps
 from physsim_ros.sensing.motion import read_imu, read_wheels
 from physsim_ros.sensing.surroundings import Surroundings
@@ -51,6 +52,7 @@ class View:
 _READERS: Mapping[type[Sensor], Callable[[View, int, Any], Any]] = {
     Laser: lambda view, row, laser: read_laser(view.surroundings, row, laser),
     RangeFinder: lambda view, row, finder: read_range(view.surroundings, row, finder),
+    Landmarks: lambda view, row, finder: read_landmarks(view.surroundings, row, finder),
     Bumper: lambda view, row, bumper: read_bumper(view.snapshot, view.contacts, row, bumper),
     Imu: lambda view, row, imu: read_imu(view.snapshot, view.before, row, imu),
     WheelEncoders: lambda view, row, _: read_wheels(view.snapshot, row),

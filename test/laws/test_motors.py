@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 from physsim_ros import Box, Properties, Robot, robot_spawn, Simulation, Spawn, WorldSettings
-from physsim_ros.model.requests import CommandMotors
+from physsim_ros.model.requests import ChangeBody, CommandMotors
 import pytest
 
 NOWHERE, DOWN = (0.0, 0.0), (0.0, -9.81)
@@ -145,10 +145,14 @@ def test_a_joint_bears_what_its_motor_can_without_sagging_and_no_more(report):
     assert positions(held)[0] > begin > positions(falls)[0]
 
 
+@pytest.mark.parametrize('elasticity', [0.0, 0.3, 0.7, 1.0])
 @pytest.mark.parametrize('holds', [True, False])
-def test_a_gripper_lifts_what_the_friction_of_its_fingers_holds(holds):
+def test_a_gripper_lifts_what_the_friction_of_its_fingers_holds(holds, elasticity):
     simulation = Simulation()
     simulation.perform(robot_spawn('gripper', name='gripper/0', at=(0.0, 1.0)))
+    for side in ('left', 'right'):
+        bounces = Properties(elasticity=elasticity)
+        simulation.perform(ChangeBody(name=f'gripper/0/{side}_finger/0', properties=bounces))
     robot = Robot(simulation, 'gripper/0')
     force, friction, way = 20.0, 0.8, 0.42
     # A cubic way in 2 s accelerates by 6 s / t² at its ends, which is not needed to slip.
@@ -158,7 +162,8 @@ def test_a_gripper_lifts_what_the_friction_of_its_fingers_holds(holds):
     simulation.perform(
         Spawn(name='floor/0', shape=Box(width=4, height=0.2), pose=(0, -0.1, 0), properties=floor)
     )
-    crate, square = Properties(mass=mass, friction=friction), Box(width=0.12, height=0.12)
+    crate = Properties(mass=mass, friction=friction, elasticity=1.0)
+    square = Box(width=0.12, height=0.12)
     simulation.perform(Spawn(name='box/0', shape=square, pose=(0, 0.06, 0), properties=crate))
     command(robot, 'position', lift=[(2.0, 0.72, 0.0)])
     simulation.run(2.5)

@@ -67,6 +67,13 @@ def test_a_receiver_reads_where_it_is_mounted_and_without_a_datum_nothing():
     assert read_gps(world.snapshot(), add_robot(world), gps) is None
 
 
+def test_a_receiver_without_a_fix_reads_nothing():
+    world = plane(datum=DATUM)
+    row = add_robot(world)
+    assert read_gps(world.snapshot(), row, Gps(status='none')) is None
+    assert read_gps(world.snapshot(), row, Gps(status='gbas')) == fix_of((0.0, 0.0), DATUM)
+
+
 def test_noise_is_as_large_as_told_and_repeats():
     world, gps = plane(datum=DATUM), Gps(noise=2.0)
     row = add_robot(world)

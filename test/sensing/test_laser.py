@@ -8,7 +8,7 @@ import math
 import numpy as np
 from physsim_ros.model.robots.sensors import Laser, RangeFinder
 from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Polygon
-from physsim_ros.sensing import read_laser, read_range, Surroundings
+from physsim_ros.sensing import read_laser, read_range, scan_points, Surroundings
 from physsim_ros.sensing.distance import within_range
 import pytest
 
@@ -308,3 +308,25 @@ def test_noise_does_not_bring_back_what_is_out_of_range():
     read = within_range(distances, 0.1, 10.0, 0.05, noise)
 
     assert read.tolist() == [math.inf, math.inf, -math.inf, -math.inf]
+
+
+def test_beams_of_blind_sectors_are_nan_and_the_others_as_without_them():
+    world = random_world(2)
+    row = add_robot(world)
+    full = {'beams': 360, 'range': (0.1, 5.0), 'noise': 0.01}
+    # One across the end of the turn, one of a single beam.
+    sectors = ((math.radians(-10), math.radians(10)), (math.radians(90), math.radians(90)))
+    ranges = scan(world, row, Laser(**full, blind=sectors))
+    hidden = [*range(11), 90, *range(350, 360)]
+    assert np.flatnonzero(np.isnan(ranges)).tolist() == hidden
+    seen = ~np.isnan(ranges)
+    assert np.array_equal(ranges[seen], scan(world, row, Laser(**full))[seen])
+
+
+def test_points_of_a_scan_with_blind_beams_are_finite():
+    world = random_world(2)
+    row = add_robot(world)
+    laser = Laser(beams=36, blind=((0.0, 1.0),))
+    points = scan_points(world.snapshot(), row, laser, scan(world, row, laser))
+    assert np.isfinite(points).all()
+    assert points[1].tolist() == points[0].tolist()

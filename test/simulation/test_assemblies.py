@@ -21,7 +21,8 @@ from physsim_ros.model.requests import (
     Spawn,
     Unjoin,
 )
-from physsim_ros.model.shapes import Box
+from physsim_ros.model.robots import Robot as Description
+from physsim_ros.model.shapes import Box, Disc
 from physsim_ros.model.transform import local_to_world, world_to_local
 from physsim_ros.simulation.world import World
 import pytest
@@ -60,6 +61,42 @@ def test_a_robot_is_spawned_with_its_parts_where_its_file_has_them():
     assert [joint.name for joint in world.scene.joints] == ['arm/0/shoulder/0', 'arm/0/elbow/0']
     found = poses(world)
     assert found[LOWER] == pytest.approx((*local_to_world((0.55, 0.0), found[ARM]), 0.5))
+
+
+def test_a_rope_runs_over_links_and_a_gear_turns_about_one_wherever_the_robot_is(tmp_path):
+    wheel = {'name': 'wheel', 'circle': {'radius': 0.1}, 'at': [0.0, 1.0]}
+    hook = {'name': 'hook', 'box': {'width': 0.1, 'height': 0.1}, 'at': [0.5, 0.0]}
+    axle = {'name': 'axle', 'kind': 'axle', 'a': 'wheel', 'points': [[0.0, 1.0]]}
+    lift = {'name': 'lift', 'kind': 'slider', 'a': 'hook', 'points': [[0.5, 0.0], [0.5, 1.0]]}
+    rope = {
+        'name': 'rope',
+        'kind': 'rope',
+        'a': 'hook',
+        'points': [[0.5, 0.0], [0.1, 1.0], [-0.5, 1.0], [-0.5, 0.0]],
+        'over': ['wheel', 'world'],
+    }
+    gear = {
+        'name': 'gear',
+        'kind': 'gear',
+        'a': 'wheel',
+        'b': 'hook',
+        'points': [[0.0, 1.0]],
+        'carrier': 'base',
+    }
+    robot = {'links': [wheel, hook], 'joints': [axle, lift, rope, gear]}
+    world = World(settings=FLAT)
+    for name, at in (('crane/0', (0.0, 0.0, 0.0)), ('crane/1', (10.0, 5.0, 1.0))):
+        properties = Properties(robot=Description.from_mapping(robot), anchored=True)
+        world.apply(Spawn(name=name, shape=Disc(radius=0.05), pose=at, properties=properties))
+    guides = {joint.name: joint.properties.guides for joint in world.scene.joints}
+    for name in ('crane/0', 'crane/1'):
+        assert guides[f'{name}/rope/0'] == (f'{name}/wheel/0', 'world')
+        assert guides[f'{name}/gear/0'] == (name,)
+    world.step(10)
+    path = save_world(world.save(), 'w', world_dir=tmp_path, physics_rate=world.physics_rate)
+    again = World(settings=FLAT)
+    again.apply(Restore(state=load_world(path)))
+    assert again.save().joints == world.save().joints
 
 
 @pytest.mark.parametrize('taken', [UPPER, 'arm/0/elbow/0'])

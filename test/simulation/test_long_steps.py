@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from physsim_ros.engine.core import lib
 from physsim_ros.engine.core_world import CoreWorld
-from physsim_ros.files import find_world, load_world
+from physsim_ros.files import find_world, load_world, spawn_from
 from physsim_ros.model.requests import Configure
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.simulation import Simulation
@@ -133,3 +133,19 @@ def test_robots_and_actors_do_the_same_in_a_step_that_is_cut(in_sub_steps, name)
     one.run(0.5)
     other.run(0.5)
     assert one.world.digest() == other.world.digest()
+
+
+@pytest.mark.parametrize('kind', ['social_force', 'orca'])
+def test_a_step_of_a_crowd_is_cut_between_pedestrians(in_sub_steps, kind):
+    def scene(simulation: Simulation) -> None:
+        for number in range(20):
+            actor = {'kind': kind, 'points': [[5.0, 5.0]]}
+            entry = {'name': f'a/{number}', 'circle': {'radius': 0.2}, 'actor': actor}
+            simulation.perform(spawn_from(entry | {'at': [0.5 * number, 0.0]}))
+
+    world = in_sub_steps(scene).world
+    # The last wish, and the first sub-step, end no call of their own.
+    assert sum(1 for _ in world.parts_of_steps(1)) == 20 + lib.SUB_STEPS - 1
+    other = whole(scene).world
+    other.step(1)
+    assert world.digest() == other.digest()

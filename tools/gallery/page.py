@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-The page, drawn on: an animation of a car that a pen draws.
+The page, worked by pen and mouse: animations in which time goes back, and a body is moved there.
 
-It rolls, time goes back, a wall is moved, and it rolls against the wall.
+A car that a pen draws rolls against a wall; a robot that has hit a crate passes it.
 """
 
 from __future__ import annotations
 
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import contextmanager, ExitStack
 import io
 import itertools
 import math
@@ -28,6 +29,36 @@ format: 1
 bounds: [-8, 0, 8, 9]
 bodies: []
 """
+# A robot drives along its path, on which a crate stands behind a shelf, seen from above.
+YARD = """
+format: 1
+bounds: [-3.2, -1.8, 3.2, 1.8]
+gravity: [0, 0]
+floor_friction: 0.6
+bodies:
+  - {name: shelf/0, box: {width: 2.6, height: 0.5}, at: [-1.1, 0.5], anchored: true}
+  - {name: shelf/1, box: {width: 2.6, height: 0.5}, at: [-1.1, -1.3], anchored: true}
+  - {name: shelf/2, box: {width: 0.5, height: 1.5}, at: [2.5, 0.6], anchored: true}
+  - {name: crate/0, box: {width: 0.42, height: 0.42}, at: [1, 0.1], mass: 60, color: '#d1495b'}
+  - {name: barrel/0, circle: {radius: 0.16}, at: [0.7, -1.4], mass: 4, color: '#4c78a8'}
+  - {name: barrel/1, circle: {radius: 0.16}, at: [1.1, -1.5], mass: 4, color: '#4c78a8'}
+  - name: robot/0
+    circle: {radius: 0.2}
+    at: [-2.8, -0.4]
+    mass: 6
+    color: '#3b4252'
+    robot:
+      drive: {kind: differential, track: 0.3, max_speed: 0.8, max_turn: 3}
+      sensors: [{kind: laser, name: scan, beams: 180, range: [0.1, 3.5], rate: 15}]
+    actor:
+      kind: path
+      speed: 0.6
+      points: [[-2.8, -0.4], [0.4, -0.4], [1, 0.1], [1.2, 1.3], [-2.6, 1.3]]
+joints: []
+"""
+# Place of the crate, the vector by which it is moved [m], and the times of its film as below.
+CRATE, ASIDE = (1.0, 0.1), (0.6, -1.0)
+CRASH_TURN, CRASH_BACK, CRASH_END = 7.6, 4.2, 13.0
 # Rate of the animation [Hz], frames of the world in each of its pictures, and its width [pixels].
 RATE, FRAMES, NARROW = 12, 5, 800
 # Simulation times at which the slider is dragged back, to which, and at the end [s].
@@ -106,20 +137,33 @@ class Film:
             sheet.wait('time => Math.abs(physsim.time - time) < 0.02', now)
             self.shoot()
 
-    def move_wall(self) -> None:
-        """Choose the wall by the lasso, and carry it down."""
+    def carry(
+        self, body: tuple[float, float], by: tuple[float, float], beside: tuple[float, float]
+    ) -> None:
+        """Choose a body by the lasso, carry it by a vector, and tap beside all bodies [m]."""
         sheet = self._sheet
+        x, y = body
         sheet.press('Lasso')
-        x, y = WALL[0][0], (WALL[0][1] + WALL[1][1]) / 2
-        sheet.drag((x, y))
-        # The panel of the wall has opened then.
+        sheet.drag(body)
+        # The panel of the body has opened then.
         sheet.page.wait_for_timeout(500)
         self.shoot()
-        self._drag(line((x, y), (x, y - DOWN)), every=2)
-        # A tap beside the bodies chooses none, and closes the panel, which gives the view back.
-        sheet.drag((0.0, 8.0))
+        self._drag(line(body, (x + by[0], y + by[1])), every=2)
+        # A tap beside the bodies chooses none, and closes the panel.
+        sheet.drag(beside)
         sheet.page.wait_for_timeout(500)
+        sheet.press('Frame the world')
         self.shoot()
+
+    def save(self, path: Path) -> None:
+        """Write the pictures as an animation."""
+        size = (NARROW, round(NARROW * self.pictures[0].height / self.pictures[0].width))
+        first, *others = (each.resize(size, Image.Resampling.LANCZOS) for each in self.pictures)
+        times = [1000 // RATE] * len(self.pictures)
+        times[0] = times[-1] = REST
+        first.save(
+            path, save_all=True, append_images=others, duration=times, loop=0, quality=60, method=4
+        )
 
     def _drag(self, stroke: Stroke, *, every: int) -> None:
         """Drag the mouse along a stroke, with a picture after every so many samples."""
@@ -133,31 +177,41 @@ class Film:
         mouse.up()
 
 
-def draw_page(path: Path, last: Path) -> None:
-    """Write the animation of the page, and its last picture, beside the course that was left."""
+@contextmanager
+def film_of(world: str) -> Iterator[Film]:
+    """Show a world, which is paused, on a page, and yield the film of it."""
     with ExitStack() as closing:
         domain = closing.enter_context(own_domain())
         directory = Path(closing.enter_context(tempfile.TemporaryDirectory()))
         outside = Outside(directory, domain, closing)
-        file = directory / 'empty.yaml'
-        file.write_text(WORLD)
+        file = directory / 'world.yaml'
+        file.write_text(world)
         _, address = started_world(outside, world_file=file, speed=0.0)
         browser = launched_chromium(closing.enter_context(sync_playwright()))
         sheet = Sheet(browser, address)
-        film = Film(sheet)
+        yield Film(sheet)
+        sheet.close()
+        browser.close()
+
+
+def draw_page(path: Path, last: Path) -> None:
+    """Write the animation of the page, and its last picture, beside the course that was left."""
+    with film_of(WORLD) as film:
         film.draw(car())
         film.step_to(TURN)
         film.slide_back(TURN, BACK)
-        film.move_wall()
+        x, (top, bottom) = WALL[0][0], (WALL[0][1], WALL[1][1])
+        film.carry((x, (top + bottom) / 2), (0.0, -DOWN), beside=(0.0, 8.0))
         film.step_to(END)
-        sheet.close()
-        browser.close()
     film.pictures[-1].save(last, optimize=True)
-    size = (NARROW, round(NARROW * film.pictures[0].height / film.pictures[0].width))
-    small = [each.resize(size, Image.Resampling.LANCZOS) for each in film.pictures]
-    times = [1000 // RATE] * len(small)
-    times[0] = times[-1] = REST
-    first, *others = small
-    first.save(
-        path, save_all=True, append_images=others, duration=times, loop=0, quality=60, method=6
-    )
+    film.save(path)
+
+
+def draw_crash(path: Path) -> None:
+    """Write the animation of a robot that hits a crate, and passes when that is moved before."""
+    with film_of(YARD) as film:
+        film.step_to(CRASH_TURN)
+        film.slide_back(CRASH_TURN, CRASH_BACK)
+        film.carry(CRATE, ASIDE, beside=(-2.0, -0.6))
+        film.step_to(CRASH_END)
+    film.save(path)

@@ -1,7 +1,7 @@
 # Copyright 2026 physsim_ros maintainers
 # SPDX-License-Identifier: Apache-2.0
 
-"""The stories that animations tell, as frames: time goes back, and something is moved there."""
+"""The story that an animation tells, as frames: time goes back, and something is moved there."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.requests import MoveBodies, Spawn
 from physsim_ros.model.shapes import Box
 from physsim_ros.model.snapshot import Frame
-from physsim_ros.simulation.robot import Robot
 
 # Period of the frames [ns].
 _PERIOD = 16_666_667
@@ -24,21 +23,6 @@ def car_story() -> list[Frame]:
     story.run(65, -2.0)
     story.move_obstacle(0.0, -2.5)
     story.run(180, 1.0)
-    return story.frames
-
-
-def crash_story() -> list[Frame]:
-    """Return the frames of a robot that hits a crate, goes back, and passes when that is moved."""
-    story = _Story('worlds/boxes', Box(width=0.4, height=0.4), (0.3, 0.0))
-    story.run(1, 1.0)
-    robot = Robot(story.simulation, 'robot/0')
-    robot.drive(0.22)
-    story.run(380, 1.0)
-    story.run(130, -2.0)
-    story.move_obstacle(0.0, 0.9)
-    story.run(1, 1.0)
-    robot.drive(0.22)
-    story.run(600, 1.0)
     return story.frames
 
 

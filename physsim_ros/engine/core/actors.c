@@ -212,28 +212,36 @@ static void move_actor(const World *world, const Actor *actor) {
     }
 }
 
-void move_actors(World *world) {
-    if (world->actor_count == 0) {
-        return;
-    }
-    double dt = world->dt * (double)SUB_STEPS;
+void begin_wishes(World *world) {
     start_actors(world);
-    Surroundings around = {0};
-    for (int number = 0; number < world->actor_count; number++) {
-        Actor *actor = world->actors + number;
-        actor->wish = (Twist){0};
-        if (!has_begun(world, actor)) {
-            continue;
-        }
-        if (actor->kind == ACTOR_PATH) {
-            actor->wish = follow_path(world, actor, dt);
-            continue;
-        }
-        if (around.discs == NULL) {
-            around = look_around(world);
-        }
-        actor->wish.v = walk(world, &around, actor, dt);
+    world->own->wishing = 0;
+    world->own->around = NULL;
+}
+
+bool find_wish(World *world) {
+    Private *own = world->own;
+    if (own->wishing == world->actor_count) {
+        return false;
     }
+    Actor *actor = world->actors + own->wishing++;
+    double dt = world->dt * (double)SUB_STEPS;
+    actor->wish = (Twist){0};
+    if (!has_begun(world, actor)) {
+        return true;
+    }
+    if (actor->kind == ACTOR_PATH) {
+        actor->wish = follow_path(world, actor, dt);
+        return true;
+    }
+    if (own->around == NULL) {
+        own->around = TAKE(&own->arena, Surroundings, 1);
+        *own->around = look_around(world);
+    }
+    actor->wish.v = walk(world, own->around, actor, dt);
+    return true;
+}
+
+void move_actors(World *world) {
     // All have seen the world as it was.
     for (int number = 0; number < world->actor_count; number++) {
         move_actor(world, world->actors + number);

@@ -231,7 +231,10 @@ void report_contacts(World *world) {
         read_sleeping(world, report);
     }
     for (int number = 0; number < arbiter_count(world); number++) {
-        add_arbiter(world, report, arbiter_at(world, number));
+        // A contact that Chipmunk ignores is none.
+        if (arbiter_at(world, number)->data == NULL) {
+            add_arbiter(world, report, arbiter_at(world, number));
+        }
     }
     world->chipmunk.each_arbiter(world->space, add_overlap, world);
     find_crossings(world, add_crossing);

@@ -41,10 +41,11 @@ static bool stop(int number, void *data) {
 static bool boxes_meet(World *world, const Statics *statics) {
     Mover fast[FEW];
     int count = 0;
-    for (int place = 0; place < world->body_count; place++) {
-        if (is_fast(world, world->bodies + place)) {
+    for (int number = 0; number < active_count(world); number++) {
+        Body *body = active_at(world, number);
+        if (is_fast(world, body)) {
             assert(count < FEW);
-            fast[count++] = mover_of(world->bodies + place, way_of(world, world->bodies + place));
+            fast[count++] = mover_of(body, way_of(world, body));
         }
     }
     bool meet = false;
@@ -83,8 +84,8 @@ void clamp_moves(World *world) {
         return;
     }
     int fast = 0;
-    for (int place = 0; place < world->body_count; place++) {
-        fast += is_fast(world, world->bodies + place);
+    for (int number = 0; number < active_count(world); number++) {
+        fast += is_fast(world, active_at(world, number));
     }
     if (fast == 0) {
         return;

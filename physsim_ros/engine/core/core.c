@@ -19,6 +19,7 @@ World *core_new(cpSpace *space, Chipmunk chipmunk, double dt, cpConstraint *hook
     world->stages = STAGE_ALL;
     world->own = allocated(1, sizeof(Private));
     world->own->hook = hook;
+    world->own->all_active = true;
     hook->userData = world;
     return world;
 }

@@ -218,11 +218,23 @@ static Driving driving_of(const World *world, int place, const Robot **robot, co
     return driving;
 }
 
+bool has_floor(const World *world) {
+    for (int place = 0; place < world->body_count; place++) {
+        if (world->bodies[place].floor_friction > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void pull_by_floor(World *world) {
     if (!has_stage(world, STAGE_FLOOR)) {
         return;
     }
     roll_wheels(world);
+    if (!world->own->has_floor) {
+        return;
+    }
     Conveyors conveyors = conveyors_of(world);
     const Robot *robot = world->robots;
     const Actor *actor = world->actors;
@@ -242,7 +254,7 @@ void find_pushes(World *world) {
     if (!has_stage(world, STAGE_FLOOR)) {
         return;
     }
-    for (int place = 0; place < world->body_count; place++) {
+    for (int place = 0; world->own->has_floor && place < world->body_count; place++) {
         Body *body = world->bodies + place;
         if (body->floor_friction == 0.0) {
             continue;

@@ -117,9 +117,9 @@ static void find_unsupported(World *world, uint8_t *unsupported) {
 static void find_start(World *world, uint8_t *free, uint8_t *unsupported) {
     find_leads(world);
     bool released = false;
-    for (int place = 0; place < world->body_count; place++) {
-        const Body *body = world->bodies + place;
-        free[place] = body->state.free && !body->sprung;
+    for (int number = 0; number < active_count(world); number++) {
+        const Body *body = active_at(world, number);
+        free[place_of(world, body->engine)] = body->state.free && !body->sprung;
         released = released || is_loose(body);
     }
     if (!released || !has_stage(world, STAGE_SUPPORT)) {
@@ -149,8 +149,9 @@ void begin_half_step(World *world) {
     Arena *arena = &world->own->arena;
     uint8_t *free = TAKE(arena, uint8_t, world->body_count), *unsupported = TAKE(arena, uint8_t, world->body_count);
     find_start(world, free, unsupported);
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
+    for (int number = 0; number < active_count(world); number++) {
+        Body *body = active_at(world, number);
+        int place = place_of(world, body->engine);
         if (free[place] != body->state.free) {
             world->chipmunk.body_activate(body->engine);
             set_twist(body->engine, with_lead(body, free[place]));
@@ -192,8 +193,8 @@ double reported_share(const Body *a, const Body *b, Vec impulse) {
 }
 
 void find_free(World *world) {
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
+    for (int number = 0; number < active_count(world); number++) {
+        Body *body = active_at(world, number);
         body->state.free = false;
         if (!body->dynamic || body->sprung || body->floor_friction > 0.0 || sleeps(body) ||
             !has_stage(world, STAGE_HALF_STEP)) {

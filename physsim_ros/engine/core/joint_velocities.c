@@ -310,8 +310,83 @@ static void mix(const Solve *solve, Solution *elastic, const Solution *plastic, 
     }
 }
 
+// Whether a contact is an impact after which its bodies part.
+static bool bounces_off(const Island *island, const VelocityRows *rows, int number) {
+    return island->touches[number].left > 0.0 && rows->bounce[number] > 0.0;
+}
+
+// Whether a row is driven by a force that has a bound.
+static bool is_bounded_drive(const Row *row) {
+    return is_of_rate(row) && row->most < INFINITY;
+}
+
+// Whether there are both impacts and bounded drives.
+static bool is_driven_in_impact(const Island *island, const VelocityRows *rows) {
+    bool bounces = false, driven = false;
+    for (int number = 0; number < island->touch_count; number++) {
+        bounces = bounces || bounces_off(island, rows, number);
+    }
+    for (int row = 0; row < island->joint_row_count; row++) {
+        driven = driven || is_bounded_drive(island->rows[row]);
+    }
+    return bounces && driven;
+}
+
+// A copy of the rows, whose bounds and slips may be changed.
+static VelocityRows copy_of(const Solve *solve, const VelocityRows *rows) {
+    const Island *island = solve->island;
+    VelocityRows copy = *rows;
+    copy.slips = TAKE(solve->arena, double, island->touch_count);
+    copy.lower = TAKE(solve->arena, double, island->row_count);
+    copy.upper = TAKE(solve->arena, double, island->row_count);
+    memcpy(copy.slips, rows->slips, (size_t)island->touch_count * sizeof(double));
+    memcpy(copy.lower, rows->lower, (size_t)island->row_count * sizeof(double));
+    memcpy(copy.upper, rows->upper, (size_t)island->row_count * sizeof(double));
+    copy.problem.lower = copy.lower;
+    copy.problem.upper = copy.upper;
+    return copy;
+}
+
+// Have motors press bodies on each other for the rest of the step after an impact, as weights do (`rest_of_step.c`).
+//
+// A bounded force does nothing in the instant of an impact; from then on it acts on the velocities after that. The
+// parting velocity changes by the difference of two solutions: of the impact without motors, and of motors with its
+// impulses. A light finger that a motor presses on a body would bounce without end.
+static void press_on(Solve *solve, VelocityRows *rows) {
+    const Island *island = solve->island;
+    int normal = island->joint_row_count, tangent = normal + island->touch_count;
+    if (!is_driven_in_impact(island, rows)) {
+        return;
+    }
+    VelocityRows hit = copy_of(solve, rows), after = copy_of(solve, rows);
+    for (int row = 0; row < island->joint_row_count; row++) {
+        if (is_bounded_drive(island->rows[row])) {
+            hit.lower[row] = hit.upper[row] = 0.0;
+        }
+    }
+    Solution impact = solve_with_bounce(solve, &hit, rows->bounce);
+    for (int number = 0; number < island->touch_count; number++) {
+        if (bounces_off(island, rows, number)) {
+            int left = normal + number, right = tangent + number;
+            after.lower[left] = after.upper[left] = impact.impulses[left];
+            after.lower[right] = after.upper[right] = impact.impulses[right];
+        }
+    }
+    Solution pressed = solve_with_bounce(solve, &after, rows->bounce);
+    for (int number = 0; number < island->touch_count; number++) {
+        if (bounces_off(island, rows, number)) {
+            Jacobian jacobian = solve->jacobians[normal + number];
+            Ends ends = island->ends[normal + number];
+            double gained = rate(jacobian, ends, pressed.changes) - rate(jacobian, ends, impact.changes);
+            double share = island->touches[number].left / solve->dt + 0.5;
+            rows->bounce[number] = greatest(rows->bounce[number] + gained * share, 0.0);
+        }
+    }
+}
+
 // Return the solution with bounces, less the share of them that would create energy.
 static Solution solve_bounces(Solve *solve, VelocityRows *rows) {
+    press_on(solve, rows);
     Solution solution = solve_with_bounce(solve, rows, rows->bounce);
     bool bounces = false;
     double *none = TAKE(solve->arena, double, solve->island->touch_count);

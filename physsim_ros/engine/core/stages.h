@@ -27,10 +27,14 @@ void pull_grips(World *world);
 // Errors of the solver in what friction locks in place (`resting_damping.c`).
 void damp_resting(World *world);
 
-// Actors: where they go, and at which velocity (`actors.c`).
+// Actors: where they go, and at which velocity (`actors.c`). `find_wish` finds that of the next actor, and is false
+// where all have one.
+void begin_wishes(World *world);
+bool find_wish(World *world);
 void move_actors(World *world);
 
-// The floor, with drives and odometry of robots (`floor.c`, `drives.c`).
+// The floor, with drives and odometry of robots (`floor.c`, `drives.c`), and whether it acts on any body.
+bool has_floor(const World *world);
 void pull_by_floor(World *world);
 void find_pushes(World *world);
 void roll_wheels(World *world);
@@ -45,11 +49,19 @@ void tighten_boxes(World *world);
 void prepare_parts(World *world);
 void command_motors(World *world);
 
-// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that begin
-// (`first_touch.c`), the first of two points (`contact_order.c`), the greatest load (`impact_loads.c`), contacts next
-// to an impact (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
+// Have Chipmunk's solver resist rolling, until the step ends (`rolling.c`).
+void begin_rolling(World *world);
+// How far ahead of a disc the load of a contact acts where it rolls; 0 is where nothing rolls [m].
+double rolling_arm(const cpArbiter *arbiter);
+void end_rolling(World *world);
+
+// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that roll
+// (`rolling.c`), contacts that begin (`first_touch.c`), the first of two points (`contact_order.c`), the greatest load
+// (`impact_loads.c`), contacts next to an impact (`impact_propagation.c`), points that are hit at once
+// (`block_solver.c`).
 void correct_first_touches(World *world);
 void move_belts(World *world);
+void find_rolls(World *world);
 void order_points(World *world);
 void bound_loads(World *world);
 void defer_contacts(World *world);

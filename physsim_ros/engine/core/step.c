@@ -9,22 +9,35 @@
 // A body beyond this position or speed is removed [m, m/s, rad, rad/s]; a double resolves 0.1 mm there.
 static const double lost = 1e12;
 
+static void begin_body(Body *body) {
+    assert(body_of(body->engine) == body);
+    body->scratch.begin = pose_of(body->engine);
+    body->scratch.twist = twist_of(body->engine);
+    body->scratch.carried = body->scratch.rest = (Twist){0};
+    body->scratch.left = body->scratch.since = 0.0;
+    body->scratch.parts = body->scratch.rests = false;
+    body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
+}
+
 static void begin_bodies(World *world) {
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
-        assert(body_of(body->engine) == body);
-        body->scratch.begin = pose_of(body->engine);
-        body->scratch.twist = twist_of(body->engine);
-        body->scratch.carried = body->scratch.rest = (Twist){0};
-        body->scratch.left = body->scratch.since = 0.0;
-        body->scratch.parts = body->scratch.rests = false;
-        body->scratch.idle = sleeps(body) ? -1.0 : body->engine->idle_time;
+    for (int number = 0; number < active_count(world); number++) {
+        begin_body(active_at(world, number));
+    }
+}
+
+// Begin the next sub-step of bodies that have fallen asleep in this one: until they wake it is not done again.
+static void begin_sleepers(Body *const *bodies, int count) {
+    for (int number = 0; number < count; number++) {
+        if (sleeps(bodies[number])) {
+            begin_body(bodies[number]);
+            bodies[number]->state.free = false;
+        }
     }
 }
 
 static void keep_twists(World *world) {
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
+    for (int number = 0; number < active_count(world); number++) {
+        Body *body = active_at(world, number);
         body->scratch.twist = twist_of(body->engine);
         body->state.thrown = body->state.released = false;
     }
@@ -38,8 +51,8 @@ static bool is_lost(const cpBody *engine) {
 
 static void find_lost(World *world) {
     world->has_lost = false;
-    for (int place = 0; place < world->body_count; place++) {
-        world->has_lost = world->has_lost || is_lost(world->bodies[place].engine);
+    for (int number = 0; number < active_count(world); number++) {
+        world->has_lost = world->has_lost || is_lost(active_at(world, number)->engine);
     }
 }
 
@@ -57,6 +70,22 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     defer_contacts(world);
     solve_impacts(world);
     find_joint_islands(world);
+    find_rolls(world);
+}
+
+// Step Chipmunk; return the bodies that were awake before.
+static Body **step_chipmunk(World *world, int *count) {
+    *count = world->space->dynamicBodies->num;
+    Body **awake = TAKE(&world->own->arena, Body *, *count);
+    for (int number = 0; number < *count; number++) {
+        awake[number] = body_of(world->space->dynamicBodies->arr[number]);
+    }
+    begin_rolling(world);
+    world->own->hook->preSolve = before_solving;
+    world->chipmunk.space_step(world->space, world->dt);
+    world->own->hook->preSolve = NULL;
+    end_rolling(world);
+    return awake;
 }
 
 static void step(World *world) {
@@ -73,9 +102,8 @@ static void step(World *world) {
     prepare_parts(world);
     command_motors(world);
     keep_twists(world);
-    world->own->hook->preSolve = before_solving;
-    world->chipmunk.space_step(world->space, world->dt);
-    world->own->hook->preSolve = NULL;
+    int awake_count = 0;
+    Body **awake = step_chipmunk(world, &awake_count);
     keep_fields(world);
     find_leads(world);
     forgive_trembling(world);
@@ -93,6 +121,7 @@ static void step(World *world) {
     keep_awake(world);
     take_out_closing(world);
     take_out_impacts(world);
+    begin_sleepers(awake, awake_count);
 }
 
 // Time since some moment [s].
@@ -102,13 +131,32 @@ static double wall_clock(void) {
     return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
 }
 
-static void begin_step(World *world) {
-    arena_reset(&world->own->arena);
-    damp_resting(world);
-    begin_totals(world);
-    find_gaps(world);
+// Whether a call that began at a moment has taken long; so it has where the clock was set back.
+static bool is_long(const World *world, double began) {
+    double took = wall_clock() - began;
+    return !(took >= 0.0 && took <= world->longest_call);
+}
+
+// Begin a step, before its first sub-step; false where the next call of the core goes on with that.
+static bool begin_step(World *world, double began) {
+    Private *own = world->own;
+    if (!own->wishes) {
+        arena_reset(&own->arena);
+        damp_resting(world);
+        begin_totals(world);
+        find_gaps(world);
+        begin_wishes(world);
+    }
+    own->wishes = true;
+    while (find_wish(world)) {
+        if (is_long(world, began)) {
+            return false;
+        }
+    }
+    own->wishes = false;
     move_actors(world);
     world->frame_steps += world->reports_contacts;
+    return true;
 }
 
 static void end_step(World *world) {
@@ -118,27 +166,30 @@ static void end_step(World *world) {
     world->age++;
 }
 
-// Nothing in a step asks for the time: where a call ends decides when the next sub-step is made, and never its bits.
+// Where a call ends by the time decides when the next sub-step, or the wish of the next actor, is made, and never its
+// bits.
 int32_t core_step(World *world, int32_t count) {
     Private *own = world->own;
-    double began = wall_clock(), took = 0.0;
+    double began = wall_clock();
     int32_t made = 0;
+    own->has_floor = has_floor(world);
     own->kept = pow(world->space->damping, world->dt);
     world->has_broken = world->has_lost = false;
     do {
         own->call_step = made;
-        if (own->sub_step == 0) {
-            begin_step(world);
+        if (own->sub_step == 0 && !begin_step(world, began)) {
+            world->within_step = true;
+            break;
         }
         step(world);
+        own->all_active = false;
         own->sub_step = (own->sub_step + 1) % SUB_STEPS;
         world->within_step = own->sub_step > 0;
         if (!world->within_step) {
             end_step(world);
             made++;
         }
-        took = wall_clock() - began;
-        // A clock that is set back ends the call, too.
-    } while (made < count && took >= 0.0 && took <= world->longest_call && !world->has_broken && !world->has_lost);
+    } while (made < count && !is_long(world, began) && !world->has_broken && !world->has_lost);
+    own->all_active = true;
     return made;
 }

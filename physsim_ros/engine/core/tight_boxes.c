@@ -32,8 +32,8 @@ typedef struct Near {
     double pieces, enough;
 } Near;
 
-// Whether the extended boxes of a body may overlap more than `most_pairs` pieces. A box of k half widths overlaps k² /
-// 2 others at most, where bodies of a size fill the plane.
+// Whether the extended boxes of a body may overlap more than `most_pairs` pieces of all. A box of k half widths
+// overlaps k² / 2 others at most, where bodies of a size fill the plane.
 static bool is_fast_in_crowd(const Body *body, double all) {
     double way = length(body->engine->v) * extension;
     double most = way * way / (2.0 * body->half_width * body->half_width);
@@ -60,17 +60,17 @@ void tighten_boxes(World *world) {
     if (!has_stage(world, STAGE_TIGHT_BOXES)) {
         return;
     }
-    int count = world->body_count - 1;
-    double pieces = 0.0;
     bool any = false;
-    for (int place = 0; place < count; place++) {
-        pieces += world->bodies[place].pieces;
-    }
-    for (int place = 0; place < count && !any; place++) {
-        any = is_fast_in_crowd(world->bodies + place, pieces);
+    for (int number = 0; number < active_count(world) && !any; number++) {
+        any = is_fast_in_crowd(active_at(world, number), INFINITY);
     }
     if (!any) {
         return;
+    }
+    int count = world->body_count - 1;
+    double pieces = 0.0;
+    for (int place = 0; place < count; place++) {
+        pieces += world->bodies[place].pieces;
     }
     Arena *arena = &world->own->arena;
     size_t mark = arena_mark(arena);

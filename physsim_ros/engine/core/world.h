@@ -20,6 +20,9 @@ static const double standard_gravity = 9.81;
 typedef struct Private {
     Arena arena;
     cpConstraint *hook;
+    cpConstraintClass *hook_class, rolling_class; // its own class, and that within a step (`rolling.c`)
+    struct Roll *rolls;                           // of this step
+    int roll_count;
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
@@ -33,8 +36,14 @@ typedef struct Private {
     struct Load *loads; // of the contacts of this step
     int load_count;
     struct Islands *joint_islands; // of this step
+    bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
     int call_step;                 // number of the step in this call
+    bool all_active;               // requests may have changed any body since the last sub-step
+    bool has_floor;                // there is a body on which a floor acts
     int sub_step;                  // number of the sub-step in this step
+    int wishing;                   // number of the actor whose wish is found next
+    bool wishes;                   // wishes of actors are found, before the first sub-step
+    struct Surroundings *around;   // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
 } Private;
@@ -66,6 +75,16 @@ static inline bool has_stage(const World *world, uint32_t stage) {
 
 static inline bool sleeps(const Body *body) {
     return body->engine->sleeping_root != NULL;
+}
+
+// The bodies that a sub-step may change: those that are awake, in Chipmunk's order; in the first one of a call all
+// bodies, since requests may have changed any.
+static inline int active_count(const World *world) {
+    return world->own->all_active ? world->body_count : world->space->dynamicBodies->num;
+}
+
+static inline Body *active_at(const World *world, int number) {
+    return world->own->all_active ? world->bodies + number : body_of(world->space->dynamicBodies->arr[number]);
 }
 
 static inline Pose pose_of(const cpBody *body) {

@@ -142,7 +142,9 @@ class Actor(Checked, ABC):
         'after the last point: `once` it stays, `loop` goes on to the first one, `to_and_fro` '
         'goes back',
     ] = 'once'
-    start: Annotated[Start, Start.from_value, 'the condition for its start'] = field(default_factory=Start)
+    start: Annotated[Start, Start.from_value, 'the condition for its start'] = field(
+        default_factory=Start
+    )
     traction: Annotated[
         float,
         Within(0.0, 10.0),

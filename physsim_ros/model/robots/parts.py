@@ -9,7 +9,7 @@ robot's body, as all is where the joints are at 0.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Annotated, Any, Self
 
 from physsim_ros.model.checks import HEAVIEST, LIGHTEST, OfClass, point_list, Within
@@ -17,7 +17,8 @@ from physsim_ros.model.colors import Color, color_value
 from physsim_ros.model.declarations import check_key, Checked, entry_of
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.joints import JointKind, JointProperties, kind_from
-from physsim_ros.model.robots.part_names import BASE, check_part
+from physsim_ros.model.names import WORLD
+from physsim_ros.model.robots.part_names import BASE, check_part, part_name
 from physsim_ros.model.robots.sensors.sensor import mounting
 from physsim_ros.model.shapes import LARGEST, Shape, SHAPES, SMALLEST
 from physsim_ros.model.transform import ORIGIN, Point, Pose
@@ -116,7 +117,10 @@ class LinkJoint(Checked):
         'one or two, as the kind requires, where the joints are at 0',
     ]
     properties: Annotated[
-        JointProperties, OfClass(JointProperties), 'those of the kind, as keys'
+        JointProperties,
+        OfClass(JointProperties),
+        'those of the kind, as keys; names in `over` and `carrier` are those of links, `base` or '
+        '`world`',
     ] = field(default_factory=JointProperties)
 
     @classmethod
@@ -138,11 +142,29 @@ class LinkJoint(Checked):
         Checked.__post_init__(self)
         self.properties.check_kind(self.kind)
 
+    def properties_of(self, body: str) -> JointProperties:
+        """
+        Return its properties, with the names of bodies in the world.
+
+        :param body: name of the robot's body
+        """
+        properties = self.properties
+        over, carrier = properties.over, properties.carrier
+        if over is not None:
+            properties = replace(properties, over=tuple(_in_world(body, name) for name in over))
+        if carrier is not None:
+            properties = replace(properties, carrier=_in_world(body, carrier))
+        return properties
+
     def entry(self) -> dict[str, Any]:
         """Return the mapping that `from_mapping` makes it of."""
         values = {'name': self.name, 'kind': str(self.kind), 'a': self.a, 'b': self.b}
         points = [list(point) for point in self.points]
         return {**values, 'points': points, **self.properties.explicit()}
+
+
+def _in_world(body: str, name: str) -> str:
+    return WORLD if name == WORLD else part_name(body, name)
 
 
 def check_tree(links: tuple[Link, ...], joints: tuple[LinkJoint, ...]) -> None:
@@ -159,7 +181,8 @@ def check_tree(links: tuple[Link, ...], joints: tuple[LinkJoint, ...]) -> None:
             raise BadProperty(f'two {noun} of a robot have the name {twice[0]}', field=noun)
     hangs: dict[str, str] = {}
     for joint in joints:
-        for end in (joint.a, joint.b):
+        guides = (name for name in joint.properties.guides if name != WORLD)
+        for end in (joint.a, joint.b, *guides):
             if end not in (BASE, *names):
                 raise BadProperty(
                     f'joint {joint.name} names a link {end}; there are '

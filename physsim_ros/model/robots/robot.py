@@ -18,7 +18,7 @@ from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.drives import Drive, drive_from
 from physsim_ros.model.robots.part_names import BASE, part_name
 from physsim_ros.model.robots.parts import check_tree, Link, LinkJoint, TREE_KINDS
-from physsim_ros.model.robots.sensors import Sensor, sensor_from
+from physsim_ros.model.robots.sensors import Sensor, sensor_from, topic_name
 from physsim_ros.model.transform import ORIGIN, Point, Pose
 
 
@@ -42,8 +42,8 @@ class Odometry(Checked):
     ] = (0.0, 0.0)
 
 
-# Names of topics that every robot has.
-OWN_TOPICS = ('cmd_vel', 'odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
+# Names of topics that every robot has beside that of its commands.
+OWN_TOPICS = ('odom', 'ground_truth', 'robot_description', 'tf', 'tf_static')
 # Those of a robot whose joints have motors.
 JOINT_TOPICS = (
     'joint_command',
@@ -119,6 +119,10 @@ class Robot(Checked):
         'Robots of a world must differ in namespaces, topics and frames (a sensor `x/odom` in '
         '`tb` and a robot in `tb/x` collide)',
     ] = None
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    command_topic: Annotated[
+        str, topic_name, 'of the commands of its drive, below its namespace, as `drive`'
+    ] = field(default='cmd_vel', repr=False)
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)
@@ -158,7 +162,12 @@ class Robot(Checked):
     @property
     def _topics(self) -> tuple[str, ...]:
         commands = JOINT_TOPICS if self.motors else ()
-        return *OWN_TOPICS, *commands, *(sensor.name for sensor in self.sensors)
+        return (
+            self.command_topic,
+            *OWN_TOPICS,
+            *commands,
+            *(sensor.name for sensor in self.sensors),
+        )
 
     def namespace_of(self, body: str) -> str:
         """

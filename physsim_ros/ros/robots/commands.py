@@ -51,7 +51,7 @@ class Commands(CommandTopic):
     The commands of a robot.
 
     :param node: that subscribes
-    :param topic: `cmd_vel` below its namespace
+    :param topic: of its commands, below its namespace
     :param body: its name
     :param drive: that obeys them
     :param refuse: reports what publishers cannot be heard; takes the refusal and the topic

@@ -16,13 +16,15 @@ import math
 from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time as TimeMessage
-from geometry_msgs.msg import Vector3
+from geometry_msgs.msg import Point, PoseArray, Vector3
+from geometry_msgs.msg import Pose as PoseMessage
 from nav_msgs.msg import Odometry
 from physsim_ros.model.robots.sensors import (
     Bumper,
     FloorEye,
     Gps,
     Imu,
+    Landmarks,
     Laser,
     RangeFinder,
     Sensor,
@@ -42,6 +44,12 @@ from std_msgs.msg import Bool
 LEAST_VARIANCE = 1e-9
 # Variance of what a planar robot does not measure, as other robots tell it.
 _UNKNOWN = 1e6
+# By the key `status` of a receiver that has a fix.
+_STATUSES = {
+    'fix': NavSatStatus.STATUS_FIX,
+    'sbas': NavSatStatus.STATUS_SBAS_FIX,
+    'gbas': NavSatStatus.STATUS_GBAS_FIX,
+}
 # Places in a covariance of 6 × 6: of the variances of x, y and yaw; of those of the other parts;
 # of xx, xy, yy, x yaw, y yaw, yaw yaw, above and below the diagonal.
 _PLANAR, _OTHERS = (0, 7, 35), (14, 21, 28)
@@ -124,6 +132,16 @@ def range_message(view: StampedView, row: int, finder: RangeFinder) -> Range:
     )
 
 
+def landmarks_message(view: StampedView, row: int, finder: Landmarks) -> PoseArray:
+    """Return a pose for each landmark, in the frame of the sensor; NaN where it is unseen."""
+    readings = read_sensor(view, row, finder)
+    points = (
+        Point(x=distance * math.cos(bearing), y=distance * math.sin(bearing))
+        for distance, bearing in readings.tolist()
+    )
+    return PoseArray(poses=[PoseMessage(position=point) for point in points])
+
+
 def bumper_message(view: StampedView, row: int, bumper: Bumper) -> Bool:
     """Return the reading of a bumper."""
     return Bool(data=read_sensor(view, row, bumper))
@@ -179,7 +197,7 @@ def fix_message(view: StampedView, row: int, gps: Gps) -> NavSatFix:
             altitude=math.nan,
         )
     message = NavSatFix(
-        status=NavSatStatus(status=NavSatStatus.STATUS_FIX, service=NavSatStatus.SERVICE_GPS),
+        status=NavSatStatus(status=_STATUSES[gps.status], service=NavSatStatus.SERVICE_GPS),
         latitude=fix.latitude,
         longitude=fix.longitude,
         altitude=fix.altitude,
@@ -208,6 +226,7 @@ class Reading(NamedTuple):
 READINGS: dict[type[Sensor], Reading] = {
     Laser: Reading(LaserScan, scan_message),
     RangeFinder: Reading(Range, range_message),
+    Landmarks: Reading(PoseArray, landmarks_message),
     Bumper: Reading(Bool, bumper_message, stamped=False),
     Imu: Reading(ImuMessage, imu_message),
     WheelEncoders: Reading(JointState, wheels_message),

@@ -136,7 +136,7 @@ class RobotTopics:
         self._described: object = None
         self.commands: Commands | None = None
         if robot.drive is not None:
-            topic = f'{self._below}cmd_vel'
+            topic = f'{self._below}{robot.command_topic}'
             self.commands = Commands(node, topic, body, robot.drive, refuse, expected=expected)
         self._motors = motor_topics(node, self._below, body, robot, refuse)
 

@@ -51,7 +51,7 @@ def parts_of(spawn: Spawn) -> tuple[list[Spawn], list[Join]]:
             points=tuple(local_to_world(point, spawn.pose) for point in joint.points),
             a=part_name(spawn.name, joint.a),
             b=part_name(spawn.name, joint.b),
-            properties=joint.properties,
+            properties=joint.properties_of(spawn.name),
         )
         for joint in robot.joints
     ]

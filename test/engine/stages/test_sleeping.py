@@ -264,3 +264,32 @@ def test_a_robot_that_sleeps_starts_alike_whatever_else_is_asked_in_its_step():
 
     assert pose(alone, 'tb/0').tobytes() == pose(beside, 'tb/0').tobytes()
     assert twist(alone, 'tb/0')[0] > 0.0
+
+
+def struck(on_floor: bool, mass: float) -> World:
+    """Return a world in which a disc comes to another one, which sleeps after half a second."""
+    top = {'gravity': (0.0, 0.0), 'floor_friction': 0.1}
+    world = World(settings=WorldSettings(**top) if on_floor else YARD)
+    spawn(world, 'disc/0', DISC, (0.0, 0.5, 0.0))
+    rolling = {'velocity': (2.5, 0.0), 'spin': -5.0}
+    spawn(world, 'ball/0', DISC, (-2.8, 0.5, 0.0), mass=mass, **rolling)
+    return world
+
+
+# kg; the light disc wakes the other one without making it too fast for sleep
+@pytest.mark.parametrize('mass', [1.0, 1e-4])
+@pytest.mark.parametrize('on_floor', [False, True])
+def test_a_call_of_many_steps_gives_the_bits_of_calls_of_single_ones(on_floor, mass):
+    singly, asleep = struck(on_floor, mass), []
+    for steps in range(1, 480):
+        singly.step(1)
+        asleep.append('disc/0' in sleepers(singly))
+        if steps % 30 == 0:
+            at_once = struck(on_floor, mass)
+            at_once.step(steps)
+            assert sleepers(at_once) == sleepers(singly)
+            assert at_once.digest() == singly.digest()
+
+    # It falls asleep, wakes and falls asleep again.
+    changes = [each for each, before in zip(asleep[1:], asleep, strict=False) if each != before]
+    assert changes[:2] == [True, False]

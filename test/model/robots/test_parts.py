@@ -13,6 +13,9 @@ from ...building import refusal
 LINK = {'name': 'a', 'box': {'width': 0.1, 'height': 0.1}}
 JOINT = {'name': 'j', 'kind': 'axle', 'a': 'a', 'points': [[0.0, 0.0]]}
 SPRING = {**JOINT, 'name': 's', 'kind': 'spring', 'points': [[0.0, 0.0], [0.1, 0.0]]}
+SLIDER = {**SPRING, 'kind': 'slider'}
+ROPE = {**SPRING, 'name': 'r', 'kind': 'rope', 'points': [[0.0, 0.0], [0.0, 1.0], [0.1, 0.0]]}
+GEAR = {**JOINT, 'name': 'g', 'kind': 'gear', 'ratio': 2.0}
 
 
 @pytest.mark.parametrize(
@@ -32,6 +35,9 @@ SPRING = {**JOINT, 'name': 's', 'kind': 'spring', 'points': [[0.0, 0.0], [0.1, 0
         ([LINK], [{**JOINT, 'rest_length': 3}], UnknownProperty, 'rest_length'),
         ([LINK], [{**JOINT, 'kind': 'hook'}], BadProperty, 'kind'),
         ([LINK], [{**JOINT, 'effort': -1}], BadProperty, 'effort'),
+        ([LINK], [{**SLIDER, 'effort': 3, 'rate': 1}], BadProperty, 'effort'),
+        ([LINK], [JOINT, {**ROPE, 'over': ['crate/0']}], BadProperty, 'joints'),
+        ([LINK], [JOINT, {**GEAR, 'carrier': 'arm/0/a/0'}], BadProperty, 'joints'),
     ],
 )
 def test_parts_that_are_no_tree_are_refused(links, joints, error, field):

@@ -94,6 +94,20 @@ def test_wheels_do_not_slip_where_they_stand(drive):
     assert {abs(each) for each in turn.values()} == {0.2}
 
 
+@pytest.mark.parametrize('topic', ['odom', 'base_link', '', '/drive', 'a b', 7])
+def test_commands_have_no_topic_that_is_taken_or_that_ros_does_not_allow(topic):
+    with pytest.raises(BadProperty):
+        Robot.from_mapping({'drive': DRIVE, 'command_topic': topic})
+    free = Robot.from_mapping(
+        {
+            'drive': DRIVE,
+            'command_topic': 'drive',
+            'sensors': [{'kind': 'imu', 'name': 'cmd_vel'}],
+        }
+    )
+    assert free.names_below('tb')[0] == 'tb/drive'
+
+
 @pytest.mark.parametrize('name', ['odom', 'cmd_vel', 'tf', 'tf_static', 'base_link'])
 def test_a_sensor_has_no_name_of_a_topic_or_frame_of_each_robot(name):
     with pytest.raises(BadProperty, match=name) as caught:

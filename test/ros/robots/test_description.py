@@ -12,6 +12,7 @@ from physsim_ros.model.shapes import Box, Chain, Compound, Disc, Shape
 from physsim_ros.ros.robots.frames import RobotFrames, RobotTf, urdf_of
 from physsim_ros.testing import PhysSim
 import pytest
+from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
 from ...building import ELL, spawn
@@ -86,3 +87,26 @@ def test_a_late_listener_has_the_description_and_a_change_of_shape_is_told(
     )
     flat.run(0.5)
     assert len(texts) == 1
+
+
+@pytest.mark.parametrize('robot', ['tractor', 'arm', 'gripper'])
+def test_every_joint_that_moves_has_a_state_within_its_limits(
+    flat: PhysSim, client: Client, robot: str
+) -> None:
+    # A robot_state_publisher places a link only where its joint has a state.
+    flat.robot(robot)
+    texts = client.listen(String, '/robot_0/robot_description', KEPT)
+    states = client.listen(JointState, '/robot_0/joint_states')
+    client.spin_until(lambda: texts)
+    flat.until(lambda: states)
+    urdf = ET.fromstring(texts[-1].data)  # noqa: S314 - it is ours
+    moving = [each for each in urdf.iterfind('joint') if each.get('type') != 'fixed']
+    positions = dict(zip(states[-1].name, states[-1].position, strict=True))
+    assert moving
+    for joint in moving:
+        assert joint.get('type') in ('revolute', 'continuous', 'prismatic')
+        limit = joint.find('limit')
+        position = positions[str(joint.get('name'))]
+        if joint.get('type') != 'continuous':
+            assert limit is not None
+            assert float(limit.get('lower', '')) <= position <= float(limit.get('upper', ''))

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 
-from geometry_msgs.msg import Twist, TwistStamped
+from geometry_msgs.msg import PoseArray, Twist, TwistStamped
 from nav_msgs.msg import Odometry
+from physsim_ros.ros.qos_safe_node import NodeWithoutQosEvents
 from physsim_ros.testing import box, delete, PhysSim
 import pytest
 from rosgraph_msgs.msg import Clock
@@ -67,11 +68,13 @@ def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> Non
         {'kind': 'range', 'name': 'sonar', 'radiation': 'sonar', 'rate': 20, 'noise': 0.01},
         {'kind': 'bumper', 'name': 'bumper', 'rate': 30},
         {'kind': 'imu', 'name': 'imu', 'rate': 60, 'gravity': 9.81},
-        {'kind': 'gps', 'rate': 5, 'noise': 0.5},
+        {'kind': 'gps', 'rate': 5, 'noise': 0.5, 'status': 'gbas'},
+        {'kind': 'landmarks', 'name': 'beacons', 'bodies': ['post/0', 'gone/0'], 'rate': 12},
         {'kind': 'joint_states', 'name': 'joint_states', 'rate': 30},
         {'kind': 'floor', 'name': 'eye', 'pixels': 5, 'rate': 15},
     ]
     robot = flat.robot({'from': 'turtlebot3_burger', 'sensors': sensors}, name='tb3/0')
+    flat.spawn(box('post/0', at=(0.0, 3.0), size=(0.2, 0.2), anchored=True))
     kinds = {
         'odom': (Odometry, 30),
         'ground_truth': (Odometry, 60),
@@ -82,6 +85,7 @@ def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> Non
         'fix': (NavSatFix, 5),
         'joint_states': (JointState, 30),
         'eye': (Image, 15),
+        'beacons': (PoseArray, 12),
     }
     messages = {
         topic: client.listen(kind, f'/tb3_0/{topic}') for topic, (kind, _) in kinds.items()
@@ -94,13 +98,18 @@ def test_every_topic_has_its_type_and_rate(flat: PhysSim, client: Client) -> Non
     assert len(messages['eye'][0].data) == 15
     assert messages['sonar'][0].variance == pytest.approx(0.01**2)
     assert messages['imu'][-1].linear_acceleration.z == 9.81
+    post, gone = (pose.position for pose in messages['beacons'][0].poses)
+    assert messages['beacons'][0].header.frame_id == 'tb3_0/beacons'
+    assert (post.x, post.y) == pytest.approx((0.0, 3.0), abs=0.1)
+    assert math.isnan(gone.x)
+    assert math.isnan(gone.y)
     # There is no datum.
     assert messages['fix'][-1].status.status == -1
     assert math.isnan(messages['fix'][-1].latitude)
     set_parameter(flat, 'datum', [48.0, 11.5])
     flat.run(1.0)
     fix = messages['fix'][-1]
-    assert (fix.status.status, fix.position_covariance[0]) == (0, 0.25)
+    assert (fix.status.status, fix.position_covariance[0]) == (2, 0.25)
     assert (fix.latitude, fix.longitude) == pytest.approx((48.0, 11.5), abs=1e-4)
     odom = messages['odom'][-1]
     assert (odom.header.frame_id, odom.child_frame_id) == ('tb3_0/odom', 'tb3_0/base_footprint')
@@ -206,3 +215,19 @@ def test_the_covariance_of_the_twist_is_that_of_its_speed(flat: PhysSim) -> None
     odometry = robot.odom()
     assert max(odometry.twist.covariance[0], odometry.twist.covariance[35]) <= 1e-9
     assert odometry.pose.covariance[0] > 1e-5
+
+
+def test_a_robot_obeys_the_topic_of_its_key_and_no_other(flat: PhysSim) -> None:
+    robot = flat.robot(
+        {'from': 'turtlebot3_burger', 'namespace': '', 'command_topic': 'base/command'}
+    )
+    topics = [f'/{topic}' for topic in ('cmd_vel', 'base/command')]
+    node = NodeWithoutQosEvents('commander', context=flat.context)
+    for topic, speed in zip(topics, (0.0, 0.2), strict=True):
+        publisher = node.create_publisher(Twist, topic, 10)
+        flat.add(node)
+        command = Twist()
+        command.linear.x = 0.2
+        publisher.publish(command)
+        flat.run(0.4)
+        assert robot.truth().twist.twist.linear.x == pytest.approx(speed, abs=1e-6)

@@ -11,13 +11,19 @@ new kind is a class and a member of `SENSORS`. Start with `sensor`, then `distan
 from __future__ import annotations
 
 from physsim_ros.model.declarations import OfKind
-from physsim_ros.model.robots.sensors.distance import Laser, MOST_BEAMS, RangeFinder
+from physsim_ros.model.robots.sensors.distance import (
+    Landmarks,
+    Laser,
+    MOST_BEAMS,
+    RangeFinder,
+)
 from physsim_ros.model.robots.sensors.motion import Bumper, FloorEye, Gps, Imu, WheelEncoders
-from physsim_ros.model.robots.sensors.sensor import angles, LEAST_INCREMENT, Sensor
+from physsim_ros.model.robots.sensors.sensor import angles, LEAST_INCREMENT, Sensor, topic_name
 
 # By the word for it.
 SENSORS: dict[str, type[Sensor]] = {
-    each.KIND: each for each in (Laser, RangeFinder, Bumper, Imu, WheelEncoders, FloorEye, Gps)
+    each.KIND: each
+    for each in (Laser, RangeFinder, Landmarks, Bumper, Imu, WheelEncoders, FloorEye, Gps)
 }
 
 
@@ -32,6 +38,7 @@ sensor_from = OfKind(
         'imu': ('gyro', 'gyroscope', 'accelerometer'),
         'joint_states': ('encoder', 'encoders', 'wheel_encoders', 'wheels'),
         'floor': ('line', 'line_sensor', 'camera', 'color', 'photodiodes'),
+        'landmarks': ('beacons', 'fiducials', 'markers', 'apriltag', 'aruco'),
         'gps': ('gnss', 'navsat', 'fix'),
     },
 )
@@ -44,10 +51,12 @@ __all__ = [
     'FloorEye',
     'Gps',
     'Imu',
+    'Landmarks',
     'Laser',
     'RangeFinder',
     'Sensor',
     'WheelEncoders',
     'angles',
     'sensor_from',
+    'topic_name',
 ]

@@ -2,16 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 
 """
-Sensors of distances, at equal angles or the nearest one in a cone.
+Sensors of distances: at equal angles, the nearest one in a cone, or of landmarks.
 
-Their messages are `sensor_msgs/LaserScan` and `sensor_msgs/Range`.
+Their messages are `sensor_msgs/LaserScan`, `sensor_msgs/Range` and `geometry_msgs/PoseArray`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import OneOf, Whole, Within
+from physsim_ros.model.checks import ListOf, OneOf, Row, text, Whole, Within
 from physsim_ros.model.errors import BadProperty
 from physsim_ros.model.robots.sensors.sensor import (
     angles,
@@ -24,6 +24,8 @@ from physsim_ros.model.transform import Point
 
 # Greatest number of beams: ten times as many as real scanners have; some 3 ms a scan.
 MOST_BEAMS = 10_000
+# Greatest number of blind sectors of a laser, and of bodies that are landmarks.
+_MOST_SECTORS, _MOST_LANDMARKS = 64, 1000
 # Spans that differ from a full turn by less are one [rad]: 6.2832, but not the 6.28 of 360 beams
 # with a gap.
 _FULL = 1e-3
@@ -51,6 +53,13 @@ class Laser(Sensor):
         Point, distances, 'least and greatest distance: nearer is -inf, further +inf (REP 117) [m]'
     ] = (0.1, 10.0)
     noise: Annotated[float, LENGTH, 'standard deviation of a distance'] = 0.0
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    blind: Annotated[
+        tuple[Point, ...],
+        ListOf(angles, 'pairs of angles', _MOST_SECTORS),
+        'sectors that a mast or a cover hides, a list of first and last angles, as of `angle` '
+        '[rad]; their beams are NaN (REP 117)',
+    ] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         # `super()` without arguments has no class there: a dataclass with slots is made anew.
@@ -112,3 +121,35 @@ class RangeFinder(Sensor):
             raise BadProperty(
                 f'{self.rays} rays in a cone of {self.cone:g} rad are too close', field='cone'
             )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Landmarks(Sensor):
+    """
+    A finder of landmarks: range and bearing of bodies that it knows by their names.
+
+    It sees a body whose origin is in its field of view, where nothing hides all of that body on
+    the line of sight.
+    """
+
+    KIND: ClassVar = 'landmarks'
+
+    name: str = 'landmarks'
+    bodies: Annotated[
+        tuple[str, ...],
+        ListOf(text, 'names', _MOST_LANDMARKS),
+        'names of the bodies that are landmarks; the number of one in this list is its place in '
+        'the message',
+    ] = ()
+    angle: Annotated[Point, angles, 'its field of view, as of a laser [rad]'] = (
+        -math.pi,
+        math.pi,
+    )
+    range: Annotated[  # noqa: A003 - a word of the interface
+        Point, distances, 'least and greatest distance that it measures [m]'
+    ] = (0.0, 10.0)
+    noise: Annotated[
+        Point,
+        Row((LENGTH, Within(0.0, math.pi, 'rad'))),
+        'standard deviations of range [m] and bearing [rad]',
+    ] = (0.0, 0.0)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import math
 from typing import Annotated, ClassVar
 
-from physsim_ros.model.checks import FASTEST, Row, Whole, Within
+from physsim_ros.model.checks import FASTEST, OneOf, Row, Whole, Within
 from physsim_ros.model.robots.sensors.sensor import FULL_TURN, LENGTH, Sensor
 from physsim_ros.model.transform import Point
 
@@ -59,6 +59,13 @@ class Gps(Sensor):
     name: str = 'fix'
     rate: float = 5.0
     noise: Annotated[float, LENGTH, 'standard deviation to the east, and to the north'] = 0.0
+    # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
+    status: Annotated[
+        str,
+        OneOf(('none', 'fix', 'sbas', 'gbas')),
+        'of its fixes: without augmentation, by satellites, from the ground (RTK); `none` has no '
+        'position',
+    ] = field(default='fix', repr=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

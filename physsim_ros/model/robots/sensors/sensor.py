@@ -33,7 +33,13 @@ _COORDINATE = Within(-LARGEST, LARGEST, 'm')
 _ANGLE = Within(-_FARTHEST_ROUND, _FARTHEST_ROUND, 'rad')
 
 
-def _topic(value: object, name: str) -> str:
+def topic_name(value: object, name: str) -> str:
+    """
+    Return the name of a topic below the namespace of a robot.
+
+    :param name: of the field, for the refusal
+    :raises BadProperty: ROS does not allow it
+    """
     if not isinstance(value, str):
         raise BadProperty(f'{name} must be text, not {shown(value)}', field=name)
     if len(value) > _LONGEST or not _TOPIC.fullmatch(value):
@@ -101,7 +107,7 @@ class Sensor(Checked, ABC):
     :raises BadProperty: a value is of the wrong kind or out of range
     """
 
-    name: Annotated[str, _topic, 'of its topic, below the namespace of the robot']
+    name: Annotated[str, topic_name, 'of its topic, below the namespace of the robot']
     at: Annotated[Pose, mounting, 'x, y [m], yaw [rad] in the frame of its link'] = ORIGIN
     rate: Annotated[float, Within(0.01, 1000.0, 'Hz'), 'readings a second of simulation time'] = (
         10.0
