@@ -23,7 +23,7 @@ from physsim_ros.drawing.strokes.meanings import Context
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.names import WORLD
 from physsim_ros.model.shapes import Capsule, Chain, Circle, Convex, Disc, Piece
-from physsim_ros.model.transform import cross, norms, Point
+from physsim_ros.model.transform import norms, Point
 
 # The least share of a circle on a second body, across whose edge it was drawn.
 _ACROSS = 0.25
@@ -105,9 +105,9 @@ def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
         if not len(beside) or beside[0] == 0 or beside[-1] == len(points) - 1:
             continue
         before, after = beside[0] - 1, beside[-1] + 1
-        angles = np.unwrap(np.arctan2(*away[before : after + 1].T[::-1]))
-        way_in, way_out = points[before + 1] - points[before], points[after] - points[after - 1]
-        bend = abs(math.atan2(cross(way_in, way_out), way_in @ way_out))
+        angles = np.unwrap([math.atan2(y, x) for x, y in away[before : after + 1].tolist()])
+        (ux, uy), (vx, vy) = (points[each + 1] - points[each] for each in (before, after - 1))
+        bend = abs(math.atan2(ux * vy - uy * vx, ux * vx + uy * vy))
         if abs(angles[-1] - angles[0]) > _AROUND and bend > _BEND:
             found.append((int(beside[len(beside) // 2]), name))
     return [(name, point_of(points[at])) for at, name in sorted(found)]

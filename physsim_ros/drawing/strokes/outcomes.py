@@ -108,7 +108,8 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
         )
     first, last = ends
     name = context.scene.next_joint()
-    line, message = (first.point, last.point), f'{kind.phrase} from {first.body} to {last.body}'
+    line: tuple[Point, ...] = (first.point, last.point)
+    message = f'{kind.phrase} from {first.body} to {last.body}'
     properties = JointProperties()
     if kind is JointKind.ROPE and (passed := _wheels_between(first, last, points, context)):
         names = tuple(wheel for wheel, _ in passed)
@@ -117,7 +118,8 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
         message += f' over {", ".join(names)}'
     elif kind is JointKind.ROPE:
         # A rope is as long as it was drawn.
-        properties = JointProperties(length=max(context.drawn.length, math.dist(*line)))
+        straight = math.dist(first.point, last.point)
+        properties = JointProperties(length=max(context.drawn.length, straight))
     request = Join(
         name=name, kind=kind, points=line, a=first.body, b=last.body, properties=properties
     )
