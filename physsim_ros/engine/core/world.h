@@ -27,6 +27,7 @@ typedef struct Private {
     int *jointed;
     int jointed_count;
     double kept;        // share of its velocity that a body keeps in a step
+    double push;        // rate at which an overlap is pushed out [1/s]
     double least_depth; // least safe depth of a body [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
@@ -131,6 +132,9 @@ static inline int arbiter_count(const World *world) {
 static inline cpArbiter *arbiter_at(const World *world, int number) {
     return world->space->arbiters->arr[number];
 }
+
+// `qsort`, which in GNU's library takes time and memory for an empty list, too.
+void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *));
 
 // The root of a set of bodies (union-find with path halving; Tarjan and van Leeuwen, "Worst-Case Analysis of Set Union
 // Algorithms", JACM 1984); the least of a set is its root.
