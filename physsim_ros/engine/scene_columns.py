@@ -23,6 +23,7 @@ from physsim_ros.model.names import WORLD
 from physsim_ros.model.scene import Body, Joint, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Chain, Convex, Form, hull_of, lever_of
+from physsim_ros.model.transform import Point
 
 _BODY, _ROBOT, _ACTOR = dtype_of('Body'), dtype_of('Robot'), dtype_of('Actor')
 _FORCE, _REGION = dtype_of('AppliedForce'), dtype_of('Region')
@@ -151,12 +152,21 @@ def _body_records(scene: Scene, rows: dict[str, int]) -> Table:
         own[row]['lever'] = lever_of(forms[row]) if wheels is None else wheels.lever
     own['towed'] = [body.towed is not None for body in bodies]
     own['belt'] = [body.belt for body in bodies]
+    own['one_way'][:] = [_unit(body.one_way) for body in bodies] or np.empty((0, 2))
+    own['closed_sides'] = [body.closed_sides for body in bodies]
+    own['rolling'] = [body.rolling_resistance for body in bodies]
     own['surface'][:] = [body.surface_velocity for body in bodies] or np.empty((0, 2))
     # The background has no inner radius: what meets its walls counts alone.
     records[-1]['anchored'], records[-1]['safe_depth'] = True, math.inf
     records[-1]['slop'] = COLLISION_SLOP
     _mark_sprung(records, scene.joints, rows)
     return records
+
+
+def _unit(direction: Point) -> Point:
+    """Return a vector of length 1, or 0 of none."""
+    length = math.hypot(*direction)
+    return (direction[0] / length, direction[1] / length) if length else (0.0, 0.0)
 
 
 def _safe_depth(body: Body) -> float:

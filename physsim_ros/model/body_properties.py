@@ -18,6 +18,7 @@ from physsim_ros.model.checks import (
     HEAVIEST,
     LIGHTEST,
     shown,
+    Vector,
     VELOCITY,
     Within,
 )
@@ -101,6 +102,21 @@ class Properties(Checked):
         'velocity of its surface along its outline, counter-clockwise, like a conveyor belt seen '
         'from the side',
     ] = None
+    rolling_resistance: Annotated[
+        float | None,
+        Within(0.0, 10.0),
+        'coefficient c: a force of c times the load resists a rolling disc at its rim; of the '
+        'disc and the body below it, the greater c counts',
+    ] = None
+    one_way: Annotated[
+        Point | None,
+        Vector(1000.0, '', 'longer'),
+        'direction, in the axes of the body, in which others pass through it; it stops those that '
+        'come the other way: `[0, 1]` is a platform',
+    ] = None
+    closed_sides: Annotated[bool | None, flag, 'a one-way body also stops others at its sides'] = (
+        None
+    )
     robot: Annotated[
         Robot | None,
         Robot.from_value,

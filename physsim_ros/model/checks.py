@@ -228,7 +228,7 @@ class Vector:
     @property
     def span(self) -> str:
         """Return the range with its unit, as `up to 100000 m/s`."""
-        return f'up to {brief(self.longest)} {self.unit}'
+        return f'up to {brief(self.longest)} {self.unit}'.rstrip()
 
     def __call__(self, value: object, name: str) -> Point:
         """
@@ -240,7 +240,7 @@ class Vector:
         vector = pair(value, name)
         if math.hypot(*vector) > self.longest:
             raise BadProperty(
-                f'{name} is {self.beyond} than {self.longest:g} {self.unit}', field=name
+                f'{name} is {self.beyond} than {self.longest:g} {self.unit}'.rstrip(), field=name
             )
         return vector
 

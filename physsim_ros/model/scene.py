@@ -66,6 +66,9 @@ class Body:
     # Not part of the text, which every digest has, since few bodies have them.
     surface_velocity: Point = field(default=(0.0, 0.0), repr=False)
     belt: float = field(default=0.0, repr=False)
+    rolling_resistance: float = field(default=0.0, repr=False)
+    one_way: Point = field(default=(0.0, 0.0), repr=False)
+    closed_sides: bool = field(default=False, repr=False)
     robot: Robot | None = field(default=None, repr=False)
     towed: Towed | None = field(default=None, repr=False)
     label: str = field(default='', repr=False)

@@ -46,6 +46,9 @@ class BodyProperties(TypedDict, total=False):
     sensor: bool
     surface_velocity: Numbers
     belt: float
+    rolling_resistance: float
+    one_way: Numbers
+    closed_sides: bool
     robot: str | Mapping[str, Any]
     towed: bool
     actor: Mapping[str, Any]

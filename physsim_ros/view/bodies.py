@@ -177,8 +177,10 @@ def sampling_period(count: int) -> int:
 def _appearance(body: Body) -> Hashable:
     """Return a key that is equal for bodies that share a mesh."""
     shape: Hashable = body.shape
-    # Arrows of a flow are not scaled with their region.
-    flow = None if body.medium is None else body.medium.flow
+    # Arrows are not scaled with their body.
+    flow = body.one_way if any(body.one_way) else None
+    if body.medium is not None:
+        flow = body.medium.flow
     match body.shape:
         case Disc(radius=radius) if flow is None:
             shape = _size_class(radius)

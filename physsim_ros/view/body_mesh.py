@@ -5,7 +5,8 @@
 The mesh of a body: filled, with a darker outline and symbols of its properties.
 
 A free disc has a radius as its turning mark, an anchored body an anchor, a kinematic body a wide
-outline, and a sensor is translucent. A region of a medium has arrows along its flow.
+outline, and a sensor is translucent. A region of a medium has arrows along its flow,
+and a one-way body one in the direction in which others pass it.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from itertools import pairwise
 import math
 
 import numpy as np
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.colors import Color, is_bright
 from physsim_ros.model.scene import Body
 from physsim_ros.model.shapes import (
@@ -79,9 +81,20 @@ def body_mesh(body: Body, unit: float) -> Mesh:
             _add_piece(builder, piece, 0.0, edge)
         for piece in form.pieces:
             _add_piece(builder, piece, width, color)
+    _add_symbol(builder, body, unit, ink, edge)
+    return builder.mesh()
+
+
+def _add_symbol(builder: MeshBuilder, body: Body, unit: float, ink: Color, edge: Color) -> None:
+    """Add the symbol of what a body is: arrows, an anchor, a turning mark."""
+    form = body.shape.form
     if body.medium is not None:
         if any(body.medium.flow):
             _add_flow(builder, form, body.medium.flow, unit, edge)
+    elif any(body.one_way):
+        half = _FLOW_ARROW * _FLOW_GAP * unit / math.hypot(*body.one_way)
+        ahead = half * np.array(body.one_way)
+        _add_arrow(builder, *_arrow(ahead) + form.centroid, half=_MARK * unit, color=ink)
     elif body.anchored:
         middle = min(map(_middle, form.pieces), key=lambda at: math.dist(at, form.centroid))
         _add_anchor(builder, middle, min(_ANCHOR_SHARE * form.inner, _ANCHOR * unit), ink)
@@ -90,7 +103,6 @@ def body_mesh(body: Body, unit: float) -> Mesh:
         half = min(_MARK * unit, _MARK_SHARE * radius)
         corners = ((0.0, -half), (0.9 * radius, -half), (0.9 * radius, half), (0.0, half))
         builder.add_convex(corners, ink)
-    return builder.mesh()
 
 
 def _add_piece(builder: MeshBuilder, piece: Piece, margin: float, color: Color) -> None:
@@ -162,13 +174,25 @@ def _add_flow(builder: MeshBuilder, form: Form, flow: Point, unit: float, color:
     gap = max(_FLOW_GAP * unit, _FLOW_SHARE * form.outer)
     half, count = _FLOW_ARROW * gap, math.ceil(form.outer / gap)
     ahead = half * np.array(flow) / math.hypot(*flow)
-    aside = np.array((-ahead[1], ahead[0]))
-    barbs = ahead / 3 + aside / 2, ahead / 3 - aside / 2
     steps = gap * np.arange(-count, count + 1)
     centers = np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2) + form.centroid
-    corners = np.stack([centers + each for each in (-ahead, ahead, *barbs)], axis=1)
+    corners = centers[:, None] + _arrow(ahead)
     inside = contains_each(form, *corners.reshape(-1, 2).T).reshape(-1, 4).all(axis=1)
-    for arrow in corners[inside].tolist():
-        tail, tip, left, right = map(tuple, arrow)
-        builder.add_line((tail, tip), _MARK * unit, color)
-        builder.add_line((left, tip, right), _MARK * unit, color)
+    for arrow in corners[inside]:
+        _add_arrow(builder, *arrow, half=_MARK * unit, color=color)
+
+
+def _arrow(ahead: Floats) -> Floats:
+    """
+    Return tail, tip and the ends of the head of an arrow about the origin, (4, 2) float64.
+
+    :param ahead: its tip
+    """
+    aside = np.array((-ahead[1], ahead[0]))
+    return np.stack((-ahead, ahead, ahead / 3 + aside / 2, ahead / 3 - aside / 2))
+
+
+def _add_arrow(builder: MeshBuilder, *corners: Floats, half: float, color: Color) -> None:
+    tail, tip, left, right = (tuple(corner.tolist()) for corner in corners)
+    builder.add_line((tail, tip), half, color)
+    builder.add_line((left, tip, right), half, color)

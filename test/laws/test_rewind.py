@@ -210,6 +210,22 @@ def _actors():
     return sim, later
 
 
+def _platforms():
+    """Laws 75 and 76: what rises through one-way platforms, falls onto them and rolls to rest."""
+    sim = _simulation()
+    walls(sim, -4.0, 0.0, 4.0, 12.0)
+    for number in range(3):
+        said = {'anchored': True, 'one_way': (0.0, 1.0), 'closed_sides': number == 1}
+        pose = (number - 1.0, 1.0 + number, 0.1 * number)
+        spawn(sim, f'platform/{number}', Box(width=3.0, height=0.2), pose, **said)
+    shapes = (Disc(radius=0.2), Box(width=0.4, height=0.3), ELL)
+    for number in range(12):
+        said = {'velocity': (0.3 * (number % 3 - 1), 9.0), 'rolling_resistance': 0.05}
+        pose = (0.5 * number - 3.0, 0.4 + 0.02 * number, 0.0)
+        spawn(sim, f'thrown/{number}', shapes[number % 3], pose, **said)
+    return sim, {300: [Delete(name='platform/0')]}
+
+
 def _eventful():
     """Everything at once: bodies come and go, and the world itself is set otherwise."""
     sim = _simulation()
@@ -252,6 +268,7 @@ SCENES = {
     'anchored body': _anchored,
     'robots on a floor': _robots,
     'actors': _actors,
+    'one-way platforms': _platforms,
     'all kinds of requests': _eventful,
 }
 
@@ -317,7 +334,7 @@ class Player:
 
 
 # In the air, in contact, and with requests on the way.
-QUICK = ('projectiles', 'pairs that meet', 'all kinds of requests')
+QUICK = ('projectiles', 'pairs that meet', 'one-way platforms', 'all kinds of requests')
 
 
 @pytest.fixture(params=[name if name in QUICK else slow(name) for name in SCENES])

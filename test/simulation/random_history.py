@@ -190,7 +190,11 @@ def spawn_of(rng: Choices) -> requests.Spawn:
         case 1:
             said['density'] = rng.choice((0.1, 2.0, 1e3 if wild else 3.0))
         case 2:
-            said |= {'friction': 0.1, 'elasticity': 0.9}
+            said |= {'friction': 0.1, 'elasticity': 0.9, 'rolling_resistance': rng.random()}
+            said |= {
+                'one_way': rng.choice(((0.0, 1.0), (1.0, 0.0))),
+                'closed_sides': rng.random() < 0.5,
+            }
         case 3:
             said |= {'sensor': True, 'group': rng.randint(0, 1), 'label': 'gate'}
         case 4 if not anchored:

@@ -197,7 +197,10 @@ OF_DOCUMENTS = {
     # Fields of messages, names and parameters of Nav2.
     *('values.body', 'values.yaml', 'enable_stamped_cmd_vel', 'map_server'),
     *('controller_frequency', 'expected_update_rate', 'odom_frame_id'),
-    *('robot_base_frame', 'transform_tolerance', 'yaml_filename'),
+    *('robot_base_frame', 'base_frame_id', 'transform_tolerance', 'yaml_filename'),
+    *('bringup_launch.py', 'use_sim_time', 'slam', 'params_file', 'autostart', 'use_composition'),
+    *('amcl_node.cpp', 'costmap_2d_ros.cpp', 'laser_utils.cpp', 'odometry_utils.hpp'),
+    *('robot_utils.cpp', 'static_layer.cpp'),
     # Of simulation_interfaces, which the node does without.
     *('STATE_LOADING_WORLD', 'TYPE_CONVEX_HULL', 'fail_on_unsupported_element'),
     # Keys of the mapping `drive` of a robot.

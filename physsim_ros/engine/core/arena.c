@@ -15,7 +15,7 @@ typedef struct Block {
 } Block;
 
 void *arena_take(Arena *arena, size_t count, size_t size) {
-    assert(size > 0 && count <= SIZE_MAX / 2 / size); // a negative count is not
+    assert(size > 0 && size <= INT32_MAX && count <= INT32_MAX); // a negative count is not
     size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     void *piece = NULL;
     if (arena->used + bytes <= arena->size) {

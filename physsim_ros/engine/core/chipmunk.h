@@ -144,8 +144,16 @@ typedef struct cpSpace {
     cpArray *arbiters; // of the last step, those of sleeping bodies and of sensors excepted
 } cpSpace;
 
+// What Chipmunk calls of a kind of constraints, with the length of the step or the share of a cached impulse.
+typedef struct cpConstraintClass {
+    void (*preStep)(struct cpConstraint *, double);
+    void (*applyCachedImpulse)(struct cpConstraint *, double);
+    void (*applyImpulse)(struct cpConstraint *, double);
+    double (*getImpulse)(struct cpConstraint *);
+} cpConstraintClass;
+
 typedef struct cpConstraint {
-    void *klass;
+    cpConstraintClass *klass;
     void *space;
     cpBody *a, *b;
     struct cpConstraint *next_a, *next_b;

@@ -231,7 +231,10 @@ void report_contacts(World *world) {
         read_sleeping(world, report);
     }
     for (int number = 0; number < arbiter_count(world); number++) {
-        add_arbiter(world, report, arbiter_at(world, number));
+        // A contact that Chipmunk ignores is none.
+        if (arbiter_at(world, number)->data == NULL) {
+            add_arbiter(world, report, arbiter_at(world, number));
+        }
     }
     world->chipmunk.each_arbiter(world->space, add_overlap, world);
     find_crossings(world, add_crossing);
@@ -311,10 +314,8 @@ void core_take_contacts(World *world) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
         }
     }
-    qsort(world->contacts, (size_t)world->contact_count, sizeof(Contact), by_rows);
-    if (world->begun_count > 0) {
-        qsort(world->begun, (size_t)world->begun_count, sizeof(Begun), by_time_and_rows);
-    }
+    sort(world->contacts, world->contact_count, sizeof(Contact), by_rows);
+    sort(world->begun, world->begun_count, sizeof(Begun), by_time_and_rows);
     for (int number = 0; number < world->begun_count; number++) {
         Begun *begun = world->begun + number;
         begun->rows[1] = begun->rows[1] == world->body_count - 1 ? -1 : begun->rows[1];

@@ -88,6 +88,9 @@ typedef struct Body {
     double floor_friction; // coefficient of friction with the floor; 0 where none acts
     double lever;          // mean distance of the points that bear it on the floor [m]
     double belt;           // velocity of its surface along its outline, counter-clockwise [m/s]
+    double rolling;        // coefficient of rolling resistance
+    cpVect one_way;        // direction in its axes in which others pass it, of length 1; 0 is none
+    uint8_t closed_sides;  // others do not pass it across that direction
     cpVect surface;        // velocity of the surface of a conveyor, in the body's axes [m/s]
     BodyState state;
     BodyScratch scratch;

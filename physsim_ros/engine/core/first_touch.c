@@ -16,6 +16,7 @@
 // 1. False contacts: polygons whose normal points from the second to the first, and which a face separates (separating
 //    axis theorem; Ericson, "Real-Time Collision Detection", 5.2.1). Chipmunk ignores the contact in this step, and in
 //    the next one what it finds counts as a first touch.
+//    So are those of bodies that pass a one-way body (`one_way.c`).
 // 2. Impact (`touch_impact.c`): the contact gets the normal and the arms of the moment at which a disc first meets the
 //    other shape.
 // 3. Internal edges (`touch_edges.c`): a contact at a corner gets the normal of the face that the shapes slide over.
@@ -27,6 +28,7 @@
 // impact) and 35 (a fast bar hits all discs); without part 3 a body stumbles over seams
 // (`test/engine/stages/test_internal_edges.py`). Part 1 can go when GJK is exact.
 
+#include "one_way.h"
 #include "stages.h"
 #include "touch_stages.h"
 
@@ -78,7 +80,7 @@ void correct_first_touches(World *world) {
     int count = 0;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
-        if (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter)) {
+        if (passes(world, arbiter) || (has_stage(world, STAGE_FALSE_CONTACTS) && is_false(arbiter))) {
             ignore(arbiter);
         } else if (begins(arbiter)) {
             arbiter->data = NULL;
@@ -97,12 +99,11 @@ void correct_first_touches(World *world) {
     }
     world->own->begun = touches;
     world->own->begun_count = count;
-    double push = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
         if (arbiter->state == ARBITER_FIRST_COLLISION) {
             prepare_contact(arbiter);
         }
-        set_bias(arbiter, push);
+        set_bias(arbiter, world->own->push);
     }
 }

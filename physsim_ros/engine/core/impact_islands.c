@@ -10,8 +10,8 @@
 // Cost: `swept_boxes.c` bounds the pairs of a round, and `IMPACT_ROUNDS` the rounds.
 
 #include "impact_islands.h"
+#include "one_way.h"
 #include "time_of_impact.h"
-#include <stdlib.h>
 #include <string.h>
 
 // Greatest count of successive impacts of a body in a step, as in a row of bodies before a wall. Beyond it Chipmunk's
@@ -59,15 +59,22 @@ bool may_meet(const Body *a, const Body *b) {
            !(a->joined && b->joined && are_joined_apart(a->engine, b->engine));
 }
 
-// Whether two movers do not pass through each other, and are not one island yet.
-static bool collide(const Mover *one, const Mover *other) {
-    return (one->movable || other->movable) && (one->island != other->island || one->island < 0) &&
-           may_meet(one->body, other->body);
-}
-
 // The velocity of the centre of mass where a motion begins [m a step].
 static Vec center_rate(const Mover *mover) {
     return velocity_at(mover->rate, sub(mover->pose.p, mover->pivot));
+}
+
+// Whether one of two movers is one-way, and the other passes it.
+static bool pass(const Mover *one, const Mover *other) {
+    Vec way = sub(center_rate(other), center_rate(one));
+    return is_passed(one->body, one->pose, other->body, other->pose, way) ||
+           is_passed(other->body, other->pose, one->body, one->pose, negated(way));
+}
+
+// Whether two movers do not pass through each other, and are not one island yet.
+static bool collide(const Mover *one, const Mover *other) {
+    return (one->movable || other->movable) && (one->island != other->island || one->island < 0) &&
+           may_meet(one->body, other->body) && !pass(one, other);
 }
 
 // By how far two movers approach in the rest of the step, at most [m].
@@ -283,7 +290,7 @@ void join_impacts(Sweep *sweep, const int *fast, int count) {
         if (impacts.count == 0) {
             return;
         }
-        qsort(impacts.list, (size_t)impacts.count, sizeof(Impact), by_share);
+        sort(impacts.list, impacts.count, sizeof(Impact), by_share);
         count = resolve(sweep, &impacts, changed);
     }
 }

@@ -14,7 +14,6 @@
 #include "joint_islands.h"
 #include "joint_parts.h"
 #include "stages.h"
-#include <stdlib.h>
 
 // Points of a body that is touched, at most, for all of them to be rows: what bears more, as a platform full of boxes,
 // is as heavy as many of them, so that Chipmunk's iterations converge on it.
@@ -62,7 +61,8 @@ static void add_bearings(World *world, Touches *touches, const cpArbiter *arbite
                                                     .normal = arbiter->n,
                                                     .friction = arbiter->u,
                                                     .slide = dot(arbiter->surface_vr, tangent),
-                                                    .left = left};
+                                                    .left = left,
+                                                    .rolling = rolling_arm(arbiter)};
     }
 }
 
@@ -119,7 +119,8 @@ static Touches touches_of_jointed(World *world) {
         }
     }
     assert(touches.count <= most);
-    qsort(touches.list, (size_t)touches.count, sizeof(Bearing), compare_touches);
+    sort(touches.list, touches.count, sizeof(Bearing), compare_touches);
+    world->own->bearers = members.marks;
     return touches;
 }
 
@@ -187,12 +188,14 @@ static Islands split(World *world, Touches touches) {
     }
     for (int number = 0; number < touches.count; number++) {
         Bearing touch = touches.list[number];
-        found.islands[island_of(world, parents, numbers, touch.a, touch.b)].touch_count++;
+        Island *island = found.islands + island_of(world, parents, numbers, touch.a, touch.b);
+        island->touch_count++;
+        island->joint_row_count += touch.rolling > 0.0;
     }
     for (int number = 0; number < found.count; number++) {
         Island *island = found.islands + number;
         island->row_count = island->joint_row_count + 2 * island->touch_count;
-        island->joints = TAKE(arena, const Joint *, island->joint_count);
+        island->joints = TAKE(arena, const Joint *, island->joint_count + island->touch_count);
         island->touches = TAKE(arena, Bearing, island->touch_count);
         island->joint_count = island->touch_count = 0;
     }
@@ -265,6 +268,20 @@ static void take_impulse(const World *world, Island *island, int row) {
     island->closing[row] = of_joint->component == 0 ? &part->closing.x : &part->closing.y;
 }
 
+// Add the row of the rolling resistance of a contact, as that of a bearing with friction: `rolling.c` has its law.
+static void add_roll(World *world, Island *island, int row, int joint, Bearing *touch) {
+    Arena *arena = &world->own->arena;
+    Joint *of_row = TAKE(arena, Joint, 1);
+    of_row->ratio = 1.0;
+    touch->roll = TAKE(arena, Row, 1);
+    *touch->roll = (Row){.kind = ROW_ANGLE, .law = LAW_FRICTION, .below = 1.0, .above = 1.0};
+    island->joints[joint] = of_row;
+    island->rows[row] = touch->roll;
+    island->joint_of_row[row] = joint;
+    island->impulses[row] = TAKE(arena, double, 1);
+    island->closing[row] = TAKE(arena, double, 1);
+}
+
 // Number the bodies of an island, and the ends of its rows.
 static void lay_out(World *world, Island *island, int *numbers) {
     Arena *arena = &world->own->arena;
@@ -296,6 +313,16 @@ static void lay_out(World *world, Island *island, int *numbers) {
             group += each > 0 && island->rows[row]->guide_count > 0;
             link = lay_out_links(world, island, row, link, joint, numbers, places);
             island->groups[row] = group;
+        }
+    }
+    for (int number = 0, joint = island->joint_count; number < island->touch_count; number++) {
+        Bearing *touch = island->touches + number;
+        if (touch->rolling > 0.0) {
+            add_roll(world, island, row, joint++, touch);
+            island->ends[row] = (Ends){number_in(world, island, numbers, places, touch->a),
+                                       number_in(world, island, numbers, places, touch->b)};
+            island->further[row] = link;
+            island->groups[row++] = group++;
         }
     }
     for (int side = 0; side < 2; side++) {

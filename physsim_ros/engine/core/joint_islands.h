@@ -18,13 +18,15 @@ typedef struct Bearing {
     double slide;   // velocity across the normal of the surfaces against their bodies [m/s]
     double closing; // impulse along the normal by which an overlap was closed [N s]
     double left;    // of the step after the impact; 0 for a contact that does not begin [s]
+    double rolling; // arm of the load ahead of a disc that rolls; 0 is none [m]
+    Row *roll;      // of its rolling resistance; NULL is none
 } Bearing;
 
-// The rows of an island: those of joints, then normals of contacts, then tangents.
+// The rows of an island: those of joints and of rolling resistance, then normals of contacts, then tangents.
 typedef struct Island {
     int joint_count, joint_row_count, touch_count, body_count, row_count;
-    const Joint **joints;
-    const Row **rows; // (joint_row_count)
+    const Joint **joints; // then one for each row of rolling resistance
+    const Row **rows;     // (joint_row_count)
     int *joint_of_row;
     double **impulses; // (joint_row_count): where Chipmunk stores them [N s, N m s]
     double *last;      // (row_count): impulses before Chipmunk's solver, those of the step before [N s, N m s]

@@ -72,6 +72,9 @@ Solve joint_solve(World *world, const Island *island) {
         Vec against = negated(touch->normal);
         solve.jacobians[normal + number] = along(against, touch->arm_a, touch->arm_b);
         solve.jacobians[tangent + number] = along(perpendicular(against), touch->arm_a, touch->arm_b);
+        if (touch->roll != NULL) {
+            touch->roll->most = touch->rolling * greatest(touch->point->jnAcc, 0.0);
+        }
     }
     return solve;
 }

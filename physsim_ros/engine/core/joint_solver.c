@@ -16,10 +16,10 @@
 #include "joint_velocities.h"
 #include "stages.h"
 
-// Whether springs and dampers alone join an island: sleeping.c finds whether it rests.
+// Whether springs, dampers and friction alone join an island: sleeping.c finds whether it rests.
 static bool of_springs(const Island *island) {
     for (int row = 0; row < island->joint_row_count; row++) {
-        if (island->rows[row]->law != LAW_SPRING) {
+        if (island->rows[row]->law != LAW_SPRING && island->rows[row]->law != LAW_FRICTION) {
             return false;
         }
     }
@@ -31,8 +31,8 @@ static bool of_springs(const Island *island) {
 static void move_bounds(World *world, const Solve *solve) {
     const Island *island = solve->island;
     for (int number = 0; number < island->joint_row_count; number++) {
-        Row *row = world->rows + (island->rows[number] - world->rows);
-        if (row->law == LAW_BOUNDS && row->rate != 0.0) {
+        if (island->rows[number]->law == LAW_BOUNDS && island->rows[number]->rate != 0.0) {
+            Row *row = world->rows + (island->rows[number] - world->rows);
             double next = clamped(row->upper + row->rate * solve->dt, row->least, row->greatest);
             double ahead = row_rate(&solve->system, solve->jacobians, number, solve->velocities) * solve->dt;
             double given = row->upper + solve->excess[number] + ahead - limit_slop;

@@ -49,11 +49,19 @@ void tighten_boxes(World *world);
 void prepare_parts(World *world);
 void command_motors(World *world);
 
-// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that begin
-// (`first_touch.c`), the first of two points (`contact_order.c`), the greatest load (`impact_loads.c`), contacts next
-// to an impact (`impact_propagation.c`), points that are hit at once (`block_solver.c`).
+// Have Chipmunk's solver resist rolling, until the step ends (`rolling.c`).
+void begin_rolling(World *world);
+// How far ahead of a disc the load of a contact acts where it rolls; 0 is where nothing rolls [m].
+double rolling_arm(const cpArbiter *arbiter);
+void end_rolling(World *world);
+
+// Between narrow phase and solver: surfaces that move along their outlines (`belts.c`), contacts that roll
+// (`rolling.c`), contacts that begin (`first_touch.c`), the first of two points (`contact_order.c`), the greatest load
+// (`impact_loads.c`), contacts next to an impact (`impact_propagation.c`), points that are hit at once
+// (`block_solver.c`).
 void correct_first_touches(World *world);
 void move_belts(World *world);
+void find_rolls(World *world);
 void order_points(World *world);
 void bound_loads(World *world);
 void defer_contacts(World *world);

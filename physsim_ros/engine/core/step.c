@@ -70,6 +70,7 @@ static void before_solving(cpConstraint *hook, cpSpace *space) {
     defer_contacts(world);
     solve_impacts(world);
     find_joint_islands(world);
+    find_rolls(world);
 }
 
 // Step Chipmunk; return the bodies that were awake before.
@@ -79,9 +80,11 @@ static Body **step_chipmunk(World *world, int *count) {
     for (int number = 0; number < *count; number++) {
         awake[number] = body_of(world->space->dynamicBodies->arr[number]);
     }
+    begin_rolling(world);
     world->own->hook->preSolve = before_solving;
     world->chipmunk.space_step(world->space, world->dt);
     world->own->hook->preSolve = NULL;
+    end_rolling(world);
     return awake;
 }
 
@@ -171,6 +174,7 @@ int32_t core_step(World *world, int32_t count) {
     int32_t made = 0;
     own->has_floor = has_floor(world);
     own->kept = pow(world->space->damping, world->dt);
+    own->push = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
     world->has_broken = world->has_lost = false;
     do {
         own->call_step = made;

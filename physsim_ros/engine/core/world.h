@@ -20,10 +20,14 @@ static const double standard_gravity = 9.81;
 typedef struct Private {
     Arena arena;
     cpConstraint *hook;
+    cpConstraintClass *hook_class, rolling_class; // its own class, and that within a step (`rolling.c`)
+    struct Roll *rolls;                           // of this step
+    int roll_count;
     // Places of dynamic bodies with joints that have rows.
     int *jointed;
     int jointed_count;
     double kept;        // share of its velocity that a body keeps in a step
+    double push;        // rate at which an overlap is pushed out [1/s]
     double least_depth; // least safe depth of a body [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
@@ -33,6 +37,7 @@ typedef struct Private {
     struct Load *loads; // of the contacts of this step
     int load_count;
     struct Islands *joint_islands; // of this step
+    bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
     int call_step;                 // number of the step in this call
     bool all_active;               // requests may have changed any body since the last sub-step
     bool has_floor;                // there is a body on which a floor acts
@@ -127,6 +132,9 @@ static inline int arbiter_count(const World *world) {
 static inline cpArbiter *arbiter_at(const World *world, int number) {
     return world->space->arbiters->arr[number];
 }
+
+// `qsort`, which in GNU's library takes time and memory for an empty list, too.
+void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *));
 
 // The root of a set of bodies (union-find with path halving; Tarjan and van Leeuwen, "Worst-Case Analysis of Set Union
 // Algorithms", JACM 1984); the least of a set is its root.

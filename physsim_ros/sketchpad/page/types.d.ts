@@ -43,6 +43,10 @@ export interface Body {
   sensor: boolean;
   /** Velocity of its surface, counter-clockwise [m/s]. */
   belt?: number;
+  rolling_resistance?: number;
+  /** Direction in its axes in which others pass it. */
+  one_way?: Point;
+  closed_sides?: boolean;
   label: string;
   mass: number;
   moment: number;

@@ -15,7 +15,7 @@ import json
 from typing import Any
 
 from physsim_ros.model.robots import part_name, Robot
-from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.scene import Body, BODY_DEFAULTS, Joint, Scene
 from physsim_ros.model.shapes import (
     Box,
     Capsule,
@@ -110,6 +110,11 @@ def body_entry(body: Body) -> dict[str, Any]:
         'group': body.group,
         'label': body.label,
         **({'belt': body.belt} if body.belt else {}),
+        **{
+            name: value
+            for name in ('rolling_resistance', 'one_way', 'closed_sides')
+            if (value := getattr(body, name)) != BODY_DEFAULTS[name]
+        },
         **({} if robot is None else {'robot': robot_entry(body.name, robot)}),
         **({} if body.actor is None else {'actor': body.actor.entry()}),
         **({} if body.medium is None else {'medium': body.medium.entry()}),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /** The panel of a body: its numbers, its material, its forces, its trail and its plots. */
 
-import {checkField, createElement, inRow, numberField, textButton, textField, textOf} from '../dom.js';
+import {checkField, choice, createElement, inRow, numberField, textButton, textField, textOf} from '../dom.js';
 import {actorLines, drawWay} from './driving.js';
 import {mediumFields} from './field_fields.js';
 import {forceFields} from './force_fields.js';
@@ -12,7 +12,7 @@ import {sendNote} from '../tools/note.js';
 import {isDrawn} from '../words.js';
 import {materialFields} from './world_panel.js';
 
-/** @import {App} from '../types.js' */
+/** @import {App, Body} from '../types.js' */
 /** @import {Content} from './panel.js' */
 
 const BESIDE = 0.5; // m: where a copy is put
@@ -46,6 +46,9 @@ export function bodyContent(app, [name]) {
       ...body.robot ? [] : [checkField(t('Anchored'), body.anchored, (anchored) => change({anchored})),
         checkField(t('Gate: lets bodies through'), body.sensor, (sensor) => change({sensor}))],
       createElement('label', {}, t('Belt [m/s]'), numberField(body.belt ?? 0, (belt) => change({belt: belt ?? 0}))),
+      createElement('label', {}, t('Rolling resistance'), numberField(body.rolling_resistance ?? 0,
+        (share) => change({rolling_resistance: share ?? 0}))),
+      ...body.robot ? [] : oneWayFields(body, change),
       ...forceFields(app, body, change),
       ...body.robot ? [] : mediumFields(app, body, change),
       inRow(
@@ -60,6 +63,21 @@ export function bodyContent(app, [name]) {
       drawWay(view, app.world, name);
     },
   };
+}
+
+/**
+ * @param {Body} body
+ * @param {(properties: Record<string, unknown>) => void} change
+ * @returns {HTMLElement[]} a choice of the direction in which others pass it, and whether its sides are closed
+ */
+function oneWayFields({one_way: way, closed_sides: closed}, change) {
+  /** @type {[string, string][]} */
+  const ways = [['0,0', t('no')], ['0,1', t('upwards')], ['0,-1', t('downwards')], ['-1,0', t('to the left')], ['1,0', t('to the right')]];
+  const now = String(way ?? [0, 0]), label = t('Lets others pass');
+  if (!ways.some(([each]) => each === now)) ways.push([now, now]);
+  const field = choice(label, ways, now, (chosen) => change({one_way: chosen.split(',').map(Number)}));
+  return [createElement('label', {}, label, field),
+    ...way ? [checkField(t('Its sides are closed'), Boolean(closed), (closed_sides) => change({closed_sides}))] : []];
 }
 
 /**

@@ -16,6 +16,7 @@ const SMALL = 4, MARKED = 8, MEDIUM = 11;
 const RIM = 1.2, MARK = 1.8; // px
 const TREAD = 20; // px of a belt from tread to tread
 const SHEER = 0.35; // opacity of a sensor
+const ONE_WAY = 14; // px: half of the arrow of a one-way body
 const FLOW_GAP = 90, MOST_ARROWS = 12; // px between the arrows of a flow, and how many of them on each side of the middle
 
 export class BodyView {
@@ -121,6 +122,7 @@ export class BodyView {
       else if (body.anchored) this.#drawRim(body, appearance, pixel);
       else if (size >= MARKED) this.#drawMark(body, appearance, pixel);
       if (body.belt) this.#drawBelt(body.belt * frame.time, body.shape, appearance, pixel);
+      if (body.one_way) this.#drawOneWay(body.centroid, body.one_way, appearance, pixel);
     }
   }
 
@@ -188,6 +190,25 @@ export class BodyView {
     }
     ctx.stroke();
     ctx.restore();
+  }
+
+  /**
+   * The arrow of a one-way body, across its middle.
+   * @param {Point} centroid
+   * @param {Point} way
+   * @param {Appearance} appearance
+   * @param {number} pixel [m]
+   */
+  #drawOneWay([x, y], [dx, dy], {line}, pixel) {
+    const {ctx} = this, half = ONE_WAY / Math.hypot(dx, dy) * pixel;
+    const at = (/** @type {number} */ ahead, /** @type {number} */ aside) => /** @type {Point} */ (
+      [x + (dx * ahead - dy * aside) * half, y + (dy * ahead + dx * aside) * half]);
+    ctx.strokeStyle = line;
+    ctx.lineWidth = 2 * pixel;
+    ctx.beginPath();
+    ctx.moveTo(...at(-1, 0));
+    for (const [ahead, aside] of [[1, 0], [0.3, 0.5], [1, 0], [0.3, -0.5]]) ctx.lineTo(...at(ahead, aside));
+    ctx.stroke();
   }
 
   /**
