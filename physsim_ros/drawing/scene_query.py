@@ -140,8 +140,9 @@ class SceneQuery:
         local = rotated_each(point - poses[:, :2], -poses[:, 2])
         covering = rows[contain_each(forms, local[:, 0], local[:, 1], slack)]
         bodies = self.snapshot.scene.bodies
-        ordered = sorted(covering.tolist(), key=lambda row: bodies[row].medium is not None)
-        return tuple(self.names[row] for row in ordered)
+        rows = covering.tolist()
+        solid = [self.names[row] for row in rows if bodies[row].medium is None]
+        return *solid, *(self.names[row] for row in rows if bodies[row].medium is not None)
 
     def bodies_along(self, start: Point, end: Point) -> tuple[str, ...]:
         """

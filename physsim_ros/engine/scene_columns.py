@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 import math
@@ -19,8 +18,7 @@ from physsim_ros.model.actors import Pedestrian
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.attraction import attracts
 from physsim_ros.model.media import gust_waves
-from physsim_ros.model.names import WORLD
-from physsim_ros.model.scene import Body, Joint, Scene
+from physsim_ros.model.scene import Body, Scene
 from physsim_ros.model.settings import WorldSettings
 from physsim_ros.model.shapes import Chain, Convex, Form, hull_of, lever_of
 from physsim_ros.model.transform import Point
@@ -109,7 +107,7 @@ def _make_columns(scene: Scene, dt: float) -> SceneColumns:
     tracks = tuple(
         np.array(body.actor.track, np.float64) for body in scene.bodies if body.actor is not None
     )
-    bodies, regions = _body_records(scene, rows), _region_records(scene)
+    bodies, regions = _body_records(scene), _region_records(scene)
     return SceneColumns(
         rows=rows,
         moving=not all(body.anchored for body in scene.bodies),
@@ -125,7 +123,7 @@ def _make_columns(scene: Scene, dt: float) -> SceneColumns:
     )
 
 
-def _body_records(scene: Scene, rows: dict[str, int]) -> Table:
+def _body_records(scene: Scene) -> Table:
     bodies, count = scene.bodies, len(scene.bodies)
     records = np.zeros(count + 1, _BODY)
     own = records[:-1]
@@ -159,7 +157,6 @@ def _body_records(scene: Scene, rows: dict[str, int]) -> Table:
     # The background has no inner radius: what meets its walls counts alone.
     records[-1]['anchored'], records[-1]['safe_depth'] = True, math.inf
     records[-1]['slop'] = COLLISION_SLOP
-    _mark_sprung(records, scene.joints, rows)
     return records
 
 
@@ -196,40 +193,6 @@ def _numbers_of(form: Form) -> tuple[float, float, float, int, int]:
     return form.outer, form.inner, turning_radius, corners, len(form.pieces)
 
 
-def _mark_sprung(records: Table, joints: Sequence[Joint], rows: dict[str, int]) -> None:
-    """
-    Mark bodies that springs pull, and islands that hang on a spring.
-
-    An island of joints that hangs by a spring from something fixed has no half-step lead.
-    """
-    island = list(range(len(records)))
-
-    def root(row: int) -> int:
-        while island[row] != row:
-            island[row] = row = island[island[row]]
-        return row
-
-    background, dynamic = len(records) - 1, records['dynamic'].tolist()
-    hung, springy = set(), set()
-    ends = [
-        (joint, rows[joint.a], background if joint.b == WORLD else rows[joint.b])
-        for joint in joints
-    ]
-    for _, a, b in ends:
-        if dynamic[a] and dynamic[b]:
-            island[root(a)] = root(b)
-    for joint, a, b in ends:
-        for one, other in ((a, b), (b, a)):
-            if dynamic[one] and not dynamic[other]:
-                hung.add(root(one))
-            if dynamic[one] and joint.is_elastic:
-                springy.add(root(one))
-                records[one]['on_spring'] = True
-    sprung = hung & springy
-    for row in {row for _, *pair in ends for row in pair} if sprung else ():
-        records[row]['sprung'] = bool(dynamic[row]) and root(row) in sprung
-
-
 def _force_records(scene: Scene) -> Table:
     found = [
         (row, each.axes == 'body', each.force, each.arm(body.shape.form.centroid))
@@ -243,19 +206,17 @@ def _force_records(scene: Scene) -> Table:
 def _region_records(scene: Scene) -> Table:
     air, seed = scene.settings.air, scene.settings.seed
     media = [
-        (row, body.name, body.medium)
-        for row, body in enumerate(scene.bodies)
-        if body.medium is not None
+        (row, body.medium) for row, body in enumerate(scene.bodies) if body.medium is not None
     ]
     if air.acts:
-        media.append((-1, '', air))
+        media.append((-1, air))
     records = np.zeros(len(media), _REGION)
-    for record, (row, name, medium) in zip(records, media, strict=True):
+    for record, (row, medium) in zip(records, media, strict=True):
         record['body'], record['gusty'] = row, medium.gusts > 0.0
         for field in ('density', 'viscosity', 'drag', 'flow'):
             record[field] = getattr(medium, field)
         if medium.gusts:
-            record['waves'] = gust_waves(medium, seed, name)
+            record['waves'] = gust_waves(medium, seed)
     return records
 
 

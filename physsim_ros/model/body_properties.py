@@ -105,18 +105,18 @@ class Properties(Checked):
     rolling_resistance: Annotated[
         float | None,
         Within(0.0, 10.0),
-        'coefficient c of what rolls, a disc or what it rolls on, the greater of the two: at its '
-        'rim, a force of c times the load resists it',
+        'coefficient c: a force of c times the load resists a rolling disc at its rim; of the '
+        'disc and the body below it, the greater c counts',
     ] = None
     one_way: Annotated[
         Point | None,
         Vector(1000.0, '', 'longer'),
-        'direction in the axes of the body in which others pass it; it bears those that come '
-        'against it, as a platform does: `[0, 1]`',
+        'direction, in the axes of the body, in which others pass through it; it stops those that '
+        'come the other way: `[0, 1]` is a platform',
     ] = None
-    closed_sides: Annotated[
-        bool | None, flag, 'of a one-way body: it also bears what comes from its sides'
-    ] = None
+    closed_sides: Annotated[bool | None, flag, 'a one-way body also stops others at its sides'] = (
+        None
+    )
     robot: Annotated[
         Robot | None,
         Robot.from_value,

@@ -115,7 +115,7 @@ class JointKind(StrEnum):
         'axle',
         Schema(
             1,
-            'lets them turn about the point, as a `ratchet` one way; with `stiffness` it has a '
+            'lets them turn about the point, with a `ratchet` one way only; `stiffness` adds a '
             'torsion spring; limits are angles',
             own=(
                 'lower',
@@ -200,8 +200,8 @@ class JointKind(StrEnum):
         'rack',
         Schema(
             2,
-            'a pinion: `a` rolls about its first point, without slipping, on the straight rack of '
-            '`b` through its second, across the line between them',
+            'lets `a`, a pinion about the first point, roll without slipping on a straight rack '
+            'of `b`, which goes through the second point, across the line between the two',
             words=('rack_and_pinion', 'pinion', 'rolling', 'toothed_rack'),
             least_distance=SMALLEST,
             rolls=True,
@@ -296,19 +296,19 @@ class JointProperties(Checked):
     friction: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N m or N'),
-        'torque or force with which a bearing or a slide resists motion, whatever it bears',
+        'torque or force with which a bearing or a slide resists motion, whatever its load',
         0.0,
     ] = None
     stiffness: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N/m or N m/rad'),
-        'force per strain; of an axle, torque per angle, none unless it is set',
+        'spring: force per strain; axle: torque per angle, by default none',
         100.0,
     ] = None
     damping: Annotated[
         float | None,
         Within(0.0, HEAVIEST, 'N s/m or N m s/rad'),
-        'force against the rate of strain; of an axle, torque against its angular velocity',
+        'spring: force against the rate of strain; axle: torque against its angular velocity',
         0.0,
     ] = None
     rest_angle: Annotated[

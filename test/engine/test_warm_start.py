@@ -11,7 +11,7 @@ from physsim_ros.model.settings import WorldSettings
 from physsim_ros.simulation.world import World
 import pytest
 
-from ..building import BOX, spawn, stack, twist
+from ..building import BOX, G, join, spawn, stack, twist
 
 FLOOR = WorldSettings(bounds=(-10.0, 0.0, 10.0, 20.0))
 
@@ -61,6 +61,19 @@ def test_renewing_changes_nothing_that_is_seen():
     assert after.scene is before.scene
     np.testing.assert_array_equal(after.poses, before.poses)
     np.testing.assert_array_equal(after.twists, before.twists)
+
+
+def test_joints_of_a_renewed_world_have_the_impulses_of_before():
+    world = World(settings=WorldSettings(gravity=(3.0, -G)))
+    spawn(world, 'bob/0', BOX, (0.0, -2.0, 0.0))
+    join(world, 'axle', [(0.0, 0.0)], a='bob/0', b='world')
+    world.step(240)
+
+    before = world.renew().memory.joints
+    after = world.renew().memory.joints
+
+    assert np.all(before[0] != 0.0)
+    np.testing.assert_array_equal(after, before)
 
 
 def test_who_resumes_at_a_letting_go_goes_on_alike():

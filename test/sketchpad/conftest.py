@@ -6,9 +6,10 @@ from typing import Any
 
 from physsim_ros.testing import PhysSim
 import pytest
+import yaml
 
 from .browser import Browser
-from .chromium import launched_chromium, Sheet, started_world
+from .chromium import launched_chromium, Sheet, started_world, WORLD
 from ..outside import Outside
 
 
@@ -47,6 +48,15 @@ def chromium() -> Iterator[Any]:
 
 
 @pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give a module the address of one world."""
-    return started_world(outside)[1]
+def address(outside: Outside, request: pytest.FixtureRequest) -> str:
+    """Give a module the address of one world: that of its `WORLD`, if it has one."""
+    return started_world(outside, world=getattr(request.module, 'WORLD', WORLD))[1]
+
+
+@pytest.fixture
+def sheet(chromium: Any, address: str, request: pytest.FixtureRequest) -> Iterator[Sheet]:
+    """Give a test a page, and the world of its module from its beginning, paused."""
+    sheet = Sheet(chromium, address)
+    sheet.begin(len(yaml.safe_load(getattr(request.module, 'WORLD', WORLD))['bodies']))
+    yield sheet
+    sheet.close()

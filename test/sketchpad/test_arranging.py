@@ -5,13 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
 import pytest
 
-from .chromium import Sheet, started_world
-from ..outside import Outside
+from .chromium import Sheet
 
 WORLD = """
 format: 1
@@ -22,21 +18,6 @@ bodies:
   - {name: block/1, box: {width: 1, height: 1}, at: [1, 5.5], mass: 2}
   - {name: ball/0, circle: {radius: 0.5}, at: [4, 2]}
 """
-
-
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give the module the address of a world without gravity."""
-    return started_world(outside, world=WORLD)[1]
-
-
-@pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page with the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(3)
-    yield sheet
-    sheet.close()
 
 
 def test_a_force_is_put_on_a_body_by_an_arrow_and_changed_in_its_panel(sheet: Sheet) -> None:

@@ -10,8 +10,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import PIXEL, Sheet, started_world
-from ..outside import Outside
+from .chromium import PIXEL, Sheet
 
 WORLD = """
 format: 1
@@ -25,12 +24,6 @@ bodies:
      actor: {kind: path, points: [[1, 1.5], [1.5, 1.5]], speed: 0.5, repeat: to_and_fro,
      start: {near: crate/0, distance: 1}}}
 """
-
-
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give the module the address of a world with a robot."""
-    return started_world(outside, world=WORLD)[1]
 
 
 @pytest.fixture

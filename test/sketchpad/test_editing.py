@@ -5,22 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import math
-from typing import Any
-
-import pytest
 
 from .chromium import Sheet
-
-
-@pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin()
-    yield sheet
-    sheet.close()
 
 
 def test_bodies_are_copied_cut_pasted_and_all_selected_by_keys(sheet: Sheet) -> None:

@@ -14,8 +14,7 @@ from physsim_ros.files import shipped_lessons, worlds_in
 from physsim_ros.model.transform import local_to_world, ORIGIN
 import pytest
 
-from .chromium import Sheet, started_world
-from ..outside import Outside
+from .chromium import Sheet
 from ..worlds.film import Film, simulation, state_of
 
 # Time in which what each lesson asks for has been seen [s], and the body that is tapped.
@@ -94,12 +93,6 @@ def motion_of(name: str) -> Box:
 
 def test_every_lesson_has_its_experiment() -> None:
     assert set(SEEN) == set(worlds_in(shipped_lessons()))
-
-
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> Any:
-    """Give the module a world."""
-    return started_world(outside)[1]
 
 
 @pytest.fixture(params=[(1280, 800), (390, 844), (320, 640)], ids=lambda size: str(size[0]))

@@ -5,11 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import re
 from typing import Any
-
-import pytest
 
 from .chromium import Sheet
 
@@ -20,15 +17,6 @@ SLOWED = """() => {
 }"""
 FOCUSED = "document.activeElement.getAttribute('aria-label')"
 ENOUGH = 8
-
-
-@pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin()
-    yield sheet
-    sheet.close()
 
 
 def tab_to(sheet: Sheet, name: str) -> list[str]:

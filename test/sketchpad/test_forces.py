@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import math
 from typing import Any
 
@@ -54,20 +53,11 @@ RUN = """([[x, y], [ux, uy], name]) => {
 }"""
 
 
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give the module the address of a world of forces."""
-    return started_world(outside, world=WORLD)[1]
-
-
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page that shows forces, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(6)
+def sheet(sheet: Sheet) -> Sheet:
+    """Give a test a page that shows forces."""
     sheet.press('Show forces')
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def forces_on(sheet: Sheet, name: str) -> dict[str, tuple[float, float]]:

@@ -5,10 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from itertools import cycle
 import math
-from typing import Any
 
 import pytest
 
@@ -29,17 +27,14 @@ SPEED = r'window.texts.some((text) => / [1-9]\.\d+ m\/s/.test(text))'
 
 
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page on which a box is selected, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin()
+def sheet(sheet: Sheet) -> Sheet:
+    """Give a test a page on which a box is selected."""
     sheet.press('Hand')
     sheet.page.mouse.click(*sheet.place(4.0, 0.5))
     sheet.page.get_by_role('heading', name='box/0').wait_for()
     sheet.wait('physsim.handles !== null')
     sheet.page.evaluate(SPY)
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def written(sheet: Sheet, text: str) -> None:

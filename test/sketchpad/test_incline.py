@@ -17,15 +17,6 @@ ANGLE, LENGTH = 'Angle of the slope [°]', 'Length of the slope [m]'
 NEAR = 1e-6
 
 
-@pytest.fixture
-def sheet(chromium: Any, address: str) -> Any:
-    """Give a test a page, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin()
-    yield sheet
-    sheet.close()
-
-
 def drawn(sheet: Sheet, *points: tuple[float, float]) -> str:
     """Draw an inclined plane along its slope, or tap, and return its name."""
     before = sheet.names()

@@ -5,14 +5,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
 from playwright.sync_api import Locator
 import pytest
 
-from .chromium import Sheet, started_world
-from ..outside import Outside
+from .chromium import Sheet
 
 G = 9.81
 WORLD = """
@@ -33,20 +29,11 @@ joints:
 """
 
 
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give the module the address of a world with a spring and an axle."""
-    return started_world(outside, world=WORLD)[1]
-
-
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page with the hand, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(2)
+def sheet(sheet: Sheet) -> Sheet:
+    """Give a test a page with the hand."""
     sheet.press('Hand')
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def tapped(sheet: Sheet, x: float, y: float, kind: str) -> Locator:

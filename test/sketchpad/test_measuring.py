@@ -12,8 +12,7 @@ from typing import Any
 
 import pytest
 
-from .chromium import NOTE_TEXTS, Sheet, started_world
-from ..outside import Outside
+from .chromium import NOTE_TEXTS, Sheet
 
 G = 9.81
 # A ball that is thrown, one that falls, a cart that passes two gates without friction.
@@ -59,12 +58,6 @@ WIDTH_MISSING = """(select) => {
     whole.remove();
     return missing;
 }"""
-
-
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give the module the address of a world to measure in."""
-    return started_world(outside, world=WORLD)[1]
 
 
 @pytest.fixture

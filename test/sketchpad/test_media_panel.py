@@ -5,13 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
 import pytest
 
-from .chromium import Sheet, started_world
-from ..outside import Outside
+from .chromium import Sheet
 
 WORLD = """
 format: 1
@@ -33,20 +29,11 @@ OTHER_WIND = """() => {
 }"""
 
 
-@pytest.fixture(scope='module')
-def address(outside: Outside) -> str:
-    """Give the module the address of a world with a block on a box."""
-    return started_world(outside, world=WORLD)[1]
-
-
 @pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page with the hand, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin(3)
+def sheet(sheet: Sheet) -> Sheet:
+    """Give a test a page with the hand."""
     sheet.press('Hand')
-    yield sheet
-    sheet.close()
+    return sheet
 
 
 def type_number(sheet: Sheet, label: str, text: str) -> None:

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 import math
 from pathlib import Path
 import re
@@ -15,15 +14,6 @@ import pytest
 
 from .chromium import circle, Sheet, started_world
 from ..outside import Outside
-
-
-@pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin()
-    yield sheet
-    sheet.close()
 
 
 def test_a_drawn_circle_becomes_a_body_with_its_reading_beside_it(sheet: Sheet) -> None:

@@ -5,9 +5,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
-
 import pytest
 
 from .chromium import circle, Sheet
@@ -22,15 +19,6 @@ SPAWN = """bodies => new Promise((resolve) => {
     };
     socket.onclose = () => resolve();
 })"""
-
-
-@pytest.fixture
-def sheet(chromium: Any, address: str) -> Iterator[Sheet]:
-    """Give a test a page, and the world from its beginning, paused."""
-    sheet = Sheet(chromium, address)
-    sheet.begin()
-    yield sheet
-    sheet.close()
 
 
 def said(sheet: Sheet, text: str) -> None:

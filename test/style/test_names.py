@@ -191,7 +191,7 @@ def _before_arguments(words):
 pytestmark = pytest.mark.linter
 OF_DOCUMENTS = {
     # Files that the reader makes, and one of another project.
-    *('conftest.py', 'damper.py', 'fall.py', 'follower.py', 'parser.py', 'stopper.py'),
+    *('conftest.py', 'damper.py', 'fall.py', 'first.py', 'follower.py', 'parser.py', 'stopper.py'),
     *('test_crash.py', 'test_fall.py', 'test_stopper.py', 'test_tracker.py', 'tracker.py'),
     *('test_wall_follower.py', 'wall_follower.py', 'wall_task.py', 'ament_add_pytest_test'),
     # Fields of messages, names and parameters of Nav2.

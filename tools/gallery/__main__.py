@@ -18,8 +18,8 @@ from physsim_ros.drawing import DrawingSession, DrawingSettings, Tool
 from physsim_ros.model.snapshot import Frame
 from physsim_ros.simulation.robot import Robot
 from physsim_ros.simulation.simulation import Simulation
-from PIL import Image
 
+from .classroom import draw_class
 from .page import draw_crash, draw_page
 from .stories import car_story
 
@@ -45,6 +45,7 @@ TIMES = {
     'worlds/incline': 1.6,
     'worlds/newtons_cradle': 1.1,
     'worlds/pendulums': 6.0,
+    'worlds/sorting': 7.5,
     'worlds/warehouse': 8.0,
 }
 USUAL = 3.0
@@ -57,8 +58,6 @@ COMMANDS = {
     'worlds/soccer': (0.4, 0.4),
     'worlds/swarm': (0.2, 0.5),
 }
-# Rate of the animation [Hz], its width [pixels], and how long its last picture stays [ms].
-RATE, NARROW, REST = 15, 800, 900
 # Height of the title bar of the window [pixels].
 TITLE = 36
 # Frames in a batch of the recorder.
@@ -111,11 +110,10 @@ def draw_drawing(viewer: HeadlessViewer, directory: Path) -> None:
 
 
 def draw_window(viewer: HeadlessViewer, directory: Path) -> None:
-    """Draw the whole window, and the animation of the world."""
+    """Draw the whole window, in which time has gone back."""
     times = show_story(viewer, directory, car_story())
     window = viewer.picture(times[-1], view='')
     window.crop((0, TITLE, *window.size)).save(DOCS / 'demo.png', optimize=True)
-    animate(viewer, times, DOCS / 'demo.webp')
 
 
 def show_story(viewer: HeadlessViewer, directory: Path, frames: list[Frame]) -> list[int]:
@@ -127,24 +125,6 @@ def show_story(viewer: HeadlessViewer, directory: Path, frames: list[Frame]) -> 
     return times
 
 
-def animate(viewer: HeadlessViewer, times: list[int], path: Path) -> None:
-    """Write the animation of the world at some times, of 60 a second."""
-    pictures = [viewer.picture(time) for time in times[:: 60 // RATE]]
-    size = (NARROW, round(NARROW * pictures[0].height / pictures[0].width))
-    small = [picture.resize(size, Image.Resampling.LANCZOS) for picture in pictures]
-    durations = [1000 // RATE] * len(small)
-    durations[-1] = REST
-    small[0].save(
-        path,
-        save_all=True,
-        append_images=small[1:],
-        duration=durations,
-        loop=0,
-        quality=70,
-        method=6,
-    )
-
-
 def main(chosen: list[str]) -> None:
     """Draw the chosen pictures, or all."""
     pictures: dict[str, Callable[[HeadlessViewer, Path], None]] = {
@@ -154,6 +134,9 @@ def main(chosen: list[str]) -> None:
     if not chosen or 'page' in chosen:
         draw_page(DOCS / 'page.webp', DOCS / 'time.png')
         print('page', flush=True)
+    if not chosen or 'class' in chosen:
+        draw_class(DOCS / 'class.png')
+        print('class', flush=True)
     if not chosen or 'crash' in chosen:
         draw_crash(DOCS / 'crash.webp')
         print('crash', flush=True)

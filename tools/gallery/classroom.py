@@ -21,6 +21,8 @@ PUPILS = {'Anna': 2.5, 'Ben': 1.2, 'Cleo': 0.0, 'Dev': 3.1, 'Emma': 0.7, 'Finn':
 # Answers: one is right, one is not yet.
 ANSWERS = {'Anna': '3.17', 'Dev': '1.6'}
 HAND, RUNNING = 'Cleo', 'Emma'
+# Part of the page with all cards [px].
+SIZE = {'width': 1200, 'height': 775}
 
 
 def come(browser: object, address: str, name: str) -> Sheet:
@@ -44,7 +46,7 @@ def draw_class(path: Path) -> None:
             'physsim_class', '--pupils', len(PUPILS), '--port', 0, '--seats', 0,
             '--ros-args', '-p', f'world_file:={LESSON}', '-p', 'speed:=0.0',
         )  # fmt: skip
-        found = [re.search(r'http\S+', program.wait_for('/login?token=')) for _ in range(2)]
+        found = [re.search(r'http\S+', program.wait_for('/login?token=', 300)) for _ in range(2)]
         pupils, teacher = (match[0] for match in found if match)
         browser = launched_chromium(closing.enter_context(sync_playwright()))
         # While a teacher watches, pupils can raise a hand.
@@ -63,5 +65,5 @@ def draw_class(path: Path) -> None:
         overview.page.get_by_text(f'{len(PUPILS)} of {len(PUPILS)} here').wait_for()
         # The pictures of worlds come one after the other.
         overview.page.wait_for_timeout(5000)
-        overview.page.screenshot(path=path)
+        overview.page.screenshot(path=path, clip={'x': 0, 'y': 0, **SIZE})
         browser.close()

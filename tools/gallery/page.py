@@ -23,42 +23,14 @@ from physsim_ros.testing.domain import own_domain
 from PIL import Image
 from playwright.sync_api import sync_playwright
 
+from .stories import ASIDE, CRASH_BACK, CRASH_END, CRASH_TURN, CRATE, YARD
+
 Stroke = list[tuple[float, float]]
 WORLD = """
 format: 1
 bounds: [-8, 0, 8, 9]
 bodies: []
 """
-# A robot drives along its path, on which a crate stands behind a shelf, seen from above.
-YARD = """
-format: 1
-bounds: [-3.2, -1.8, 3.2, 1.8]
-gravity: [0, 0]
-floor_friction: 0.6
-bodies:
-  - {name: shelf/0, box: {width: 2.6, height: 0.5}, at: [-1.1, 0.5], anchored: true}
-  - {name: shelf/1, box: {width: 2.6, height: 0.5}, at: [-1.1, -1.3], anchored: true}
-  - {name: shelf/2, box: {width: 0.5, height: 1.5}, at: [2.5, 0.6], anchored: true}
-  - {name: crate/0, box: {width: 0.42, height: 0.42}, at: [1, 0.1], mass: 60, color: '#d1495b'}
-  - {name: barrel/0, circle: {radius: 0.16}, at: [0.7, -1.4], mass: 4, color: '#4c78a8'}
-  - {name: barrel/1, circle: {radius: 0.16}, at: [1.1, -1.5], mass: 4, color: '#4c78a8'}
-  - name: robot/0
-    circle: {radius: 0.2}
-    at: [-2.8, -0.4]
-    mass: 6
-    color: '#3b4252'
-    robot:
-      drive: {kind: differential, track: 0.3, max_speed: 0.8, max_turn: 3}
-      sensors: [{kind: laser, name: scan, beams: 180, range: [0.1, 3.5], rate: 15}]
-    actor:
-      kind: path
-      speed: 0.6
-      points: [[-2.8, -0.4], [0.4, -0.4], [1, 0.1], [1.2, 1.3], [-2.6, 1.3]]
-joints: []
-"""
-# Place of the crate, the vector by which it is moved [m], and the times of its film as below.
-CRATE, ASIDE = (1.0, 0.1), (0.6, -1.0)
-CRASH_TURN, CRASH_BACK, CRASH_END = 7.6, 4.2, 13.0
 # Rate of the animation [Hz], frames of the world in each of its pictures, and its width [pixels].
 RATE, FRAMES, NARROW = 12, 5, 800
 # Simulation times at which the slider is dragged back, to which, and at the end [s].

@@ -37,14 +37,21 @@ void find_leads(World *world) {
     if (!has_stage(world, STAGE_HALF_STEP)) {
         return;
     }
-    for (int place = 0; place < world->body_count; place++) {
-        Body *body = world->bodies + place;
+    // Without fields only requests change what is steady.
+    bool changes = world->has_fields || world->own->all_active;
+    for (int number = 0; changes && number < active_count(world); number++) {
+        Body *body = active_at(world, number);
         body->state.lead = steady_lead(world, body);
     }
+    const Body *last = NULL;
     for (int number = 0; number < world->force_count; number++) {
         const AppliedForce *applied = world->forces + number;
         Body *body = world->bodies + applied->body;
         const cpBody *engine = body->engine;
+        // Forces are listed in the order of their bodies.
+        assert(last == NULL || last <= body);
+        body->state.lead = body == last ? body->state.lead : steady_lead(world, body);
+        last = body;
         Twist wrench = wrench_of(applied, engine->a);
         Twist change = {scaled(wrench.v, engine->m_inv), wrench.w * engine->i_inv};
         body->state.lead = twist_sum(body->state.lead, change, world->dt / 2.0);

@@ -15,7 +15,7 @@ typedef struct Block {
 } Block;
 
 void *arena_take(Arena *arena, size_t count, size_t size) {
-    assert(size > 0 && count <= SIZE_MAX / 2 / size); // a negative count is not
+    assert(size > 0 && size <= INT32_MAX && count <= INT32_MAX); // a negative count is not
     size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     void *piece = NULL;
     if (arena->used + bytes <= arena->size) {
@@ -34,6 +34,10 @@ void *arena_take(Arena *arena, size_t count, size_t size) {
         arena->most = arena->used;
     }
     return piece;
+}
+
+void *arena_copy(Arena *arena, const void *values, size_t count, size_t size) {
+    return memcpy(arena_take(arena, count, size), values, count * size);
 }
 
 static void free_extra(Arena *arena) {

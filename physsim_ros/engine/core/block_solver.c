@@ -29,7 +29,6 @@
 #include "lcp.h"
 #include "stages.h"
 #include "touch.h"
-#include <stdlib.h>
 
 // Points that are solved together, at most: of four boxes on each other and the ground, eight are.
 enum { CLUSTER_POINTS = LCP_ROWS };
@@ -109,7 +108,7 @@ static int list_hits(World *world, Hit *hits) {
             hits[count++] = (Hit){each, a < b ? a : b, a < b ? b : a, false};
         }
     }
-    qsort(hits, (size_t)count, sizeof(Hit), by_bodies);
+    sort(hits, count, sizeof(Hit), by_bodies);
     return count;
 }
 

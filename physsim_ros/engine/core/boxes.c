@@ -10,7 +10,6 @@
 // Cost: 0.1 µs a box to build it, some 0.1 µs a query and 10 ns for each box that is found.
 
 #include "boxes.h"
-#include <stdlib.h>
 
 static const Box empty = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
 // Depth of the tree of the most boxes that there can be.
@@ -50,7 +49,7 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
     for (int number = 0; number < count; number++) {
         tiles[number] = (Tile){scaled(add(boxes[number].low, boxes[number].high), 0.5), number};
     }
-    qsort(tiles, (size_t)count, sizeof(Tile), by_x);
+    sort(tiles, count, sizeof(Tile), by_x);
     // A power of two, so that slices are subtrees.
     int slice = 1;
     while (slice * slice < count) {
@@ -58,7 +57,7 @@ Tree tree_of(const Box *boxes, int count, Arena *arena) {
     }
     for (int first = 0; first < count; first += slice) {
         int size = count - first < slice ? count - first : slice;
-        qsort(tiles + first, (size_t)size, sizeof(Tile), by_y);
+        sort(tiles + first, size, sizeof(Tile), by_y);
     }
     for (size_t node = 0; node < 2 * tree.leaves; node++) {
         tree.nodes[node] = empty;

@@ -314,10 +314,8 @@ void core_take_contacts(World *world) {
             world->contacts[world->contact_count++] = contact_of(world, pair);
         }
     }
-    qsort(world->contacts, (size_t)world->contact_count, sizeof(Contact), by_rows);
-    if (world->begun_count > 0) {
-        qsort(world->begun, (size_t)world->begun_count, sizeof(Begun), by_time_and_rows);
-    }
+    sort(world->contacts, world->contact_count, sizeof(Contact), by_rows);
+    sort(world->begun, world->begun_count, sizeof(Begun), by_time_and_rows);
     for (int number = 0; number < world->begun_count; number++) {
         Begun *begun = world->begun + number;
         begun->rows[1] = begun->rows[1] == world->body_count - 1 ? -1 : begun->rows[1];

@@ -27,6 +27,8 @@ World *core_new(cpSpace *space, Chipmunk chipmunk, double dt, cpConstraint *hook
 void core_free(World *world) {
     arena_free(&world->own->arena);
     arena_free(&world->own->static_arena);
+    arena_free(world->own->system_arenas);
+    arena_free(world->own->system_arenas + 1);
     free_report(world);
     free(world->own->jointed);
     free(world->own->pulls);
@@ -62,6 +64,42 @@ static void list_jointed(World *world) {
     }
 }
 
+// Mark bodies that springs pull, and those in islands of joints that hang by a spring from something fixed: such a body
+// has no half-step lead.
+static void mark_sprung(World *world) {
+    arena_reset(&world->own->arena);
+    int *parents = sets_of(world);
+    bool *hangs = TAKE(&world->own->arena, bool, world->body_count);
+    bool *swings = TAKE(&world->own->arena, bool, world->body_count);
+    for (int place = 0; place < world->body_count; place++) {
+        world->bodies[place].on_spring = false;
+    }
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        if (world->bodies[joint->a].dynamic && world->bodies[joint->b].dynamic) {
+            unite(parents, joint->a, joint->b);
+        }
+    }
+    for (int number = 0; number < world->joint_count; number++) {
+        const Joint *joint = world->joints + number;
+        bool is_spring = joint->part_count > 0 && world->parts[joint->first_part].kind == PART_SPRING;
+        int ends[2] = {joint->a, joint->b};
+        for (int end = 0; end < 2; end++) {
+            Body *body = world->bodies + ends[end];
+            if (body->dynamic) {
+                int root = root_of(parents, ends[end]);
+                hangs[root] = hangs[root] || !world->bodies[ends[1 - end]].dynamic;
+                swings[root] = swings[root] || is_spring;
+                body->on_spring = body->on_spring || is_spring;
+            }
+        }
+    }
+    for (int place = 0; place < world->body_count; place++) {
+        int root = root_of(parents, place);
+        world->bodies[place].sprung = hangs[root] && swings[root];
+    }
+}
+
 void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *parts, int32_t part_count, Row *rows,
                      int32_t row_count, Guide *guides, int32_t guide_count) {
     world->joints = joints;
@@ -92,5 +130,6 @@ void core_use_joints(World *world, Joint *joints, int32_t joint_count, Part *par
         world->bodies[guides[number].body].joined = world->bodies[guides[number].body].jointed = true;
     }
     list_jointed(world);
+    mark_sprung(world);
     prepare_springs(world);
 }

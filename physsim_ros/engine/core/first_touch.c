@@ -99,12 +99,11 @@ void correct_first_touches(World *world) {
     }
     world->own->begun = touches;
     world->own->begun_count = count;
-    double push = (1.0 - pow(world->space->collisionBias, world->dt)) / world->dt;
     for (int number = 0; number < arbiter_count(world); number++) {
         cpArbiter *arbiter = arbiter_at(world, number);
         if (arbiter->state == ARBITER_FIRST_COLLISION) {
             prepare_contact(arbiter);
         }
-        set_bias(arbiter, push);
+        set_bias(arbiter, world->own->push);
     }
 }

@@ -12,7 +12,6 @@
 #include "impact_islands.h"
 #include "one_way.h"
 #include "time_of_impact.h"
-#include <stdlib.h>
 #include <string.h>
 
 // Greatest count of successive impacts of a body in a step, as in a row of bodies before a wall. Beyond it Chipmunk's
@@ -291,7 +290,7 @@ void join_impacts(Sweep *sweep, const int *fast, int count) {
         if (impacts.count == 0) {
             return;
         }
-        qsort(impacts.list, (size_t)impacts.count, sizeof(Impact), by_share);
+        sort(impacts.list, impacts.count, sizeof(Impact), by_share);
         count = resolve(sweep, &impacts, changed);
     }
 }

@@ -21,7 +21,6 @@
 
 #include "impact_propagation.h"
 #include "stages.h"
-#include <stdlib.h>
 
 // Restitution from which an impact is passed on, rather than taken together: below it, more than 7 / 16 of the energy
 // of an impact is lost anyway.
@@ -138,7 +137,7 @@ void defer_contacts(World *world) {
     Weaker *found = TAKE(&world->own->arena, Weaker, arbiter_count(world));
     int count = find_weaker(world, fastest_impacts(world), found);
     // Two bodies may touch in several contacts: the least impact counts for all of them.
-    qsort(found, (size_t)count, sizeof(Weaker), by_pair_and_impact);
+    sort(found, count, sizeof(Weaker), by_pair_and_impact);
     for (int number = 0; number < count; number++) {
         const Weaker *pair = found + number;
         if (number > 0 && pair->a == pair[-1].a && pair->b == pair[-1].b) {

@@ -14,7 +14,6 @@
 #include "joint_islands.h"
 #include "joint_parts.h"
 #include "stages.h"
-#include <stdlib.h>
 
 // Points of a body that is touched, at most, for all of them to be rows: what bears more, as a platform full of boxes,
 // is as heavy as many of them, so that Chipmunk's iterations converge on it.
@@ -120,7 +119,7 @@ static Touches touches_of_jointed(World *world) {
         }
     }
     assert(touches.count <= most);
-    qsort(touches.list, (size_t)touches.count, sizeof(Bearing), compare_touches);
+    sort(touches.list, touches.count, sizeof(Bearing), compare_touches);
     world->own->bearers = members.marks;
     return touches;
 }

@@ -12,6 +12,12 @@ void *allocated(size_t count, size_t size) {
     return memory;
 }
 
+void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *)) {
+    if (count > 1) {
+        qsort(list, (size_t)count, size, compare);
+    }
+}
+
 void set_pose(cpBody *body, Pose pose) {
     Rotation by = rotation(pose.yaw);
     body->p = pose.p;

@@ -27,6 +27,7 @@ typedef struct Private {
     int *jointed;
     int jointed_count;
     double kept;        // share of its velocity that a body keeps in a step
+    double push;        // rate at which an overlap is pushed out [1/s]
     double least_depth; // least safe depth of a body [m]
     // Shapes that never move, for continuous collision; they last until one of them is moved.
     Arena static_arena;
@@ -37,13 +38,18 @@ typedef struct Private {
     int load_count;
     struct Islands *joint_islands; // of this step
     bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
-    int call_step;                 // number of the step in this call
-    bool all_active;               // requests may have changed any body since the last sub-step
-    bool has_floor;                // there is a body on which a floor acts
-    int sub_step;                  // number of the sub-step in this step
-    int wishing;                   // number of the actor whose wish is found next
-    bool wishes;                   // wishes of actors are found, before the first sub-step
-    struct Surroundings *around;   // of all pedestrians, in this step; NULL before the first one looks
+    // Systems of the islands of the last sub-step, whose patterns the next one takes; and memory for those, by turns.
+    struct System *systems;
+    int system_count;
+    Arena system_arenas[2];
+    int system_turn;
+    int call_step;               // number of the step in this call
+    bool all_active;             // requests may have changed any body since the last sub-step
+    bool has_floor;              // there is a body on which a floor acts
+    int sub_step;                // number of the sub-step in this step
+    int wishing;                 // number of the actor whose wish is found next
+    bool wishes;                 // wishes of actors are found, before the first sub-step
+    struct Surroundings *around; // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
 } Private;
@@ -131,6 +137,9 @@ static inline int arbiter_count(const World *world) {
 static inline cpArbiter *arbiter_at(const World *world, int number) {
     return world->space->arbiters->arr[number];
 }
+
+// `qsort`, which in GNU's library takes time and memory for an empty list, too.
+void sort(void *list, int count, size_t size, int (*compare)(const void *, const void *));
 
 // The root of a set of bodies (union-find with path halving; Tarjan and van Leeuwen, "Worst-Case Analysis of Set Union
 // Algorithms", JACM 1984); the least of a set is its root.

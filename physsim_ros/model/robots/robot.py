@@ -120,9 +120,9 @@ class Robot(Checked):
         '`tb` and a robot in `tb/x` collide)',
     ] = None
     # Not part of the text, so that digests of worlds are those of ever; it moves nothing.
-    command_topic: Annotated[
-        str, topic_name, 'of the commands of its drive, below its namespace, as `drive`'
-    ] = field(default='cmd_vel', repr=False)
+    command_topic: Annotated[str, topic_name, 'topic of the commands, below its namespace'] = (
+        field(default='cmd_vel', repr=False)
+    )
 
     def __post_init__(self) -> None:
         Checked.__post_init__(self)

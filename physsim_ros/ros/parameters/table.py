@@ -161,13 +161,13 @@ class NodeSettings(Checked):
     laser_beams: Annotated[
         int,
         Whole(0, MOST_BEAMS),
-        "beams of all lasers on their topics; 0 is each laser's own number",
+        "number of beams that every laser publishes; 0 is each laser's own number",
     ] = 0
     laser_angle: Annotated[
         Point | None,
         _laser_angle,
-        'first and last angle of all lasers on their topics [rad], counter-clockwise, 0.01 rad to '
-        "a full turn apart; empty is each laser's own",
+        'first and last angle that every laser publishes [rad], counter-clockwise, 0.01 rad to a '
+        "full turn apart; empty is each laser's own",
     ] = None
     lockstep: Annotated[
         float,

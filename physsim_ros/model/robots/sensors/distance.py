@@ -57,8 +57,8 @@ class Laser(Sensor):
     blind: Annotated[
         tuple[Point, ...],
         ListOf(angles, 'pairs of angles', _MOST_SECTORS),
-        'sectors that a mast or a cover hides, a list of first and last angles, as of `angle` '
-        '[rad]; their beams are NaN (REP 117)',
+        'sectors hidden by a mast or a cover, a list of `[first, last]` angles [rad]; their beams '
+        'are NaN (REP 117)',
     ] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
@@ -138,8 +138,7 @@ class Landmarks(Sensor):
     bodies: Annotated[
         tuple[str, ...],
         ListOf(text, 'names', _MOST_LANDMARKS),
-        'names of the bodies that are landmarks; the number of one in this list is its place in '
-        'the message',
+        'names of the bodies that are landmarks, in the order of the message',
     ] = ()
     angle: Annotated[Point, angles, 'its field of view, as of a laser [rad]'] = (
         -math.pi,

@@ -63,8 +63,8 @@ class Gps(Sensor):
     status: Annotated[
         str,
         OneOf(('none', 'fix', 'sbas', 'gbas')),
-        'of its fixes: without augmentation, by satellites, from the ground (RTK); `none` has no '
-        'position',
+        'augmentation of its fixes: `fix` none, `sbas` by satellites, `gbas` from the ground '
+        '(RTK); `none` has no position',
     ] = field(default='fix', repr=False)
 
 
