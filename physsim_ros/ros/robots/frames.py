@@ -219,17 +219,17 @@ def _join_link(urdf: ET.Element, frames: RobotFrames, robot: Robot, link: Link) 
         ET.SubElement(joint, 'axis', xyz=f'{x / length:.9g} {y / length:.9g} 0')
     elif kind != 'fixed':
         ET.SubElement(joint, 'axis', xyz='0 0 1')
-    limits_of_kind: dict[str, float] = {}
+    span: dict[str, float] = {}
     if kind in ('prismatic', 'revolute'):
-        limits_of_kind = {
+        span = {
             'lower': -_UNLIMITED if limits[0] is None else limits[0],
             'upper': _UNLIMITED if limits[1] is None else limits[1],
         }
     # URDF asks for both where there are limits; a motor has them in any case.
-    if limits_of_kind or properties.effort:
+    if span or properties.effort:
         speed = properties.max_speed
         values = {
-            **limits_of_kind,
+            **span,
             'effort': properties.effort or 0.0,
             'velocity': JOINT_DEFAULTS['max_speed'] if speed is None else speed,
         }
