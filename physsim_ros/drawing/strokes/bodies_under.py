@@ -34,6 +34,9 @@ _CARRIED = 0.9
 _ROUND = 0.75
 # Stride of the points that are tested: 43 of a stroke, 8 to 10 of each swing of a scribble.
 _STRIDE = 3
+# The least angle about the middle of a wheel, and the least change of direction there, of a rope
+# that runs around it [rad].
+_AROUND, _BEND = math.radians(90.0), math.radians(45.0)
 # Name of a body -> which of these points lie on it, (43,) bool.
 Crossed = dict[str, NDArray[np.bool_]]
 # The least share of the stroke on a body that is covered.
@@ -78,6 +81,40 @@ def joint_ends(points: Floats, context: Context) -> tuple[End, End] | None:
 
 def _is_dynamic(name: str, scene: SceneQuery) -> bool:
     return name != WORLD and scene.body(name).dynamic
+
+
+def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
+    """
+    Return the wheels that a rope runs around, in the order of the stroke, and where it does [m].
+
+    A wheel is a disc that is anchored or has a joint, and is not at an end of the stroke. A line
+    runs around it that bends beside it, about its middle.
+
+    :param points: (n, 2) float64: of the stroke [m]
+    """
+    scene, snap = context.scene, context.settings.snap
+    low, high, centers = points.min(axis=0), points.max(axis=0), scene.snapshot.centers
+    within = ((centers > low) & (centers < high)).all(axis=1)
+    found: list[tuple[int, str]] = []
+    for row in np.flatnonzero(within).tolist():
+        body, name = scene.snapshot.scene.bodies[row], scene.names[row]
+        if not isinstance(body.shape, Disc) or not (body.anchored or _is_jointed(name, scene)):
+            continue
+        away, radius = points - centers[row], body.shape.radius
+        beside = np.flatnonzero(norms(away) < radius + max(snap, radius / 2))
+        if not len(beside) or beside[0] == 0 or beside[-1] == len(points) - 1:
+            continue
+        before, after = beside[0] - 1, beside[-1] + 1
+        angles = np.unwrap([math.atan2(y, x) for x, y in away[before : after + 1].tolist()])
+        (ux, uy), (vx, vy) = (points[each + 1] - points[each] for each in (before, after - 1))
+        bend = abs(math.atan2(ux * vy - uy * vx, ux * vx + uy * vy))
+        if abs(angles[-1] - angles[0]) > _AROUND and bend > _BEND:
+            found.append((int(beside[len(beside) // 2]), name))
+    return [(name, point_of(points[at])) for at, name in sorted(found)]
+
+
+def _is_jointed(name: str, scene: SceneQuery) -> bool:
+    return any(name in (joint.a, joint.b) for joint in scene.joints)
 
 
 def axle_pairs(center: Point, context: Context) -> tuple[Point, list[tuple[str, str]]]:
@@ -125,23 +162,23 @@ def _axle_of_two(center: Point, context: Context) -> tuple[Point, tuple[str, ...
 
 def crossed_pair(center: Point, context: Context) -> tuple[str, ...]:
     """
-    Return the two topmost bodies at a point, or one and a second one that the stroke overlaps.
+    Return the two topmost bodies at a point, else those that the stroke overlaps, too.
+
+    In a gap between bodies, these are the two on either side of it.
 
     :param center: of a small closed stroke [m]
-    :return: at most two names, the topmost first
+    :return: at most two names, the topmost first; () in the open
     """
     scene, drawn = context.scene, context.drawn.points
     under = scene.bodies_at(center)[:2]
-    if len(under) != 1:
+    if len(under) == 2:
         return under
-    (name,) = under
     radius = float(norms(drawn - center).max())
     near = scene.bodies_at(center, radius)
-    shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each != name}
-    beside = max(shares, key=shares.__getitem__, default=name)
-    if shares.get(beside, 0.0) < _ACROSS:
-        return (name,)
-    return tuple(each for each in near if each in (name, beside))
+    shares = {each: float(scene.covers(each, drawn).mean()) for each in near if each not in under}
+    beside = sorted(shares, key=shares.__getitem__, reverse=True)[: 2 - len(under)]
+    pair = {*under, *(each for each in beside if shares[each] >= _ACROSS)}
+    return tuple(each for each in near if each in pair) if len(pair) == 2 else under
 
 
 def _carrier_of(wheel: str, center: Point, snap: float, scene: SceneQuery) -> str | None:

@@ -113,11 +113,13 @@ def _axle_share(center: Point, radius: float, context: Context) -> float:
     :param radius: of the shape [m]
     """
     scene = context.scene
-    under = scene.bodies_at(center)[:2]
-    if not under:
+    covering = scene.bodies_at(center)[:2]
+    # In a gap, an axle joins the bodies on either side.
+    under = covering or bodies_under.crossed_pair(center, context)
+    if not covering and not any(scene.body(name).dynamic for name in under):
         return 0.0
     least = min(math.sqrt(scene.body(name).shape.form.area) for name in under)
-    limit = (_LARGEST if len(under) == 1 else _LARGEST_ON_TWO) * least
+    limit = (_LARGEST if len(covering) < 2 else _LARGEST_ON_TWO) * least
     if len(under) == 1:
         rim = outcomes.circle_outline(center, radius, sides=8)[:-1]
         inside = np.count_nonzero(scene.covers(under[0], rim))

@@ -65,6 +65,19 @@ def meanings(form: Form, context: Context) -> Iterator[Meaning]:
     )
 
 
+def rope_around_wheels(context: Context) -> Meaning | None:
+    """Return the meaning of a line from body to body, or to the background, around a wheel."""
+    drawn = context.drawn.points
+    wheels = {name for name, _ in bodies_under.wheels_passed(drawn, context)}
+    if not wheels or math.dist(drawn[0], drawn[-1]) <= context.settings.snap:
+        return None
+    ends = bodies_under.joint_ends(drawn, context)
+    if ends is None or not wheels - {end.body for end in ends}:
+        return None
+    build = partial(outcomes.join, JointKind.ROPE, drawn, context)
+    return Meaning(name=str(JointKind.ROPE), weight=BETWEEN, build=build)
+
+
 def _joint_along(points: Floats, context: Context) -> tuple[JointKind, float]:
     """Return the kind of joint that a line would be, and its share of the weight, 0 .. 1."""
     drawn = context.drawn.points

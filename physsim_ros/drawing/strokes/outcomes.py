@@ -20,7 +20,7 @@ from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.drawing.strokes.meanings import Context, Outcome
 from physsim_ros.model.arrays import Floats
 from physsim_ros.model.errors import NothingThere
-from physsim_ros.model.joints import JointKind, JointProperties
+from physsim_ros.model.joints import JointKind, JointProperties, MOST_STOPS
 from physsim_ros.model.requests import Join
 from physsim_ros.model.transform import Point
 
@@ -108,20 +108,37 @@ def join(kind: JointKind, points: Floats, context: Context) -> Outcome:
         )
     first, last = ends
     name = context.scene.next_joint()
-    line = first.point, last.point
+    line: tuple[Point, ...] = (first.point, last.point)
+    message = f'{kind.phrase} from {first.body} to {last.body}'
     properties = JointProperties()
-    if kind is JointKind.ROPE:
+    if kind is JointKind.ROPE and (passed := _wheels_between(first, last, points, context)):
+        names = tuple(wheel for wheel, _ in passed)
+        properties = JointProperties(over=names)
+        line = (first.point, *(point for _, point in passed), last.point)
+        message += f' over {", ".join(names)}'
+    elif kind is JointKind.ROPE:
         # A rope is as long as it was drawn.
-        properties = JointProperties(length=max(context.drawn.length, math.dist(*line)))
+        straight = math.dist(first.point, last.point)
+        properties = JointProperties(length=max(context.drawn.length, straight))
     request = Join(
         name=name, kind=kind, points=line, a=first.body, b=last.body, properties=properties
     )
     return Outcome(
         requests=(request,),
         subject=name,
-        message=f'{kind.phrase} from {first.body} to {last.body}',
+        message=message,
         outline=np.array(line) if kind is JointKind.ROD else context.drawn.points,
     )
+
+
+def _wheels_between(
+    first: bodies_under.End, last: bodies_under.End, points: Floats, context: Context
+) -> list[tuple[str, Point]]:
+    """Return the wheels that a rope runs around from its first to its last end, and where [m]."""
+    passed = bodies_under.wheels_passed(points, context)
+    passed = [each for each in passed if each[0] not in (first.body, last.body)]
+    is_drawn_so = math.dist(first.point, points[0]) <= math.dist(last.point, points[0])
+    return passed[: MOST_STOPS - 2] if is_drawn_so else passed[::-1][: MOST_STOPS - 2]
 
 
 def chain(context: Context) -> Outcome:

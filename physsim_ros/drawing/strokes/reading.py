@@ -45,6 +45,7 @@ from physsim_ros.drawing.strokes.features import features_of
 from physsim_ros.drawing.strokes.forms import forms_of
 from physsim_ros.drawing.strokes.judge import judged
 from physsim_ros.drawing.strokes.meanings import (
+    BETWEEN,
     CLOSED,
     Context,
     DELETION,
@@ -72,6 +73,8 @@ _MEANINGS: dict[str, Callable[[Form, Context], Iterator[Meaning]]] = {
     RECTANGLE: closed_shapes.rectangle_meanings,
     POLYGON: closed_shapes.polygon_meanings,
 }
+# Forms that enclose an area.
+_OUTLINES = frozenset({DISC, OVAL, RECTANGLE, POLYGON})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -138,8 +141,14 @@ def in_scene(stroke: Stroke, scene: SceneQuery, settings: DrawingSettings) -> Co
 
 def meanings_of(context: Context) -> Iterator[Meaning]:
     """Yield the meanings of all forms of a stroke; several forms may have the same one."""
+    rope = open_lines.rope_around_wheels(context)
     for form in context.forms:
-        yield from (each for each in _MEANINGS[form.name](form, context) if each.weight >= LEAST)
+        found = _MEANINGS[form.name](form, context)
+        if rope is not None and form.name in _OUTLINES:
+            # A line from body to body that runs around a wheel encloses nothing.
+            yield replace(rope, weight=form.weight * BETWEEN)
+            found = (replace(each, weight=each.weight * (1.0 - BETWEEN)) for each in found)
+        yield from (each for each in found if each.weight >= LEAST)
 
 
 def guesses_of(context: Context) -> tuple[Guess, ...]:

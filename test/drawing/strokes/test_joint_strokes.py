@@ -128,6 +128,46 @@ def test_a_rope_is_as_long_as_it_was_drawn(world: World) -> None:
     assert joint.rest_length == pytest.approx(5.52, rel=0.03)
 
 
+UP = np.linspace(math.pi, 0.0, 30)
+
+
+@pytest.mark.parametrize('order', [1, -1])
+@pytest.mark.parametrize('joined', ['axle', 'anchored'])
+def test_a_rope_that_is_drawn_around_a_wheel_runs_over_it(
+    world: World, joined: str, order: int
+) -> None:
+    """Two weights on a wheel, as in Atwood's machine."""
+    spawn(world, 'wheel/0', Disc(radius=0.5), (0.0, 4.0, 0.0), anchored=joined == 'anchored')
+    if joined == 'axle':
+        carry_out(world, draw(world, circle(0.0, 4.0, 0.1)))
+    for name, x in (('a/0', -0.5), ('b/0', 0.5)):
+        spawn(world, name, Box(width=0.4, height=0.4), (x, 1.0, 0.0))
+    over = np.column_stack((0.55 * np.cos(UP), 4.0 + 0.55 * np.sin(UP)))
+
+    reading = draw(world, np.vstack(([(-0.5, 1.1)], over, [(0.5, 1.1)]))[::order])
+    carry_out(world, reading)
+
+    assert reading.meaning == 'rope'
+    assert reading.message.endswith(' over wheel/0')
+    rope = world.snapshot().scene.joints[-1]
+    (guide,) = rope.guides
+    assert (guide.body, abs(guide.radius)) == ('wheel/0', 0.5)
+    # From the middles of the bodies, two spans up to that of the wheel, and half of its rim.
+    assert rope.rest_length == pytest.approx(2 * 3.0 + 0.5 * math.pi, abs=0.01)
+
+
+@pytest.mark.parametrize('loose', [True, False])
+def test_a_rope_that_sags_beside_a_disc_runs_over_no_wheel(world: World, loose: bool) -> None:
+    populate(world, BESIDE)
+    ball = (2.0, -0.9, 0.0) if loose else (2.0, 3.0, 0.0)
+    spawn(world, 'ball/0', Disc(radius=0.3), ball, anchored=not loose)
+    turn = np.linspace(math.pi, 2.0 * math.pi, 50)
+
+    carry_out(world, draw(world, np.column_stack((2.0 + 2.0 * np.cos(turn), 1.5 * np.sin(turn)))))
+
+    assert world.snapshot().scene.joints[-1].guides == ()
+
+
 TURNS = math.tau * np.arange(7) / 7
 SEVEN = tuple(zip(0.5 * np.cos(TURNS), 0.5 * np.sin(TURNS), strict=True))
 # Bodies that are there, middle and radius of a circle, the axle's bodies, and its place: the
@@ -162,6 +202,14 @@ AXLES: dict[str, tuple[Sequence[Spawn], tuple[float, float, float], tuple[str, s
          spawning('wheel/0', Disc(radius=0.4), (1.0, 0.4, 0.0))],
         (1.02, 0.38, 0.08), ('wheel/0', 'chassis/0'), (1.0, 0.4),
     ),
+    **{
+        f'of {radius} m over a gap of {gap} m': (
+            [spawning('a/0', Box(width=2.0, height=0.5)),
+             spawning('b/0', Box(width=2.0, height=0.5), (2.0 + gap, 0.0, 0.0))],
+            (1.0 + gap / 2, 0.0, radius), ('b/0', 'a/0'), (1.0 + gap / 2, 0.0),
+        )
+        for gap, radius in ((0.05, 0.1), (0.1, 0.1), (0.1, 0.2))
+    },
     'of a wheel with corners': (
         [spawning('road/0', Box(width=9.0, height=1.0), (0.0, -0.95, 0.0)),
          spawning('chassis/0', Box(width=3.0, height=0.5), (0.0, 0.3, 0.0)),
@@ -196,6 +244,20 @@ def test_a_small_circle_is_an_axle(
     assert (joint.kind, {joint.a, joint.b}) == (JointKind.AXLE, {a, b})
     tolerance = 0.01 if place == ring[:2] else 1e-9
     assert world.snapshot().ends[0] == pytest.approx(np.array([place] * 2), abs=tolerance)
+
+
+def test_a_circle_beside_or_between_bodies_that_it_hardly_overlaps_is_a_disc(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=0.5))
+    spawn(world, 'b/0', Box(width=2.0, height=0.5), (2.4, 0.0, 0.0))
+
+    assert draw(world, circle(1.2, 0.0, 0.21)).meaning == 'disc'
+
+
+def test_a_small_square_over_a_gap_welds_the_bodies_beside_it(world: World) -> None:
+    spawn(world, 'a/0', Box(width=2.0, height=0.5))
+    spawn(world, 'b/0', Box(width=2.0, height=0.5), (2.1, 0.0, 0.0))
+
+    assert draw(world, square(1.05, 0.0, 0.15)).meaning == 'pin'
 
 
 @pytest.mark.parametrize('radius', [0.5, 0.6, 0.9])
