@@ -68,7 +68,7 @@ class Medium(Checked):
     gust_seed: Annotated[
         int,
         Whole(0, 2**31 - 1),
-        'which gusts: media with the same number have them at the same times',
+        'media with the same number have the same gusts at the same times',
     ] = 0
 
     @property

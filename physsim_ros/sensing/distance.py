@@ -159,7 +159,9 @@ def read_landmarks(surroundings: Surroundings, row: int, finder: Landmarks) -> F
     x, y, yaw = placed(snapshot, row, finder)
     away = snapshot.poses[rows, :2] - (x, y)
     ranges = np.hypot(*away.T)
-    bearings = np.remainder(np.arctan2(*away.T[::-1]) - yaw + math.pi, math.tau) - math.pi
+    # NumPy's `arctan2` has other bits with AVX-512.
+    headings = np.array([math.atan2(dy, dx) for dx, dy in away.tolist()])
+    bearings = np.remainder(headings - yaw + math.pi, math.tau) - math.pi
     # The core casts rays counter-clockwise.
     order = np.argsort(bearings)
     sight = yaw + bearings[order]

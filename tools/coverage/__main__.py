@@ -30,7 +30,8 @@ LINES = re.compile(r"File '(.*)'\nLines executed:([\d.]+)% of (\d+)")
 def run_tests(tree: Path, words: list[str]) -> int:
     """Run tests of a tree with coverage, and return the exit code."""
     coverage = [sys.executable, '-m', 'coverage']
-    pytest = ['-m', 'pytest', '--numprocesses=auto', '--maxprocesses=8', '--dist=worksteal']
+    # Workers of pytest-xdist end without a word to gcov.
+    pytest = ['-m', 'pytest', '-p', 'no:xdist']
     variables = os.environ | {'PYTHONPATH': str(tree)}
     run = [*coverage, 'run', *pytest, '-q', '-m', 'not slow', *words]
     code = subprocess.run(run, cwd=tree, env=variables, check=False).returncode
