@@ -26,9 +26,12 @@ from physsim_ros.drawing.scene_query import SceneQuery
 from physsim_ros.drawing.strokes.bodies_under import nearest_points
 from physsim_ros.drawing.strokes.geometry import point_of
 from physsim_ros.model.applied_forces import AppliedForce
+from physsim_ros.model.arrays import Floats
 from physsim_ros.model.body_properties import Properties
 from physsim_ros.model.errors import BadOutline, BadSize, NothingThere
+from physsim_ros.model.names import WORLD
 from physsim_ros.model.requests import ChangeBody, Cut, Rejoin, Spawn, Unjoin
+from physsim_ros.model.rope_path import spans
 from physsim_ros.model.scene import Joint
 from physsim_ros.model.shapes import contains, Shape
 from physsim_ros.model.transform import cross, Point, rotated
@@ -113,8 +116,13 @@ def _severed(start: Point, end: Point, scene: SceneQuery) -> list[str]:
 
     :raises WorldFull: there are too many
     """
-    rows = [row for row, joint in enumerate(scene.joints) if joint.kind.schema.along_line]
-    a, b = np.moveaxis(scene.snapshot.ends[rows], 1, 0)
+    lines = [
+        (joint, line)
+        for row, joint in enumerate(scene.joints)
+        if joint.kind.schema.along_line
+        for line in _lines(joint, scene.snapshot.ends[row], scene)
+    ]
+    a, b = np.moveaxis(np.reshape([line for _, line in lines], (-1, 2, 2)), 1, 0)
     along, stroke, away = b - a, np.subtract(end, start), start - a
     determinant = cross(along, stroke)
     with np.errstate(divide='ignore', invalid='ignore'):
@@ -123,13 +131,31 @@ def _severed(start: Point, end: Point, scene: SceneQuery) -> list[str]:
     crossed = (of_joint > 0.0) & (of_joint < 1.0) & (of_stroke > 0.0) & (of_stroke < 1.0)
     names: list[str] = []
     for number in np.flatnonzero(crossed).tolist():
-        joint = scene.joints[rows[number]]
+        joint = lines[number][0]
         point = point_of(a[number] + of_joint[number] * along[number])
         is_part = joint.name in scene.joints_of_robot(scene.whole(joint.a))
-        if not is_part and {joint.a, joint.b}.isdisjoint(scene.bodies_at(point)):
+        is_beside = {*joint.bodies}.isdisjoint(scene.bodies_at(point))
+        if not is_part and is_beside and joint.name not in names:
             names.append(joint.name)
             check_count(len(names))
     return names
+
+
+def _lines(joint: Joint, ends: Floats, scene: SceneQuery) -> Iterator[Floats]:
+    """
+    Yield the straight lines along which a joint reaches, (2, 2) float64 [m].
+
+    A rope past rings and wheels has those between them; what lies on a wheel is not cut.
+
+    :param ends: (2, 2) float64: its anchor points in the world [m]
+    """
+    if not joint.guides:
+        yield ends
+        return
+    poses = {name: scene.pose(name) for name in joint.bodies if name != WORLD}
+    radii = (0.0, *(guide.radius for guide in joint.guides), 0.0)
+    for span in spans(joint.drawn_points(poses), radii):
+        yield np.array((span.start, span.end))
 
 
 def _requests_of(

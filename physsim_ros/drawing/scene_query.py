@@ -103,6 +103,11 @@ class SceneQuery:
         names = () if mapping is None else (part_name(robot, each.name) for each in mapping.links)
         return tuple(name for name in names if name in self._rows)
 
+    def machine(self, name: str) -> tuple[str, ...]:
+        """Return the names of a robot and its links for each of them; of another body its own."""
+        robot = self.whole(name)
+        return (robot, *self.parts(robot)) if robot in self._rows else (name,)
+
     def joints_of_robot(self, name: str) -> frozenset[str]:
         """Return the names of the joints of a robot; of another body none."""
         mapping = self.body(name).robot

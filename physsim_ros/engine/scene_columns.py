@@ -206,19 +206,17 @@ def _force_records(scene: Scene) -> Table:
 def _region_records(scene: Scene) -> Table:
     air, seed = scene.settings.air, scene.settings.seed
     media = [
-        (row, body.name, body.medium)
-        for row, body in enumerate(scene.bodies)
-        if body.medium is not None
+        (row, body.medium) for row, body in enumerate(scene.bodies) if body.medium is not None
     ]
     if air.acts:
-        media.append((-1, '', air))
+        media.append((-1, air))
     records = np.zeros(len(media), _REGION)
-    for record, (row, name, medium) in zip(records, media, strict=True):
+    for record, (row, medium) in zip(records, media, strict=True):
         record['body'], record['gusty'] = row, medium.gusts > 0.0
         for field in ('density', 'viscosity', 'drag', 'flow'):
             record[field] = getattr(medium, field)
         if medium.gusts:
-            record['waves'] = gust_waves(medium, seed, name)
+            record['waves'] = gust_waves(medium, seed)
     return records
 
 

@@ -14,7 +14,7 @@ from typing import Annotated
 
 import numpy as np
 from physsim_ros.model.arrays import Floats
-from physsim_ros.model.checks import HEAVIEST, VELOCITY, Within
+from physsim_ros.model.checks import HEAVIEST, VELOCITY, Whole, Within
 from physsim_ros.model.declarations import Checked
 from physsim_ros.model.noise import normals
 from physsim_ros.model.transform import Point
@@ -65,6 +65,11 @@ class Medium(Checked):
         'root mean square of the gusts, in x and in y, which are added to the flow; by `seed`',
     ] = 0.0
     gust_time: Annotated[float, GUST_TIME, 'typical time from one gust to the next'] = 2.0
+    gust_seed: Annotated[
+        int,
+        Whole(0, 2**31 - 1),
+        'which gusts: media with the same number have them at the same times',
+    ] = 0
 
     @property
     def acts(self) -> bool:
@@ -72,7 +77,7 @@ class Medium(Checked):
         return self.density > 0.0 or self.viscosity > 0.0
 
 
-def gust_waves(medium: Medium, seed: int, name: str) -> Floats:
+def gust_waves(medium: Medium, seed: int) -> Floats:
     """
     Return the waves whose sum is the gusts of a medium.
 
@@ -81,13 +86,12 @@ def gust_waves(medium: Medium, seed: int, name: str) -> Floats:
     depend on the time alone, so that rewinding needs no state.
 
     :param seed: of the world
-    :param name: of the region
     :return: (WAVES, 5) float64: rate ω [rad/s], then x and y of the factors of cos ωt and sin ωt
         [m/s]
     """
     spread = np.arange(WAVES) / (WAVES - 1) - 0.5
     rates = 2.0 * np.pi / medium.gust_time * _WIDEST**spread
-    factors = normals(seed, f'gusts of {name}', 0, 4 * WAVES).reshape(WAVES, 2, 2)
+    factors = normals(seed, f'gusts {medium.gust_seed}', 0, 4 * WAVES).reshape(WAVES, 2, 2)
     # The mean square of a wave is half the sum of its squares.
     power = (factors**2).sum(axis=(0, 1)) / 2
     factors *= medium.gusts / np.sqrt(power)

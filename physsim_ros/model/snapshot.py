@@ -117,10 +117,10 @@ class Snapshot:
 
         :raises UnknownBody: no body has that name; the most similar name is told
         """
-        names = self.scene.names
-        if name not in names:
-            raise no_body(name, names, '')
-        return names.index(name)
+        row = self.scene.row_of.get(name, -1)
+        if row < 0:
+            raise no_body(name, self.scene.names, '')
+        return row
 
     def copy(self) -> Snapshot:
         """Return a copy without cached properties, ten times as fast as `replace`."""

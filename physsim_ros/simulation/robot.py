@@ -24,6 +24,7 @@ from physsim_ros.sensing import (
     read_odometry,
     read_sensor,
     true_motion,
+    View,
 )
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world.robot_requests import robot_of_name
@@ -57,8 +58,8 @@ class Robot:
 
         :raises UnknownBody: it is no longer there
         """
-        scene = self.simulation.view.snapshot.scene
-        robot = scene.bodies[self._row].robot
+        view, row = self._seen
+        robot = view.snapshot.scene.bodies[row].robot
         assert robot is not None  # noqa: S101 - others are refused above
         return robot
 
@@ -94,7 +95,11 @@ class Robot:
         :param sensor: its name; '' is the first laser
         :raises BadProperty: there is no such sensor
         """
-        ranges: Floats = self.read(sensor or self.first_laser.name)
+        if sensor:
+            ranges: Floats = self.read(sensor)
+        else:
+            view, row = self._seen
+            ranges = read_sensor(view, row, self.first_laser)
         return ranges
 
     def read(self, sensor: str) -> Any:
@@ -104,20 +109,24 @@ class Robot:
         :param sensor: its name
         :raises BadProperty: there is no such sensor
         """
-        for each in self.description.sensors:
+        sensors = self.description.sensors
+        for each in sensors:
             if each.name == sensor:
-                return read_sensor(self.simulation.view, self._row, each)
-        names = [each.name for each in self.description.sensors]
+                view, row = self._seen
+                return read_sensor(view, row, each)
+        names = [each.name for each in sensors]
         message = f'{self.name} has no sensor {sensor!r}{nearest_name(sensor, names)}'
         raise BadProperty(message, field='sensors')
 
     def odom(self) -> OdometryReading:
         """Return where its wheels and its gyroscope tell that it is, and how it moves."""
-        return read_odometry(self.simulation.view.snapshot, self._row)
+        view, row = self._seen
+        return read_odometry(view.snapshot, row)
 
     def truth(self) -> OdometryReading:
         """Return where it is, and how it moves."""
-        return true_motion(self.simulation.view.snapshot, self._row)
+        view, row = self._seen
+        return true_motion(view.snapshot, row)
 
     @property
     def bumped(self) -> bool:
@@ -126,13 +135,18 @@ class Robot:
 
         It is false where contacts are not reported any more.
         """
-        view = self.simulation.view
-        return is_bumped(view.snapshot, view.contacts, self._row, self.description)
+        view, row = self._seen
+        return is_bumped(view.snapshot, view.contacts, row, self.description)
 
     @property
-    def _row(self) -> int:
-        """Return the row of its body in the frame of now."""
-        return self.simulation.view.snapshot.row(self.name)
+    def _seen(self) -> tuple[View, int]:
+        """
+        Return the frame of now, and the row of its body in it.
+
+        :raises UnknownBody: it is no longer there
+        """
+        view = self.simulation.view
+        return view, view.snapshot.row(self.name)
 
     @property
     def first_laser(self) -> Laser:

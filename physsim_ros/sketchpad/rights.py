@@ -198,34 +198,50 @@ def _bodies_then(node: Node, snapshot: Snapshot) -> tuple[str, ...]:
 
 def _bodies_of(request: Request, snapshot: Snapshot) -> tuple[str, ...]:
     """
-    Return the bodies that a request concerns, by name.
+    Return the bodies that a request concerns, by name, with all parts of their robots.
 
     :param snapshot: in which points are looked up
     """
     query = SceneQuery(snapshot)
+    return tuple(each for name in _named(request, query) for each in query.machine(name))
+
+
+def _of_joint(name: str, query: SceneQuery) -> tuple[str, ...]:
+    """Return the bodies of a joint; of one that is not there, none."""
+    return next((each.bodies for each in query.joints if each.name == name), ())
+
+
+def _joined(request: requests.Join, query: SceneQuery) -> tuple[str, ...]:
+    """Return the bodies that a joint has, or will have."""
+    points, properties = request.points, request.properties
+    names = (request.a, *(properties.over or ('',) * (len(points) - 2)), request.b)
+    # One point is that of both ends.
+    places = points if len(points) > 1 else points * 2
+    joined = (
+        each
+        for name, point in zip(names, places, strict=True)
+        for each in ((name,) if name else query.bodies_at(point)[:1])
+    )
+    carrier = () if properties.carrier is None else (properties.carrier,)
+    return (*joined, *carrier, *_of_joint(request.name, query))
+
+
+def _named(request: Request, query: SceneQuery) -> tuple[str, ...]:
+    """Return the bodies that a request or its joints name, or that lie at its points."""
     match request:
         case requests.MoveBodies() | requests.DeleteBodies() | requests.Command():
             return request.names
         case requests.Spawn() | requests.ChangeBody() | requests.Delete() | requests.DriveRobot():
             return (request.name,)
-        case requests.Join(a=a, b=b, points=points, properties=properties):
-            names = (a, *(properties.over or ('',) * (len(points) - 2)), b)
-            # One point is that of both ends.
-            places = points if len(points) > 1 else points * 2
-            joined = tuple(
-                each
-                for name, point in zip(names, places, strict=True)
-                for each in ((name,) if name else query.bodies_at(point)[:1])
-            )
-            return joined if properties.carrier is None else (*joined, properties.carrier)
-        case requests.Rejoin(a=a, b=b):
-            return (a, b)
+        case requests.Join():
+            return _joined(request, query)
+        case requests.Rejoin(name=old, a=a, b=b):
+            return (a, b, *_of_joint(old, query))
         case requests.Cut(pieces=pieces, joints=moved, severed=severed):
-            parts = (_bodies_of(each, snapshot) for each in (*pieces, *moved, *severed))
+            parts = (_named(each, query) for each in (*pieces, *moved, *severed))
             return tuple(name for names in parts for name in names)
         case requests.Unjoin(name=name):
-            joints = (each for each in query.joints if each.name == name)
-            return tuple(each for joint in joints for each in joint.bodies)
+            return _of_joint(name, query)
         case requests.Grab(point=point):
             under = query.bodies_at(point)
             return tuple(each for each in under if query.body(each).dynamic)[:1] or under[:1]

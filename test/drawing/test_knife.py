@@ -308,6 +308,25 @@ def test_a_rope_is_cut_where_it_is_crossed_beside_its_bodies():
     assert answer == 'cut j/0, j/1, j/2'
 
 
+def test_a_rope_over_a_wheel_is_cut_where_it_is_and_not_between_its_ends():
+    simulation = Simulation()
+    simulation.perform(spawning('a/0'))
+    simulation.perform(spawning('wheel/0', DISC, (4.0, 6.0, 0.0)))
+    simulation.perform(spawning('load/0', DISC, (8.0, 0.0, 0.0)))
+    points = ((0.0, 0.0), (4.0, 6.0), (8.0, 0.0))
+    join(simulation, 'rope', *points, b='load/0', over=('wheel/0',))
+    with pytest.raises(NothingThere):
+        cut(simulation, (4.0, 2.0), (4.0, -2.0))
+    (joint,) = simulation.world.scene.joints
+
+    # Both of its spans at once.
+    answer = cut(simulation, (0.0, 3.0), (8.0, 3.0))
+
+    assert joint.guides[0].radius
+    assert simulation.world.scene.joints == ()
+    assert answer == 'cut j/0'
+
+
 def test_a_rope_that_is_cut_again_is_refused():
     simulation = Simulation()
     simulation.perform(spawning('a/0'))

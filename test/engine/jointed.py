@@ -33,6 +33,8 @@ VALUES: dict[str, float] = {
 PROPERTIES: dict[JointKind, dict[str, Any]] = {
     kind: {name: VALUES[name] for name in kind.schema.own if name in VALUES} for kind in KINDS
 }
+# A slider has either a rate or an effort.
+del PROPERTIES[JointKind.SLIDER]['rate']
 
 
 def points_of(kind: JointKind) -> list[Point]:

@@ -176,3 +176,23 @@ def test_a_snapshot_has_the_buoyancy_of_what_floats():
     run(sim, 10.0)
 
     assert sim.world.snapshot().fields == pytest.approx(np.array([[0.0, 0.0], [0.0, G]]), abs=1e-6)
+
+
+def blown(names, seeds):
+    """Return the speeds of two discs, each in a region of a name that has gusts of a seed."""
+    sim = simulation(gravity=(0.0, 0.0), seed=3)
+    for x, name, seed in zip((-5.0, 5.0), names, seeds, strict=True):
+        wind = {'density': 1.0, 'gusts': 2.0, 'gust_seed': seed}
+        said = {'anchored': True, 'sensor': True, 'medium': wind}
+        spawn(sim, name, Box(width=8.0, height=8.0), (x, 0.0, 0.0), **said)
+        spawn(sim, f'disc/{x:g}', Disc(radius=0.3), (x, 0.0, 0.0))
+    return run(sim, 1.0).twists[1::2, :2]
+
+
+def test_gusts_are_those_of_their_seed_whatever_the_region_is_called():
+    one = blown(('left/0', 'right/0'), (0, 7))
+    assert np.array_equal(one, blown(('wind/9', 'a/1'), (0, 7)))
+    assert not np.allclose(one[0], one[1])
+    same = blown(('left/0', 'right/0'), (7, 7))
+    assert np.allclose(same[0], same[1])
+    assert np.array_equal(same[1], one[1])

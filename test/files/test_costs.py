@@ -12,7 +12,7 @@ import math
 import time
 from typing import Any
 
-from physsim_ros import Simulation
+from physsim_ros import Robot, Simulation
 from physsim_ros.files import load_mapping, state_from
 from physsim_ros.model.attraction import MOST_ATTRACTING
 from physsim_ros.model.robots.sensors.distance import MOST_BEAMS
@@ -26,7 +26,7 @@ WHOLE, PART = 2**18, 2**16
 # CPU time of the whole by that of the part: 4 where work is proportional, 16 by the square.
 MOST = 8.0
 # CPU time of the part below which the ratio says nothing [s].
-LEAST = 0.05
+LEAST = 0.02
 Entries = Iterator[tuple[str, dict[str, Any]]]
 TURNS = [math.tau * number / 1000 for number in range(1000)]
 ROUND = [[round(0.2 * math.cos(turn), 5), round(0.2 * math.sin(turn), 5)] for turn in TURNS]
@@ -55,6 +55,12 @@ def chains(number: int) -> Entries:
     yield 'bodies', {'name': f'b/{number}', 'chain': chain, 'at': [0.0, 3.0 * number]}
 
 
+def compounds(number: int) -> Entries:
+    centers = [[round(0.2 * each, 1), 0.0] for each in range(100)]
+    parts = {'box': {'width': 0.1, 'height': 0.1}, 'centers': centers}
+    yield 'bodies', {'name': f'b/{number}', 'compound': parts, 'at': [0.0, 0.5 * number]}
+
+
 def notes(number: int) -> Entries:
     yield 'bodies', disc(number, label='a\n' * 20, sensor=True, anchored=True)
 
@@ -81,6 +87,12 @@ def robots(number: int) -> Entries:
     yield 'bodies', disc(number, **({'robot': 'turtlebot4'} if number < 200 else {}))
 
 
+def arms(number: int) -> Entries:
+    """Yield a robot of links, joints and motors, as long as the topics are few enough."""
+    at = [3.0 * (number % 100), 3.0 * (number // 100)]
+    yield 'bodies', {**disc(number, **({'robot': 'arm'} if number < 200 else {})), 'at': at}
+
+
 def lasers(number: int) -> Entries:
     """Yield a robot of 64 scanners, as long as its topics are few enough."""
     scans = [{'kind': 'laser', 'name': f's{each}', 'beams': MOST_BEAMS} for each in range(64)]
@@ -93,11 +105,15 @@ def paths(number: int) -> Entries:
     yield 'bodies', disc(number, kinematic=True, actor=actor)
 
 
-def people(number: int) -> Entries:
-    actor = {'kind': 'social_force', 'points': [[1.0, 0.0], [5.0, 5.0]], 'repeat': 'loop'}
+def people(number: int, kind: str = 'social_force') -> Entries:
+    actor = {'kind': kind, 'points': [[1.0, 0.0], [5.0, 5.0]], 'repeat': 'loop'}
     # As far apart as in a street: of a dense crowd all see all, up to its size.
     x, y = place(number)
     yield 'bodies', disc(number, actor=actor, at=[6.0 * x, 6.0 * y])
+
+
+def orca(number: int) -> Entries:
+    yield from people(number, 'orca')
 
 
 def rods(number: int) -> Entries:
@@ -110,6 +126,19 @@ def rods(number: int) -> Entries:
 def springs(number: int) -> Entries:
     for which, entry in rods(number):
         yield which, entry | ({'kind': 'spring'} if which == 'joints' else {})
+
+
+def gears(number: int) -> Entries:
+    for which, entry in rods(number):
+        gear = {'kind': 'gear', 'ratio': -2.0, 'points': [place(number)]}
+        yield which, entry | (gear if which == 'joints' else {})
+
+
+def motors(number: int) -> Entries:
+    """Yield a wheel on an axle by hand, with a motor."""
+    yield from discs(number)
+    motor = {'kind': 'axle', 'points': [place(number)], 'effort': 5.0, 'max_speed': 2.0}
+    yield 'joints', {'name': f'j/{number}', **motor}
 
 
 def pins(number: int) -> Entries:
@@ -130,17 +159,22 @@ KINDS: list[Callable[[int], Entries]] = [
     discs,
     polygons,
     chains,
+    compounds,
     notes,
     forces,
     belts,
     media,
     attraction,
     robots,
+    arms,
     lasers,
     paths,
     people,
+    orca,
     rods,
     springs,
+    gears,
+    motors,
     pins,
     pulleys,
 ]
@@ -178,7 +212,18 @@ def costs_of(entries: Callable[[int], Entries], length: int) -> dict[str, float]
     world.advance_frame()
     note('frame', world.advance_frame)
     note('checkpoint', world.past.cursor.add_keyframe)
+    scanner = next((body.name for body in world.world.scene.bodies if body.robot), None)
+    if entries is lasers and scanner is not None:
+        # Those of one robot: a node reads them at their own rates.
+        robot = Robot(world, scanner)
+        note('readings', lambda: [robot.scan(f's{each}') for each in range(64)])
     return costs
+
+
+def least_costs(entries: Callable[[int], Entries], length: int) -> dict[str, float]:
+    """Return the lesser of two measurements [s]: other programs make one longer, never shorter."""
+    first, second = costs_of(entries, length), costs_of(entries, length)
+    return {what: min(took, second[what]) for what, took in first.items()}
 
 
 @pytest.fixture(autouse=True)
@@ -194,7 +239,7 @@ def collected() -> Iterator[None]:
 def test_a_file_four_times_as_long_takes_some_four_times_as_long(
     entries: Callable[[int], Entries],
 ) -> None:
-    part, whole = (costs_of(entries, length) for length in (PART, WHOLE))
+    part, whole = (least_costs(entries, length) for length in (PART, WHOLE))
     row = ', '.join(f'{what} {1e3 * took:.0f} ms' for what, took in whole.items())
     print(f'{entries.__name__}: {row}')  # noqa: T201 - the table
     for what, took in whole.items():

@@ -116,3 +116,29 @@ def test_the_friction_of_a_slide_holds_a_carriage_or_slows_it(report):
     right = G / math.sqrt(2.0) - 10.0 / 2.0
     slowed = (late - early)[1] / 0.5
     report.check(73, 'friction of a slide, acceleration', slowed, right, 1e-6, 'm/s²')
+
+
+@pytest.mark.parametrize(('pull', 'friction'), [(1.5, 0.05), (1.5, 0.0), (1.1, 0.05), (1.0, 0.05)])
+def test_a_tackle_of_four_strands_loses_to_its_bearings(report, pull, friction):
+    # Wheels turn 4, 3, 2 and 1 times as fast as the load rises by their radius; strands are
+    # vertical.
+    radius, wheel, load = 0.1, 0.1, 4.0
+    sim = simulation()
+    spawn(sim, 'load/0', Box(width=1.0, height=0.2), (4 * radius, -0.5, 0.0), mass=load)
+    along = [(4 * radius, -0.5), (4 * radius, 0.5)]
+    join(sim, 'guide/0', 'slider', along, a='load/0', b='world')
+    centers = [(2 * number * radius, (2.0, -0.5)[number % 2]) for number in range(4)]
+    for number, center in enumerate(centers):
+        spawn(sim, f'wheel/{number}', Disc(radius=radius), (*center, 0.0), mass=wheel)
+        said = {'a': f'wheel/{number}', 'b': ('world', 'load/0')[number % 2], 'friction': friction}
+        join(sim, f'axle/{number}', 'axle', [center], **said)
+    spawn(sim, 'pull/0', Box(width=0.1, height=0.1), (-radius, 0.5, 0.0), mass=pull)
+    points = [(-radius, 0.55), *centers, (7 * radius, 2.0)]
+    over = tuple(f'wheel/{number}' for number in range(4))
+    join(sim, 'rope/0', 'rope', points, a='pull/0', b='world', over=over)
+    early, late = (run(sim, 0.3).twists[0, 1] for _ in range(2))
+    lifted, drag = load + 2 * wheel, 10.0 * friction / radius
+    force = (4.0 * pull - lifted) * G
+    force = math.copysign(max(abs(force) - drag, 0.0), force)
+    right = force / (lifted + 16.0 * pull + 15.0 * wheel)
+    report.check(73, 'tackle of four, acceleration', (late - early) / 0.3, right, 1e-6, 'm/s²')

@@ -243,6 +243,8 @@ def mirrored(state):
             shape=mirrored_shape(changed.shape),
             forces=forces,
             surface_velocity=_flip(changed.surface_velocity),
+            belt=-changed.belt,
+            one_way=_flip(changed.one_way),
         )
         return replace(
             held, pose=(x, -y, -yaw), twist=(vx, -vy, -spin), body=changed, driven=driven
@@ -358,7 +360,7 @@ def heavier(state, factor):
         coulomb=state.settings.coulomb * factor,
     )
     state = replace(state, settings=settings)
-    names = ('max_torque', 'stiffness', 'damping', 'max_force', 'break_force')
+    names = ('max_torque', 'stiffness', 'damping', 'friction', 'max_force', 'break_force')
     return with_joints(
         with_media(with_bodies(state, body), medium),
         lambda joint: scaled(explicit(joint), **dict.fromkeys(names, factor)),
@@ -387,6 +389,7 @@ def larger(state, size, time):
             mass=changed.total_mass,
             forces=forces,
             surface_velocity=tuple(speed * part for part in changed.surface_velocity),
+            belt=speed * changed.belt,
         )
         return replace(
             held,
@@ -405,12 +408,16 @@ def larger(state, size, time):
         # Values as drawn in the units of before.
         each = with_guides(replace(explicit(each), seat=seat._replace(**points)), guide)
         along = size if each.kind in {JointKind.SLIDER, JointKind.ROPE} else 1.0
+        # Torque by angle and force by way, torque and force: powers of the length.
+        arm = size**2 if each.kind is JointKind.AXLE else 1.0
+        force = arm if each.kind is JointKind.AXLE else size
         return scaled(
             each,
             rate=along / time,
             max_torque=speed**2,
-            stiffness=1 / time**2,
-            damping=1 / time,
+            stiffness=arm / time**2,
+            damping=arm / time,
+            friction=force / time**2,
             rest_length=size,
             length=size,
             lower=along,

@@ -134,6 +134,75 @@ def test_locked_bodies_are_changed_by_a_teacher_alone(browser: Browser) -> None:
     assert pupil.ask('delete', names=['a/0'])['ok']
 
 
+MACHINES = """
+format: 1
+gravity: [0, 0]
+bodies:
+- {name: arm/0, robot: arm, at: [0, 0]}
+- {name: w/0, circle: {radius: 0.5}, at: [6, 4], anchored: true}
+- {name: d/0, circle: {radius: 0.2}, at: [6, 4], anchored: true, sensor: true}
+- {name: l/0, box: {width: 0.2, height: 0.2}, at: [5.5, 0]}
+- {name: l/1, box: {width: 0.2, height: 0.2}, at: [6.5, 0]}
+- {name: g/0, circle: {radius: 0.5}, at: [10, 0]}
+- {name: g/1, circle: {radius: 0.5}, at: [12, 0]}
+- {name: c/0, box: {width: 0.5, height: 0.2}, at: [11, 2]}
+joints:
+- {name: rope/0, kind: rope, a: l/0, b: l/1, points: [[5.5, 0], [6, 4], [6.5, 0]], over: [w/0]}
+- {name: gear/0, kind: gear, a: g/0, b: g/1, points: [[11, 0]], ratio: -1, carrier: c/0}
+"""
+CHANGES: dict[str, tuple[str, str, dict[str, Any]]] = {
+    'its robot is moved': ('arm/0/upper/0', 'move_bodies', {'names': ['arm/0'], 'by': [1, 0]}),
+    'its robot is placed': ('arm/0/upper/0', 'place', {'names': ['arm/0'], 'poses': [[0, 1, 0]]}),
+    'its robot is deleted': ('arm/0/upper/0', 'delete', {'names': ['arm/0']}),
+    'its part is moved': ('arm/0', 'move_bodies', {'names': ['arm/0/upper/0'], 'by': [1, 0]}),
+    'its part is deleted': ('arm/0', 'delete', {'names': ['arm/0/upper/0']}),
+    'its part is clicked away': ('arm/0', 'click', {'tool': 'delete', 'point': [0.2, 0]}),
+    'its robot is changed': (
+        'arm/0/upper/0',
+        'change',
+        {'name': 'arm/0', 'properties': {'friction': 0.1}},
+    ),
+    'its motor is changed': (
+        'arm/0/upper/0',
+        'change_joint',
+        {'name': 'arm/0/shoulder/0', 'properties': {'effort': 1}},
+    ),
+    'a rope over it is changed': (
+        'w/0',
+        'change_joint',
+        {'name': 'rope/0', 'properties': {'length': 9}},
+    ),
+    'a winch pulls over it': (
+        'w/0',
+        'change_joint',
+        {'name': 'rope/0', 'properties': {'rate': 1}},
+    ),
+    'a gear is changed that it carries': (
+        'c/0',
+        'change_joint',
+        {'name': 'gear/0', 'properties': {'ratio': 2}},
+    ),
+    'a rope over it is deleted': ('w/0', 'unjoin', {'name': 'rope/0'}),
+    'a gear is deleted that it carries': ('c/0', 'unjoin', {'name': 'gear/0'}),
+}
+
+
+@pytest.mark.parametrize('how', CHANGES)
+def test_a_part_of_a_machine_is_locked_against_what_changes_the_machine(
+    browser: Browser, tmp_path: Path, how: str
+) -> None:
+    (tmp_path / 'machines.yaml').write_text(MACHINES)
+    browser.physsim.load(tmp_path / 'machines.yaml')
+    browser.physsim.step()
+    pupil, boss = browser.open_page(), teacher(browser)
+    name, kind, fields = CHANGES[how]
+    assert name in browser.physsim.names
+    assert boss.ask('lock', names=[name])['ok']
+    assert pupil.ask(kind, **fields)['code'] == 'frozen'
+    assert boss.ask('lock', names=[])['ok']
+    assert pupil.ask(kind, **fields)['ok']
+
+
 def test_time_brings_no_locked_body_back_or_away_but_for_a_teacher(browser: Browser) -> None:
     pupil, boss = browser.open_page(), teacher(browser)
     assert pupil.spawn('b/0', 4.0)['ok']

@@ -51,6 +51,11 @@ MESSAGES: list[tuple[str, dict[str, Any]]] = [
     ('instead', {}),
     ('click', {'tool': 'spring', 'point': [2.0, 0.0]}),
     ('drop', {}),
+    # Through 30 discs, and through the chains.
+    ('click', {'tool': 'knife', 'point': [-1.0, 10.05]}),
+    ('click', {'tool': 'knife', 'point': [31.0, 10.06]}),
+    ('click', {'tool': 'knife', 'point': [-1.0, 0.01]}),
+    ('click', {'tool': 'knife', 'point': [5.0, 0.02]}),
     ('draw_with', {'density': 2.0, 'friction': 0.1, 'color': '#00ff00'}),
     ('spawn', {'body': {'name': 'p/0', 'polygon': ROUND, 'at': [0, 200]}}),
     ('spawn', {'body': LONG}),
@@ -144,7 +149,8 @@ def test_no_message_takes_the_thread_of_the_world_for_long(crowded: PhysSim) -> 
     for page, role in ((1, Role.TEACH), (2, Role.DRAW)):
         sketchpad._open(page, Opened(role=role, person=page, key=''))  # noqa: SLF001 - no socket
     for_world = {type_ for type_, kind in KINDS.items() if kind.for_world}
-    assert {kind for kind, _ in MESSAGES} == for_world
+    messages = [*MESSAGES, ('open_text', {'world': world_text()})]
+    assert {kind for kind, _ in messages} == for_world
     # CPU time in shares of what it may be.
     longest: list[tuple[float, str]] = []
 
@@ -152,7 +158,7 @@ def test_no_message_takes_the_thread_of_the_world_for_long(crowded: PhysSim) -> 
         took, most = time.thread_time() - began, MOST + EACH * len(crowded.names) * (kind in WHOLE)
         longest.append((took / most, f'{kind}, {what}: {took * 1e3:.1f} ms'))
 
-    for kind, fields in MESSAGES:
+    for kind, fields in messages:
         text = json.dumps({'type': kind, **fields})
         assert len(text) <= MOST_BYTES + 400_000
         for page, role in ((1, Role.TEACH), (2, Role.DRAW)):

@@ -154,3 +154,21 @@ def test_the_guard_goes_round_in_a_circle():
 
     # It starts at rest, with an acceleration of 2.5 m/s².
     assert np.abs(off).max() < 0.02
+
+
+def test_the_plant_sorts_by_size_and_by_weight():
+    plant = film('sorting', 16.0)
+
+    def inside(names, left, right):
+        return all(left < plant.x(name)[-1] < right for name in names)
+
+    # Small, middle, heavy and light balls lie in their bins, below the lids.
+    assert inside(('ball/0', 'ball/3', 'ball/6', 'ball/7'), -4.2, -0.95)
+    assert inside(('ball/2', 'ball/5', 'ball/8'), -0.95, 1.75)
+    assert inside(('ball/1',), 4.6, 6.85)
+    assert inside(('ball/4',), 6.85, 9.0)
+    assert max(plant.pose(f'ball/{number}')[-1, 1] for number in range(9)) < 1.8
+    # The wheel turns one way.
+    turns = plant.pose('wheel/0')[:, 2]
+    assert np.diff(turns).max() < 1e-6
+    assert turns[-1] < -math.pi

@@ -4,14 +4,15 @@
 """
 Time to accuracy: the processor time that each engine needs for the same error, scene by scene.
 
-An engine is run at its rates in turn, the cheapest first, until the error is as small as is
-allowed: that rate is told. Here frames are made, in the other engines steps alone. Box2D 3 is
+An engine is run at all of its rates; the cheapest one whose error is as small as is allowed is
+told, and all are drawn. Here frames are made, in the other engines steps alone. Box2D 3 is
 measured where its bindings are installed: `pip install pyb2d3`.
 """
 
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from test.laws.scenes import floor, join, NOWHERE, spawn, walls
 import time
 from typing import NamedTuple
@@ -25,8 +26,11 @@ from physsim_ros.simulation.simulation import Simulation
 
 from .peers import depths, ENGINES, Errors, FRAMES, Rate, Run
 from .scenes import bob_on_spring, chain, double_pendulum, gas, pendulum, racer, row, Scene
+from .work_precision import Panel, picture, Point
 
 G = -WorldSettings().gravity[1]
+# Where the diagrams are written.
+PICTURE = Path('build', 'work_precision.svg')
 # Half the side of a box, speed of the braking box [m/s], friction of a pair [1].
 HALF, SPEED, FRICTION = 0.25, 4.0, 0.5
 # Radius of the discs of the crowd, and half of the width of their bin [m].
@@ -203,20 +207,18 @@ TRIALS: dict[str, Trial] = {
 
 class Result(NamedTuple):
     """
-    The cheapest run of an engine whose error is allowed.
+    A run of an engine.
 
     :ivar rate: of it
-    :ivar error: of it
-    :ivar cpu: processor time for a second of simulation [ms]
+    :ivar point: its cost and its error
     """
 
     rate: Rate
-    error: float
-    cpu: float
+    point: Point
 
 
-def measured(run: Run, trial: Trial) -> tuple[float, float]:
-    """Return the error of a run, and its processor time for a second of simulation [ms]."""
+def measured(run: Run, trial: Trial) -> Point:
+    """Return cost and error of a run; a state that is no number has an infinite error."""
     states, spent = [run.snapshot()], 0
     for _ in range(round(trial.seconds * FRAMES)):
         began = time.process_time_ns()
@@ -224,36 +226,41 @@ def measured(run: Run, trial: Trial) -> tuple[float, float]:
         spent += time.process_time_ns() - began
         states.append(run.snapshot())
     error = trial.error(states)
-    return (error if math.isfinite(error) else math.inf), spent * 1e-6 / trial.seconds
+    cost = spent * 1e-6 / trial.seconds
+    return Point(cost, error if math.isfinite(error) else math.inf)
 
 
-def cheapest(engine: str, trial: Trial) -> Result | None:
-    """Return the first run of an engine whose error is allowed; None if no rate has it."""
+def results_of(engine: str, trial: Trial) -> list[Result]:
+    """Return a run of an engine at each of its rates, the cheapest first."""
     kind, rates = ENGINES[engine]
-    for rate in rates:
-        error, cpu = measured(kind(trial.scene, rate), trial)
-        if error <= trial.allowed:
-            return Result(rate, error, cpu)
-    return None
+    return [Result(rate, measured(kind(trial.scene, rate), trial)) for rate in rates]
+
+
+def cheapest(results: list[Result], allowed: float) -> Result | None:
+    """Return the first run whose error is allowed; None if there is none."""
+    return next((each for each in results if each.point.error <= allowed), None)
 
 
 def table() -> None:
-    """Print a row for each scene."""
-    names = list(ENGINES)
+    """Print a row for each scene, and draw the work-precision diagrams."""
+    names, panels = list(ENGINES), []
     print(
         '\nProcessor time for a second of simulation [ms] at the cheapest rate [Hz] with no more'
     )
     print(f'than the error; times: of the best of {", ".join(names[1:])}; -: no rate has it')
     print(f'{"scene":42} {"error":>8}', *(f'{name:>22}' for name in names), f'{"times":>7}')
     for name, trial in TRIALS.items():
-        results = {engine: cheapest(engine, trial) for engine in names}
+        runs = {engine: results_of(engine, trial) for engine in names}
+        curves = {engine: [each.point for each in of_engine] for engine, of_engine in runs.items()}
+        panels.append(Panel(name, trial.allowed, curves))
+        best = {engine: cheapest(of_engine, trial.allowed) for engine, of_engine in runs.items()}
         cells = [
-            '-' if found is None else f'{found.cpu:.2f} ({found.rate})'
-            for found in results.values()
+            '-' if found is None else f'{found.point.cost:.2f} ({found.rate})'
+            for found in best.values()
         ]
-        ours = results['here']
-        peers = [each.cpu for engine, each in results.items() if engine != 'here' and each]
-        times = f'{ours.cpu / min(peers):.1f}' if ours and peers else '-'
+        ours = best['here']
+        peers = [each.point.cost for engine, each in best.items() if engine != 'here' and each]
+        times = f'{ours.point.cost / min(peers):.1f}' if ours and peers else '-'
         allowed = f'{trial.allowed * _UNITS[trial.unit]:g} {trial.unit}'
         print(
             f'{name:42} {allowed:>8}',
@@ -261,3 +268,6 @@ def table() -> None:
             f'{times:>7}',
             flush=True,
         )
+    PICTURE.parent.mkdir(exist_ok=True)
+    PICTURE.write_text(picture(panels), encoding='utf-8')
+    print(f'The work-precision diagrams are in {PICTURE}')

@@ -45,6 +45,7 @@ TIMES = {
     'worlds/incline': 1.6,
     'worlds/newtons_cradle': 1.1,
     'worlds/pendulums': 6.0,
+    'worlds/sorting': 7.5,
     'worlds/warehouse': 8.0,
 }
 USUAL = 3.0

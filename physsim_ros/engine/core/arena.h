@@ -21,6 +21,9 @@ typedef struct Arena {
 // Return memory for so many values, all bits 0; it lasts until a release of an earlier mark, or a reset.
 void *arena_take(Arena *arena, size_t count, size_t size);
 
+// Return memory that begins as so many values.
+void *arena_copy(Arena *arena, const void *values, size_t count, size_t size);
+
 // Return a mark, to which `arena_release` gives back what is taken from now on.
 static inline size_t arena_mark(const Arena *arena) {
     return arena->used;

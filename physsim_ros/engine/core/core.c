@@ -27,6 +27,8 @@ World *core_new(cpSpace *space, Chipmunk chipmunk, double dt, cpConstraint *hook
 void core_free(World *world) {
     arena_free(&world->own->arena);
     arena_free(&world->own->static_arena);
+    arena_free(world->own->system_arenas);
+    arena_free(world->own->system_arenas + 1);
     free_report(world);
     free(world->own->jointed);
     free(world->own->pulls);

@@ -219,27 +219,38 @@ static void remove_velocity(Solve *solve, const Displacement *move, const double
     }
 }
 
+// Whether a joint is being drawn together since it was made or changed.
+static bool any_drawn(const Island *island) {
+    for (int number = 0; number < island->joint_count; number++) {
+        if (island->joints[number]->apart > 0.0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // Have momenta turn with the rows along which joints that were just made or changed were drawn together.
 //
 // A displacement is a motion, whose impulse λ / dt begins along J and ends along J + dt dJ/dt, so that momenta change
-// by
-// -(dJ/dt)ᵀ λ. A ball on a rope that is shortened keeps its angular momentum by this, and the rope does work. Between
-// joints that contradict each other λ is of any size, and would give energy.
+// by -(dJ/dt)ᵀ λ. A ball on a rope that is shortened keeps its angular momentum by this, and the rope does work.
+// Between joints that contradict each other λ is of any size, and would give energy.
 static void turn_momenta(Solve *solve, const Displacement *move, const double *impulses) {
     const Island *island = solve->island;
-    Jacobian *now = TAKE(solve->arena, Jacobian, solve->system.link_count);
+    if (!any_drawn(island)) {
+        return;
+    }
+    double *excess = TAKE(solve->arena, double, island->joint_row_count);
     Jacobian *later = TAKE(solve->arena, Jacobian, solve->system.link_count);
     Pose *ahead = TAKE(solve->arena, Pose, island->body_count);
     Twist *changes = TAKE(solve->arena, Twist, island->body_count);
     for (int body = 0; body < island->body_count; body++) {
         ahead[body] = moved(solve->poses[body], solve->velocities[body], solve->dt);
     }
-    read_rows(island, ahead, move->excess, later);
-    read_rows(island, solve->poses, move->excess, now);
+    read_rows(island, ahead, excess, later);
     for (int row = 0; row < island->joint_row_count; row++) {
         bool drawn = island->joints[island->joint_of_row[row]]->apart > 0.0;
         double impulse = drawn ? impulses[row] / solve->dt : 0.0;
-        add_row_momenta(&solve->system, now, row, impulse, changes);
+        add_row_momenta(&solve->system, move->jacobians, row, impulse, changes);
         add_row_momenta(&solve->system, later, row, -impulse, changes);
     }
     for (int body = 0; body < island->body_count; body++) {
@@ -281,6 +292,7 @@ void solve_positions(Solve *solve) {
     }
     if (moved) {
         memcpy(solve->poses, best.poses, (size_t)island->body_count * sizeof(Pose));
+        read_rows(island, solve->poses, move.excess, move.jacobians);
         turn_momenta(solve, &move, best.impulses);
         remove_velocity(solve, &move, best.impulses);
     }

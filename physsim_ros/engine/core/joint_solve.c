@@ -5,32 +5,45 @@
 
 #include "joint_solve.h"
 
-// Return x of the row of a number, and the Jacobians of its links.
-static double read_row(const Island *island, const Joint *joint, int row, const Pose *poses, Jacobian *jacobians) {
+// Return the length of the path of a rope, and the Jacobians of its links.
+static double read_path(const Island *island, int row, const Pose *poses, Jacobian *jacobians) {
     const Row *of_joint = island->rows[row];
-    Pose a = poses[island->ends[row].a], b = poses[island->ends[row].b];
-    int first = island->further[row];
+    Ends ends = island->ends[row];
     double x = of_joint->offset;
-    if (of_joint->kind == ROW_PATH) {
-        x += span_at(of_joint, island->guides, 0, a, b, jacobians + row);
-        for (int link = first; link < island->further[row + 1]; link++) {
-            Ends ends = island->ends[link];
-            x += span_at(of_joint, island->guides, link - first + 1, poses[ends.a], poses[ends.b], jacobians + link);
-        }
-        return x;
+    x += span_at(of_joint, island->guides, 0, poses[ends.a], poses[ends.b], jacobians + row);
+    for (int first = island->further[row], link = first; link < island->further[row + 1]; link++) {
+        ends = island->ends[link];
+        x += span_at(of_joint, island->guides, link - first + 1, poses[ends.a], poses[ends.b], jacobians + link);
     }
-    Anchors anchors = anchors_at(joint, a, b);
-    x += row_at(of_joint, joint, &anchors, a, b, jacobians + row);
+    return x;
+}
+
+// Return x of the row of a number, and the Jacobians of its links; `anchors` are those of its joint.
+static double read_row(const Island *island, int row, const Anchors *anchors, const Pose *poses, Jacobian *jacobians) {
+    const Row *of_joint = island->rows[row];
+    const Joint *joint = island->joints[island->joint_of_row[row]];
+    Pose a = poses[island->ends[row].a], b = poses[island->ends[row].b];
+    double x = of_joint->offset + row_at(of_joint, joint, anchors, a, b, jacobians + row);
     if (of_joint->guide_count > 0) {
+        int first = island->further[row];
         x += carrier_at(joint, poses[island->ends[first].a], jacobians + first);
     }
     return x;
 }
 
 void read_rows(const Island *island, const Pose *poses, double *excess, Jacobian *jacobians) {
-    for (int row = 0; row < island->joint_row_count; row++) {
+    Anchors anchors = {0};
+    for (int row = 0, joint = -1; row < island->joint_row_count; row++) {
         const Row *of_joint = island->rows[row];
-        double x = read_row(island, island->joints[island->joint_of_row[row]], row, poses, jacobians);
+        bool is_path = of_joint->kind == ROW_PATH;
+        if (!is_path && island->joint_of_row[row] != joint) {
+            // Rows of a joint have the same anchors.
+            joint = island->joint_of_row[row];
+            Ends ends = island->ends[row];
+            anchors = anchors_at(island->joints[joint], poses[ends.a], poses[ends.b]);
+        }
+        double x =
+            is_path ? read_path(island, row, poses, jacobians) : read_row(island, row, &anchors, poses, jacobians);
         excess[row] = greatest(x - of_joint->upper, 0.0) + least(x - of_joint->lower, 0.0);
     }
 }
@@ -46,7 +59,7 @@ void change_velocities(Solve *solve, const Twist *changes, double share) {
     }
 }
 
-Solve joint_solve(World *world, const Island *island) {
+Solve joint_solve(World *world, const Island *island, Arena *of_system, const System *former) {
     Arena *arena = &world->own->arena;
     Solve solve = {.arena = arena, .space = world->space, .dt = world->dt, .island = island};
     solve.velocities = island->velocities;
@@ -59,8 +72,13 @@ Solve joint_solve(World *world, const Island *island) {
     solve.jacobians = TAKE(arena, Jacobian, island->further[island->row_count]);
     solve.holds = TAKE(arena, bool, island->joint_row_count);
     solve.springs = TAKE(arena, bool, island->row_count);
-    solve.system = system_of(arena, island->body_count, island->inverses, island->row_count, island->ends,
-                             island->further, island->groups);
+    Layout layout = {.body_count = island->body_count,
+                     .row_count = island->row_count,
+                     .inverses = island->inverses,
+                     .ends = island->ends,
+                     .further = island->further,
+                     .groups = island->groups};
+    solve.system = system_of(of_system, layout, former);
     for (int row = 0; row < island->joint_row_count; row++) {
         solve.holds[row] = island->rows[row]->law == LAW_BOUNDS;
         solve.springs[row] = island->rows[row]->law == LAW_SPRING;

@@ -69,12 +69,21 @@ void solve_joints(World *world) {
     if (!has_stage(world, STAGE_JOINTS)) {
         return;
     }
-    Islands *found = world->own->joint_islands;
-    found->solves = TAKE(&world->own->arena, Solve, found->count);
+    Private *own = world->own;
+    Islands *found = own->joint_islands;
+    found->solves = TAKE(&own->arena, Solve, found->count);
+    own->system_turn = 1 - own->system_turn;
+    Arena *arena = own->system_arenas + own->system_turn;
+    arena_reset(arena);
+    System *systems = TAKE(arena, System, found->count);
     for (int number = 0; number < found->count; number++) {
-        found->solves[number] = joint_solve(world, found->islands + number);
+        const System *former = number < own->system_count ? own->systems + number : NULL;
+        found->solves[number] = joint_solve(world, found->islands + number, arena, former);
+        systems[number] = found->solves[number].system;
         solve_velocities(found->solves + number);
     }
+    own->systems = systems;
+    own->system_count = found->count;
 }
 
 void close_joints(World *world) {

@@ -13,6 +13,7 @@
 // bits. Cost: 12 µs for a chain of fifty axles, 250 unknowns.
 
 #include "ldl.h"
+#include <string.h>
 
 enum { NO_PARENT = -1 };
 
@@ -91,6 +92,20 @@ void ldl_analyse(Ldl *system, Arena *arena) {
             system->factor_rows[place] = row;
         }
     }
+}
+
+void ldl_copy(Ldl *system, const Ldl *former, Arena *arena) {
+    size_t size = (size_t)system->size, total = (size_t)former->factor_starts[size];
+    system->parents = arena_copy(arena, former->parents, size, sizeof(int));
+    system->pattern_starts = arena_copy(arena, former->pattern_starts, size + 1, sizeof(int));
+    system->pattern = arena_copy(arena, former->pattern, total, sizeof(int));
+    system->places = arena_copy(arena, former->places, total, sizeof(int));
+    system->factor_starts = arena_copy(arena, former->factor_starts, size + 1, sizeof(int));
+    system->factor_rows = arena_copy(arena, former->factor_rows, total, sizeof(int));
+    system->factors = TAKE(arena, double, total);
+    system->inverse_pivots = TAKE(arena, double, size);
+    system->work = TAKE(arena, double, size);
+    system->changed = memset(TAKE(arena, bool, size), true, size * sizeof(bool));
 }
 
 static void factor_row(Ldl *system, int row) {

@@ -11,10 +11,13 @@
 // form a sparse, symmetric, quasi-definite system (`ldl`). E is a small part of the diagonal of J M⁻¹ Jᵀ, since rows
 // may say the same twice, as the joints of a parallelogram do.
 //
-// Cost: of a chain of fifty axles 30 µs for the pattern and 12 µs a factorisation.
+// An island whose bodies and rows are those of the sub-step before keeps its pattern and its order of elimination.
+//
+// Cost: of a chain of fifty axles 30 µs for a new pattern and 12 µs a factorisation.
 
 #include "saddle_point.h"
 #include "elimination_order.h"
+#include <string.h>
 
 enum { NO_UNKNOWN = -1 };
 
@@ -29,7 +32,7 @@ static bool has_mass(Inverse inverse) {
     return inverse.mass > 0.0;
 }
 
-static Nodes nodes_of(const System *system, const int *groups, Arena *arena) {
+static Nodes nodes_of(const System *system, Arena *arena) {
     Nodes nodes = {.bodies = TAKE(arena, int, system->body_count),
                    .first_rows = TAKE(arena, int, system->row_count + 1)};
     for (int body = 0; body < system->body_count; body++) {
@@ -41,7 +44,7 @@ static Nodes nodes_of(const System *system, const int *groups, Arena *arena) {
     }
     int group_count = 0;
     for (int row = 0; row < system->row_count; row++) {
-        if (row == 0 || groups[row] != groups[row - 1]) {
+        if (row == 0 || system->groups[row] != system->groups[row - 1]) {
             nodes.first_rows[group_count++] = row;
         }
     }
@@ -171,30 +174,71 @@ static void lay_out_entries(System *system, Arena *arena) {
     }
     system->factors.starts = starts;
     system->factors.rows = rows;
-    system->factors.values = TAKE(arena, double, 6 * system->link_count);
-    system->factors.diagonal = TAKE(arena, double, size);
-    for (int body = 0; body < system->body_count; body++) {
-        int unknown = system->body_unknowns[body];
-        if (unknown != NO_UNKNOWN) {
-            Inverse inverse = system->inverses[body];
-            system->factors.diagonal[unknown] = system->factors.diagonal[unknown + 1] = 1.0 / inverse.mass;
-            system->factors.diagonal[unknown + 2] = 1.0 / inverse.moment;
-        }
-    }
 }
 
-System system_of(Arena *arena, int body_count, const Inverse *inverses, int row_count, const Ends *ends,
-                 const int *further, const int *groups) {
-    System system = {.body_count = body_count, .row_count = row_count, .inverses = inverses, .ends = ends};
-    system.further = further;
-    system.link_count = further[row_count];
-    system.body_unknowns = TAKE(arena, int, body_count);
-    system.row_unknowns = TAKE(arena, int, row_count);
-    system.places = arena_take(arena, (size_t)system.link_count, sizeof(*system.places));
-    Nodes nodes = nodes_of(&system, groups, arena);
-    system.factors.size = number_unknowns(&system, &nodes, order_of(&system, &nodes, arena));
-    lay_out_entries(&system, arena);
-    ldl_analyse(&system.factors, arena);
+// Find the order of elimination, and where matrix and factors are not 0.
+static void find_pattern(System *system, Arena *arena) {
+    system->body_unknowns = TAKE(arena, int, system->body_count);
+    system->row_unknowns = TAKE(arena, int, system->row_count);
+    system->places = arena_take(arena, (size_t)system->link_count, sizeof(*system->places));
+    Nodes nodes = nodes_of(system, arena);
+    system->factors.size = number_unknowns(system, &nodes, order_of(system, &nodes, arena));
+    lay_out_entries(system, arena);
+    ldl_analyse(&system->factors, arena);
+}
+
+static bool has_layout(const System *system, Layout layout) {
+    if (system->body_count != layout.body_count || system->row_count != layout.row_count ||
+        system->link_count != layout.further[layout.row_count]) {
+        return false;
+    }
+    for (int body = 0; body < layout.body_count; body++) {
+        if (has_mass(layout.inverses[body]) == (system->body_unknowns[body] == NO_UNKNOWN)) {
+            return false;
+        }
+    }
+    size_t rows = (size_t)layout.row_count, links = (size_t)system->link_count;
+    return memcmp(system->further, layout.further, (rows + 1) * sizeof(int)) == 0 &&
+           memcmp(system->groups, layout.groups, rows * sizeof(int)) == 0 &&
+           memcmp(system->ends, layout.ends, links * sizeof(Ends)) == 0;
+}
+
+static void copy_pattern(System *system, const System *former, Arena *arena) {
+    const Ldl *factors = &former->factors;
+    size_t size = (size_t)factors->size, entries = (size_t)factors->starts[size];
+    system->body_unknowns = arena_copy(arena, former->body_unknowns, (size_t)system->body_count, sizeof(int));
+    system->row_unknowns = arena_copy(arena, former->row_unknowns, (size_t)system->row_count, sizeof(int));
+    system->places = arena_copy(arena, former->places, (size_t)system->link_count, sizeof(*system->places));
+    system->factors.size = factors->size;
+    system->factors.starts = arena_copy(arena, factors->starts, size + 1, sizeof(int));
+    system->factors.rows = arena_copy(arena, factors->rows, entries, sizeof(int));
+    ldl_copy(&system->factors, factors, arena);
+}
+
+System system_of(Arena *arena, Layout layout, const System *former) {
+    size_t rows = (size_t)layout.row_count, links = (size_t)layout.further[layout.row_count];
+    System system = {.body_count = layout.body_count,
+                     .row_count = layout.row_count,
+                     .link_count = layout.further[layout.row_count],
+                     .inverses = layout.inverses,
+                     .ends = arena_copy(arena, layout.ends, links, sizeof(Ends)),
+                     .further = arena_copy(arena, layout.further, rows + 1, sizeof(int)),
+                     .groups = arena_copy(arena, layout.groups, rows, sizeof(int))};
+    if (former != NULL && has_layout(former, layout)) {
+        copy_pattern(&system, former, arena);
+    } else {
+        find_pattern(&system, arena);
+    }
+    system.factors.values = TAKE(arena, double, 6 * system.link_count);
+    system.factors.diagonal = TAKE(arena, double, system.factors.size);
+    for (int body = 0; body < system.body_count; body++) {
+        int unknown = system.body_unknowns[body];
+        if (unknown != NO_UNKNOWN) {
+            Inverse inverse = system.inverses[body];
+            system.factors.diagonal[unknown] = system.factors.diagonal[unknown + 1] = 1.0 / inverse.mass;
+            system.factors.diagonal[unknown + 2] = 1.0 / inverse.moment;
+        }
+    }
     system.side = TAKE(arena, double, system.factors.size);
     return system;
 }

@@ -25,13 +25,23 @@ typedef struct Inverse {
     double mass, moment;
 } Inverse;
 
+// Which bodies a set of rows has.
+typedef struct Layout {
+    int body_count, row_count;
+    const Inverse *inverses; // (body_count)
+    const Ends *ends;        // (link_count)
+    const int *further;      // (row_count + 1): the first further link of each row, from `row_count` on
+    const int *groups;       // (row_count): rows of a joint or of a pair of bodies have one, and follow one another
+} Layout;
+
 // A set of rows, whose Jacobian may change. A row has a link between two bodies, with its own number, and may have
 // further ones, whose J v is added.
 typedef struct System {
     int body_count, row_count, link_count;
     const Inverse *inverses; // (body_count)
     const Ends *ends;        // (link_count)
-    const int *further;      // (row_count + 1): the first further link of each row, from `row_count` on
+    const int *further;      // (row_count + 1)
+    const int *groups;       // (row_count)
     int *body_unknowns;      // (body_count): the first of three unknowns of each; -1 for those that do not move
     int *row_unknowns;       // (row_count)
     int (*places)[6];        // (link_count): of the entries of J among the values of the matrix; -1 for none
@@ -57,9 +67,9 @@ typedef struct Solution {
     int wrong_count;
 } Solution;
 
-// Return the system of rows; those of a joint or of a pair of bodies have one group and follow one another.
-System system_of(Arena *arena, int body_count, const Inverse *inverses, int row_count, const Ends *ends,
-                 const int *further, const int *groups);
+// Return the system of rows, in memory of an arena. Where a former one has the same layout, its pattern is taken; NULL
+// is none. Of that the inverses may be gone.
+System system_of(Arena *arena, Layout layout, const System *former);
 
 Solution solution_for(const System *system, Arena *arena);
 

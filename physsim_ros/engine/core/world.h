@@ -38,13 +38,18 @@ typedef struct Private {
     int load_count;
     struct Islands *joint_islands; // of this step
     bool *bearers;                 // (body_count): bodies all of whose contacts are rows of these; NULL without any
-    int call_step;                 // number of the step in this call
-    bool all_active;               // requests may have changed any body since the last sub-step
-    bool has_floor;                // there is a body on which a floor acts
-    int sub_step;                  // number of the sub-step in this step
-    int wishing;                   // number of the actor whose wish is found next
-    bool wishes;                   // wishes of actors are found, before the first sub-step
-    struct Surroundings *around;   // of all pedestrians, in this step; NULL before the first one looks
+    // Systems of the islands of the last sub-step, whose patterns the next one takes; and memory for those, by turns.
+    struct System *systems;
+    int system_count;
+    Arena system_arenas[2];
+    int system_turn;
+    int call_step;               // number of the step in this call
+    bool all_active;             // requests may have changed any body since the last sub-step
+    bool has_floor;              // there is a body on which a floor acts
+    int sub_step;                // number of the sub-step in this step
+    int wishing;                 // number of the actor whose wish is found next
+    bool wishes;                 // wishes of actors are found, before the first sub-step
+    struct Surroundings *around; // of all pedestrians, in this step; NULL before the first one looks
     struct Report *report;
     struct Pull *pulls; // of media on bodies, in this step
 } Private;

@@ -219,14 +219,19 @@ def _join_link(urdf: ET.Element, frames: RobotFrames, robot: Robot, link: Link) 
         ET.SubElement(joint, 'axis', xyz=f'{x / length:.9g} {y / length:.9g} 0')
     elif kind != 'fixed':
         ET.SubElement(joint, 'axis', xyz='0 0 1')
+    span: dict[str, float] = {}
     if kind in ('prismatic', 'revolute'):
-        values = {
+        span = {
             'lower': -_UNLIMITED if limits[0] is None else limits[0],
             'upper': _UNLIMITED if limits[1] is None else limits[1],
+        }
+    # URDF asks for both where there are limits; a motor has them in any case.
+    if span or properties.effort:
+        speed = properties.max_speed
+        values = {
+            **span,
             'effort': properties.effort or 0.0,
-            'velocity': JOINT_DEFAULTS['max_speed']
-            if properties.max_speed is None
-            else properties.max_speed,
+            'velocity': JOINT_DEFAULTS['max_speed'] if speed is None else speed,
         }
         ET.SubElement(joint, 'limit', {key: f'{value:.9g}' for key, value in values.items()})
 

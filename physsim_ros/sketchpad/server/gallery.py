@@ -41,6 +41,7 @@ BY_DIFFICULTY = (
     'catapult',
     'gear_train',
     'crane',
+    'sorting',
     'bridge',
 )
 

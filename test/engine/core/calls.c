@@ -33,8 +33,8 @@ int call_mixed_lcp(int body_count, const double *inverses, int row_count, const 
     for (int row = 0; row <= row_count; row++) {
         further[row] = row_count;
     }
-    System system =
-        system_of(&arena, body_count, (const Inverse *)inverses, row_count, (const Ends *)ends, further, groups);
+    Layout layout = {body_count, row_count, (const Inverse *)inverses, (const Ends *)ends, further, groups};
+    System former = system_of(&arena, layout, NULL), system = system_of(&arena, layout, &former);
     Problem problem = {(const Jacobian *)jacobians, wanted, lower, upper, softness, NULL, NULL};
     Solution solution = solution_for(&system, &arena);
     solve_problem(&system, &problem, &solution, &arena);

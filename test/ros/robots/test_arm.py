@@ -123,6 +123,9 @@ def test_its_description_has_its_links_joints_and_limits(arm: Arm) -> None:
     urdf = ET.fromstring(heard[0].data)  # noqa: S314 - our own
     joints = {joint.get('name'): joint for joint in urdf.iter('joint')}
     assert joints['shoulder'].get('type') == 'continuous'
+    turning = joints['shoulder'].find('limit')
+    assert turning is not None
+    assert turning.attrib == {'effort': '30', 'velocity': '3'}
     elbow = joints['elbow']
     assert elbow.get('type') == 'revolute'
     found = [elbow.find(tag) for tag in ('parent', 'child', 'origin', 'axis', 'limit')]
