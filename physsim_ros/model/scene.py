@@ -387,6 +387,13 @@ class Scene:
         return {name: row for row, name in enumerate(self.names)} | {WORLD: -1}
 
     @cached_property
+    def torsion_springs(self) -> tuple[Joint, ...]:
+        """The axles that have a stiffness."""
+        return tuple(
+            joint for joint in self.joints if joint.kind is JointKind.AXLE and joint.stiffness
+        )
+
+    @cached_property
     def joint_rows(self) -> Ints:
         """(j, 2) int64: rows of the bodies a and b of each joint; -1 is the background."""
         pairs = [(self.row_of[joint.a], self.row_of[joint.b]) for joint in self.joints]

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from physsim_ros.model.arrays import Flags, Floats, Ints
 from physsim_ros.model.errors import no_body, Refusal
-from physsim_ros.model.names import shown_name
-from physsim_ros.model.scene import Scene
+from physsim_ros.model.names import shown_name, WORLD
+from physsim_ros.model.scene import Joint, Scene
 from physsim_ros.model.states import NO_ROBOTS, Records
 from physsim_ros.model.transform import Point, rotated_each
 
@@ -160,11 +160,19 @@ class Snapshot:
 
     @cached_property
     def elastic_energy(self) -> float:
-        """Potential energy of all springs [J]."""
+        """Potential energy of all springs, torsion springs among them [J]."""
         ends = self.ends[self.springs.numbers]
         offset = ends[:, 0] - ends[:, 1]
         energy, _ = self.springs.energy(np.hypot(offset[:, 0], offset[:, 1]))
-        return float(energy.sum())
+        return float(energy.sum()) + sum(map(self._torsion_energy, self.scene.torsion_springs))
+
+    def _torsion_energy(self, joint: Joint) -> float:
+        rows, stiffness, most = self.scene.row_of, joint.stiffness, joint.properties.max_force
+        yaws = [0.0 if name == WORLD else self.poses[rows[name], 2] for name in (joint.a, joint.b)]
+        strain = abs(yaws[0] - yaws[1] + joint.seat.phase - joint.number('rest_angle'))
+        # Beyond that angle its torque is constant.
+        elastic = strain if most is None else min(strain, most / stiffness)
+        return float(stiffness * elastic * (strain - elastic / 2.0))
 
     @cached_property
     def ends(self) -> Floats:

@@ -30,6 +30,13 @@ def test_a_torsion_pendulum_has_its_period_and_keeps_its_swing(report, stiffness
     times, angles = zip(*((now.step * DT, now.poses[0, 2] - NEUTRAL) for now in seen), strict=True)
     period = np.diff(crossings(times, angles)).mean()
     report.check(73, 'torsion pendulum, period', period, exact, 1e-4, 's', relative=True)
+    energies = [now.kinetic_energy + now.elastic_energy for now in seen]
+    whole = stiffness * NEUTRAL**2 / 2.0
+    off = np.abs(np.subtract(energies, whole)).max() / whole
+    # Its velocity is half a sub-step of the phase behind its angle.
+    behind = math.sqrt(stiffness) * DT / 8.0
+    within = 1e-4 + behind + behind**2
+    report.check(73, 'torsion pendulum, share of its energy', off, 0.0, within, '1')
     swing = np.abs(angles[-round(exact / DT) :]).max()
     report.check(73, 'torsion pendulum, swing', swing, NEUTRAL, 1e-3, 'rad', relative=True)
 
