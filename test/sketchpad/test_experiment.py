@@ -33,7 +33,7 @@ SEEN = {
     'terminal_speed': (5.0, 'ball/0'),
     'orbit': (8.0, 'planet/0'),
     'pulley': (1.0, 'load/0'),
-    'belt': (1.6, 'parcel/0'),
+    'belt': (1.75, 'parcel/0'),
 }
 SIDES = [(1, 0), (0, 1), (-1, 0), (0, -1)]
 CORNERS = [(1, 1), (1, -1), (-1, 1), (-1, -1)]

@@ -60,11 +60,11 @@ def test_arrow_keys_move_in_the_columns_of_tools(sheet: Sheet) -> None:
         'Hand',
         'Circle by diameter',
         'Circle',
-        'Rectangle',
-        'Rectangle',
+        'Polygon',
+        'Polygon',
     ]
-    rectangle = sheet.page.get_by_role('button', name='Rectangle', exact=True)
-    assert rectangle.get_attribute('aria-pressed') == 'true'
+    polygon = sheet.page.get_by_role('button', name='Polygon', exact=True)
+    assert polygon.get_attribute('aria-pressed') == 'true'
 
 
 def test_a_toolbar_has_one_stop_also_where_its_buttons_come_and_go(sheet: Sheet) -> None:
