@@ -37,7 +37,8 @@ def test_a_torsion_pendulum_has_its_period_and_keeps_its_swing(report, stiffness
     behind = math.sqrt(stiffness) * DT / 8.0
     within = 1e-4 + behind + behind**2
     report.check(73, 'torsion pendulum, share of its energy', off, 0.0, within, '1')
-    swing = np.abs(angles[-round(exact / DT) :]).max()
+    last = -round(exact / DT)
+    swing = np.abs(angles[last:]).max()
     report.check(73, 'torsion pendulum, swing', swing, NEUTRAL, 1e-3, 'rad', relative=True)
 
 
