@@ -388,7 +388,7 @@ class Scene:
 
     @cached_property
     def torsion_springs(self) -> tuple[Joint, ...]:
-        """The axles that have a stiffness."""
+        """Axles that have a stiffness."""
         return tuple(
             joint for joint in self.joints if joint.kind is JointKind.AXLE and joint.stiffness
         )
