@@ -160,7 +160,7 @@ def _copies(
     wholes = dict.fromkeys(scene.whole(name) for name in names)
     for copied, name in zip(scene.new_bodies(), wholes, strict=False):
         members = name, *scene.parts(name)
-        copies |= {each: copied + each[len(name) :] for each in members}
+        copies |= {each: copied + each.removeprefix(name) for each in members}
         moved = [(x + by[0], y + by[1], yaw) for x, y, yaw in map(scene.pose, members)]
         requests.append(copy_of(copied, scene.body(name), moved[0]))
         if len(members) > 1:

@@ -10,12 +10,12 @@ from concurrent.futures import Future
 from threading import Thread
 from typing import TypeVar
 
-from physsim_ros.simulation.parts import Parts
+from physsim_ros.simulation.parts import wrap_future
 
 _Result = TypeVar('_Result')
 
 
-def on_thread(read: Callable[[], _Result]) -> Parts[_Result]:
+async def on_thread(read: Callable[[], _Result]) -> _Result:
     """Return what a function returns that is called on a thread of its own, or raise its error."""
     future: Future[_Result] = Future()
 
@@ -27,5 +27,4 @@ def on_thread(read: Callable[[], _Result]) -> Parts[_Result]:
 
     # The end of the process does not wait for it.
     Thread(target=call, name='reading', daemon=True).start()
-    yield future
-    return future.result()
+    return await wrap_future(future)

@@ -13,10 +13,11 @@ An error inside of a step is no `Exception` (`StepFailed`): it passes, and ends 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Callable, Coroutine, Generator, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from itertools import count
 import traceback
+from types import coroutine
 from typing import TypeVar
 
 from physsim_ros.model.errors import Failed, PhysSimError
@@ -74,14 +75,15 @@ class ErrorBoundary:
             if took > self._longest[1]:
                 self._longest = name, took
 
+    @coroutine
     def parts_of_message(
-        self, name: str, parts: Generator[_Awaited, None, _Result]
+        self, name: str, parts: Coroutine[_Awaited, None, _Result]
     ) -> Generator[_Awaited, None, _Result]:
         """Carry out a message in parts, each as `message` does."""
         while True:
             with self.message(name):
                 try:
-                    awaited = next(parts)
+                    awaited = parts.send(None)
                 except StopIteration as end:
                     result: _Result = end.value
                     return result

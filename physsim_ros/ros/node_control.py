@@ -25,7 +25,7 @@ from physsim_ros.ros.outputs import Outputs
 from physsim_ros.ros.requests.request_topics import RequestTopics
 from physsim_ros.ros.requests.services import Service
 from physsim_ros.ros.world_files import WorldFiles
-from physsim_ros.simulation.parts import in_parts, Parted, Parts
+from physsim_ros.simulation.parts import in_parts, Parted
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from rclpy.node import Node
@@ -158,27 +158,27 @@ class NodeControl:
         """Return a service."""
         return self.services[name]
 
-    def perform_on(self, service: str, world: str) -> Parts[str]:
+    async def perform_on(self, service: str, world: str) -> str:
         """
         Perform a service on the world file of a name; where that is refused, nothing has changed.
 
         :raises PhysSimError: it is refused
         """
-        return self._perform_with(world, self.services[service].perform)
+        return await self._perform_with(world, self.services[service].perform)
 
-    def open_world(self, world: str) -> Parts[str]:
+    async def open_world(self, world: str) -> str:
         """
         Begin with the world of a name, at time 0; undo reverts it.
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
-        return self._perform_with(world, self._files.open_world)
+        return await self._perform_with(world, self._files.open_world)
 
-    def _perform_with(self, world: str, action: Parted[str]) -> Parts[str]:
+    async def _perform_with(self, world: str, action: Parted[str]) -> str:
         before = self.values['world_file']
         self.set_parameter('world_file', world)
         try:
-            return (yield from in_parts(action))
+            return await in_parts(action)
         except Exception:
             # Somebody may have set it meanwhile.
             if self.values['world_file'] == world:

@@ -23,7 +23,7 @@ from physsim_ros.model.checkpoint import WorldState
 from physsim_ros.model.errors import BadWorldFile
 from physsim_ros.model.texts import counted
 from physsim_ros.ros.parameters import SPECS
-from physsim_ros.simulation.parts import at_once, Parts
+from physsim_ros.simulation.parts import at_once
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of
 
@@ -55,17 +55,17 @@ class WorldFiles:
         state, _ = at_once(self._read(confined=False))
         self._simulation.begin(state)
 
-    def load(self, *, confined: bool) -> Parts[str]:
+    async def load(self, *, confined: bool) -> str:
         """
         Replace the world by the file, and return a message about it; time goes on.
 
         :param confined: whether only files below `world_dir` and the shipped worlds may be read
         :raises Refusal: there is no such file, or it is refused
         """
-        state, path = yield from self._read(confined=confined)
+        state, path = await self._read(confined=confined)
         return f'{self._simulation.load(state)} from {path.name}'
 
-    def open_world(self) -> Parts[str]:
+    async def open_world(self) -> str:
         """
         Begin with the world of the file, at time 0, and return a message about it.
 
@@ -73,9 +73,9 @@ class WorldFiles:
 
         :raises Refusal: there is no such file, or it is refused
         """
-        state, path = yield from self._read(confined=True)
+        state, path = await self._read(confined=True)
         begin = partial(beginning_of, state, self._simulation.physics_rate)
-        beginning = yield from on_thread(begin)
+        beginning = await on_thread(begin)
         return f'{self._simulation.open_world(state, beginning)} from {path.name}'
 
     def save(self) -> str:
@@ -96,7 +96,7 @@ class WorldFiles:
             message += '; from now on it comes before the shipped world of that name'
         return message
 
-    def _read(self, *, confined: bool) -> Parts[tuple[WorldState, Path]]:
+    async def _read(self, *, confined: bool) -> tuple[WorldState, Path]:
         name, simulation = self._values['world_file'], self._simulation
         try:
             path = find_world(
@@ -112,7 +112,7 @@ class WorldFiles:
                 physics_rate=simulation.physics_rate,
                 parameters=SPECS,
             )
-            state = yield from on_thread(load)
+            state = await on_thread(load)
         except BadWorldFile as refusal:
             if not confined:
                 raise

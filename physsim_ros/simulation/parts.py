@@ -10,29 +10,36 @@ the world's thread steps the world and handles messages.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Coroutine, Generator
 from concurrent.futures import Future, wait
+from types import coroutine
 from typing import Any, TypeAlias, TypeVar
 
 _Result = TypeVar('_Result')
-# Work on the world's thread that yields each future for whose result it waits, and returns its own
-# result.
-Parts: TypeAlias = Generator[Future[Any], None, _Result]
+# Work on the world's thread: a coroutine that awaits results of other threads by `wrap_future`.
+Parts: TypeAlias = Coroutine[Future[Any], None, _Result]
 # A function whose work may have parts.
 Parted: TypeAlias = Callable[[], _Result | Parts[_Result]]
 
 
-def in_parts(function: Parted[_Result]) -> Parts[_Result]:
+async def in_parts(function: Parted[_Result]) -> _Result:
     """Return the result of a function whose work may have parts."""
     result = function()
-    return (yield from result) if isinstance(result, Generator) else result
+    return await result if isinstance(result, Coroutine) else result
+
+
+@coroutine
+def wrap_future(future: Future[_Result]) -> Generator[Future[_Result], None, _Result]:
+    """Return the result of a future when that is done, or raise its error (as in asyncio)."""
+    yield future
+    return future.result()
 
 
 def at_once(parts: Parts[_Result]) -> _Result:
     """Carry out all parts now, wait for their threads, and return the result."""
     while True:
         try:
-            wait((next(parts),))
+            wait((parts.send(None),))
         except StopIteration as end:
             result: _Result = end.value
             return result

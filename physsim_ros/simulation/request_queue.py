@@ -351,7 +351,7 @@ class RequestQueue:
     def _carry_out(self, call: Call, parts: Parts[Sequence[Answer]]) -> None:
         """Carry out the next part of a call, and collect its answers after the last one."""
         try:
-            self._under_way = _UnderWay(call, parts, next(parts))
+            self._under_way = _UnderWay(call, parts, parts.send(None))
         except StopIteration as end:
             if self._has_jumped and not self._playback.has_arrived:
                 self._answer_arrival = partial(self._answer_call, call, end.value)

@@ -23,7 +23,7 @@ from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import Busy, PhysSimError, Refusal
 from physsim_ros.model.requests import HandRequest, KeepHand, LetGo, Request, Spawn
 from physsim_ros.model.snapshot import Answer, Frame, NO_PREVIEW, Preview
-from physsim_ros.simulation.parts import in_parts, Parted, Parts
+from physsim_ros.simulation.parts import in_parts, Parted
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import touches_content
@@ -296,13 +296,13 @@ def author_of(person: str, role: Role) -> str:
     return person + _TEACHES if role is Role.TEACH else person
 
 
-def answers_of(
+async def answers_of(
     origin: Origin, action: Parted[str], boundary: ErrorBoundary
-) -> Parts[tuple[Answer]]:
+) -> tuple[Answer]:
     """Perform an action; return the one answer, with its message or with its refusal."""
     topic, asker = origin.topic, origin.asker
     try:
-        message = yield from boundary.parts_of_message(topic, in_parts(action))
+        message = await boundary.parts_of_message(topic, in_parts(action))
     except Refusal as refusal:
         return (Answer.refused(refusal, topic=topic, asker=asker),)
     except PhysSimError as error:

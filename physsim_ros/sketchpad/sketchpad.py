@@ -20,7 +20,6 @@ from typing import Any
 from physsim_ros.files import OwnWorlds, text_of
 from physsim_ros.model.errors import Busy, Refusal
 from physsim_ros.model.snapshot import Answer, Frame
-from physsim_ros.simulation.parts import Parts
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.autosave import Autosave
 from physsim_ros.sketchpad.contacts import LastContacts
@@ -244,9 +243,9 @@ class Sketchpad:
         """Replace the world by an uploaded one, and tell the answer to the uploader too."""
         origin, simulation = Origin(UPLOADERS, '', '~/load_world'), self._simulation
 
-        def answers() -> Parts[tuple[Answer]]:
+        async def answers() -> tuple[Answer]:
             load = partial(opened, simulation, upload.content)
-            (answer,) = yield from answers_of(origin, load, self._boundary)
+            (answer,) = await answers_of(origin, load, self._boundary)
             upload.reply(answer)
             return (answer,)
 

@@ -19,7 +19,7 @@ from physsim_ros.drawing import DrawingSettings
 from physsim_ros.files import on_thread, state_from
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.snapshot import Answer, Snapshot
-from physsim_ros.simulation.parts import Parted, Parts
+from physsim_ros.simulation.parts import Parted
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import beginning_of
@@ -88,14 +88,14 @@ class WorldControl(Protocol):
     def service(self, name: str) -> tuple[Parted[str], Wait]:
         """Return the action of a service, which raises a PhysSimError, and its time."""
 
-    def perform_on(self, service: str, world: str) -> Parts[str]:
+    async def perform_on(self, service: str, world: str) -> str:
         """
         Perform `load_world` or `save_world` on the world of a name.
 
         :raises PhysSimError: it is refused, and nothing has changed
         """
 
-    def open_world(self, world: str) -> Parts[str]:
+    async def open_world(self, world: str) -> str:
         """
         Begin with the world of a name, at time 0; undo reverts it.
 
@@ -118,7 +118,7 @@ class WorldControl(Protocol):
         """
 
 
-def opened(simulation: Simulation, content: Mapping[str, Any]) -> Parts[str]:
+async def opened(simulation: Simulation, content: Mapping[str, Any]) -> str:
     """
     Begin with a world at time 0, which undo reverts, and return a message about it.
 
@@ -126,6 +126,6 @@ def opened(simulation: Simulation, content: Mapping[str, Any]) -> Parts[str]:
     :raises Refusal: it is refused
     """
     settings, rate = simulation.settings, simulation.physics_rate
-    state = yield from on_thread(partial(state_from, content, settings, rate))
-    beginning = yield from on_thread(partial(beginning_of, state, rate))
+    state = await on_thread(partial(state_from, content, settings, rate))
+    beginning = await on_thread(partial(beginning_of, state, rate))
     return simulation.open_world(state, beginning)

@@ -10,7 +10,7 @@ from threading import Thread
 from physsim_ros.model.errors import Refusal
 from physsim_ros.model.requests import DriveRobot
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.parts import Parts
+from physsim_ros.simulation.parts import wrap_future
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.simulation.simulation import Simulation
 
@@ -113,9 +113,8 @@ def begin_reading(simulation: Simulation) -> Future[str]:
     """Submit a call that waits for a file, and a request behind it; return what is waited for."""
     future: Future[str] = Future()
 
-    def call() -> Parts[list[Answer]]:
-        yield future
-        return [Answer(topic='~/load_world', message=future.result())]
+    async def call() -> list[Answer]:
+        return [Answer(topic='~/load_world', message=await wrap_future(future))]
 
     simulation.requests.submit_call(call, Wait.FOR_SEEK)
     late = spawning('late/0', BOX, (0.0, 0.0, 0.0))

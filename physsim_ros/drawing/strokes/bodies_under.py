@@ -104,9 +104,10 @@ def wheels_passed(points: Floats, context: Context) -> list[tuple[str, Point]]:
         beside = np.flatnonzero(norms(away) < radius + max(snap, radius / 2))
         if not len(beside) or beside[0] == 0 or beside[-1] == len(points) - 1:
             continue
-        before, after = beside[0] - 1, beside[-1] + 1
-        angles = np.unwrap([math.atan2(y, x) for x, y in away[before : after + 1].tolist()])
-        (ux, uy), (vx, vy) = (points[each + 1] - points[each] for each in (before, after - 1))
+        before, last = beside[0] - 1, beside[-1]
+        passing = slice(before, last + 2)
+        angles = np.unwrap([math.atan2(y, x) for x, y in away[passing].tolist()])
+        (ux, uy), (vx, vy) = (points[each + 1] - points[each] for each in (before, last))
         bend = abs(math.atan2(ux * vy - uy * vx, ux * vx + uy * vy))
         if abs(angles[-1] - angles[0]) > _AROUND and bend > _BEND:
             found.append((int(beside[len(beside) // 2]), name))

@@ -64,15 +64,15 @@ class ServiceCalls:
         self._submit = submit
         self._boundary = boundary
 
-    def fill(
+    async def fill(
         self, topic: str, fill: Fill, refusal: Refusal | None = None
-    ) -> Parts[Sequence[Answer]]:
+    ) -> Sequence[Answer]:
         """Fill in a response, and return the answers."""
         try:
             parts = in_parts(partial(fill, refusal))
-            return (yield from self._boundary.parts_of_message(topic, parts))
+            return await self._boundary.parts_of_message(topic, parts)
         except Failed as failed:
-            return (yield from in_parts(partial(fill, failed)))
+            return await in_parts(partial(fill, failed))
 
     def add(self, topic: str, response: Any, fill: Fill, wait: Wait) -> Future:
         """
@@ -137,14 +137,14 @@ def create_services(
     :param on_success: called after each service that was not refused
     """
 
-    def fill(
+    async def fill(
         name: str, response: Trigger.Response, refused: Refusal | None
-    ) -> Parts[Sequence[Answer]]:
+    ) -> Sequence[Answer]:
         topic = f'~/{name}'
         try:
             if refused is not None:
                 raise refused
-            response.message = yield from in_parts(services[name].perform)
+            response.message = await in_parts(services[name].perform)
             on_success()
         except Refusal as refusal:
             response.message = f'{refusal.code}: {refusal}'

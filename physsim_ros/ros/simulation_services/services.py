@@ -81,21 +81,21 @@ class SimulationServices:
 
         self._calls.create(node, kind, topic, callback)
 
-    def _fill(
+    async def _fill(
         self,
         topic: str,
         perform: _Perform,
         request: Any,
         response: Any,
         refused: Refusal | None,
-    ) -> Parts[Sequence[Answer]]:
+    ) -> Sequence[Answer]:
         """Fill in a response, and return the answer; what only reads has none."""
         # Of all but one service.
         result = getattr(response, 'result', Result())
         try:
             if refused is not None:
                 raise refused
-            message = yield from in_parts(partial(perform, request, response))
+            message = await in_parts(partial(perform, request, response))
         except (CodedRefusal, Refusal) as error:
             refusal, result.result = result_of(error)
         else:

@@ -26,7 +26,6 @@ from physsim_ros.ros.node_control import NodeControl
 from physsim_ros.ros.planar import pose_message
 from physsim_ros.ros.simulation_services.entities import passes_tags, tags_of
 from physsim_ros.ros.simulation_services.results import box_around, coded, CodedRefusal
-from physsim_ros.simulation.parts import Parts
 from simulation_interfaces.msg import NamedPose, Resource, Result, WorldResource
 from simulation_interfaces.srv import (
     GetAvailableWorlds,
@@ -84,7 +83,7 @@ class Worlds:
         response.result.error_message = unknown
         return ''
 
-    def load(self, request: Any, response: Any) -> Parts[str]:
+    async def load(self, request: Any, response: Any) -> str:
         """Load a world of a name, and stop."""
         codes = LoadWorld.Response
         uri = request.uri
@@ -97,7 +96,7 @@ class Worlds:
         if Path(uri).suffix not in ('', '.yaml'):
             raise coded('a world is a YAML file', codes.UNSUPPORTED_FORMAT, field='uri')
         try:
-            message = yield from self._control.perform_on('load_world', uri)
+            message = await self._control.perform_on('load_world', uri)
         except BadWorldFile as refusal:
             # One that is there, but no world, has a cause.
             result = codes.RESOURCE_PARSE_ERROR if refusal.cause else Result.RESULT_NOT_FOUND

@@ -15,7 +15,7 @@ from physsim_ros.model.checks import flag, LONGEST, number, shown, Whole, Within
 from physsim_ros.model.error_boundary import ErrorBoundary
 from physsim_ros.model.errors import BadProperty, BadWorldFile, Failed, Refusal
 from physsim_ros.model.snapshot import Answer
-from physsim_ros.simulation.parts import in_parts, Parted, Parts
+from physsim_ros.simulation.parts import in_parts, Parted
 from physsim_ros.simulation.request_queue import Wait
 from physsim_ros.sketchpad.message import answer_content, message, Optional, Origin
 from physsim_ros.sketchpad.messages import fields
@@ -125,18 +125,18 @@ def save_world(page: PageSession, origin: Origin, name: str, *, replace: bool = 
     :param replace: whether an own world of that name may be written over, and kept
     """
 
-    def save() -> Parts[str]:
+    async def save() -> str:
         with reaching(name):
             page.shared.own_worlds.check_free(check_world_name(name), replace=replace)
             page.shared.own_worlds.keep(name)
-        return (yield from page.world.perform_on('save_world', name))
+        return await page.world.perform_on('save_world', name)
 
     page.perform(origin, partial(_saving, page, save), Wait.FOR_SEEK)
 
 
-def _saving(page: PageSession, save: Parted[str]) -> Parts[str]:
+async def _saving(page: PageSession, save: Parted[str]) -> str:
     """Save the world, note that it is saved, and return the message about it."""
-    done = yield from in_parts(save)
+    done = await in_parts(save)
     page.shared.autosave.note_saved()
     page.shared.list_worlds(None)
     return done
