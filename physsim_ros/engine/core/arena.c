@@ -36,10 +36,6 @@ void *arena_take(Arena *arena, size_t count, size_t size) {
     return piece;
 }
 
-void *arena_copy(Arena *arena, const void *values, size_t count, size_t size) {
-    return memcpy(arena_take(arena, count, size), values, count * size);
-}
-
 static void free_extra(Arena *arena) {
     while (arena->extra != NULL) {
         Block *next = arena->extra->next;

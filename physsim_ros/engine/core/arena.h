@@ -11,6 +11,7 @@
 
 #include <assert.h>
 #include <stddef.h>
+#include <string.h>
 
 typedef struct Arena {
     char *memory;
@@ -22,7 +23,9 @@ typedef struct Arena {
 void *arena_take(Arena *arena, size_t count, size_t size);
 
 // Return memory that begins as so many values.
-void *arena_copy(Arena *arena, const void *values, size_t count, size_t size);
+static inline void *arena_copy(Arena *arena, const void *values, size_t count, size_t size) {
+    return memcpy(arena_take(arena, count, size), values, count * size);
+}
 
 // Return a mark, to which `arena_release` gives back what is taken from now on.
 static inline size_t arena_mark(const Arena *arena) {
