@@ -14,6 +14,8 @@ typedef struct Box {
     Vec low, high;
 } Box;
 
+static const Box nowhere = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+
 static inline bool overlap(Box a, Box b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
