@@ -6,7 +6,8 @@
 
 #include "world.h"
 
-// Whether the bodies of a contact pass each other, since one of them is one-way.
+// List the bodies that pass one-way bodies, then tell by contacts: whether its bodies pass each other.
+void find_passing(World *world);
 bool passes(const World *world, const cpArbiter *arbiter);
 
 bool is_one_way(const Body *body);

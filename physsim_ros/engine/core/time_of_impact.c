@@ -11,8 +11,8 @@
 //
 // An impact counts where the rest of the approach is more than the safe depth. A pair that overlaps from the start
 // meets where it has come deeper by the skin, so that it moves on until Chipmunk finds it to approach, too; not at all
-// where it overlaps by more than the lesser inner radius, since either side may be the nearer one then. What is within a
-// one-way body, or meets an open side of it, passes it.
+// where it overlaps by more than the lesser inner radius, since either side may be the nearer one then. What is within
+// a one-way body, or meets an open side of it, passes it.
 
 #include "time_of_impact.h"
 #include "one_way.h"
@@ -159,8 +159,8 @@ static bool are_closed(const MovingShape *a, const MovingShape *b, Vec axis, dou
            is_closed(b->mover->body, yaw_at(b->mover, share), negated(axis));
 }
 
-// The share of the step at which two shapes first overlap by the skin. `passing` is whether an overlap from the start is
-// that of a body which passes a one-way body.
+// The share of the step at which two shapes first overlap by the skin. `passing` is whether an overlap from the start
+// is that of a body which passes a one-way body.
 static double advance(MovingShape *a, MovingShape *b, double radii, double skin, double depth, bool passing) {
     double share = greatest(a->mover->since, b->mover->since), target = -skin;
     for (int number = 0; number < ADVANCES; number++) {
