@@ -19,7 +19,7 @@ OBSERVED = 'void core_observe(World *world, Pose *poses, Twist *twists) {'
 # behind an array of Python, and of arithmetic.
 DEFECTS = [
     (OVERFLOW, 'step.c', STEP, 'TAKE(&world->own->arena, volatile char, 3)[3] = 0;'),
-    (OVERFLOW, 'half_step.c', OBSERVED, 'poses[world->body_count] = poses[0];'),
+    (OVERFLOW, 'half_step.c', OBSERVED, 'twists[world->body_count - 1] = twists[0];'),
     (
         'runtime error: shift exponent',
         'step.c',
