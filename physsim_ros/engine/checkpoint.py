@@ -82,6 +82,9 @@ def take_checkpoint(space: Space, step: int) -> Checkpoint:
         commands=tuple(space.joints.commands.values()),
         bounds=space.joints.bounds(),
         robots=table.robot_states,
+        coming=tuple(
+            (table.columns.rows[rigid.body.name], rigid.coming) for rigid in space.commanded()
+        ),
         actors=table.actor_states,
     )
 
@@ -117,6 +120,7 @@ def saved_state(space: Space, step: int) -> WorldState:
                 wrench=rigid.wrench,
                 wrench_steps=None if until is None else until - step,
                 driven=driven[row].shifted(-step) if row in driven else None,
+                coming=tuple(command.shifted(-step) for command in rigid.coming),
                 acting=acting[row].shifted(-step) if row in acting else None,
             )
         )
@@ -171,6 +175,11 @@ def checkpoint_of(state: WorldState, step: int, dt: float) -> Checkpoint:
                 if saved.body.robot is not None
             ],
             ROBOT_STATE,
+        ),
+        coming=tuple(
+            (row, tuple(command.shifted(step) for command in saved.coming))
+            for row, saved in enumerate(state.bodies)
+            if saved.coming
         ),
         actors=np.array(
             [
@@ -235,6 +244,8 @@ def restore_checkpoint(
     space.bodies.add_without_shapes(rigids)
     for row, wrench, until in checkpoint.wrenches:
         space.put_wrench(rigids[row], wrench, until)
+    for row, coming in checkpoint.coming:
+        space.put_coming(rigids[row], coming)
     space.lay_out(scene)
     at_rest = checkpoint.state.copy()
     at_rest[:, 3:] = 0.0
