@@ -5,7 +5,7 @@
 
 import numpy as np
 from physsim_ros.model.errors import BadProperty, Malformed
-from physsim_ros.model.requests import ChangeBody, Configure, Delete, DriveRobot
+from physsim_ros.model.requests import ChangeBody, Configure, Delete, DriveRobot, Restore
 from physsim_ros.model.robots import Robot
 from physsim_ros.simulation.simulation import Simulation
 from physsim_ros.simulation.world import World
@@ -103,10 +103,14 @@ def test_commands_on_their_way_are_saved_and_loaded_to_the_bit(tmp_path):
         world.step(5)
     assert world.save().bodies[0].coming
     one, other = twins(world, tmp_path)
+    later = seen_from_above()
+    later.step(100)
+    later.apply(Restore(state=world.save()))
     for _ in range(4):
-        one.step(30)
-        other.step(30)
+        for each in (one, other, later):
+            each.step(30)
         assert one.digest() == other.digest()
+        assert np.array_equal(one.snapshot().poses, later.snapshot().poses)
 
 
 def test_a_command_on_its_way_is_in_the_digest():
