@@ -23,8 +23,8 @@ export class Toolbar {
     this.few = false; // those alone are shown
     for (const group of TOOLS) {
       const box = createElement('div', {role: 'group'});
-      for (const {id, name, key, hint, make} of group) {
-        const button = iconButton(name, id, () => this.selectTool(id), `${name} (${key.toUpperCase()}): ${hint}`);
+      for (const {id, name, letter, hint, make} of group) {
+        const button = iconButton(name, id, () => this.selectTool(id), `${name} (${letter}): ${hint}`);
         this.tools.set(id, {tool: make(app), button, hint: `${name}: ${hint}.`});
         box.append(button);
       }
